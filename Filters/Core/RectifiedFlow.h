@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Linear-time transport between the uniform measure on a box and a density, after Do, Coeurjolly,
+// Memari and Bonneel, "Linear-Time Transport with Rectified Flows", ACM TOG 44(4), 2025,
+// doi:10.1145/3731147. All coordinates are in index space: cell i covers [i, i+1].
+//
+//   const std::vector<float> density = ...;                         // 640 x 480 values, x fastest
+//   DensityArray<2, float> source(density.data(), { 640, 480 });
+//   std::vector<Point<2>> seeds = ...;                              // uniform in the box
+//   auto particles = transportPoints<2>(source, seeds);             // one-off
+//
+//   RectifiedFlow<2> flow(source);                                  // keeps the tables
+//   FlowOptions options;
+//   options.NumberOfSteps = 64;
+//   flow.Forward(seeds[0].data(), seeds.size(), particles[0].data(), options);
+//   flow.Backward(particles[0].data(), seeds.size(), seeds[0].data(), options);
+#ifndef RectifiedTransport_RectifiedFlow_h
+#define RectifiedTransport_RectifiedFlow_h
+
+#include "Density.h"
+#include "Executor.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+enum class Integrator
+{
+  Multistep,   // graded Adams-Bashforth-Moulton 3, one velocity a step
+  RungeKutta4, // uniform steps, four velocities a step (the paper's Algorithm 2)
+  Euler,       // uniform steps
+  Adaptive     // Adams-Bashforth-Moulton 3 with a step of its own for every particle
+};
+
+enum class TableLookup
+{
+  Interpolated,
+  Nearest // the box is rounded to whole cells (the paper's ablation, Figure 4)
+};
+
+struct FlowOptions
+{
+  Integrator Method = Integrator::Multistep;
+  int NumberOfSteps = 32;  // of the fixed-step methods, 1 to 10000
+  double Tolerance = 0.01; // cells, Adaptive only, > 0
+  TableLookup Lookup = TableLookup::Interpolated;
+};
+
+// How an advection went.
+struct FlowReport
+{
+  std::int64_t Redone = 0;      // particles that met an empty box or ended in an empty cell
+  std::int64_t MovedToMass = 0; // those that no smaller step helped: put on the nearest mass
+  std::int64_t Evaluations = 0; // velocity evaluations
+  bool Cancelled = false;       // positions are then undefined
+};
+
+// The summed-area tables of one density and the flow that they define. Construction costs
+// O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
+// Every particle's result depends on its seed and the density alone, to the last bit.
+// Throws InvalidDensity, std::invalid_argument (options) and std::bad_alloc.
+template <int Dimension>
+class RectifiedFlow
+{
+public:
+  explicit RectifiedFlow(const DensitySource<Dimension>& density,
+    const Executor& executor = OpenMPExecutor(), const Monitor& monitor = {});
+  ~RectifiedFlow();
+  RectifiedFlow(RectifiedFlow&&) noexcept;
+  RectifiedFlow& operator=(RectifiedFlow&&) noexcept;
+
+  // False if the monitor cancelled the construction; nothing else may be called then.
+  explicit operator bool() const;
+
+  const GridSize<Dimension>& Size() const;
+  double Total() const;                // sum of the density over the cells
+  Point<Dimension> Centroid() const;   // of the density
+  std::int64_t MemorySize() const;     // bytes that the tables hold
+  // Whether the cell that holds a point has mass (a point on a face: any of its cells).
+  bool HasMass(const Point<Dimension>& point) const;
+
+  // Advects points of time 0 (uniform) to time 1 (distributed like the density). Arrays hold
+  // count * Dimension doubles, a point's coordinates together, and may be the same array. Points
+  // outside the box are taken from its border.
+  FlowReport Forward(const double* seeds, std::int64_t count, double* positions,
+    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
+    const Monitor& monitor = {}) const;
+
+  // The positions at several times of [0,1], ascending, from one run: positions holds count *
+  // times.size() * Dimension doubles, all times of a particle together.
+  FlowReport ForwardAt(const double* seeds, std::int64_t count, const std::vector<double>& times,
+    double* positions, const FlowOptions& options = {},
+    const Executor& executor = OpenMPExecutor(), const Monitor& monitor = {}) const;
+
+  // Advects points of time 1 back to time 0: the inverse map, density to uniform.
+  FlowReport Backward(const double* points, std::int64_t count, double* positions,
+    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
+    const Monitor& monitor = {}) const;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+// One-off: builds the tables, transports the points, forgets the tables.
+template <int Dimension>
+std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
+  const std::vector<Point<Dimension>>& seeds, const FlowOptions& options = {});
+
+}
+
+#endif
