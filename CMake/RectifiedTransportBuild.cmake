@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The module library, its Python package and the ParaView plugin, with VTK's and ParaView's own
+# functions.
+
+set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/RectifiedTransport")
+set(cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/RectifiedTransport")
+set(BUILD_TESTING "${RectifiedTransport_BUILD_TESTING}")
+set(tests OFF)
+if (RectifiedTransport_BUILD_TESTING)
+  set(tests ON)
+endif ()
+
+vtk_module_scan(
+  MODULE_FILES "${PROJECT_SOURCE_DIR}/vtk.module"
+  REQUEST_MODULES RectifiedTransport::vtkRectifiedTransport
+  PROVIDES_MODULES modules
+  ENABLE_TESTS "${tests}")
+
+# A function, for its scope: seen from the folder above, the module is a subfolder as VTK expects;
+# seen from the root itself it would be the root that is added to the root.
+function (rectified_transport_build_module)
+  set(CMAKE_SOURCE_DIR "${PROJECT_SOURCE_DIR}/..")
+  vtk_module_build(
+    MODULES ${modules}
+    PACKAGE RectifiedTransport
+    VERSION "${PROJECT_VERSION}"
+    SOVERSION "${PROJECT_VERSION_MAJOR}"
+    INSTALL_EXPORT RectifiedTransport
+    HEADERS_DESTINATION "${headers_destination}"
+    CMAKE_DESTINATION "${cmake_destination}"
+    TEST_DIRECTORY_NAME "Testing"
+    TEST_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/Testing/Temporary")
+endfunction ()
+rectified_transport_build_module()
+
+if (RectifiedTransport_WRAP_PYTHON)
+  vtk_module_wrap_python(
+    MODULES ${modules}
+    TARGET RectifiedTransport::PythonWrapped
+    INSTALL_EXPORT RectifiedTransport
+    INSTALL_HEADERS OFF
+    PYTHON_PACKAGE rectifiedtransport
+    MODULE_DESTINATION "${RectifiedTransport_PYTHON_DIR}"
+    CMAKE_DESTINATION "${cmake_destination}"
+    LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  configure_file("${PROJECT_SOURCE_DIR}/CMake/__init__.py.in"
+    "${CMAKE_BINARY_DIR}/${RectifiedTransport_PYTHON_DIR}/rectifiedtransport/__init__.py" @ONLY)
+  install(
+    FILES "${CMAKE_BINARY_DIR}/${RectifiedTransport_PYTHON_DIR}/rectifiedtransport/__init__.py"
+    DESTINATION "${RectifiedTransport_PYTHON_DIR}/rectifiedtransport"
+    COMPONENT python)
+endif ()
+
+if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
+  paraview_plugin_scan(
+    PLUGIN_FILES "${PROJECT_SOURCE_DIR}/Plugin/paraview.plugin"
+    PROVIDES_PLUGINS plugins
+    ENABLE_BY_DEFAULT ON)
+  paraview_plugin_build(
+    PLUGINS ${plugins}
+    PLUGINS_FILE_NAME rectifiedtransport.plugins.xml
+    AUTOLOAD ${plugins}
+    LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+    DISABLE_XML_DOCUMENTATION ON)
+endif ()
