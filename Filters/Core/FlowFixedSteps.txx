@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Integrators with a fixed number of steps. Included by FlowKernels.txx.
+
+// The vectors of a multistep method: velocities of the last steps, newest first.
+template <int Dimension>
+struct MultistepLanes
+{
+  alignas(64) LaneVectors<Dimension> Position;
+  alignas(64) LaneVectors<Dimension> Trial;
+  alignas(64) LaneVectors<Dimension> Velocities[4];
+  LaneVectors<Dimension>* V[4]; // newest, second, third, the one to be written
+  alignas(64) Lanes Time;
+  alignas(64) Lanes Span; // of the whole graded interval
+  VelocityLanes<Dimension> Field;
+
+  MultistepLanes()
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      this->V[k] = &this->Velocities[k];
+    }
+    std::memset(this->Velocities, 0, sizeof(this->Velocities));
+    std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
+    std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
+  }
+
+  void Rotate()
+  {
+    LaneVectors<Dimension>* oldest = this->V[2];
+    this->V[2] = this->V[1];
+    this->V[1] = this->V[0];
+    this->V[0] = this->V[3];
+    this->V[3] = oldest;
+  }
+
+  // result = Position + Span * (a[0] first + a[1] second + a[2] third), kept in the domain.
+  RT_INLINE void Advance(const FlowJob<Dimension>& job, const double a[3], double length,
+    const LaneVectors<Dimension>& first, const LaneVectors<Dimension>& second,
+    const LaneVectors<Dimension>& third, LaneVectors<Dimension>& result)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double sum =
+          a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
+        result[axis][i] =
+          clampToDomain(this->Position[axis][i] + this->Span[i] * length * sum, size);
+      }
+    }
+  }
+};
+
+template <int Dimension>
+StepWeights stepWeights(const FlowJob<Dimension>& job, std::int64_t step, std::int64_t steps)
+{
+  return job.Weights && steps == job.Steps ? job.Weights[step] : multistepWeights(step, steps);
+}
+
+// Time 0 to 1 by graded Adams-Bashforth-Moulton 3 (PEC), from the end of the straight start. The
+// last step is implicit and closed, as the velocity at time 1 is x - S/2.
+template <int Dimension>
+std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count, int refinement, bool* troubled)
+{
+  MultistepLanes<Dimension> lanes;
+  PathWriter<Dimension> writer(job, seeds, index, count);
+  alignas(64) Lanes start;
+  loadPositions<Dimension>(job, seeds, count, lanes.Position);
+  startStraight<Dimension>(job, lanes.Position, *lanes.V[0], start);
+  if (writer.IsDense())
+  {
+    writer.WriteStraight(*lanes.V[0], start);
+  }
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Span[i] = 1.0 - start[i];
+    lanes.Time[i] = start[i];
+  }
+
+  const std::int64_t steps = job.Steps << refinement;
+  for (std::int64_t step = 0; step + 1 < steps && !writer.IsFinished(); ++step)
+  {
+    const StepWeights weights = stepWeights<Dimension>(job, step, steps);
+    const auto& v0 = *lanes.V[0];
+    const auto& v1 = *lanes.V[1];
+    auto& newest = *lanes.V[3];
+    lanes.Advance(job, weights.Predictor, weights.Length, v0, v1, *lanes.V[2], lanes.Trial);
+    alignas(64) Lanes before;
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      before[i] = lanes.Time[i];
+      lanes.Time[i] = start[i] + lanes.Span[i] * weights.Time;
+    }
+    evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest);
+    for (int i = 0; i < count; ++i)
+    {
+      troubled[i] = troubled[i] || lanes.Field.Void[i] > 0.0;
+    }
+    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Trial);
+    if (writer.IsDense())
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        writer.WriteHermite(
+          i, before[i], lanes.Time[i], lanes.Position, v0, lanes.Trial, newest);
+      }
+    }
+    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
+    lanes.Rotate();
+  }
+  if (writer.IsFinished())
+  {
+    return (steps - 1) * count;
+  }
+
+  const StepWeights last = stepWeights<Dimension>(job, steps - 1, steps);
+  const double* c = last.Corrector;
+  auto& final = *lanes.V[3];
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double lambda = lanes.Span[i] * last.Length;
+      const double known =
+        c[1] * (*lanes.V[0])[axis][i] + c[2] * (*lanes.V[1])[axis][i] - c[0] * half;
+      lanes.Trial[axis][i] =
+        (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
+      final[axis][i] = lanes.Trial[axis][i] - half;
+    }
+  }
+  finishPositions<Dimension>(job, count, lanes.Trial, troubled);
+  if (writer.IsDense())
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      writer.WriteHermite(i, lanes.Time[i], 1.0, lanes.Position, *lanes.V[0], lanes.Trial, final);
+    }
+  }
+  else
+  {
+    writer.WriteEnd(lanes.Trial);
+  }
+  return (steps - 1) * count;
+}
+
+// Whether a lane's box is the whole domain; x then lies on a straight path from its seed.
+template <int Dimension>
+RT_INLINE bool isBoxWhole(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane, double t)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+    if (size - x[axis][lane] < t * size || x[axis][lane] < t * size)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <int Dimension>
+RT_INLINE void writeSeed(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane,
+  double t, std::int64_t index)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+    const double seed = (x[axis][lane] - t * job.Tables.Centroid[axis]) / (1.0 - t);
+    job.Output[index * Dimension + axis] = smaller(larger(seed, 0.0), size);
+  }
+}
+
+// v(x, 1) = x - S/2.
+template <int Dimension>
+RT_INLINE void finalVelocity(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x,
+  LaneVectors<Dimension>& v)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      v[axis][i] = x[axis][i] - half;
+    }
+  }
+}
+
+// v(x, 0) = M - x.
+template <int Dimension>
+RT_INLINE void initialVelocity(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x,
+  LaneVectors<Dimension>& v)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double centroid = job.Tables.Centroid[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      v[axis][i] = centroid - x[axis][i];
+    }
+  }
+}
+
+// Time 1 to 0 over the reversed grid of [0,1]; a particle is done once its box is the whole
+// domain, from where its seed is known in closed form.
+template <int Dimension>
+std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count)
+{
+  MultistepLanes<Dimension> lanes;
+  loadPositions<Dimension>(job, seeds, count, lanes.Position);
+  finalVelocity<Dimension>(job, lanes.Position, *lanes.V[0]);
+  bool active[BlockSize];
+  for (bool& lane : active)
+  {
+    lane = true;
+  }
+  int left = count;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Span[i] = -1.0;
+  }
+
+  std::int64_t evaluations = 0;
+  for (std::int64_t step = 0; step < job.Steps && left > 0; ++step)
+  {
+    const StepWeights weights = stepWeights<Dimension>(job, step, job.Steps);
+    const double time = 1.0 - weights.Time;
+    const bool atStart = step + 1 == job.Steps;
+    const auto& v0 = *lanes.V[0];
+    const auto& v1 = *lanes.V[1];
+    auto& newest = *lanes.V[3];
+    lanes.Advance(job, weights.Predictor, weights.Length, v0, v1, *lanes.V[2], lanes.Trial);
+    if (atStart)
+    {
+      initialVelocity<Dimension>(job, lanes.Trial, newest);
+    }
+    else
+    {
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        lanes.Time[i] = time;
+      }
+      evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
+      evaluations += left;
+    }
+    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Trial);
+    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
+    lanes.Rotate();
+    for (int i = 0; i < count; ++i)
+    {
+      if (active[i] && (atStart || isBoxWhole<Dimension>(job, lanes.Position, i, time)))
+      {
+        writeSeed<Dimension>(job, lanes.Position, i, atStart ? 0.0 : time, index[i]);
+        active[i] = false;
+        --left;
+      }
+    }
+  }
+  return evaluations;
+}
+
+// The velocity at one time for all lanes, the ends of [0,1] included.
+template <int Dimension>
+RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& field,
+  int count, const LaneVectors<Dimension>& x, double time, const LaneVectors<Dimension>& held,
+  LaneVectors<Dimension>& v, bool* troubled)
+{
+  if (time <= 0.0)
+  {
+    initialVelocity<Dimension>(job, x, v);
+    return;
+  }
+  if (time >= 1.0)
+  {
+    finalVelocity<Dimension>(job, x, v);
+    return;
+  }
+  alignas(64) Lanes t;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    t[i] = time;
+  }
+  evaluateVelocity<Dimension>(job, field, count, x, t, held, v);
+  for (int i = 0; i < count; ++i)
+  {
+    troubled[i] = troubled[i] || field.Void[i] > 0.0;
+  }
+}
+
+// The published scheme, with the correct limit at time 1: uniform steps of RungeKutta4 (paper,
+// Algorithm 2) or Euler, in either direction.
+template <int Dimension>
+std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count, int refinement, bool* troubled)
+{
+  MultistepLanes<Dimension> lanes;
+  PathWriter<Dimension> writer(job, seeds, index, count);
+  loadPositions<Dimension>(job, seeds, count, lanes.Position);
+  alignas(64) LaneVectors<Dimension> previous;
+  alignas(64) LaneVectors<Dimension> slope; // at the step's start
+  alignas(64) LaneVectors<Dimension> sum;
+  const bool fourStages = job.Method == Integrator::RungeKutta4;
+  const std::int64_t steps = job.Steps << refinement;
+  const double length = (job.Backward ? -1.0 : 1.0) / static_cast<double>(steps);
+  const auto timeAt = [&](std::int64_t halfSteps) {
+    const double fraction = static_cast<double>(halfSteps) / static_cast<double>(2 * steps);
+    return job.Backward ? 1.0 - fraction : fraction;
+  };
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Span[i] = length;
+  }
+  // A lane without mass holds what it had, at first the straight line to the centroid.
+  initialVelocity<Dimension>(job, lanes.Position, *lanes.V[0]);
+  if (writer.IsDense())
+  {
+    const Lanes start = {};
+    writer.WriteStraight(*lanes.V[0], start);
+  }
+
+  const double one[3] = { 1.0, 0.0, 0.0 };
+  for (std::int64_t step = 0; step <= steps && !writer.IsFinished(); ++step)
+  {
+    // The slope at a step's start closes the interpolant over the step before it.
+    auto& first = *lanes.V[3];
+    velocityAt<Dimension>(
+      job, lanes.Field, count, lanes.Position, timeAt(2 * step), *lanes.V[0], first, troubled);
+    if (writer.IsDense() && step > 0)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        writer.WriteHermite(i, timeAt(2 * step - 2), timeAt(2 * step), previous, slope,
+          lanes.Position, first);
+      }
+    }
+    if (step == steps)
+    {
+      break;
+    }
+    std::memcpy(previous, lanes.Position, sizeof(previous));
+    std::memcpy(slope, first, sizeof(slope));
+    std::memcpy(sum, first, sizeof(sum));
+    lanes.Rotate();
+    if (fourStages)
+    {
+      for (int stage = 1; stage < 4; ++stage)
+      {
+        const double part = stage < 3 ? 0.5 : 1.0;
+        const auto& last = *lanes.V[0];
+        lanes.Advance(job, one, part, last, last, last, lanes.Trial);
+        auto& next = *lanes.V[3];
+        velocityAt<Dimension>(job, lanes.Field, count, lanes.Trial,
+          timeAt(2 * step + (stage < 3 ? 1 : 2)), last, next, troubled);
+        const double weight = stage < 3 ? 2.0 : 1.0;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+#pragma omp simd
+          for (int i = 0; i < BlockSize; ++i)
+          {
+            sum[axis][i] += weight * next[axis][i];
+          }
+        }
+        lanes.Rotate();
+      }
+    }
+    lanes.Advance(job, one, fourStages ? 1.0 / 6.0 : 1.0, sum, sum, sum, lanes.Trial);
+    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
+  }
+  finishPositions<Dimension>(job, count, lanes.Position, troubled);
+  if (!writer.IsDense())
+  {
+    writer.WriteEnd(lanes.Position);
+  }
+  return steps * count * (fourStages ? 4 : 1);
+}

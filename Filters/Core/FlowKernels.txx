@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one kernel source, compiled once per instruction set (FlowKernels*.cxx). Everything has
+// internal linkage and nothing of the standard library is called: code that is compiled for a wide
+// instruction set must never be what the linker picks for the rest of the program.
+#include "FlowKernels.h"
+
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#define RT_INLINE inline __attribute__((always_inline))
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+#include "BoxMoments.txx"
+#include "FlowVelocity.txx"
+
+#include "FlowLanes.txx"
+
+#include "FlowFixedSteps.txx"
+
+#include "FlowAdaptive.txx"
+
+#include "TableRows.txx"
+
+template <int Dimension>
+std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count, int refinement, bool* troubled)
+{
+  if (job.Method == Integrator::Adaptive)
+  {
+    return advectAdaptive<Dimension>(job, seeds, index, count, refinement, troubled);
+  }
+  if (job.Method == Integrator::Multistep)
+  {
+    return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count)
+                        : multistepForward<Dimension>(job, seeds, index, count, refinement, troubled);
+  }
+  return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, troubled);
+}
+
+}
+
+const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
+{
+  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
+    &addTableRow2D, &addTableRow3D, RECTIFIEDTRANSPORT_KERNELS_NAME };
+  return kernels;
+}
+
+}

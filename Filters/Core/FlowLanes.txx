@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every integrator does with a block: load it, start it on its exact straight path, write
+// positions at the requested times, and check where it ended. Included by FlowKernels.txx.
+
+RT_INLINE double clampToDomain(double x, double size)
+{
+  return smaller(larger(x, faceDistance), size - faceDistance);
+}
+
+// Lanes from `count` on repeat the last particle: their results are not used.
+template <int Dimension>
+RT_INLINE void loadPositions(
+  const FlowJob<Dimension>& job, const double* seeds, int count, LaneVectors<Dimension>& x)
+{
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    const double* point = seeds + (i < count ? i : count - 1) * Dimension;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      x[axis][i] = clampToDomain(point[axis], job.Tables.Size[axis]);
+    }
+  }
+}
+
+// While a particle's box is the whole domain its path is the straight line to the centroid M. That
+// ends at `time`; the particle is moved there, and `velocity` is M - seed. Exact.
+template <int Dimension>
+RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimension>& x,
+  LaneVectors<Dimension>& velocity, Lanes& time)
+{
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    time[i] = 1.0;
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+    const double centroid = job.Tables.Centroid[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double low = x[axis][i] / (size - centroid + x[axis][i]);
+      const double high = (size - x[axis][i]) / (size - x[axis][i] + centroid);
+      time[i] = smaller(time[i], smaller(low, high));
+      velocity[axis][i] = centroid - x[axis][i];
+    }
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      x[axis][i] += time[i] * velocity[axis][i];
+    }
+  }
+}
+
+// Positions at the requested times, or at time 1 alone.
+template <int Dimension>
+struct PathWriter
+{
+  PathWriter(
+    const FlowJob<Dimension>& job, const double* seeds, const std::int64_t* index, int count)
+    : Job(job)
+    , Seeds(seeds)
+    , Index(index)
+    , Count(count)
+    , Unfinished(job.Times ? count : 0)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      this->Next[i] = 0;
+    }
+  }
+
+  bool IsDense() const { return this->Job.Times != nullptr; }
+  // No time is left to write before the end point.
+  bool IsFinished() const { return this->IsDense() && this->Unfinished == 0; }
+
+  double* Place(int lane, std::int64_t time) const
+  {
+    return this->Job.Output + (this->Index[lane] * this->Job.TimeCount + time) * Dimension;
+  }
+
+  // Times up to `end` of a lane's path, on which place(s, axis) is the position at time s.
+  template <class PositionAt>
+  RT_INLINE void WriteUntil(int lane, double end, const PositionAt& place)
+  {
+    std::int64_t& next = this->Next[lane];
+    while (next < this->Job.TimeCount && this->Job.Times[next] <= end)
+    {
+      double* position = this->Place(lane, next);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double value = place(this->Job.Times[next], axis);
+        position[axis] = smaller(larger(value, 0.0), this->Job.Tables.Size[axis]);
+      }
+      if (++next == this->Job.TimeCount)
+      {
+        --this->Unfinished;
+      }
+    }
+  }
+
+  // The straight start from the seed, until `end`. At time 0 the seed itself.
+  void WriteStraight(const LaneVectors<Dimension>& velocity, const Lanes& end)
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const double* seed = this->Seeds + i * Dimension;
+      this->WriteUntil(
+        i, end[i], [&](double s, int axis) { return seed[axis] + s * velocity[axis][i]; });
+    }
+  }
+
+  // The cubic Hermite interpolant over one step of one lane.
+  RT_INLINE void WriteHermite(int lane, double begin, double end, const LaneVectors<Dimension>& x0,
+    const LaneVectors<Dimension>& v0, const LaneVectors<Dimension>& x1,
+    const LaneVectors<Dimension>& v1)
+  {
+    const double length = end - begin;
+    this->WriteUntil(lane, end, [&](double s, int axis) {
+      const double r = (s - begin) / length;
+      const double rest = 1.0 - r;
+      const double start = x0[axis][lane] + r * length * v0[axis][lane];
+      const double stop = x1[axis][lane] - rest * length * v1[axis][lane];
+      return rest * rest * (start + 2.0 * r * x0[axis][lane]) +
+        r * r * (stop + 2.0 * rest * x1[axis][lane]);
+    });
+  }
+
+  // All that is left is the end point.
+  void WriteEnd(const LaneVectors<Dimension>& x)
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      if (!this->IsDense() || this->Next[i] < this->Job.TimeCount)
+      {
+        double* position = this->Place(i, this->Job.TimeCount - 1);
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          position[axis] = x[axis][i];
+        }
+      }
+    }
+  }
+
+  const FlowJob<Dimension>& Job;
+  const double* Seeds;
+  const std::int64_t* Index;
+  int Count;
+  int Unfinished;
+  std::int64_t Next[BlockSize];
+};
+
+template <int Dimension>
+RT_INLINE bool isOccupied(const TableView<Dimension>& tables, const double (&point)[Dimension])
+{
+  if (!tables.Occupied)
+  {
+    return true;
+  }
+  std::int64_t cell[Dimension];
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t last = tables.Cells[axis] - 1;
+    cell[axis] = static_cast<std::int64_t>(point[axis]);
+    cell[axis] = cell[axis] < last ? cell[axis] : last;
+  }
+  std::int64_t row = 0;
+  for (int axis = Dimension - 1; axis > 0; --axis)
+  {
+    row = row * tables.Cells[axis] + cell[axis];
+  }
+  const std::uint64_t word = tables.Occupied[row * tables.WordsPerRow + (cell[0] >> 6)];
+  return (word >> (cell[0] & 63)) & 1;
+}
+
+// Clamps end points to the domain and marks those in empty cells as troubled.
+template <int Dimension>
+RT_INLINE void finishPositions(
+  const FlowJob<Dimension>& job, int count, LaneVectors<Dimension>& x, bool* troubled)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      x[axis][i] = smaller(larger(x[axis][i], 0.0), size);
+    }
+  }
+  if (job.Backward || !job.Tables.Occupied)
+  {
+    return;
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    double point[Dimension];
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      point[axis] = x[axis][i];
+    }
+    troubled[i] = troubled[i] || !isOccupied<Dimension>(job.Tables, point);
+  }
+}

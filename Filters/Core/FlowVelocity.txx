@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The velocity of the rectified flow (paper, Equations 11 and 12) in a form without cancellation.
+// Included by FlowKernels.txx.
+
+// Positions keep this distance (in cells) from the domain's faces: on a face the box of a particle
+// has no volume, next to it the flow has its limit.
+constexpr double faceDistance = 1.0 / (1 << 20);
+
+template <int Dimension>
+using LaneVectors = double[Dimension][BlockSize];
+
+// What the velocity of a block needs besides positions and times.
+template <int Dimension>
+struct VelocityLanes
+{
+  BoxLanes<Dimension> Boxes;
+  alignas(64) LaneVectors<Dimension> From;   // the clipped box
+  alignas(64) LaneVectors<Dimension> To;
+  alignas(64) LaneVectors<Dimension> Centre; // of the box before clipping
+  alignas(64) Lanes Narrowest;
+  alignas(64) Lanes Void; // 1 where the box has no mass, else 0
+};
+
+RT_INLINE double smaller(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+RT_INLINE double larger(double a, double b)
+{
+  return a > b ? a : b;
+}
+
+RT_INLINE double truncated(double value)
+{
+  return static_cast<double>(static_cast<std::int32_t>(value));
+}
+
+RT_INLINE std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+RT_INLINE double fromBits(std::uint64_t bits)
+{
+  double value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+// B' of every lane, clipped to the domain (paper, Equation 10 and "Integration bounds").
+template <int Dimension>
+RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
+  const LaneVectors<Dimension>& x, const Lanes& t)
+{
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Narrowest[i] = 1e300;
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+    double* from = lanes.From[axis];
+    double* to = lanes.To[axis];
+    double* centre = lanes.Centre[axis];
+    const double* position = x[axis];
+    if (job.Nearest)
+    {
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double inverse = 1.0 / t[i];
+        const double a = size - (size - position[i]) * inverse;
+        const double b = position[i] * inverse;
+        centre[i] = 0.5 * (a + b);
+        from[i] = truncated(smaller(larger(a, 0.0), size) + 0.5);
+        to[i] = truncated(smaller(larger(b, 0.0), size) + 0.5);
+        lanes.Narrowest[i] = 0.0;
+      }
+    }
+    else
+    {
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double inverse = 1.0 / t[i];
+        const double a = size - (size - position[i]) * inverse;
+        const double b = position[i] * inverse;
+        centre[i] = 0.5 * (a + b);
+        from[i] = larger(a, 0.0);
+        to[i] = smaller(b, size);
+        lanes.Narrowest[i] = smaller(lanes.Narrowest[i], to[i] - from[i]);
+      }
+    }
+  }
+}
+
+// Level, nodes and weights of every lane's box. The level depends on the lane alone: the coarsest
+// whose cells are no wider than the box's narrowest side over CoarseRatio.
+template <int Dimension>
+RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
+{
+  BoxLanes<Dimension>& boxes = lanes.Boxes;
+  const double inverseRatio = 1.0 / job.CoarseRatio;
+  const double widest = static_cast<double>(std::int64_t{ 1 } << (job.Tables.LevelCount - 1));
+  constexpr std::uint64_t exponent = std::uint64_t{ 0x7ff } << 52;
+  alignas(64) Lanes width;
+  alignas(64) Lanes inverseWidth;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    const double ratio = smaller(larger(lanes.Narrowest[i] * inverseRatio, 1.0), widest);
+    const std::uint64_t bits = bitsOf(ratio) & exponent;
+    width[i] = fromBits(bits);
+    inverseWidth[i] = fromBits((std::uint64_t{ 2046 } << 52) - bits);
+    boxes.Level[i] = static_cast<std::int32_t>(bits >> 52) - 1023;
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+    const double* from = lanes.From[axis];
+    const double* to = lanes.To[axis];
+    auto& weight = boxes.Weight[axis];
+    auto& quadratic = boxes.Quadratic[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double last = truncated((size - 1.0) * inverseWidth[i]);
+      const double lastWidth = size - last * width[i];
+      const double inverseLastWidth = 1.0 / lastWidth;
+
+      const double low = smaller(truncated(from[i] * inverseWidth[i]), last);
+      const double lowInverse = low == last ? inverseLastWidth : inverseWidth[i];
+      const double lowWidth = low == last ? lastWidth : width[i];
+      const double lowPlace = smaller((from[i] - low * width[i]) * lowInverse, 1.0);
+      const double lowBend = 0.5 * lowWidth * lowPlace * (1.0 - lowPlace);
+      weight[0][i] = lowPlace - 1.0;
+      weight[1][i] = -lowPlace;
+      quadratic[0][i] = -lowBend;
+      quadratic[1][i] = lowBend;
+
+      const double high = smaller(truncated(to[i] * inverseWidth[i]), last);
+      const double highInverse = high == last ? inverseLastWidth : inverseWidth[i];
+      const double highWidth = high == last ? lastWidth : width[i];
+      const double place = smaller((to[i] - high * width[i]) * highInverse, 1.0);
+      const double highPlace = to[i] >= size ? 1.0 : place;
+      const double highBend = 0.5 * highWidth * highPlace * (1.0 - highPlace);
+      weight[2][i] = highPlace;
+      weight[3][i] = 1.0 - highPlace;
+      quadratic[2][i] = -highBend;
+      quadratic[3][i] = highBend;
+
+      boxes.Low[axis][i] = static_cast<std::int32_t>(low);
+      boxes.High[axis][i] = static_cast<std::int32_t>(high);
+      boxes.FirstNode[axis][i] = from[i] <= 0.0 ? 2 : 0;
+      boxes.EndNode[axis][i] = to[i] >= size ? 3 : 4;
+    }
+  }
+}
+
+// v = (c - S/2) + (m - c) / (1 - t) with m the box's centre of mass, clamped to the box, and c the
+// centre of the unclipped box; for t < 1/2, where c grows without bound, (m - x) / (1 - t). Lanes
+// whose box is empty get `held`, and Void is set; going backward they keep their place in the box
+// (m = c). Lanes that are not active are not computed. Needs 0 < t < 1.
+template <int Dimension>
+RT_INLINE void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
+  int count, const LaneVectors<Dimension>& x, const Lanes& t,
+  const LaneVectors<Dimension>& held, LaneVectors<Dimension>& v, const bool* active = nullptr)
+{
+  findBoxes<Dimension>(job, lanes, x, t);
+  findNodes<Dimension>(job, lanes);
+  BoxLanes<Dimension>& boxes = lanes.Boxes;
+  for (int i = 0; i < count; ++i)
+  {
+    if (!active || active[i])
+    {
+      sumBox<Dimension>(job.Tables, boxes, i);
+    }
+  }
+  const double voidMass = job.Tables.VoidMass;
+  const double hold = job.Backward ? 2.0 : 0.0;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Void[i] = boxes.Mass[i] > voidMass ? 0.0 : 1.0;
+    boxes.Mass[i] = 1.0 / boxes.Mass[i];
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double mean = boxes.Moment[axis][i] * boxes.Mass[i];
+      const double clamped = smaller(larger(mean, lanes.From[axis][i]), lanes.To[axis][i]);
+      const double rest = 1.0 / (1.0 - t[i]);
+      const double c = lanes.Centre[axis][i];
+      const double m = lanes.Void[i] > 0.0 ? c : clamped;
+      const double early = (m - x[axis][i]) * rest;
+      const double late = (c - half) + (m - c) * rest;
+      const double value = t[i] < 0.5 ? early : late;
+      v[axis][i] = lanes.Void[i] > hold ? held[axis][i] : value;
+    }
+  }
+}

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RectifiedFlow.h"
+
+#include "FlowKernels.h"
+#include "NearestMass.h"
+#include "Pacer.h"
+#include "ParticleOrder.h"
+#include "SummedAreaTables.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int maximumSteps = 10000;
+constexpr int refinements = 5; // 2N, 4N ... 32N
+constexpr int rangeBlocks = 16;
+constexpr std::int64_t chunkParticles = std::int64_t{ 1 } << 20;
+
+void check(const FlowOptions& options)
+{
+  if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
+  {
+    throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +
+      ", it must be from 1 to " + std::to_string(maximumSteps));
+  }
+  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
+  {
+    throw std::invalid_argument("Tolerance is " + std::to_string(options.Tolerance) +
+      ", it must be a positive number of cells");
+  }
+}
+
+template <int Dimension>
+void check(const GridSize<Dimension>& size)
+{
+  for (const std::int64_t cells : size)
+  {
+    if (cells < 1 || cells > std::int64_t{ 1 } << 30)
+    {
+      throw std::invalid_argument("a density has " + std::to_string(cells) +
+        " cells along an axis, it must have from 1 to 2^30");
+    }
+  }
+}
+
+// The width of the box in cells of a level from which that level is used: coarse levels are faster
+// and add an error that a larger number of steps does not remove.
+double coarseRatio(const FlowOptions& options)
+{
+  const bool accurate = options.Method == Integrator::Adaptive ? options.Tolerance < 0.03
+                                                               : options.NumberOfSteps >= 48;
+  return accurate ? 64.0 : 32.0;
+}
+
+// What the ranges of one advection count; sums of integers do not depend on their order.
+struct Counters
+{
+  std::atomic<std::int64_t> Redone{ 0 };
+  std::atomic<std::int64_t> MovedToMass{ 0 };
+  std::atomic<std::int64_t> Evaluations{ 0 };
+};
+
+// Advects the particles order[0..count), count <= rangeBlocks * BlockSize: all of them once, then
+// those in trouble again with ever more steps.
+template <int Dimension>
+class RangeAdvection
+{
+public:
+  RangeAdvection(const FlowJob<Dimension>& job, const double* points, Counters& counters,
+    Pacer& pacer)
+    : Job(job)
+    , Points(points)
+    , Count(counters)
+    , Pace(pacer)
+    , Advect(flowKernels().Advect<Dimension>())
+  {
+  }
+
+  void Run(const std::int64_t* order, int count)
+  {
+    // The output may be the array of the seeds, so these are kept until all is done.
+    for (int i = 0; i < count; ++i)
+    {
+      this->Index[i] = order[i];
+      std::copy_n(this->Points + order[i] * Dimension, Dimension, this->Seeds + i * Dimension);
+    }
+    int left = this->Pass(count, 0);
+    if (this->Job.Backward || this->Job.Nearest)
+    {
+      return;
+    }
+    this->Count.Redone += left;
+    for (int refinement = 1; left > 0 && refinement <= refinements; ++refinement)
+    {
+      left = this->Pass(left, refinement);
+    }
+    for (int i = 0; i < left; ++i)
+    {
+      this->MoveToMass(this->Index[i]);
+    }
+  }
+
+private:
+  // Advects the first `count` particles and moves those in trouble to the front.
+  int Pass(int count, int refinement)
+  {
+    int left = 0;
+    for (int first = 0; first < count && !this->Pace.ShouldStop(); first += BlockSize)
+    {
+      const int lanes = std::min(BlockSize, count - first);
+      bool troubled[BlockSize] = {};
+      this->Count.Evaluations += this->Advect(this->Job, this->Seeds + first * Dimension,
+        this->Index + first, lanes, refinement, troubled);
+      for (int i = 0; i < lanes; ++i)
+      {
+        if (troubled[i])
+        {
+          this->Index[left] = this->Index[first + i];
+          std::copy_n(
+            this->Seeds + (first + i) * Dimension, Dimension, this->Seeds + left * Dimension);
+          ++left;
+        }
+      }
+    }
+    return left;
+  }
+
+  void MoveToMass(std::int64_t particle)
+  {
+    const std::int64_t last = (particle + 1) * this->Job.TimeCount - 1;
+    const bool atEnd = !this->Job.Times || this->Job.Times[this->Job.TimeCount - 1] >= 1.0;
+    double* position = this->Job.Output + last * Dimension;
+    Point<Dimension> point;
+    std::copy_n(position, Dimension, point.begin());
+    if (atEnd && !hasMass<Dimension>(this->Job.Tables, point))
+    {
+      point = nearestMass<Dimension>(this->Job.Tables, point);
+      std::copy_n(point.begin(), Dimension, position);
+      ++this->Count.MovedToMass;
+    }
+  }
+
+  const FlowJob<Dimension>& Job;
+  const double* Points;
+  Counters& Count;
+  Pacer& Pace;
+  const AdvectBlock<Dimension> Advect;
+  std::int64_t Index[rangeBlocks * BlockSize];
+  double Seeds[rangeBlocks * BlockSize * Dimension];
+};
+
+}
+
+template <int Dimension>
+struct RectifiedFlow<Dimension>::Internals
+{
+  Internals(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer)
+    : Size(density.Size())
+    , Tables(density, executor, pacer)
+  {
+  }
+
+  FlowReport Advect(const double* points, std::int64_t count, const std::vector<double>& times,
+    double* positions, bool backward, const FlowOptions& options, const Executor& executor,
+    const Monitor& monitor) const;
+
+  GridSize<Dimension> Size;
+  SummedAreaTables<Dimension> Tables;
+};
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std::int64_t count,
+  const std::vector<double>& times, double* positions, bool backward, const FlowOptions& options,
+  const Executor& executor, const Monitor& monitor) const
+{
+  check(options);
+  FlowJob<Dimension> job;
+  job.Tables = this->Tables.View();
+  job.Method = options.Method;
+  job.Backward = backward;
+  job.Nearest = options.Lookup == TableLookup::Nearest;
+  job.Tolerance = options.Tolerance;
+  job.Steps = options.NumberOfSteps;
+  job.CoarseRatio = coarseRatio(options);
+  job.Output = positions;
+  job.Times = times.empty() ? nullptr : times.data();
+  job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
+  std::vector<StepWeights> weights;
+  if (options.Method == Integrator::Multistep)
+  {
+    weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
+    for (int step = 0; step < options.NumberOfSteps; ++step)
+    {
+      weights.push_back(multistepWeights(step, options.NumberOfSteps));
+    }
+  }
+  job.Weights = weights.empty() ? nullptr : weights.data();
+
+  Counters counters;
+  Pacer pacer(monitor);
+  pacer.BeginStage(1.0, count);
+  ParticleOrder<Dimension> order;
+  // A range is short enough to be waited for, however many steps there are.
+  constexpr int usualSteps = 64;
+  const std::int64_t grain = std::max(1, std::min(rangeBlocks,
+    rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) * BlockSize;
+  for (std::int64_t chunk = 0; chunk < count && !pacer.IsCancelled(); chunk += chunkParticles)
+  {
+    const std::int64_t length = std::min(chunkParticles, count - chunk);
+    const std::int64_t wrong = order.Sort(points, chunk, length, BlockSize);
+    if (wrong >= 0)
+    {
+      throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
+    }
+    for (std::int64_t begin = 0; begin < length;)
+    {
+      const std::int64_t slice =
+        std::min(length - begin, pacer.NextSlice(grain * executor.Concurrency()));
+      executor.For(slice, grain, [&](std::int64_t first, std::int64_t last) {
+        RangeAdvection<Dimension> range(job, points, counters, pacer);
+        range.Run(order.Order() + begin + first, static_cast<int>(last - first));
+      });
+      begin += slice;
+      if (!pacer.EndSlice(slice))
+      {
+        break;
+      }
+    }
+  }
+  FlowReport report;
+  report.Redone = counters.Redone;
+  report.MovedToMass = counters.MovedToMass;
+  report.Evaluations = counters.Evaluations;
+  report.Cancelled = pacer.IsCancelled();
+  return report;
+}
+
+template <int Dimension>
+RectifiedFlow<Dimension>::RectifiedFlow(
+  const DensitySource<Dimension>& density, const Executor& executor, const Monitor& monitor)
+{
+  check<Dimension>(density.Size());
+  Pacer pacer(monitor);
+  this->Data = std::make_unique<Internals>(density, executor, pacer);
+}
+
+template <int Dimension>
+RectifiedFlow<Dimension>::~RectifiedFlow() = default;
+
+template <int Dimension>
+RectifiedFlow<Dimension>::RectifiedFlow(RectifiedFlow&&) noexcept = default;
+
+template <int Dimension>
+RectifiedFlow<Dimension>& RectifiedFlow<Dimension>::operator=(RectifiedFlow&&) noexcept = default;
+
+template <int Dimension>
+RectifiedFlow<Dimension>::operator bool() const
+{
+  return this->Data && this->Data->Tables.IsComplete();
+}
+
+template <int Dimension>
+const GridSize<Dimension>& RectifiedFlow<Dimension>::Size() const
+{
+  return this->Data->Size;
+}
+
+template <int Dimension>
+double RectifiedFlow<Dimension>::Total() const
+{
+  return this->Data->Tables.Summary().Total;
+}
+
+template <int Dimension>
+Point<Dimension> RectifiedFlow<Dimension>::Centroid() const
+{
+  Point<Dimension> centroid;
+  std::copy_n(this->Data->Tables.View().Centroid, Dimension, centroid.begin());
+  return centroid;
+}
+
+template <int Dimension>
+std::int64_t RectifiedFlow<Dimension>::MemorySize() const
+{
+  return this->Data->Tables.MemorySize();
+}
+
+template <int Dimension>
+bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
+{
+  return hasMass<Dimension>(this->Data->Tables.View(), point);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::Forward(const double* seeds, std::int64_t count,
+  double* positions, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  return this->Data->Advect(seeds, count, {}, positions, false, options, executor, monitor);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardAt(const double* seeds, std::int64_t count,
+  const std::vector<double>& times, double* positions, const FlowOptions& options,
+  const Executor& executor, const Monitor& monitor) const
+{
+  const bool inside = !times.empty() && times.front() >= 0.0 && times.back() <= 1.0;
+  if (!inside || !std::is_sorted(times.begin(), times.end()))
+  {
+    throw std::invalid_argument("times must be in [0,1] and ascend, and there must be at least one");
+  }
+  return this->Data->Advect(seeds, count, times, positions, false, options, executor, monitor);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::Backward(const double* points, std::int64_t count,
+  double* positions, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  return this->Data->Advect(points, count, {}, positions, true, options, executor, monitor);
+}
+
+template <int Dimension>
+std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
+  const std::vector<Point<Dimension>>& seeds, const FlowOptions& options)
+{
+  const RectifiedFlow<Dimension> flow(density);
+  std::vector<Point<Dimension>> positions(seeds.size());
+  if (!seeds.empty())
+  {
+    flow.Forward(seeds[0].data(), static_cast<std::int64_t>(seeds.size()), positions[0].data(),
+      options);
+  }
+  return positions;
+}
+
+template class RectifiedFlow<1>;
+template class RectifiedFlow<2>;
+template class RectifiedFlow<3>;
+template std::vector<Point<1>> transportPoints<1>(
+  const DensitySource<1>&, const std::vector<Point<1>>&, const FlowOptions&);
+template std::vector<Point<2>> transportPoints<2>(
+  const DensitySource<2>&, const std::vector<Point<2>>&, const FlowOptions&);
+template std::vector<Point<3>> transportPoints<3>(
+  const DensitySource<3>&, const std::vector<Point<3>>&, const FlowOptions&);
+
+}

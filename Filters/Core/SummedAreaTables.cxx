@@ -1,0 +1,597 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SummedAreaTables.h"
+
+#include "FlowKernels.h"
+#include "Pacer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// A coarse level is of use only while a box can be this many of its cells wide.
+constexpr std::int64_t narrowestBox = 16;
+// Sums are taken over strips of this many cells, whatever runs them.
+constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
+constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
+constexpr std::int64_t slabBytes = std::int64_t{ 1 } << 21;
+// Tables past this size are written past the caches.
+constexpr std::int64_t streamBytes = std::int64_t{ 1 } << 24;
+
+constexpr int sumLanes = 8;
+
+struct SegmentSums
+{
+  double Sum;
+  double Moment; // about the segment's first cell's low face
+};
+
+double addLanes(const double (&lanes)[sumLanes])
+{
+  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+    ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+}
+
+// Looks at cells whose first has the index `index`.
+void inspect(const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
+{
+  double largest[sumLanes] = {};
+  std::int64_t wrong[sumLanes] = {};
+  const std::int64_t whole = count / sumLanes * sumLanes;
+  constexpr double limit = std::numeric_limits<double>::max();
+  for (std::int64_t i = 0; i < whole; i += sumLanes)
+  {
+    for (int lane = 0; lane < sumLanes; ++lane)
+    {
+      const double value = values[i + lane];
+      largest[lane] = value > largest[lane] ? value : largest[lane];
+      wrong[lane] += (value >= 0.0) & (value <= limit) ? 0 : 1;
+    }
+  }
+  std::int64_t suspects = 0;
+  for (std::int64_t i = whole; i < count; ++i)
+  {
+    largest[0] = std::max(largest[0], values[i]);
+    suspects += (values[i] >= 0.0 && values[i] <= limit) ? 0 : 1;
+  }
+  for (int lane = 0; lane < sumLanes; ++lane)
+  {
+    found.Maximum = std::max(found.Maximum, largest[lane]);
+    suspects += wrong[lane];
+  }
+  for (std::int64_t i = 0; suspects > 0 && i < count; ++i)
+  {
+    if (!std::isfinite(values[i]))
+    {
+      found.FirstNotFinite = found.NotFinite++ == 0 ? index + i : found.FirstNotFinite;
+      --suspects;
+    }
+    else if (values[i] < 0.0)
+    {
+      found.FirstNegative = found.Negative++ == 0 ? index + i : found.FirstNegative;
+      --suspects;
+    }
+  }
+}
+
+SegmentSums sumSegment(const double* values, std::int64_t count)
+{
+  double sum[sumLanes] = {};
+  double moment[sumLanes] = {};
+  const std::int64_t whole = count / sumLanes * sumLanes;
+  double place[sumLanes] = { 0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5 };
+  for (std::int64_t i = 0; i < whole; i += sumLanes)
+  {
+    for (int lane = 0; lane < sumLanes; ++lane)
+    {
+      sum[lane] += values[i + lane];
+      moment[lane] += values[i + lane] * place[lane];
+      place[lane] += sumLanes;
+    }
+  }
+  for (std::int64_t i = whole; i < count; ++i)
+  {
+    sum[i - whole] += values[i];
+    moment[i - whole] += values[i] * (static_cast<double>(i) + 0.5);
+  }
+  return { addLanes(sum), addLanes(moment) };
+}
+
+// One bit a cell that has mass.
+void markOccupied(const double* values, std::int64_t count, std::uint64_t* words)
+{
+  for (std::int64_t first = 0; first < count; first += 64)
+  {
+    const int cells = static_cast<int>(std::min<std::int64_t>(64, count - first));
+    double least = values[first];
+    for (int i = 1; i < cells; ++i)
+    {
+      least = std::min(least, values[first + i]);
+    }
+    std::uint64_t word = ~std::uint64_t{ 0 };
+    if (!(least > 0.0))
+    {
+      word = 0;
+      for (int i = 0; i < cells; ++i)
+      {
+        word |= static_cast<std::uint64_t>(values[first + i] > 0.0) << i;
+      }
+    }
+    words[first / 64] = word;
+  }
+}
+
+void merge(const DensitySummary& part, DensitySummary& whole)
+{
+  const auto first = [](std::int64_t a, std::int64_t b) {
+    return a < 0 ? b : b < 0 ? a : std::min(a, b);
+  };
+  whole.NotFinite += part.NotFinite;
+  whole.FirstNotFinite = first(whole.FirstNotFinite, part.FirstNotFinite);
+  whole.Negative += part.Negative;
+  whole.FirstNegative = first(whole.FirstNegative, part.FirstNegative);
+  whole.Maximum = std::max(whole.Maximum, part.Maximum);
+  whole.Total += part.Total;
+}
+
+void fenceStreams()
+{
+#ifdef __SSE2__
+  _mm_sfence();
+#endif
+}
+
+std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
+{
+  const std::int64_t width = std::int64_t{ 1 } << level;
+  return node == size || node % width == 0 ? (node + width - 1) >> level : -1;
+}
+
+// Copies the nodes (first, first + count] of one row that level `level` has. `nodes` starts with
+// node first + 1, `coarse` with the level's node 0.
+void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, std::int64_t size,
+  int level, int record, double* coarse)
+{
+  const std::int64_t width = std::int64_t{ 1 } << level;
+  const auto copy = [&](std::int64_t node) {
+    std::copy_n(nodes + (node - first - 1) * record, record,
+      coarse + coarseNode(node, size, level) * record);
+  };
+  for (std::int64_t node = (first / width + 1) * width; node <= first + count; node += width)
+  {
+    copy(node);
+  }
+  if (first + count == size && size % width != 0)
+  {
+    copy(size);
+  }
+}
+
+// What a build shares between its passes.
+template <int Dimension>
+struct Build
+{
+  const DensitySource<Dimension>& Density;
+  double Scale;
+  const Executor& Run;
+  Pacer& Pace;
+  TableView<Dimension>& Tables;
+  double* Nodes;
+  std::uint64_t* Occupied;
+  DensitySummary& Found;
+
+  double* Level(int level) const { return const_cast<double*>(this->Tables.Levels[level].Nodes); }
+};
+
+bool buildTables(const Build<1>& build)
+{
+  const std::int64_t size = build.Tables.Cells[0];
+  constexpr std::int64_t segment = 1 << 16;
+  std::vector<double> values(static_cast<std::size_t>(std::min(size, segment)));
+  std::vector<double> nodes(values.size() * 2);
+  double sum = 0.0;
+  double moment = 0.0;
+  for (int level = 0; level < build.Tables.LevelCount; ++level)
+  {
+    std::fill_n(build.Level(level), 2, 0.0);
+  }
+  for (std::int64_t first = 0; first < size; first += segment)
+  {
+    build.Pace.NextSlice(1);
+    const std::int64_t count = std::min(segment, size - first);
+    build.Density.ReadRow(0, first, count, values.data());
+    DensitySummary part;
+    inspect(values.data(), count, first, part);
+    part.Total = sumSegment(values.data(), count).Sum;
+    merge(part, build.Found);
+    markOccupied(values.data(), count, build.Occupied + first / 64);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const double value = values[i] * build.Scale;
+      sum += value;
+      moment += value * (static_cast<double>(first + i) + 0.5);
+      nodes[2 * i] = sum;
+      nodes[2 * i + 1] = moment;
+    }
+    for (int level = 0; level < build.Tables.LevelCount; ++level)
+    {
+      copyToLevel(nodes.data(), first, count, size, level, 2, build.Level(level));
+    }
+    if (!build.Pace.EndSlice(1))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool buildTables(const Build<2>& build)
+{
+  const std::int64_t columns = build.Tables.Cells[0];
+  const std::int64_t rows = build.Tables.Cells[1];
+  const std::int64_t strips = (columns + stripCells - 1) / stripCells;
+  const std::int64_t slab =
+    std::min(rows, std::max<std::int64_t>(1, slabBytes / 8 / columns));
+  const bool stream = (columns + 1) * (rows + 1) * 32 > streamBytes;
+  LargeBuffer<double> values(slab * columns);
+  LargeBuffer<double> prefixes(slab * strips * 2);
+  LargeBuffer<double> running(columns * 4);
+  std::vector<DensitySummary> found(static_cast<std::size_t>(slab));
+  std::fill_n(running.data(), running.size(), 0.0);
+  for (int level = 0; level < build.Tables.LevelCount; ++level)
+  {
+    std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[1], 0.0);
+  }
+  const AddTableRow2D addRow = flowKernels().AddRow2D;
+
+  for (std::int64_t begin = 0; begin < rows;)
+  {
+    const std::int64_t count =
+      std::min({ slab, rows - begin, build.Pace.NextSlice(std::min<std::int64_t>(slab, 16)) });
+    build.Run.For(count, 8, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t j = first; j < last; ++j)
+      {
+        const std::int64_t row = begin + j;
+        double* cells = values.data() + j * columns;
+        double sum = 0.0;
+        double moment = 0.0;
+        DensitySummary part;
+        for (std::int64_t strip = 0; strip < strips; ++strip)
+        {
+          const std::int64_t start = strip * stripCells;
+          const std::int64_t length = std::min(stripCells, columns - start);
+          build.Density.ReadRow(row, start, length, cells + start);
+          inspect(cells + start, length, row * columns + start, part);
+          double* prefix = prefixes.data() + (j * strips + strip) * 2;
+          prefix[0] = sum * build.Scale;
+          prefix[1] = moment * build.Scale;
+          const SegmentSums sums = sumSegment(cells + start, length);
+          sum += sums.Sum;
+          moment += sums.Moment + sums.Sum * static_cast<double>(start);
+        }
+        part.Total = sum;
+        found[j] = part;
+        markOccupied(cells, columns, build.Occupied + row * build.Tables.WordsPerRow);
+      }
+    });
+    for (std::int64_t j = 0; j < count; ++j)
+    {
+      merge(found[j], build.Found);
+    }
+    build.Run.For(strips, 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t strip = first; strip < last; ++strip)
+      {
+        TableRow2D row;
+        row.First = strip * stripCells;
+        row.Count = std::min(stripCells, columns - row.First);
+        row.Scale = build.Scale;
+        row.Running = running.data() + row.First * 4;
+        row.Stream = stream;
+        for (std::int64_t j = 0; j < count; ++j)
+        {
+          const std::int64_t node = begin + j + 1;
+          row.Values = values.data() + j * columns + row.First;
+          std::copy_n(prefixes.data() + (j * strips + strip) * 2, 2, row.Prefix);
+          row.Centre = static_cast<double>(begin + j) + 0.5;
+          row.Nodes =
+            build.Nodes + node * build.Tables.Levels[0].Stride[1] + (row.First + 1) * 4;
+          addRow(row);
+          for (int level = 0; level < build.Tables.LevelCount; ++level)
+          {
+            const std::int64_t coarse = coarseNode(node, rows, level);
+            if (coarse >= 0)
+            {
+              double* target = build.Level(level) + coarse * build.Tables.Levels[level].Stride[1];
+              if (strip == 0)
+              {
+                std::fill_n(target, 4, 0.0);
+              }
+              if (level > 0)
+              {
+                copyToLevel(row.Running, row.First, row.Count, columns, level, 4, target);
+              }
+            }
+          }
+        }
+      }
+      fenceStreams();
+    });
+    begin += count;
+    if (!build.Pace.EndSlice(count))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool buildTables(const Build<3>& build)
+{
+  const std::int64_t columns = build.Tables.Cells[0];
+  const std::int64_t rows = build.Tables.Cells[1];
+  const std::int64_t slices = build.Tables.Cells[2];
+  const std::int64_t sliceCells = columns * rows;
+  const std::int64_t strips = (rows + stripRows - 1) / stripRows;
+  const std::int64_t slab =
+    std::min(slices, std::max<std::int64_t>(1, slabBytes / 8 / sliceCells));
+  const bool stream = (columns + 1) * (rows + 1) * (slices + 1) * 32 > streamBytes;
+  LargeBuffer<double> values(slab * sliceCells);
+  // Per slice and strip {f, f * centre 1} of every column, then what lies before the strip.
+  LargeBuffer<double> sums(slab * strips * columns * 2);
+  LargeBuffer<double> before(slab * strips * columns * 4);
+  LargeBuffer<double> running(sliceCells * 4);
+  std::vector<DensitySummary> found(static_cast<std::size_t>(slab * strips));
+  std::fill_n(running.data(), running.size(), 0.0);
+  for (int level = 0; level < build.Tables.LevelCount; ++level)
+  {
+    std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[2], 0.0);
+  }
+  const AddTableRow3D addRow = flowKernels().AddRow3D;
+
+  for (std::int64_t begin = 0; begin < slices;)
+  {
+    const std::int64_t count = std::min({ slab, slices - begin, build.Pace.NextSlice(1) });
+    build.Run.For(count * strips, 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t task = first; task < last; ++task)
+      {
+        const std::int64_t k = task / strips;
+        const std::int64_t firstRow = task % strips * stripRows;
+        const std::int64_t lastRow = std::min(firstRow + stripRows, rows);
+        double* column = sums.data() + task * columns * 2;
+        double* columnMoment = column + columns;
+        std::fill_n(column, 2 * columns, 0.0);
+        DensitySummary part;
+        for (std::int64_t j = firstRow; j < lastRow; ++j)
+        {
+          const std::int64_t row = (begin + k) * rows + j;
+          double* cells = values.data() + k * sliceCells + j * columns;
+          build.Density.ReadRow(row, 0, columns, cells);
+          inspect(cells, columns, row * columns, part);
+          markOccupied(cells, columns, build.Occupied + row * build.Tables.WordsPerRow);
+          const double centre = static_cast<double>(j) + 0.5;
+          for (std::int64_t i = 0; i < columns; ++i)
+          {
+            column[i] += cells[i];
+            columnMoment[i] += cells[i] * centre;
+          }
+        }
+        part.Total = sumSegment(column, columns).Sum;
+        found[task] = part;
+      }
+    });
+    for (std::int64_t task = 0; task < count * strips; ++task)
+    {
+      merge(found[task], build.Found);
+    }
+    // The sums of the rows before each strip, as prefixes along axis 0.
+    build.Run.For(count, 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t k = first; k < last; ++k)
+      {
+        double* previous = before.data() + k * strips * columns * 4;
+        std::fill_n(previous, columns * 4, 0.0);
+        for (std::int64_t strip = 1; strip < strips; ++strip)
+        {
+          const double* column = sums.data() + (k * strips + strip - 1) * columns * 2;
+          double* next = previous + columns * 4;
+          double sum = 0.0;
+          double moment = 0.0;
+          double momentAcross = 0.0;
+          for (std::int64_t i = 0; i < columns; ++i)
+          {
+            sum += column[i] * build.Scale;
+            moment += column[i] * build.Scale * (static_cast<double>(i) + 0.5);
+            momentAcross += column[columns + i] * build.Scale;
+            next[4 * i] = previous[4 * i] + sum;
+            next[4 * i + 1] = previous[4 * i + 1] + moment;
+            next[4 * i + 2] = previous[4 * i + 2] + momentAcross;
+            next[4 * i + 3] = next[4 * i];
+          }
+          previous = next;
+        }
+      }
+    });
+    build.Run.For(strips, 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t strip = first; strip < last; ++strip)
+      {
+        const std::int64_t firstRow = strip * stripRows;
+        const std::int64_t lastRow = std::min(firstRow + stripRows, rows);
+        TableRow3D row;
+        row.Scale = build.Scale;
+        row.Count = columns;
+        row.Stream = stream;
+        for (std::int64_t k = 0; k < count; ++k)
+        {
+          const std::int64_t plane = begin + k + 1;
+          row.Columns = before.data() + (k * strips + strip) * columns * 4;
+          row.Centre[1] = static_cast<double>(begin + k) + 0.5;
+          for (std::int64_t j = firstRow; j < lastRow; ++j)
+          {
+            row.Values = values.data() + k * sliceCells + j * columns;
+            row.Centre[0] = static_cast<double>(j) + 0.5;
+            row.Running = running.data() + j * columns * 4;
+            row.Nodes = build.Nodes + plane * build.Tables.Levels[0].Stride[2] +
+              (j + 1) * build.Tables.Levels[0].Stride[1] + 4;
+            addRow(row);
+            for (int level = 0; level < build.Tables.LevelCount; ++level)
+            {
+              const std::int64_t coarsePlane = coarseNode(plane, slices, level);
+              const std::int64_t coarseRow = coarseNode(j + 1, rows, level);
+              if (coarsePlane < 0)
+              {
+                continue;
+              }
+              const auto& stride = build.Tables.Levels[level].Stride;
+              double* target = build.Level(level) + coarsePlane * stride[2];
+              if (j == 0)
+              {
+                std::fill_n(target, stride[1], 0.0);
+              }
+              if (coarseRow >= 0)
+              {
+                target += coarseRow * stride[1];
+                std::fill_n(target, 4, 0.0);
+                if (level > 0)
+                {
+                  copyToLevel(row.Running, 0, columns, columns, level, 4, target);
+                }
+              }
+            }
+          }
+        }
+      }
+      fenceStreams();
+    });
+    begin += count;
+    if (!build.Pace.EndSlice(count))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+}
+
+template <int Dimension>
+SummedAreaTables<Dimension>::SummedAreaTables(
+  const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer)
+{
+  this->Allocate(density.Size());
+  if (!this->Build(density, 1.0, executor, pacer))
+  {
+    return;
+  }
+  const DensitySummary& found = this->Found;
+  if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
+  {
+    throw InvalidDensity(found);
+  }
+  // Moments of very large values overflow, those of very small ones lose bits: a power of two
+  // brings both back without changing a bit of what is computed.
+  constexpr double extreme = 1e200;
+  if (found.Maximum > extreme || found.Maximum < 1.0 / extreme)
+  {
+    const double scale = std::ldexp(1.0, std::max(-1000, std::min(1000, -std::ilogb(found.Maximum))));
+    if (!this->Build(density, scale, executor, pacer))
+    {
+      return;
+    }
+  }
+
+  TableView<Dimension>& tables = this->Tables;
+  std::int64_t node = 0;
+  std::int64_t cells = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    node += tables.Cells[axis] *
+      (axis == 0 ? std::int64_t{ TableView<Dimension>::Record } : tables.Levels[0].Stride[axis]);
+    cells *= tables.Cells[axis];
+  }
+  const double* last = this->Nodes.data() + node;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    tables.Centroid[axis] = last[1 + axis] / last[0];
+  }
+  constexpr double roundingShare = 2e-15;
+  tables.VoidMass = roundingShare * last[0];
+  bool full = true;
+  for (std::int64_t word = 0; word < this->Occupied.size() && full; ++word)
+  {
+    full = this->Occupied.data()[word] == ~std::uint64_t{ 0 };
+  }
+  tables.Occupied = full ? nullptr : this->Occupied.data();
+  this->Complete = true;
+}
+
+template <int Dimension>
+void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
+{
+  TableView<Dimension>& tables = this->Tables;
+  const std::int64_t narrowest = *std::min_element(size.begin(), size.end());
+  tables.LevelCount = 1;
+  while ((narrowestBox << tables.LevelCount) <= narrowest)
+  {
+    ++tables.LevelCount;
+  }
+  double estimate = TableView<Dimension>::Record;
+  std::int64_t rows = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    tables.Cells[axis] = size[axis];
+    tables.Size[axis] = static_cast<double>(size[axis]);
+    estimate *= tables.Size[axis] + 1.0;
+    rows *= axis > 0 ? size[axis] : 1;
+  }
+  if (estimate > 1e17)
+  {
+    throw std::bad_alloc();
+  }
+  constexpr std::int64_t line = 8;
+  std::int64_t total = 0;
+  std::int64_t offset[TableView<Dimension>::MaximumLevels];
+  for (int level = 0; level < tables.LevelCount; ++level)
+  {
+    offset[level] = total;
+    std::int64_t length = TableView<Dimension>::Record;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      tables.Levels[level].Stride[axis] = length;
+      length *= ((size[axis] - 1) >> level) + 2;
+    }
+    total += (length + line - 1) / line * line;
+  }
+  this->Nodes = LargeBuffer<double>(total);
+  for (int level = 0; level < tables.LevelCount; ++level)
+  {
+    tables.Levels[level].Nodes = this->Nodes.data() + offset[level];
+  }
+  tables.WordsPerRow = (size[0] + 63) / 64;
+  this->Occupied = LargeBuffer<std::uint64_t>(tables.WordsPerRow * rows);
+}
+
+template <int Dimension>
+bool SummedAreaTables<Dimension>::Build(const DensitySource<Dimension>& density, double scale,
+  const Executor& executor, Pacer& pacer)
+{
+  this->Found = {};
+  pacer.BeginStage(1.0, this->Tables.Cells[Dimension > 1 ? Dimension - 1 : 0]);
+  return buildTables(RectifiedTransport::Build<Dimension>{ density, scale, executor, pacer,
+    this->Tables, this->Nodes.data(), this->Occupied.data(), this->Found });
+}
+
+template class SummedAreaTables<1>;
+template class SummedAreaTables<2>;
+template class SummedAreaTables<3>;
+
+}

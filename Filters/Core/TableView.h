@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kernels see of the summed-area tables: plain pointers and numbers.
+//
+// A node record is {E, E_0} in 1D, {E, E_0, E_1, 0} in 2D and {E, E_0, E_1, E_2} in 3D, where E is
+// the sum of the density over the cells below the node and E_a the sum of density times cell
+// centre along axis a (paper, Section 3.3 and Algorithm 2). Level l holds every 2^l-th node; where
+// 2^l does not divide the size, the last coarse cell is narrower.
+#ifndef RectifiedTransport_TableView_h
+#define RectifiedTransport_TableView_h
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+struct TableView
+{
+  static constexpr int Record = Dimension == 1 ? 2 : 4; // doubles a node
+  static constexpr int MaximumLevels = 32;
+
+  struct Level
+  {
+    const double* Nodes;
+    std::int64_t Stride[Dimension]; // in doubles
+  };
+
+  Level Levels[MaximumLevels];
+  int LevelCount;
+  double Size[Dimension];
+  double Centroid[Dimension];
+  double VoidMass; // a box with no more than this is taken to be empty
+
+  // One bit a cell, rows padded to whole words; null if every cell has mass.
+  const std::uint64_t* Occupied;
+  std::int64_t WordsPerRow;
+  std::int64_t Cells[Dimension];
+};
+
+}
+
+#endif
