@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Properties are checked when a filter runs; what is wrong is said in one sentence that names the
+// property, its value and what would be right.
+#ifndef RectifiedTransport_PropertyCheck_h
+#define RectifiedTransport_PropertyCheck_h
+
+#include "Failure.h"
+
+#include <cstddef>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+// The text of a value of an enumeration.
+template <std::size_t Count>
+const char* choiceText(const char* const (&texts)[Count], int value)
+{
+  return value >= 0 && static_cast<std::size_t>(value) < Count ? texts[value] : "Unknown";
+}
+
+template <std::size_t Count>
+void requireChoice(const char* property, int value, const char* const (&texts)[Count])
+{
+  if (value >= 0 && static_cast<std::size_t>(value) < Count)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << property << " is " << value << "; it must be ";
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    message << (i == 0 ? "" : i + 1 < Count ? ", " : " or ") << i << " (" << texts[i] << ")";
+  }
+  throw Failure(message.str());
+}
+
+// `rule` completes "it must be ...".
+template <class T>
+void requireThat(bool holds, const char* property, T value, const char* rule)
+{
+  if (!holds)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << rule;
+    throw Failure(message.str());
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDensityAlgorithm
+ * @brief   what all filters that read a density from an image share
+ *
+ * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...); without a
+ * choice it is the active scalars of the points, else of the cells. It is piecewise constant on
+ * cells: cell arrays are taken as they are; the values of a point array are those of the dual
+ * cells, so that the domain is the image's bounds grown by half a spacing on each side of every
+ * axis. An axis of one point is no axis, so that images may be 1D, 2D (in any coordinate plane) or
+ * 3D; one cell between two points is an axis of one cell. Origin, spacing, extent and direction
+ * matrix are arbitrary, and so is the numeric type. Cells and points that the ghost array marks as
+ * duplicate or hidden carry no mass, and neither do the cells of a hidden point.
+ *
+ * Mass is physical: density times cell measure, which is the length, area or volume that the
+ * image's axes of more than one point span.
+ *
+ * An array that is missing or of the wrong length, values that are NaN, infinite or (unless
+ * NegativeValues is Clamp) negative, and a total mass of zero or past the largest double are
+ * errors. The message names the array, how many values are wrong and the index of the first; the
+ * output is then empty. An input without points gives an empty output without an error.
+ *
+ * @sa vtkTransportAlgorithm
+ */
+#ifndef vtkDensityAlgorithm_h
+#define vtkDensityAlgorithm_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "vtkAlgorithm.h"
+#include "vtkRectifiedTransportModule.h" // for the export macro
+
+namespace RectifiedTransport
+{
+class DensityImage;
+}
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkAlgorithm
+{
+public:
+  vtkTypeMacro(vtkDensityAlgorithm, vtkAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What NegativeValues may be.
+   */
+  enum NegativeValuesType
+  {
+    NEGATIVE_VALUES_ERROR = 0,
+    NEGATIVE_VALUES_CLAMP = 1
+  };
+
+  ///@{
+  /**
+   * Which component of the array is the density: an index from 0, or -1 (default) for luminance.
+   * The luminance of 3 or 4 components is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709), that of 1 or 2
+   * the first one. The last of 2 or 4 components is alpha, and the picture lies over white: 255 for
+   * unsigned char, else the largest value of the array. An array of more than 4 components needs an
+   * index.
+   */
+  vtkSetMacro(Component, int);
+  vtkGetMacro(Component, int);
+  ///@}
+
+  ///@{
+  /**
+   * Take (white - value) for the density, so that dark ink is mass. White is 255 for unsigned char,
+   * else the largest value of the array (of the component, where Component is an index). Off by
+   * default.
+   */
+  vtkSetMacro(InvertDensity, vtkTypeBool);
+  vtkGetMacro(InvertDensity, vtkTypeBool);
+  vtkBooleanMacro(InvertDensity, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * What negative values of the density do: Error (default) stops with a message that counts them,
+   * Clamp takes them as 0.
+   */
+  vtkSetMacro(NegativeValues, int);
+  vtkGetMacro(NegativeValues, int);
+  void SetNegativeValuesToError() { this->SetNegativeValues(NEGATIVE_VALUES_ERROR); }
+  void SetNegativeValuesToClamp() { this->SetNegativeValues(NEGATIVE_VALUES_CLAMP); }
+  const char* GetNegativeValuesAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Give an input as a data object, without a pipeline that makes it.
+   */
+  void SetInputData(vtkDataObject* input) { this->SetInputData(0, input); }
+  void SetInputData(int port, vtkDataObject* input);
+  ///@}
+
+  /**
+   * Pass the executive's requests to the methods below.
+   */
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkDensityAlgorithm();
+  ~vtkDensityAlgorithm() override;
+
+  /**
+   * Make the outputs that do not exist yet, of the type that the port's information names.
+   */
+  virtual int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Publish what is known before the data. By default nothing.
+   */
+  virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Ask for whole images, because a transport is global, and for all points of other inputs.
+   */
+  virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
+   * outputs.
+   */
+  virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) = 0;
+
+  int Component;
+  vtkTypeBool InvertDensity;
+  int NegativeValues;
+
+private:
+  vtkDensityAlgorithm(const vtkDensityAlgorithm&) = delete;
+  void operator=(const vtkDensityAlgorithm&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif
