@@ -44,6 +44,19 @@ struct Tables
   std::array<std::vector<double>, Dimension> Moment;
 };
 
+inline Tables<1> buildTables(const std::vector<double>& image, const Size<1>& cells)
+{
+  const std::size_t nodes = static_cast<std::size_t>(cells[0] + 1);
+  Tables<1> tables{ cells, image.data(), std::vector<double>(nodes),
+    { std::vector<double>(nodes) } };
+  for (std::int64_t j = 0; j < cells[0]; ++j)
+  {
+    tables.Mass[j + 1] = tables.Mass[j] + image[j];
+    tables.Moment[0][j + 1] = tables.Moment[0][j] + image[j] * (j + 0.5);
+  }
+  return tables;
+}
+
 inline Tables<2> buildTables(const std::vector<double>& image, const Size<2>& cells)
 {
   const std::int64_t width = cells[0];
@@ -102,6 +115,13 @@ inline Tables<3> buildTables(const std::vector<double>& image, const Size<3>& ce
     }
   }
   return tables;
+}
+
+inline Integrals<1> interpolate(const Tables<1>& tables, double x)
+{
+  const std::int64_t i = std::min(static_cast<std::int64_t>(x), tables.Cells[0] - 1);
+  const double cell = tables.Image[i] * (x - i);
+  return { tables.Mass[i] + cell, { tables.Moment[0][i] + cell * 0.5 * (x + i) } };
 }
 
 // Lerp, interp_x and interp_y at one corner: the integrals over [0,x] x [0,y]. The cell's value
@@ -165,6 +185,13 @@ void accumulate(Integrals<Dimension>& sum, double sign, const Integrals<Dimensio
   {
     sum.Moment[axis] += sign * corner.Moment[axis];
   }
+}
+
+inline Integrals<1> integrate(const Tables<1>& tables, const Vector<1>& a, const Vector<1>& b)
+{
+  Integrals<1> sum = interpolate(tables, b[0]);
+  accumulate(sum, -1.0, interpolate(tables, a[0]));
+  return sum;
 }
 
 inline Integrals<2> integrate(const Tables<2>& tables, const Vector<2>& a, const Vector<2>& b)

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The error against an independent oracle, and how it falls with the steps.
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+// A density, a sample of seeds and where they truly go.
+template <int Dimension>
+struct Truth
+{
+  TestDensity<Dimension> Density;
+  RectifiedFlow<Dimension> Flow;
+  Points<Dimension> Seeds;
+  Points<Dimension> Positions;
+
+  Truth(TestDensity<Dimension> density, std::size_t count)
+    : Density(std::move(density))
+    , Flow(this->Density.Source())
+    , Seeds(randomPoints<Dimension>(this->Density.Size, count))
+    , Positions(Oracle<Dimension>(this->Density.Values, this->Density.Size).Forward(this->Seeds))
+  {
+  }
+
+  PositionErrors Errors(const FlowOptions& options) const
+  {
+    return comparePositions<Dimension>(
+      runForward(this->Flow, this->Seeds, options), this->Positions);
+  }
+};
+
+// The order that two mean errors at n and 2n steps show.
+double order(double coarse, double fine)
+{
+  return std::log2(coarse / fine);
+}
+
+template <int Dimension>
+void expectConvergence(const Truth<Dimension>& truth, double error32)
+{
+  const double e16 = truth.Errors(steps(16)).Mean;
+  const double e32 = truth.Errors(steps(32)).Mean;
+  const double e64 = truth.Errors(steps(64)).Mean;
+  const double e128 = truth.Errors(steps(128)).Mean;
+  EXPECT_LT(e32, error32);
+  EXPECT_GT(order(e16, e32), 1.3);
+  EXPECT_GT(order(e32, e64), 1.3);
+  EXPECT_GT(order(e16, e128), 5.0) << "over three doublings";
+}
+
+TEST(Convergence, Multistep1D)
+{
+  expectConvergence(Truth<1>(twoGaussians<1>({ 300 }), 400), 0.1);
+}
+
+TEST(Convergence, Multistep2D)
+{
+  expectConvergence(Truth<2>(twoGaussians<2>({ 160, 120 }), 400), 0.1);
+}
+
+TEST(Convergence, Multistep3D)
+{
+  expectConvergence(Truth<3>(twoGaussians<3>({ 40, 33, 36 }), 200), 0.03);
+}
+
+// Values that jump from cell to cell.
+TEST(Convergence, RandomCells)
+{
+  expectConvergence(Truth<2>(randomCells<2>({ 90, 120 }), 400), 0.1);
+}
+
+// Half of the box empty.
+TEST(Convergence, DiscWithHole)
+{
+  const Truth<2> truth(discWithHole<2>({ 256, 256 }), 400);
+  EXPECT_LT(truth.Errors(steps(32)).Mean, 0.1);
+  EXPECT_LT(truth.Errors(steps(64)).Mean, 0.03);
+}
+
+// Tables with coarse levels cost no more than a twentieth of a cell.
+TEST(Convergence, CoarseLevels)
+{
+  const Truth<2> large(twoGaussians<2>({ 700, 530 }), 200);
+  EXPECT_LT(large.Errors(steps(128)).Mean, 0.05);
+  const Truth<3> volume(twoGaussians<3>({ 70, 110, 83 }), 150);
+  EXPECT_LT(volume.Errors(steps(32)).Mean, 0.05);
+  EXPECT_LT(volume.Errors(steps(128)).Mean, 0.02);
+}
+
+// With the limit of the velocity at t = 1, RK4 at the published 50 steps loses the 1/(6T) shrink
+// toward the centre: 1.2 cells on 1024^2.
+TEST(Convergence, RungeKutta4)
+{
+  const Truth<2> truth(twoGaussians<2>({ 160, 120 }), 400);
+  const double e50 = truth.Errors(steps(50, Integrator::RungeKutta4)).Mean;
+  const double e200 = truth.Errors(steps(200, Integrator::RungeKutta4)).Mean;
+  EXPECT_LT(e50, 0.02);
+  EXPECT_GT(order(e50, e200), 2.0) << "over two doublings";
+}
+
+TEST(Convergence, Euler)
+{
+  const Truth<2> truth(twoGaussians<2>({ 160, 120 }), 400);
+  const double e64 = truth.Errors(steps(64, Integrator::Euler)).Mean;
+  const double e256 = truth.Errors(steps(256, Integrator::Euler)).Mean;
+  EXPECT_GT(order(e64, e256), 1.6) << "over two doublings";
+}
+
+TEST(Convergence, Adaptive)
+{
+  const Truth<2> truth(twoGaussians<2>({ 160, 120 }), 400);
+  const double rough = truth.Errors(adaptive(0.1)).Mean;
+  const double usual = truth.Errors(adaptive(0.01)).Mean;
+  const double fine = truth.Errors(adaptive(0.001)).Mean;
+  EXPECT_LT(rough, 0.3);
+  EXPECT_LT(usual, 0.05);
+  EXPECT_LT(fine, 0.01);
+  EXPECT_LT(usual, rough);
+  EXPECT_LT(fine, usual);
+  const Truth<3> volume(twoGaussians<3>({ 40, 33, 36 }), 200);
+  EXPECT_LT(volume.Errors(adaptive(0.01)).Mean, 0.03);
+}
+
+// RungeKutta4 is the paper's Algorithm 2 with the correct limit at t = 1, step for step.
+template <int Dimension>
+void expectTranscription(const TestDensity<Dimension>& density)
+{
+  Points<Dimension> expected = randomPoints<Dimension>(density.Size, 1000);
+  const Points<Dimension> actual =
+    runForward(makeFlow(density), expected, steps(50, Integrator::RungeKutta4));
+  Paper::advect(
+    Paper::buildTables(density.Values, density.Size), expected, 50, Paper::FinalVelocity::Limit);
+  EXPECT_LT(largestDistance<Dimension>(actual, expected), 1e-7);
+}
+
+TEST(Convergence, RungeKutta4IsThePapersAlgorithm)
+{
+  expectTranscription<2>(randomCells<2>({ 60, 45 }, 0.2));
+  expectTranscription<3>(randomCells<3>({ 20, 26, 31 }, 0.2));
+}
+
+// The cost that the documentation states: a velocity a step, four of RK4's; the last step of
+// Multistep is in closed form.
+TEST(Convergence, Evaluations)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 64, 48 });
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const Points<2> seeds = randomPoints<2>(density.Size, 1000);
+  Points<2> positions(seeds.size());
+  const auto evaluations = [&](const FlowOptions& options) {
+    const FlowReport report =
+      flow.Forward(seeds.data()->data(), 1000, positions.data()->data(), options);
+    return static_cast<double>(report.Evaluations) / 1000.0;
+  };
+  EXPECT_NEAR(evaluations(steps(32)), 31.0, 1.0);
+  EXPECT_NEAR(evaluations(steps(64)), 63.0, 1.0);
+  EXPECT_NEAR(evaluations(steps(50, Integrator::RungeKutta4)), 200.0, 2.0);
+  EXPECT_NEAR(evaluations(steps(50, Integrator::Euler)), 50.0, 1.0);
+  EXPECT_LT(evaluations(adaptive(0.03)), 80.0);
+  EXPECT_LT(evaluations(adaptive(0.03)), evaluations(adaptive(0.003)));
+}
+
+} // namespace
+} // namespace RectifiedTransport

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What cannot be transported, and options that mean nothing: said, never clamped.
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+// What is found wrong with a density, on several threads or one.
+template <int Dimension>
+DensitySummary reject(const TestDensity<Dimension>& density, const Executor& executor)
+{
+  try
+  {
+    const RectifiedFlow<Dimension> flow(density.Source(), executor);
+  }
+  catch (const InvalidDensity& error)
+  {
+    EXPECT_STRNE(error.what(), "");
+    return error.Summary();
+  }
+  ADD_FAILURE() << "the density was accepted";
+  return {};
+}
+
+TEST(Errors, NotFinite)
+{
+  TestDensity<2> density = uniformDensity<2>({ 150, 90 });
+  density.Values[13001] = NaN;
+  density.Values[700] = Infinity;
+  density.Values[4000] = -Infinity;
+  const DensitySummary serial = reject(density, SerialExecutor());
+  EXPECT_EQ(serial.NotFinite, 3);
+  EXPECT_EQ(serial.FirstNotFinite, 700);
+  EXPECT_EQ(serial.Negative, 0);
+  EXPECT_EQ(serial.FirstNegative, -1);
+  const DensitySummary parallel = reject(density, OpenMPExecutor());
+  EXPECT_EQ(parallel.NotFinite, 3);
+  EXPECT_EQ(parallel.FirstNotFinite, 700);
+}
+
+TEST(Errors, Negative)
+{
+  TestDensity<3> density = uniformDensity<3>({ 20, 30, 25 });
+  density.Values[14999] = -1e-300;
+  density.Values[321] = -2.0;
+  const DensitySummary summary = reject(density, OpenMPExecutor());
+  EXPECT_EQ(summary.Negative, 2);
+  EXPECT_EQ(summary.FirstNegative, 321);
+  EXPECT_EQ(summary.NotFinite, 0);
+  EXPECT_EQ(summary.FirstNotFinite, -1);
+}
+
+TEST(Errors, NegativeZeroIsZero)
+{
+  TestDensity<1> density = uniformDensity<1>({ 50 });
+  density.Values[7] = -0.0;
+  EXPECT_EQ(makeFlow(density).Total(), 49.0);
+}
+
+TEST(Errors, NoMass)
+{
+  const DensitySummary summary = reject(uniformDensity<2>({ 31, 17 }, 0.0), OpenMPExecutor());
+  EXPECT_EQ(summary.Total, 0.0);
+  EXPECT_EQ(summary.Maximum, 0.0);
+  EXPECT_EQ(summary.NotFinite, 0);
+  EXPECT_EQ(summary.Negative, 0);
+}
+
+TEST(Errors, TooMuchMass)
+{
+  const DensitySummary summary = reject(uniformDensity<2>({ 31, 17 }, 1e307), OpenMPExecutor());
+  EXPECT_EQ(summary.Total, Infinity);
+  EXPECT_EQ(summary.Maximum, 1e307);
+}
+
+// Says that it has a size; nobody may read it.
+template <int Dimension>
+class UnreadSource final : public DensitySource<Dimension>
+{
+public:
+  explicit UnreadSource(const GridSize<Dimension>& size)
+    : Dims(size)
+  {
+  }
+  GridSize<Dimension> Size() const override { return this->Dims; }
+  void ReadRow(std::int64_t, std::int64_t, std::int64_t, double*) const override
+  {
+    ADD_FAILURE() << "was read";
+  }
+
+private:
+  GridSize<Dimension> Dims;
+};
+
+TEST(Errors, Size)
+{
+  EXPECT_THROW(RectifiedFlow<2>(UnreadSource<2>({ 0, 5 })), std::invalid_argument);
+  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ 4, 5, -1 })), std::invalid_argument);
+  EXPECT_THROW(
+    RectifiedFlow<1>(UnreadSource<1>({ (std::int64_t{ 1 } << 30) + 1 })), std::invalid_argument);
+}
+
+TEST(Errors, MemoryThatCannotBeHad)
+{
+  const std::int64_t side = std::int64_t{ 1 } << 18;
+  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ side, side, side })), std::bad_alloc);
+  const std::int64_t huge = std::int64_t{ 1 } << 30;
+  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ huge, huge, huge })), std::bad_alloc);
+}
+
+template <class F>
+std::string refusal(F&& call)
+{
+  try
+  {
+    call();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  ADD_FAILURE() << "the options were accepted";
+  return "";
+}
+
+// Every call refuses the options, and its message holds the value.
+void expectRefused(const FlowOptions& options, const std::string& value)
+{
+  const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));
+  double point[2] = { 1.0, 1.0 };
+  const std::string messages[] = {
+    refusal([&]() { flow.Forward(point, 1, point, options); }),
+    refusal([&]() { flow.Backward(point, 1, point, options); }),
+    refusal([&]() { flow.ForwardAt(point, 1, { 0.5 }, point, options); }),
+  };
+  for (const std::string& message : messages)
+  {
+    EXPECT_NE(message.find(value), std::string::npos) << message;
+  }
+  EXPECT_EQ(point[0], 1.0);
+}
+
+TEST(Errors, NumberOfSteps)
+{
+  for (const Integrator method :
+    { Integrator::Multistep, Integrator::RungeKutta4, Integrator::Euler })
+  {
+    expectRefused(steps(0, method), "0");
+    expectRefused(steps(-3, method), "-3");
+    expectRefused(steps(10001, method), "10001");
+  }
+}
+
+TEST(Errors, Tolerance)
+{
+  expectRefused(adaptive(0.0), "0");
+  expectRefused(adaptive(-0.25), "-0.25");
+  expectRefused(adaptive(NaN), "nan");
+  expectRefused(adaptive(Infinity), "inf");
+}
+
+TEST(Errors, Times)
+{
+  const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));
+  const double seed[2] = { 1.0, 1.0 };
+  double path[6];
+  const auto refused = [&](const std::vector<double>& times) {
+    return refusal([&]() { flow.ForwardAt(seed, 1, times, path); });
+  };
+  EXPECT_NE(refused({ -0.5, 1.0 }).find("-0.5"), std::string::npos);
+  EXPECT_NE(refused({ 0.0, 1.5 }).find("1.5"), std::string::npos);
+  EXPECT_NE(refused({ NaN }).find("nan"), std::string::npos);
+  EXPECT_NE(refused({ 0.75, 0.25 }).find("0.25"), std::string::npos);
+}
+
+TEST(Errors, LimitsOfTheOptionsAreValid)
+{
+  const RectifiedFlow<2> flow = makeFlow(twoGaussians<2>({ 12, 9 }));
+  const Points<2> seeds = randomPoints<2>(flow.Size(), 20);
+  for (const Integrator method :
+    { Integrator::Multistep, Integrator::RungeKutta4, Integrator::Euler })
+  {
+    for (const int count : { 1, 2, 3, 10000 })
+    {
+      const FlowOptions options = steps(count, method);
+      const Points<2> positions = runForward(flow, seeds, options);
+      const Points<2> back = runBackward(flow, seeds, options);
+      EXPECT_EQ(Strays<2>(positions, uniformDensity<2>(flow.Size())).Outside, 0)
+        << nameOf(method) << " " << count;
+      EXPECT_EQ(Strays<2>(back, uniformDensity<2>(flow.Size())).Outside, 0)
+        << nameOf(method) << " " << count;
+    }
+  }
+}
+
+TEST(Errors, NoParticlesIsNoError)
+{
+  const RectifiedFlow<3> flow = makeFlow(uniformDensity<3>({ 4, 4, 4 }));
+  EXPECT_EQ(flow.Forward(nullptr, 0, nullptr).Evaluations, 0);
+  EXPECT_EQ(flow.Backward(nullptr, 0, nullptr).Evaluations, 0);
+  EXPECT_EQ(flow.ForwardAt(nullptr, 0, { 0.5 }, nullptr).Evaluations, 0);
+}
+
+} // namespace
+} // namespace RectifiedTransport

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host hears of long work, and how it stops it.
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+// Collects progress, and cancels once it passes `limit`.
+struct Listener
+{
+  std::vector<double> Heard;
+  std::atomic<double> Last{ 0.0 };
+  double Limit = 2.0;
+  std::thread::id Thread = std::this_thread::get_id();
+  bool OtherThread = false;
+
+  RectifiedTransport::Monitor Monitor()
+  {
+    return { [this](double progress) {
+              this->OtherThread = this->OtherThread || std::this_thread::get_id() != this->Thread;
+              this->Heard.push_back(progress);
+              this->Last = progress;
+            },
+      [this]() { return this->Last >= this->Limit; } };
+  }
+
+  void ExpectMonotone(const std::string& what) const
+  {
+    ASSERT_FALSE(this->Heard.empty()) << what;
+    EXPECT_TRUE(std::is_sorted(this->Heard.begin(), this->Heard.end())) << what;
+    EXPECT_GE(this->Heard.front(), 0.0) << what;
+    EXPECT_LE(this->Heard.back(), 1.0) << what;
+    EXPECT_GT(this->Heard.back(), 0.9) << what;
+    EXPECT_FALSE(this->OtherThread) << what << ": called on another thread";
+  }
+};
+
+const TestDensity<3>& volume()
+{
+  static const TestDensity<3> density = twoGaussians<3>({ 96, 96, 96 });
+  return density;
+}
+
+constexpr std::size_t ParticleCount = 60000;
+
+TEST(Monitor, ProgressOfTheTables)
+{
+  Listener listener;
+  const RectifiedFlow<3> flow(volume().Source(), OpenMPExecutor(), listener.Monitor());
+  EXPECT_TRUE(static_cast<bool>(flow));
+  listener.ExpectMonotone("tables");
+}
+
+TEST(Monitor, ProgressOfTheFlow)
+{
+  const RectifiedFlow<3> flow = makeFlow(volume());
+  const Points<3> seeds = randomPoints<3>(flow.Size(), ParticleCount);
+  Points<3> positions(seeds.size());
+  const double* from = seeds.data()->data();
+  double* to = positions.data()->data();
+  for (const Integrator method : AllIntegrators)
+  {
+    Listener forth;
+    EXPECT_FALSE(
+      flow.Forward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), forth.Monitor())
+        .Cancelled);
+    forth.ExpectMonotone("forward, " + nameOf(method));
+    Listener back;
+    EXPECT_FALSE(
+      flow.Backward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), back.Monitor())
+        .Cancelled);
+    back.ExpectMonotone("backward, " + nameOf(method));
+  }
+  Points<3> path(3 * seeds.size());
+  Listener at;
+  EXPECT_FALSE(flow
+                 .ForwardAt(from, ParticleCount, { 0.1, 0.5, 1.0 }, path.data()->data(), steps(16),
+                   OpenMPExecutor(), at.Monitor())
+                 .Cancelled);
+  at.ExpectMonotone("at times");
+}
+
+TEST(Monitor, DoesNotChangeTheResult)
+{
+  Listener listener;
+  const RectifiedFlow<3> watched(volume().Source(), OpenMPExecutor(), listener.Monitor());
+  const RectifiedFlow<3> flow = makeFlow(volume());
+  const Points<3> seeds = randomPoints<3>(flow.Size(), 5000);
+  Points<3> positions(seeds.size());
+  Listener other;
+  watched.Forward(seeds.data()->data(), 5000, positions.data()->data(), FlowOptions(),
+    OpenMPExecutor(), other.Monitor());
+  EXPECT_TRUE(sameBits<3>(positions, runForward(flow, seeds)));
+}
+
+TEST(Monitor, CancelTheTables)
+{
+  Listener listener;
+  listener.Limit = 0.0;
+  const RectifiedFlow<3> flow(volume().Source(), OpenMPExecutor(), listener.Monitor());
+  EXPECT_FALSE(static_cast<bool>(flow));
+}
+
+TEST(Monitor, CancelTheFlow)
+{
+  const RectifiedFlow<3> flow = makeFlow(volume());
+  const Points<3> seeds = randomPoints<3>(flow.Size(), ParticleCount);
+  Points<3> positions(3 * seeds.size());
+  const double* from = seeds.data()->data();
+  double* to = positions.data()->data();
+  for (const double limit : { 0.0, 0.3 })
+  {
+    for (const Integrator method : AllIntegrators)
+    {
+      Listener forth;
+      forth.Limit = limit;
+      EXPECT_TRUE(
+        flow.Forward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), forth.Monitor())
+          .Cancelled)
+        << nameOf(method);
+      EXPECT_LT(forth.Last, limit == 0.0 ? 0.9 : 1.1) << "went on after it was cancelled";
+      Listener back;
+      back.Limit = limit;
+      EXPECT_TRUE(
+        flow.Backward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), back.Monitor())
+          .Cancelled)
+        << nameOf(method);
+      EXPECT_LT(back.Last, limit == 0.0 ? 0.9 : 1.1) << "went on after it was cancelled";
+    }
+    Listener at;
+    at.Limit = limit;
+    EXPECT_TRUE(flow
+                  .ForwardAt(from, ParticleCount, { 0.1, 0.5, 1.0 }, to, FlowOptions(),
+                    OpenMPExecutor(), at.Monitor())
+                  .Cancelled);
+  }
+}
+
+} // namespace
+} // namespace RectifiedTransport

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Positions at intermediate times, all of one run.
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+const std::vector<double> Moments = { 0.0, 1e-4, 0.03, 0.2, 0.5, 0.77, 0.95, 0.999, 1.0 };
+
+// The positions at each time.
+template <int Dimension>
+std::vector<Points<Dimension>> forwardAt(const RectifiedFlow<Dimension>& flow,
+  const NotDeduced<Points<Dimension>>& seeds, const std::vector<double>& times,
+  const FlowOptions& options)
+{
+  Points<Dimension> all(seeds.size() * times.size());
+  flow.ForwardAt(seeds.data()->data(), static_cast<std::int64_t>(seeds.size()), times,
+    all.data()->data(), options);
+  std::vector<Points<Dimension>> positions(times.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    positions[i % times.size()].push_back(all[i]);
+  }
+  return positions;
+}
+
+template <class T>
+class Times : public testing::Test
+{
+};
+
+template <int Dimension>
+using Dim = std::integral_constant<int, Dimension>;
+using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+TYPED_TEST_SUITE(Times, Dimensions);
+
+template <int Dimension>
+TestDensity<Dimension> density()
+{
+  if constexpr (Dimension == 1)
+  {
+    return twoGaussians<1>({ 200 });
+  }
+  else if constexpr (Dimension == 2)
+  {
+    return twoGaussians<2>({ 110, 80 });
+  }
+  else
+  {
+    return twoGaussians<3>({ 24, 33, 28 });
+  }
+}
+
+// The seeds at 0, Forward's result at 1, to the last bit.
+TYPED_TEST(Times, Ends)
+{
+  constexpr int Dimension = TypeParam::value;
+  const RectifiedFlow<Dimension> flow = makeFlow(density<Dimension>());
+  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 700);
+  for (const Integrator method : AllIntegrators)
+  {
+    const FlowOptions options = steps(24, method);
+    const auto positions = forwardAt(flow, seeds, Moments, options);
+    EXPECT_TRUE(sameBits<Dimension>(positions.front(), seeds)) << nameOf(method);
+    EXPECT_TRUE(sameBits<Dimension>(positions.back(), runForward(flow, seeds, options)))
+      << nameOf(method);
+  }
+}
+
+TYPED_TEST(Times, Oracle)
+{
+  constexpr int Dimension = TypeParam::value;
+  const TestDensity<Dimension> target = density<Dimension>();
+  const RectifiedFlow<Dimension> flow = makeFlow(target);
+  const Oracle<Dimension> oracle(target.Values, target.Size);
+  const Points<Dimension> seeds = randomPoints<Dimension>(target.Size, 60);
+  std::vector<Points<Dimension>> truth;
+  for (const double time : Moments)
+  {
+    truth.push_back(oracle.Forward(seeds, time));
+  }
+  for (const Integrator method : AllIntegrators)
+  {
+    FlowOptions options = steps(method == Integrator::Euler ? 2000 : 64, method);
+    options.Tolerance = 0.01;
+    const auto positions = forwardAt(flow, seeds, Moments, options);
+    for (std::size_t i = 0; i < Moments.size(); ++i)
+    {
+      EXPECT_LT(comparePositions<Dimension>(positions[i], truth[i]).Mean, 0.05)
+        << nameOf(method) << " at " << Moments[i];
+    }
+  }
+}
+
+// Which other times are asked for does not matter, nor does asking twice.
+TYPED_TEST(Times, AnyChoice)
+{
+  constexpr int Dimension = TypeParam::value;
+  const RectifiedFlow<Dimension> flow = makeFlow(density<Dimension>());
+  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 300);
+  for (const Integrator method : AllIntegrators)
+  {
+    const FlowOptions options = steps(24, method);
+    const auto all = forwardAt(flow, seeds, Moments, options);
+    const auto some = forwardAt(flow, seeds, { 0.5, 0.5, 0.95 }, options);
+    EXPECT_TRUE(sameBits<Dimension>(some[0], all[4])) << nameOf(method);
+    EXPECT_TRUE(sameBits<Dimension>(some[1], all[4])) << nameOf(method);
+    EXPECT_TRUE(sameBits<Dimension>(some[2], all[6])) << nameOf(method);
+  }
+}
+
+// Until the box is smaller than the domain, particles go straight to the centroid.
+TEST(TimesStraight, ToTheCentroid)
+{
+  const TestDensity<2> target = twoGaussians<2>({ 64, 64 });
+  const RectifiedFlow<2> flow = makeFlow(target);
+  const Points<2> seeds = { { 30.0, 33.0 } };
+  const Point<2> centroid = flow.Centroid();
+  const auto positions = forwardAt(flow, seeds, { 0.1, 0.25 }, FlowOptions());
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double way = centroid[axis] - seeds[0][axis];
+    EXPECT_NEAR(positions[0][0][axis], seeds[0][axis] + 0.1 * way, 1e-9);
+    EXPECT_NEAR(positions[1][0][axis], seeds[0][axis] + 0.25 * way, 1e-9);
+  }
+}
+
+} // namespace
+} // namespace RectifiedTransport
