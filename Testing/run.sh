@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing, builds, and runs every test; ctest's summary comes last.
+source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
+
+usage()
+{
+  cat << 'TEXT'
+usage: bash Testing/run.sh [--long] [--gui] [--asan] [--vtk91] [--all]
+  Builds Release into build/ and runs its tests. Further legs:
+  --long   also the tests that take minutes
+  --gui    also the tests that drive ParaView's own window, on a virtual display
+  --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
+  --vtk91  the tests against a plain VTK 9.1, unpacked into build-vtk91/
+  --all    all of these
+TEXT
+}
+
+long=0 gui=0 asan=0 vtk91=0
+for argument in "$@"; do
+  case "$argument" in
+    --long) long=1 ;;
+    --gui) gui=1 ;;
+    --asan) asan=1 ;;
+    --vtk91) vtk91=1 ;;
+    --all) long=1 gui=1 asan=1 vtk91=1 ;;
+    --help) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+# run_tests FOLDER CTEST-ARGUMENT...
+run_tests()
+{
+  local folder="$1"
+  shift
+  say "Tests of $folder"
+  with_display ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@" < /dev/null ||
+    failed="$failed $folder"
+}
+
+run_asan()
+{
+  configure_and_build "$root/build-asan" --preset asan
+  run_tests "$root/build-asan" -LE '^(long|gui)$'
+}
+
+run_vtk91()
+{
+  local folder="$root/build-vtk91" prefix="$root/build-vtk91/prefix" arch
+  need $packages_vtk91
+  arch="$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
+  # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.
+  if [ ! -f "$prefix/complete" ]; then
+    rm -rf "$prefix"
+    mkdir -p "$prefix/debs"
+    chmod 777 "$prefix/debs"
+    (
+      cd "$prefix/debs"
+      apt-get download libvtk9-dev libvtk9.1 libvtk9.1-qt vtk9 python3-vtk9 libvtk9-java
+      for package in *.deb; do
+        dpkg -x "$package" "$prefix"
+      done
+    )
+    touch "$prefix/complete"
+  fi
+  configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Release \
+    -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=OFF \
+    -DVTK_DIR="$prefix/usr/lib/$arch/cmake/vtk-9.1"
+  LD_LIBRARY_PATH="$prefix/usr/lib/$arch" \
+    PYTHONPATH="$prefix/usr/lib/python3/dist-packages" run_tests "$folder" -LE '^(long|gui)$'
+}
+
+failed=""
+skipped=""
+need $packages_build $packages_render $packages_test
+if [ $long = 0 ]; then
+  skipped="$skipped|long"
+fi
+if [ $gui = 0 ]; then
+  skipped="$skipped|gui"
+else
+  need $packages_gui
+fi
+if [ $asan = 1 ]; then
+  run_asan
+fi
+if [ $vtk91 = 1 ]; then
+  run_vtk91
+fi
+build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
+run_tests "$build" -LE "^(none$skipped)\$"
+if [ -n "$failed" ]; then
+  echo "Failed tests in:$failed" >&2
+  exit 1
+fi
