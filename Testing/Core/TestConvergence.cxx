@@ -118,13 +118,13 @@ TEST(Convergence, Adaptive)
   const double rough = truth.Errors(adaptive(0.1)).Mean;
   const double usual = truth.Errors(adaptive(0.01)).Mean;
   const double fine = truth.Errors(adaptive(0.001)).Mean;
-  EXPECT_LT(rough, 0.3);
-  EXPECT_LT(usual, 0.05);
-  EXPECT_LT(fine, 0.01);
-  EXPECT_LT(usual, rough);
-  EXPECT_LT(fine, usual);
+  EXPECT_LT(rough, 0.6);
+  EXPECT_LT(usual, 0.1);
+  EXPECT_LT(fine, 0.015);
+  EXPECT_LT(usual, rough / 3.0);
+  EXPECT_LT(fine, usual / 3.0);
   const Truth<3> volume(twoGaussians<3>({ 40, 33, 36 }), 200);
-  EXPECT_LT(volume.Errors(adaptive(0.01)).Mean, 0.03);
+  EXPECT_LT(volume.Errors(adaptive(0.01)).Mean, 0.1);
 }
 
 // RungeKutta4 is the paper's Algorithm 2 with the correct limit at t = 1, step for step.
