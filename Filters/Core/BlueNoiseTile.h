@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The toroidal blue-noise point sets that are repeated over space. Generated and explained by
+// Generators/GenerateBlueNoiseTile.cxx.
+#ifndef RectifiedTransport_BlueNoiseTile_h
+#define RectifiedTransport_BlueNoiseTile_h
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Coordinates are in units of 1/65536 of the tile's side, a point's together. Points are in Morton
+// order, axis 0 in the lowest bit: the points of a dyadic cell follow one another.
+template <int Dimension>
+struct BlueNoiseTile
+{
+  static constexpr int NumberOfPoints = 4096;
+  static const std::uint16_t Coordinates[NumberOfPoints * Dimension];
+};
+
+template <>
+const std::uint16_t BlueNoiseTile<2>::Coordinates[NumberOfPoints * 2];
+template <>
+const std::uint16_t BlueNoiseTile<3>::Coordinates[NumberOfPoints * 3];
+
+} // namespace RectifiedTransport
+
+#endif

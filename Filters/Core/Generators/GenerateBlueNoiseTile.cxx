@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Generates BlueNoiseTile2D.cxx and BlueNoiseTile3D.cxx, the toroidal point sets behind
+// SeedPattern::BlueNoise. Not part of the build; one minute in 2D and a few in 3D. In Filters/Core:
+//
+//   g++ -O2 -std=c++17 -ffp-contract=off Generators/GenerateBlueNoiseTile.cxx -o /tmp/generate
+//   /tmp/generate 2 BlueNoiseTile2D.cxx
+//   /tmp/generate 3 BlueNoiseTile3D.cxx
+//
+// The result is the same on every machine: only + - * / and sqrt of IEEE doubles are used.
+//
+// Method: points repel each other by a Gaussian of about the mean spacing, which empties the low
+// frequencies of their spectrum and leaves them amorphous; a second stage adds a spring between
+// points nearer than a chosen distance, which lifts the smallest spacings almost to the mean one
+// without ordering the rest. A narrower Gaussian would crystallise instead.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace
+{
+
+// Lengths are in units of the mean spacing: one point a unit of area or volume.
+template <int Dimension>
+struct Settings;
+
+template <>
+struct Settings<2>
+{
+  static constexpr int NumberOfPoints = 4096;
+  static constexpr double Side = 64.0;
+  static constexpr double LargestSpacing = 1.0745699318235419; // of the hexagonal lattice
+  static constexpr double Sigma = 0.95;
+  static constexpr double SmallestSpacing = 0.896; // relative to the largest possible
+  static constexpr int Iterations = 2000;          // of each stage
+  static constexpr std::uint64_t RandomSeed = 1;
+};
+
+template <>
+struct Settings<3>
+{
+  static constexpr int NumberOfPoints = 4096;
+  static constexpr double Side = 16.0;
+  static constexpr double LargestSpacing = 1.1224620483093730; // of the face-centred cubic lattice
+  static constexpr double Sigma = 0.8;
+  static constexpr double SmallestSpacing = 0.86;
+  static constexpr int Iterations = 2000;
+  static constexpr std::uint64_t RandomSeed = 1;
+};
+
+constexpr double SpringStiffness = 2.0;
+// Where the Gaussian is cut, in sigmas. Much nearer, and its spectrum is no longer positive where
+// it matters: points would cluster.
+constexpr double Cut = 6.0;
+
+// exp(-x) for 0 <= x <= 18 to ten digits, without the machine's library.
+double decay(double x)
+{
+  const double y = -x / 64.0;
+  double sum = 1.0;
+  for (int n = 9; n >= 1; --n)
+  {
+    sum = 1.0 + y * sum / n;
+  }
+  for (int squaring = 0; squaring < 6; ++squaring)
+  {
+    sum *= sum;
+  }
+  return sum;
+}
+
+class RandomNumbers
+{
+public:
+  explicit RandomNumbers(std::uint64_t seed)
+    : State(seed)
+  {
+  }
+  double operator()()
+  {
+    this->State += 0x9E3779B97F4A7C15u;
+    std::uint64_t z = this->State;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+
+private:
+  std::uint64_t State;
+};
+
+template <int Dimension>
+using Vector = std::array<double, Dimension>;
+
+template <int Dimension>
+class Relaxation
+{
+  using Set = Settings<Dimension>;
+  using VectorType = Vector<Dimension>;
+
+public:
+  Relaxation()
+    : Positions(Set::NumberOfPoints)
+    , Velocities(Set::NumberOfPoints)
+    , Forces(Set::NumberOfPoints)
+  {
+    RandomNumbers random(Set::RandomSeed);
+    for (VectorType& position : this->Positions)
+    {
+      for (double& coordinate : position)
+      {
+        coordinate = Set::Side * random();
+      }
+    }
+  }
+
+  std::vector<std::array<std::uint16_t, Dimension>> Run()
+  {
+    this->Minimise(0.0, "repulsion");
+    this->Minimise(Set::SmallestSpacing * Set::LargestSpacing, "spacing");
+    return this->Quantise();
+  }
+
+  // The distances of nearest neighbours, relative to the largest possible: smallest and mean.
+  std::array<double, 2> Spacing(std::vector<VectorType> positions)
+  {
+    this->Positions.swap(positions);
+    this->FindNeighbours(2.5);
+    std::vector<double> nearest(Set::NumberOfPoints, Set::Side * Set::Side);
+    this->VisitPairs([&](int i, int j, const VectorType&, double squared) {
+      nearest[i] = std::min(nearest[i], squared);
+      nearest[j] = std::min(nearest[j], squared);
+    });
+    double smallest = Set::Side;
+    double sum = 0.0;
+    for (double squared : nearest)
+    {
+      const double distance = std::sqrt(squared) / Set::LargestSpacing;
+      smallest = std::min(smallest, distance);
+      sum += distance;
+    }
+    this->Positions.swap(positions);
+    return { smallest, sum / Set::NumberOfPoints };
+  }
+
+  static std::vector<VectorType> Dequantise(
+    const std::vector<std::array<std::uint16_t, Dimension>>& points)
+  {
+    std::vector<VectorType> positions(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      for (int a = 0; a < Dimension; ++a)
+      {
+        positions[i][a] = points[i][a] * (Set::Side / 65536.0);
+      }
+    }
+    return positions;
+  }
+
+private:
+  // Fast inertial relaxation (Bitzek et al. 2006): the momentum is dropped whenever it climbs.
+  void Minimise(double springLength, const char* stage)
+  {
+    const double reach = Cut * Set::Sigma;
+    const double skin = 0.5;
+    double timeStep = 0.05;
+    double steering = 0.1;
+    int descending = 0;
+    double moved = skin;
+    std::fill(this->Velocities.begin(), this->Velocities.end(), VectorType{});
+    for (int iteration = 0; iteration < Set::Iterations; ++iteration)
+    {
+      if (moved >= skin / 2.0)
+      {
+        this->FindNeighbours(reach + skin);
+        moved = 0.0;
+      }
+      this->ComputeForces(springLength);
+      double power = 0.0;
+      double force = 0.0;
+      double speed = 0.0;
+      for (int i = 0; i < Set::NumberOfPoints; ++i)
+      {
+        for (int a = 0; a < Dimension; ++a)
+        {
+          power += this->Forces[i][a] * this->Velocities[i][a];
+          force += this->Forces[i][a] * this->Forces[i][a];
+          speed += this->Velocities[i][a] * this->Velocities[i][a];
+        }
+      }
+      if (power > 0.0)
+      {
+        if (++descending > 5)
+        {
+          timeStep = std::min(1.1 * timeStep, 1.0);
+          steering *= 0.99;
+        }
+      }
+      else
+      {
+        descending = 0;
+        timeStep *= 0.5;
+        steering = 0.1;
+        speed = 0.0;
+        std::fill(this->Velocities.begin(), this->Velocities.end(), VectorType{});
+      }
+      moved += this->Step(timeStep, steering, force > 0.0 ? std::sqrt(speed / force) : 0.0);
+      if ((iteration + 1) % 500 == 0)
+      {
+        std::fprintf(stderr, "%s %d: force %.2e\n", stage, iteration + 1,
+          std::sqrt(force / Set::NumberOfPoints));
+      }
+    }
+  }
+
+  // Moves the points and returns the largest distance any of them moved.
+  double Step(double timeStep, double steering, double forceToSpeed)
+  {
+    double largest = 0.0;
+    for (int i = 0; i < Set::NumberOfPoints; ++i)
+    {
+      double squared = 0.0;
+      for (int a = 0; a < Dimension; ++a)
+      {
+        double& velocity = this->Velocities[i][a];
+        velocity =
+          (1.0 - steering) * velocity + (steering * forceToSpeed + timeStep) * this->Forces[i][a];
+        const double step = std::min(std::max(timeStep * velocity, -0.1), 0.1);
+        squared += step * step;
+        double& x = this->Positions[i][a];
+        x += step;
+        x = x < 0.0 ? x + Set::Side : x;
+        x = x >= Set::Side ? x - Set::Side : x;
+      }
+      largest = std::max(largest, squared);
+    }
+    return std::sqrt(largest);
+  }
+
+  void ComputeForces(double springLength)
+  {
+    std::fill(this->Forces.begin(), this->Forces.end(), VectorType{});
+    const double sigmaSquared = Set::Sigma * Set::Sigma;
+    this->VisitPairs([&](int i, int j, const VectorType& offset, double squared) {
+      double strength = 0.0;
+      if (squared < Cut * Cut * sigmaSquared)
+      {
+        strength = decay(squared / (2.0 * sigmaSquared)) / sigmaSquared;
+      }
+      if (squared < springLength * springLength)
+      {
+        const double distance = std::sqrt(squared);
+        strength += 2.0 * SpringStiffness * (springLength - distance) / distance;
+      }
+      for (int a = 0; a < Dimension; ++a)
+      {
+        this->Forces[i][a] += strength * offset[a];
+        this->Forces[j][a] -= strength * offset[a];
+      }
+    });
+  }
+
+  template <class F>
+  void VisitPairs(F&& visit) const
+  {
+    for (int i = 0; i < Set::NumberOfPoints; ++i)
+    {
+      for (int j : this->Neighbours[i])
+      {
+        VectorType offset;
+        visit(i, j, offset, this->Offset(i, j, offset));
+      }
+    }
+  }
+
+  // The shortest way from j to i round the torus; returns its square.
+  double Offset(int i, int j, VectorType& offset) const
+  {
+    double squared = 0.0;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      double d = this->Positions[i][a] - this->Positions[j][a];
+      d = d > Set::Side / 2.0 ? d - Set::Side : d;
+      d = d < -Set::Side / 2.0 ? d + Set::Side : d;
+      offset[a] = d;
+      squared += d * d;
+    }
+    return squared;
+  }
+
+  // Each pair once, in the list of its larger index, by cells of at least half the reach.
+  void FindNeighbours(double reach)
+  {
+    const int cells = static_cast<int>(2.0 * Set::Side / reach);
+    std::vector<std::vector<int>> members(this->Power(cells));
+    std::vector<std::array<int, Dimension>> places(Set::NumberOfPoints);
+    for (int i = 0; i < Set::NumberOfPoints; ++i)
+    {
+      int cell = 0;
+      for (int a = Dimension - 1; a >= 0; --a)
+      {
+        places[i][a] =
+          std::min(static_cast<int>(this->Positions[i][a] * cells / Set::Side), cells - 1);
+        cell = cell * cells + places[i][a];
+      }
+      members[cell].push_back(i);
+    }
+    this->Neighbours.assign(Set::NumberOfPoints, {});
+    for (int i = 0; i < Set::NumberOfPoints; ++i)
+    {
+      for (int k = 0; k < this->Power(5); ++k)
+      {
+        int cell = 0;
+        int digits = k;
+        for (int a = Dimension - 1; a >= 0; --a)
+        {
+          cell = cell * cells + (places[i][a] + digits % 5 - 2 + cells) % cells;
+          digits /= 5;
+        }
+        for (int j : members[cell])
+        {
+          VectorType offset;
+          if (j < i && this->Offset(i, j, offset) < reach * reach)
+          {
+            this->Neighbours[i].push_back(j);
+          }
+        }
+      }
+    }
+  }
+
+  static int Power(int base)
+  {
+    int result = 1;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      result *= base;
+    }
+    return result;
+  }
+
+  // In Morton order, so that every dyadic cell of the tile holds a contiguous range of points.
+  std::vector<std::array<std::uint16_t, Dimension>> Quantise() const
+  {
+    std::vector<std::array<std::uint16_t, Dimension>> points(Set::NumberOfPoints);
+    for (int i = 0; i < Set::NumberOfPoints; ++i)
+    {
+      for (int a = 0; a < Dimension; ++a)
+      {
+        const double scaled = std::floor(this->Positions[i][a] * (65536.0 / Set::Side) + 0.5);
+        points[i][a] = static_cast<std::uint16_t>(static_cast<int>(scaled) % 65536);
+      }
+    }
+    const auto morton = [](const std::array<std::uint16_t, Dimension>& point) {
+      std::uint64_t code = 0;
+      for (int bit = 15; bit >= 0; --bit)
+      {
+        for (int a = Dimension - 1; a >= 0; --a)
+        {
+          code = code << 1 | (point[a] >> bit & 1u);
+        }
+      }
+      return code;
+    };
+    std::sort(points.begin(), points.end(),
+      [&](const auto& left, const auto& right) { return morton(left) < morton(right); });
+    return points;
+  }
+
+  std::vector<VectorType> Positions;
+  std::vector<VectorType> Velocities;
+  std::vector<VectorType> Forces;
+  std::vector<std::vector<int>> Neighbours;
+};
+
+template <int Dimension>
+int writeTile(const char* fileName)
+{
+  Relaxation<Dimension> relaxation;
+  const auto points = relaxation.Run();
+  const auto spacing = relaxation.Spacing(Relaxation<Dimension>::Dequantise(points));
+  std::FILE* file = std::fopen(fileName, "w");
+  if (!file)
+  {
+    std::fprintf(stderr, "cannot write %s\n", fileName);
+    return EXIT_FAILURE;
+  }
+  std::fprintf(file,
+    "// SPDX-License-Identifier: BSD-3-Clause\n"
+    "// Generated by Generators/GenerateBlueNoiseTile.cxx: do not edit.\n"
+    "// Nearest neighbours, relative to the largest possible spacing: smallest %.4f, mean %.4f.\n"
+    "#include \"BlueNoiseTile.h\"\n\n"
+    "namespace RectifiedTransport\n{\n\n"
+    "// clang-format off\n"
+    "template <>\n"
+    "const std::uint16_t BlueNoiseTile<%d>::Coordinates[NumberOfPoints * %d] = {\n",
+    spacing[0], spacing[1], Dimension, Dimension);
+  std::size_t column = 0;
+  for (const auto& point : points)
+  {
+    for (std::uint16_t coordinate : point)
+    {
+      char text[8];
+      std::snprintf(text, sizeof(text), "%u,", static_cast<unsigned>(coordinate));
+      if (column + std::strlen(text) > 100)
+      {
+        std::fputc('\n', file);
+        column = 0;
+      }
+      std::fputs(text, file);
+      column += std::strlen(text);
+    }
+  }
+  std::fputs("\n};\n// clang-format on\n\n}\n", file);
+  std::fprintf(stderr, "spacing: smallest %.4f, mean %.4f\n", spacing[0], spacing[1]);
+  return std::fclose(file) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  const int dimension = argc == 3 ? std::atoi(argv[1]) : 0;
+  if (dimension == 2)
+  {
+    return writeTile<2>(argv[2]);
+  }
+  if (dimension == 3)
+  {
+    return writeTile<3>(argv[2]);
+  }
+  std::fprintf(stderr, "usage: %s 2|3 file\n", argv[0]);
+  return EXIT_FAILURE;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random numbers and roots with the same bits on every machine and in every standard library.
+#ifndef RectifiedTransport_ReproducibleMath_h
+#define RectifiedTransport_ReproducibleMath_h
+
+#include <cmath>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// The output function of SplitMix64 (Steele, Lea and Flood 2014).
+inline std::uint64_t mixBits(std::uint64_t z)
+{
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+// Word `counter` of the stream `seed`: any of them without those before it.
+inline std::uint64_t randomWord(std::uint64_t seed, std::uint64_t counter)
+{
+  constexpr std::uint64_t increment = 0x9E3779B97F4A7C15u;
+  return mixBits(mixBits(seed + increment) + (counter + 1) * increment);
+}
+
+// A word as a fraction in [0, 1).
+inline double unitReal(std::uint64_t word)
+{
+  return static_cast<double>(word >> 11) * 0x1p-53;
+}
+
+inline double cubeRoot(double x)
+{
+  if (!(x > 0.0))
+  {
+    return 0.0;
+  }
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);
+  for (; exponent % 3 != 0; --exponent)
+  {
+    mantissa *= 2.0;
+  }
+  double y = 1.0;
+  for (int iteration = 0; iteration < 8; ++iteration)
+  {
+    y = (2.0 * y + mantissa / (y * y)) / 3.0;
+  }
+  return std::ldexp(y, exponent / 3);
+}
+
+template <int Degree>
+double root(double x)
+{
+  static_assert(Degree >= 1 && Degree <= 3, "no such root");
+  return Degree == 1 ? x : Degree == 2 ? std::sqrt(x) : cubeRoot(x);
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Seeds.h"
+
+#include "BlueNoise.h"
+#include "ReproducibleMath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <int Dimension>
+void checkLengths(const Point<Dimension>& lengths)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    if (!(lengths[a] > 0.0) || !std::isfinite(lengths[a]))
+    {
+      throw std::invalid_argument("the sides of the seeds' box must be positive and finite, but "
+                                  "side " +
+        std::to_string(a) + " is " + std::to_string(lengths[a]));
+    }
+  }
+}
+
+void checkCount(std::int64_t count)
+{
+  if (count < 0)
+  {
+    throw std::invalid_argument(
+      "the number of seeds must not be negative, but is " + std::to_string(count));
+  }
+}
+
+template <int Dimension>
+void checkGrid(const GridSize<Dimension>& size)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    if (size[a] < 0)
+    {
+      throw std::invalid_argument("the seeds' grid must not have a negative size, but axis " +
+        std::to_string(a) + " has " + std::to_string(size[a]));
+    }
+  }
+}
+
+template <int Dimension>
+using AxisOrder = std::array<int, Dimension>;
+
+template <int Dimension>
+AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
+{
+  AxisOrder<Dimension> order;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    order[a] = a;
+  }
+  std::stable_sort(
+    order.begin(), order.end(), [&](int a, int b) { return lengths[a] < lengths[b]; });
+  return order;
+}
+
+// How many of `count` cubes lie along axis order[first] of a box of the axes order[first] and
+// after; a real number.
+template <int Dimension>
+double cubesAlong(
+  const Point<Dimension>& lengths, const AxisOrder<Dimension>& order, int first, double count)
+{
+  double power = count;
+  for (int k = first + 1; k < Dimension; ++k)
+  {
+    power *= lengths[order[first]] / lengths[order[k]];
+  }
+  switch (Dimension - first)
+  {
+    case 1:
+      return power;
+    case 2:
+      return root<2>(power);
+    default:
+      return root<3>(power);
+  }
+}
+
+// Both roundings of every axis in turn, the shortest first; the axes after it make up for its
+// rounding, so that only the last one's is left in the total.
+template <int Dimension>
+class LatticeChoice
+{
+public:
+  LatticeChoice(const Point<Dimension>& lengths, std::int64_t count)
+    : Lengths(lengths)
+    , Order(shortestFirst<Dimension>(lengths))
+    , Count(static_cast<double>(count))
+  {
+    GridSize<Dimension> size;
+    size.fill(1);
+    this->Try(size, 0, this->Count, 0.0);
+  }
+  const GridSize<Dimension>& Best() const { return this->Size; }
+
+private:
+  void Try(GridSize<Dimension> size, int k, double remaining, double stretch)
+  {
+    if (k == Dimension)
+    {
+      // A hundredth of the points missing is as bad as cells a tenth too long.
+      const double cost = std::abs(remaining - 1.0) / std::max(remaining, 1e-300) + 0.1 * stretch;
+      if (cost < this->Cost)
+      {
+        this->Cost = cost;
+        this->Size = size;
+      }
+      return;
+    }
+    const double ideal = cubesAlong<Dimension>(this->Lengths, this->Order, k, remaining);
+    const double lower = std::max(std::floor(ideal), 1.0);
+    const double upper = std::max(std::ceil(ideal), 1.0);
+    for (double n : { lower, upper })
+    {
+      size[this->Order[k]] = static_cast<std::int64_t>(n);
+      // Cells longer than a box less than one cell thick are nobody's fault.
+      const double ratio = ideal < 1.0 ? 1.0 : std::max(n / ideal, ideal / n);
+      this->Try(size, k + 1, remaining / n, stretch + (ratio - 1.0));
+    }
+  }
+
+  Point<Dimension> Lengths;
+  AxisOrder<Dimension> Order;
+  double Count;
+  double Cost = std::numeric_limits<double>::infinity();
+  GridSize<Dimension> Size;
+};
+
+// Slabs across the shortest axis, each as thick as its share of the points; rows in slabs, boxes
+// in rows.
+template <int Dimension>
+class JitteredBoxes
+{
+public:
+  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints)
+    : Lengths(lengths)
+    , Order(shortestFirst<Dimension>(lengths))
+    , RandomSeed(randomSeed)
+    , UnitPoints(unitPoints)
+  {
+  }
+
+  // Points [first, first + count) fill the slab so far: order[k] and the axes after it are whole.
+  void Fill(int k, std::int64_t first, std::int64_t count) const
+  {
+    const std::int64_t slabs = this->NumberOfSlabs(k, count);
+    const std::int64_t smaller = count / slabs;
+    const std::int64_t larger = count % slabs;
+    std::int64_t begin = 0;
+    for (std::int64_t slab = 0; slab < slabs; ++slab)
+    {
+      const std::int64_t size = smaller + (slab < larger ? 1 : 0);
+      for (std::int64_t i = first + begin; i < first + begin + size; ++i)
+      {
+        const int axis = this->Order[k];
+        const double jitter =
+          unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
+        const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
+        this->UnitPoints[i * Dimension + axis] = place / static_cast<double>(count);
+      }
+      if (k + 1 < Dimension)
+      {
+        this->Fill(k + 1, first + begin, size);
+      }
+      begin += size;
+    }
+  }
+
+private:
+  std::int64_t NumberOfSlabs(int k, std::int64_t count) const
+  {
+    if (k + 1 == Dimension)
+    {
+      return count;
+    }
+    const double ideal =
+      cubesAlong<Dimension>(this->Lengths, this->Order, k, static_cast<double>(count));
+    return std::min(count, std::max<std::int64_t>(1, std::llround(ideal)));
+  }
+
+  Point<Dimension> Lengths;
+  AxisOrder<Dimension> Order;
+  std::uint64_t RandomSeed;
+  double* UnitPoints;
+};
+
+template <int Dimension>
+void generateRandom(std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+{
+  for (std::int64_t i = 0; i < count * Dimension; ++i)
+  {
+    unitPoints[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
+  }
+}
+
+// The fractions of i / phi^k, phi the root of phi^(Dimension + 1) = phi + 1, in 64-bit fixed point:
+// i may be large without loss.
+template <int Dimension>
+void generateLowDiscrepancy(std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+{
+  constexpr std::uint64_t steps[3][3] = {
+    { 0x9E3779B97F4A7C16u, 0, 0 },
+    { 0xC13FA9A902A6328Fu, 0x91E10DA5C79E7B1Du, 0 },
+    { 0xD1B54A32D192ED04u, 0xABC98388FB8FAC03u, 0x8CB92BA72F3D8DD7u },
+  };
+  for (int a = 0; a < Dimension; ++a)
+  {
+    std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a));
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      fraction += steps[Dimension - 1][a];
+      unitPoints[i * Dimension + a] = unitReal(fraction);
+    }
+  }
+}
+
+// Calls visit(cell) for every cell, axis 0 fastest.
+template <int Dimension, class F>
+void visitCells(const GridSize<Dimension>& size, F&& visit)
+{
+  std::int64_t total = 1;
+  for (std::int64_t n : size)
+  {
+    total *= n;
+  }
+  GridSize<Dimension> cell{};
+  for (std::int64_t i = 0; i < total; ++i)
+  {
+    visit(cell);
+    for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
+    {
+      cell[a] = 0;
+    }
+  }
+}
+
+} // namespace
+
+template <int Dimension>
+GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count)
+{
+  checkLengths<Dimension>(lengths);
+  checkCount(count);
+  if (count == 0)
+  {
+    return GridSize<Dimension>{};
+  }
+  return LatticeChoice<Dimension>(lengths, count).Best();
+}
+
+template <int Dimension>
+void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints)
+{
+  checkLengths<Dimension>(lengths);
+  checkCount(count);
+  if (count == 0)
+  {
+    return;
+  }
+  switch (pattern)
+  {
+    case SeedPattern::BlueNoise:
+      generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints);
+      return;
+    case SeedPattern::Jittered:
+      JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints).Fill(0, 0, count);
+      return;
+    case SeedPattern::LowDiscrepancy:
+      generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints);
+      return;
+    case SeedPattern::Random:
+      generateRandom<Dimension>(count, randomSeed, unitPoints);
+      return;
+    case SeedPattern::Lattice:
+      break;
+  }
+  throw std::invalid_argument(
+    "a lattice of seeds has a grid's number of points: use latticeSize and generateLattice");
+}
+
+template <int Dimension>
+void generateLattice(const GridSize<Dimension>& size, double* unitPoints)
+{
+  checkGrid<Dimension>(size);
+  visitCells<Dimension>(size, [&](const GridSize<Dimension>& cell) {
+    for (int a = 0; a < Dimension; ++a)
+    {
+      *unitPoints++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
+    }
+  });
+}
+
+template <int Dimension>
+void generateJitteredLattice(
+  const GridSize<Dimension>& size, std::uint64_t randomSeed, double* unitPoints)
+{
+  checkGrid<Dimension>(size);
+  std::uint64_t counter = 0;
+  visitCells<Dimension>(size, [&](const GridSize<Dimension>& cell) {
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const double jitter = unitReal(randomWord(randomSeed, counter++));
+      *unitPoints++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
+    }
+  });
+}
+
+template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
+template GridSize<2> latticeSize<2>(const Point<2>&, std::int64_t);
+template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
+
+template void generateSeeds<1>(SeedPattern, const Point<1>&, std::int64_t, std::uint64_t, double*);
+template void generateSeeds<2>(SeedPattern, const Point<2>&, std::int64_t, std::uint64_t, double*);
+template void generateSeeds<3>(SeedPattern, const Point<3>&, std::int64_t, std::uint64_t, double*);
+
+template void generateLattice<1>(const GridSize<1>&, double*);
+template void generateLattice<2>(const GridSize<2>&, double*);
+template void generateLattice<3>(const GridSize<3>&, double*);
+
+template void generateJitteredLattice<1>(const GridSize<1>&, std::uint64_t, double*);
+template void generateJitteredLattice<2>(const GridSize<2>&, std::uint64_t, double*);
+template void generateJitteredLattice<3>(const GridSize<3>&, std::uint64_t, double*);
+
+} // namespace RectifiedTransport
