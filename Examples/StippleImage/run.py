@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a photograph with dots, as a PNG and as an SVG."""
+import argparse
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+import rectified_example as example
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+
+def stipple(image, number):
+    """The dots of an image and the radius that gives them the photograph's amount of ink."""
+    dots = simple.SampleDensity(Input=image)
+    dots.InvertDensity = 1  # dark ink is mass
+    dots.NumberOfParticles = number
+    dots.UpdatePipeline()
+    result = dots.GetClientSideObject().GetOutputDataObject(0)
+    if result.GetNumberOfPoints() == 0:
+        sys.exit(1)  # the filter has said why
+    array = image.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetScalars()
+    black = 255.0 if array.GetDataTypeSize() == 1 else array.GetRange(-1)[1]
+    mass = result.GetPointData().GetArray("Mass").GetValue(0)
+    return dots, math.sqrt(mass / black / math.pi)
+
+
+def write_svg(path, points, bounds, radius):
+    """The dots as circles; SVG's y runs downwards."""
+    x0, x1, y0, y1 = bounds
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %g %g">\n'
+                   '<rect width="100%%" height="100%%" fill="white"/>\n' % (x1 - x0, y1 - y0))
+        for x, y in points:
+            file.write('<circle cx="%.2f" cy="%.2f" r="%.2f"/>\n' % (x - x0, y1 - y, radius))
+        file.write("</svg>\n")
+
+
+def write_png(path, dots, bounds, radius, longest):
+    """The dots as ParaView draws them, the picture as wide as the photograph's domain."""
+    x0, x1, y0, y1 = bounds
+    zoom = longest / max(x1 - x0, y1 - y0)
+    size = [round(zoom * (x1 - x0)), round(zoom * (y1 - y0))]
+    view = example.picture_view(size, [1, 1, 1])
+    shown = simple.Show(dots, view, "GeometryRepresentation")
+    shown.SetRepresentationType("Point Gaussian")
+    shown.ShaderPreset = "Plain circle"
+    shown.GaussianRadius = radius
+    simple.ColorBy(shown, None)
+    shown.DiffuseColor = shown.AmbientColor = [0, 0, 0]
+    view.InteractionMode = "2D"
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = [(x0 + x1) / 2, (y0 + y1) / 2, 0]
+    view.CameraPosition = [(x0 + x1) / 2, (y0 + y1) / 2, max(x1 - x0, y1 - y0)]
+    view.CameraViewUp = [0, 1, 0]
+    view.CameraParallelScale = (y1 - y0) / 2
+    simple.SaveScreenshot(path, view, ImageResolution=size)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("image", nargs="?", default=os.path.join(example.DATA, "raccoon.png"),
+                        help="a photograph in any format that ParaView reads")
+    parser.add_argument("--particles", type=int, default=20000, help="number of dots")
+    parser.add_argument("--pixels", type=int, default=2048, help="longest side of the PNG")
+    parser.add_argument("--output", default=".", help="folder of the pictures")
+    arguments = parser.parse_args()
+
+    example.load_plugin()
+    image = example.open_image(arguments.image)
+    dots, radius = stipple(image, arguments.particles)
+    extent = image.GetClientSideObject().GetOutputDataObject(0)
+    x, y = extent.GetSpacing()[:2]
+    bounds = [b + s for b, s in zip(extent.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
+
+    os.makedirs(arguments.output, exist_ok=True)
+    name = os.path.splitext(os.path.basename(arguments.image))[0]
+    path = os.path.join(arguments.output, "stipple-" + name)
+    points = vtk_to_numpy(dots.GetClientSideObject().GetOutputDataObject(0).GetPoints().GetData())
+    write_svg(path + ".svg", points[:, :2], bounds, radius)
+    write_png(path + ".png", dots, bounds, radius, arguments.pixels)
+    print("%d dots of radius %.2f pixels: %s.png, %s.svg" % (len(points), radius, path, path))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what is missing, builds, and remakes the examples' pictures in Examples/output.
+source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
+
+if [ $# -gt 0 ]; then
+  echo "usage: bash Examples/run.sh (examples take arguments themselves: see their README.md)"
+  [ "$1" = --help ]
+  exit
+fi
+
+need $packages_build $packages_render
+build_release
+
+output="$root/Examples/output"
+mkdir -p "$output"
+export RT_PLUGIN="$build/lib/paraview-5.11/plugins/RectifiedTransport/RectifiedTransport.so"
+for script in "$root"/Examples/*/run.py; do
+  say "$(basename "$(dirname "$script")")"
+  with_display pvpython "$script" --output "$output" < /dev/null
+done
+say "StippleImage in C++"
+with_display "$build/bin/StippleImage" "$root/Testing/Data/raccoon.png" \
+  "$output/stipple-cxx.png" < /dev/null
+
+say "The pictures are in $output:"
+ls "$output"

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The defaults and ranges of the XML, the C++ constructors and the documentation are the same."""
+import os
+import re
+import unittest
+
+from rt_proxies import proxies
+from rt_testing import SOURCE, Listener, density_image, main
+
+import rectifiedtransport
+
+
+def instance(proxy):
+    return getattr(rectifiedtransport, proxy.class_name)()
+
+
+def getter(prop):
+    return "G" + prop.command[1:]
+
+
+def numbers(text):
+    return [float(x) for x in text.split()]
+
+
+def header_comment(class_name, name):
+    """The comment above a property's setter in the header of a class or of its superclasses."""
+    with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
+        header = file.read()
+    found = re.search(r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s," % name, header, re.DOTALL)
+    if found:
+        return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
+    return header_comment(re.search(r'#include "(vtk\w*Algorithm)\.h"', header).group(1), name)
+
+
+def says_default(comment, text):
+    """Whether a comment names a default: «Default 8192», «Error (default)», «Off by default»."""
+    text = re.escape(text)
+    return any(re.search(pattern % text, comment, re.IGNORECASE) for pattern in (
+        r"\bdefault(?: is|,|:)? %s(?![\w]|\.\d)", r"(?<![\w.])%s \(default\)",
+        r"(?<![\w.])%s by default"))
+
+
+class Defaults(unittest.TestCase):
+    def each_value(self):
+        for proxy in proxies():
+            for name, prop in proxy.properties.items():
+                if prop.is_value:
+                    with self.subTest(proxy=proxy.label, property=name):
+                        yield proxy, prop
+
+    def test_constructor(self):
+        for proxy, prop in self.each_value():
+            value = getattr(instance(proxy), getter(prop))()
+            value = list(value) if isinstance(value, tuple) else [value]
+            self.assertEqual(value, numbers(prop.default))
+
+    def test_enumeration_texts(self):
+        for proxy, prop in self.each_value():
+            for value, text in prop.texts.items():
+                filter_ = instance(proxy)
+                getattr(filter_, prop.command)(int(value))
+                self.assertEqual(getattr(filter_, getter(prop) + "AsString")(), text)
+                getattr(filter_, "%sTo%s" % (prop.command, text))()
+                self.assertEqual(getattr(filter_, getter(prop))(), int(value))
+
+    def test_panel_text(self):
+        for _, prop in self.each_value():
+            self.assertTrue(prop.documentation.endswith("Default: %s." % prop.shown_default),
+                            prop.documentation)
+
+    def test_header_text(self):
+        for proxy, prop in self.each_value():
+            comment = header_comment(proxy.class_name, prop.name)
+            self.assertTrue(says_default(comment, prop.shown_default), comment)
+
+    def test_ranges(self):
+        """A value on the edge of a range runs; the next one outside is refused by name."""
+        for proxy, prop in self.each_value():
+            domain = prop.element.find("IntRangeDomain")
+            if domain is None:
+                continue
+            for edge, step in (("min", -1), ("max", 1)):
+                if domain.get(edge) is None:
+                    continue
+                for value, refused in ((int(domain.get(edge)), False),
+                                       (int(domain.get(edge)) + step, True)):
+                    filter_ = instance(proxy)
+                    if filter_.GetNumberOfInputPorts() > 0:
+                        filter_.SetInputData(density_image((4, 3)))
+                    heard = Listener(filter_)
+                    getattr(filter_, prop.command)(value)
+                    filter_.Update()
+                    if refused:
+                        self.assertIn(prop.name, heard.errors[0])
+                        self.assertIn(str(value), heard.errors[0])
+                        self.assertEqual(filter_.GetOutput().GetNumberOfPoints(), 0)
+                    else:
+                        self.assertEqual(heard.errors, [])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a user of pvpython reads when the input is wrong: one line that says what, and no output."""
+import unittest
+
+import numpy as np
+from rt_testing import Listener, density_image, load_plugin, main, output_of, producer
+
+simple = load_plugin()
+
+
+class Errors(unittest.TestCase):
+    def check(self, sampler, *parts):
+        """The filter's first error holds all the parts, in one line; the output is empty."""
+        heard = Listener(sampler.GetClientSideObject())
+        result = output_of(sampler)
+        self.assertEqual(result.GetClassName(), "vtkPolyData")
+        self.assertEqual(result.GetNumberOfPoints(), 0)
+        self.assertTrue(heard.errors)
+        message = heard.errors[0].strip().splitlines()[-1]
+        for part in parts:
+            self.assertIn(part, message)
+
+    def sampler(self, values, **properties):
+        shape = (4, len(values) // 4)
+        image = density_image(shape, values=np.asarray(values))
+        return simple.SampleDensity(Input=producer(simple, image), **properties)
+
+    def test_nan(self):
+        self.check(self.sampler([1, 1, np.nan, 1, 1, 1, np.inf, 1.0]), "Density", "2")
+
+    def test_negative(self):
+        self.check(self.sampler([1, -1, 1, 1, 1, 1, -3, 1.0]), "Density", "2", "1")
+
+    def test_negative_clamped(self):
+        sampler = self.sampler([1, -1, 1, 1, 1, 1, -3, 1.0], NegativeValues="Clamp")
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
+
+    def test_nothing(self):
+        self.check(self.sampler([0.0] * 8), "Density", "zero")
+
+    def test_missing_array(self):
+        sampler = self.sampler([1.0] * 8)
+        sampler.DensityArray = ["CELLS", "Mass"]
+        self.check(sampler, "Mass")
+
+    def test_component(self):
+        self.check(self.sampler([1.0] * 8, Component=3), "Component", "3")
+
+    def test_particles(self):
+        self.check(self.sampler([1.0] * 8, NumberOfParticles=0), "NumberOfParticles", "0")
+
+    def test_flow_time(self):
+        self.check(self.sampler([1.0] * 8, FlowTime=1.5), "FlowTime", "1.5")
+
+    def test_empty_input_is_no_error(self):
+        from vtkmodules.vtkCommonDataModel import vtkImageData
+        source = simple.TrivialProducer()
+        source.GetClientSideObject().SetOutput(vtkImageData())
+        sampler = simple.SampleDensity(Input=source)
+        heard = Listener(sampler.GetClientSideObject())
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 0)
+        self.assertEqual(heard.errors, [])
+
+    def test_seeds_outside_warn(self):
+        seeds = simple.UniformSeeds(NumberOfPoints=100, Bounds=[-6, 6, 0, 20, 0, 1])
+        image = density_image((12, 10))
+        sampler = simple.SampleDensity(Input=producer(simple, image), Seeds=seeds)
+        heard = Listener(sampler.GetClientSideObject())
+        result = output_of(sampler)
+        outside = int((np.array([seeds.GetClientSideObject().GetOutput().GetPoint(i)[0]
+                                 for i in range(100)]) < 0).sum())
+        self.assertEqual(result.GetNumberOfPoints(), 100)
+        self.assertEqual(len(heard.warnings), 1)
+        self.assertIn(str(outside), heard.warnings[0])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin in ParaView: where its filters are found, and what the panel says of them."""
+import unittest
+
+from rt_proxies import proxies
+from rt_testing import density_image, load_plugin, main, output_of, producer
+
+simple = load_plugin()
+
+
+class Plugin(unittest.TestCase):
+    def test_labels_are_the_names_in_python(self):
+        for proxy in proxies():
+            self.assertTrue(hasattr(simple, proxy.label.replace(" ", "").replace("-", "")),
+                            proxy.label)
+
+    def test_menu_and_representation(self):
+        for proxy in proxies():
+            hints = simple.servermanager.ProxyManager().GetProxyDefinition(
+                proxy.menu, proxy.element.get("name")).FindNestedElementByName("Hints")
+            self.assertEqual(
+                hints.FindNestedElementByName("ShowInMenu").GetAttribute("category"), "Transport")
+            self.assertEqual(
+                hints.FindNestedElementByName("RepresentationType").GetAttribute("type"),
+                "Point Gaussian")
+
+    def test_every_proxy_and_property_is_documented(self):
+        for proxy in proxies():
+            documentation = proxy.element.find("Documentation")
+            for attribute in ("short_help", "long_help"):
+                self.assertTrue(documentation.get(attribute), proxy.label)
+            for name, prop in proxy.properties.items():
+                with self.subTest(proxy=proxy.label, property=name):
+                    self.assertRegex(prop.documentation, r"^[A-Z0-9].*\.$")
+
+    def test_properties_are_named_by_themselves(self):
+        for proxy in proxies():
+            for name, prop in proxy.properties.items():
+                label = prop.element.get("label", name)
+                self.assertEqual(label.replace(" ", ""), name)
+
+    def test_integration_is_advanced(self):
+        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
+        for name in ("Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "Threading"):
+            self.assertEqual(sampler.GetProperty(name).GetPanelVisibility(), "advanced")
+
+    def test_array_is_chosen_from_points_and_cells(self):
+        for cells in (True, False):
+            sampler = simple.SampleDensity(Input=producer(simple, density_image(cells=cells)))
+            self.assertEqual(list(sampler.DensityArray),
+                             ["CELLS" if cells else "POINTS", "Density"])
+            self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
+
+    def test_only_images_are_accepted(self):
+        sphere = simple.Sphere()
+        sphere.UpdatePipeline()
+        with self.assertRaises(Exception):
+            simple.SampleDensity(Input=sphere)
+
+    def test_flow_time_is_animateable(self):
+        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
+        self.assertTrue(sampler.GetProperty("FlowTime").SMProperty.GetAnimateable())
+        self.assertFalse(sampler.GetProperty("NumberOfParticles").SMProperty.GetAnimateable())
+
+    def test_seeds_are_optional_and_can_be_taken_away(self):
+        seeds = simple.UniformSeeds(NumberOfPoints=77, Bounds=[0, 6, 0, 20, 0, 1])
+        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
+        self.assertIsNotNone(
+            sampler.GetProperty("Seeds").SMProperty.GetHints().FindNestedElementByName("Optional"))
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
+        sampler.Seeds = seeds
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 77)
+        sampler.Seeds = None
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
+
+
+if __name__ == "__main__":
+    main()

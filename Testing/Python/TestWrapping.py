@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The package rectifiedtransport in Python, without ParaView."""
+import unittest
+
+import numpy as np
+from rt_testing import density_image, main, positions
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import rectifiedtransport
+from rectifiedtransport import vtkTransportSampler, vtkUniformSeedSource
+
+
+class Wrapping(unittest.TestCase):
+    def test_version(self):
+        self.assertRegex(rectifiedtransport.__version__, r"^\d+\.\d+\.\d+$")
+
+    def test_only_what_is_public(self):
+        classes = {name for name in dir(rectifiedtransport) if name.startswith("vtk")}
+        self.assertLessEqual({"vtkTransportSampler", "vtkUniformSeedSource"}, classes)
+        self.assertFalse([name for name in dir(rectifiedtransport) if "Bridge" in name])
+
+    def test_abstract_classes_have_no_instances(self):
+        for base in (rectifiedtransport.vtkDensityAlgorithm,
+                     rectifiedtransport.vtkTransportAlgorithm):
+            with self.assertRaises((TypeError, NotImplementedError)):
+                base()
+
+    def test_source_feeds_sampler(self):
+        seeds = vtkUniformSeedSource()
+        seeds.SetBounds(0, 6, 0, 20, 0, 0)
+        seeds.SetNumberOfPoints(200)
+        sampler = vtkTransportSampler()
+        sampler.SetInputData(density_image())
+        sampler.SetSeedsConnection(seeds.GetOutputPort())
+        sampler.Update()
+        particles = sampler.GetOutput()
+        self.assertEqual(particles.GetNumberOfPoints(), 200)
+        start = vtk_to_numpy(particles.GetPointData().GetArray("SeedPosition"))
+        np.testing.assert_array_equal(start, positions(seeds.GetOutput()))
+        moved = vtk_to_numpy(particles.GetPointData().GetArray("Displacement"))
+        np.testing.assert_allclose(positions(particles), start + moved, atol=1e-12)
+
+
+if __name__ == "__main__":
+    main()

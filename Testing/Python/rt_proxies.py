@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads the plugin's XML: every concrete proxy with the properties that it takes over."""
+import glob
+import os
+import xml.etree.ElementTree as ElementTree
+
+from rt_testing import SOURCE
+
+
+class Property:
+    """A property of a proxy as its XML declares it."""
+
+    def __init__(self, element):
+        self.element = element
+        self.name = element.get("name")
+        self.command = element.get("command")
+        self.documentation = " ".join((element.findtext("Documentation") or "").split())
+        self.texts = {e.get("value"): e.get("text") for e in element.iter("Entry")}
+        self.boolean = element.find("BooleanDomain") is not None
+
+    @property
+    def default(self):
+        return self.element.get("default_values")
+
+    @property
+    def is_value(self):
+        """Whether it is numbers with one setter, not an input or an array's choice."""
+        return self.element.tag in ("IntVectorProperty", "DoubleVectorProperty",
+                                    "IdTypeVectorProperty")
+
+    @property
+    def shown_default(self):
+        """The default as a person reads it."""
+        if self.boolean:
+            return "on" if self.default == "1" else "off"
+        return self.texts.get(self.default, self.default)
+
+
+class Proxy:
+    """A concrete proxy: its own element, and all its properties by name."""
+
+    def __init__(self, element, menu, properties):
+        self.element = element
+        self.menu = menu
+        self.label = element.get("label")
+        self.class_name = element.get("class")
+        self.properties = properties
+
+
+def proxies():
+    elements = {}
+    for path in sorted(glob.glob(os.path.join(SOURCE, "Plugin", "*.xml"))):
+        for group in ElementTree.parse(path).getroot():
+            for element in group:
+                elements[group.get("name"), element.get("name")] = element
+
+    def properties(element):
+        base = element.get("base_proxygroup"), element.get("base_proxyname")
+        found = properties(elements[base]) if base[0] else {}
+        found.update((e.get("name"), Property(e)) for e in element if e.tag.endswith("Property"))
+        return found
+
+    return [Proxy(element, group, properties(element))
+            for (group, _), element in elements.items() if not group.startswith("internal")]

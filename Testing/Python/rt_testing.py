@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests share: small inputs, what a filter says, hashes of its output, the plugin."""
+import hashlib
+import os
+import sys
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..")
+OUTPUT = os.environ.get("RT_OUTPUT") or "."
+SKIPPED = 77
+
+
+def main():
+    """Runs the caller's tests; the exit code is ctest's."""
+    os.makedirs(OUTPUT, exist_ok=True)
+    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
+    sys.stdout.flush()
+    sys.stderr.flush()
+    # Past the interpreter's end ParaView may still draw; nothing of the test is left to do.
+    os._exit(0 if result.wasSuccessful() else 1)
+
+
+def need_display():
+    if not os.environ.get("DISPLAY"):
+        print("Needs a display: xvfb-run -a ctest")
+        sys.stdout.flush()
+        os._exit(SKIPPED)
+
+
+def density_image(shape=(12, 10), cells=True, seed=0, values=None):
+    """A vtkImageData of shape cells (x, y[, z]) or points with a random array Density."""
+    dimensions = [n + 1 if cells else n for n in shape] + [1] * (3 - len(shape))
+    image = vtkImageData()
+    image.SetDimensions(dimensions)
+    image.SetSpacing(0.5, 2, 1)
+    if values is None:
+        values = 0.1 + np.random.default_rng(seed).random(int(np.prod(shape)))
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=1)
+    array.SetName("Density")
+    (image.GetCellData() if cells else image.GetPointData()).SetScalars(array)
+    return image
+
+
+def positions(polydata):
+    return vtk_to_numpy(polydata.GetPoints().GetData()).copy()
+
+
+def digest(polydata):
+    """A hash of the output's points and point arrays, to the last bit."""
+    sha = hashlib.sha256(positions(polydata).tobytes())
+    data = polydata.GetPointData()
+    for i in range(data.GetNumberOfArrays()):
+        sha.update(data.GetArrayName(i).encode())
+        sha.update(vtk_to_numpy(data.GetArray(i)).tobytes())
+    return sha.hexdigest()
+
+
+class Listener:
+    """The errors and warnings of an algorithm and its executive while it runs."""
+
+    def __init__(self, algorithm):
+        self.errors = []
+        self.warnings = []
+        for source in (algorithm, algorithm.GetExecutive()):
+            source.AddObserver("ErrorEvent", self._keeper(self.errors))
+            source.AddObserver("WarningEvent", self._keeper(self.warnings))
+
+    @staticmethod
+    def _keeper(messages):
+        @calldata_type(VTK_STRING)
+        def keep(_source, _event, message):
+            messages.append(message)
+        return keep
+
+
+def load_plugin():
+    """ParaView's simple module with the plugin's filters in it."""
+    import rectifiedtransport  # before the plugin: client-side objects then have their own classes
+    from paraview import simple
+    simple.LoadPlugin(os.environ["RT_PLUGIN"], remote=False, ns=vars(simple))
+    return simple
+
+
+def producer(simple, data):
+    """A ParaView source that holds a data object."""
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def output_of(proxy):
+    proxy.UpdatePipeline()
+    return proxy.GetClientSideObject().GetOutputDataObject(0)
