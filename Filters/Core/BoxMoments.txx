@@ -9,9 +9,13 @@
 // A box takes four nodes an axis, two at each side. Sides on a face of the domain take none (the
 // tables are zero there) or one (they are total).
 
-using Vector4 = double __attribute__((vector_size(32)));
-using Vector8 = double __attribute__((vector_size(64)));
 using Lanes = double[BlockSize];
+
+template <int N>
+struct Number
+{
+  static constexpr int Value = N;
+};
 
 // The boxes of a block of particles, as the sums below want them, and what they return.
 template <int Dimension>
@@ -31,186 +35,236 @@ struct BoxLanes
   alignas(64) double Moment[Dimension][BlockSize];
 };
 
-// Two neighbouring nodes along axis 0.
-template <int Dimension>
-RT_INLINE Vector8 loadNodes(const double* node)
+// Offsets of the four nodes of an axis.
+RT_INLINE void findOffsets(
+  std::int64_t low, std::int64_t high, std::int64_t stride, std::int64_t (&offset)[4])
 {
-  Vector8 pair;
-  if constexpr (Dimension == 1)
+  offset[0] = low * stride;
+  offset[1] = offset[0] + stride;
+  offset[3] = high * stride;
+  offset[2] = offset[3] + stride;
+}
+
+RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
+{
+  const double* nodes = tables.Levels[boxes.Level[lane]].Nodes;
+  std::int64_t offset[4];
+  findOffsets(boxes.Low[0][lane], boxes.High[0][lane], TableView<1>::Record, offset);
+  double mass = 0.0;
+  double moment = 0.0;
+  for (int node = boxes.FirstNode[0][lane]; node < boxes.EndNode[0][lane]; ++node)
   {
-    // {E, E_0} twice: spread to the layout of the higher dimensions.
-    pair = Vector8{ node[0], node[1], 0.0, 0.0, node[2], node[3], 0.0, 0.0 };
+    const double* record = nodes + offset[node];
+    const double weight = boxes.Weight[0][node][lane];
+    mass += weight * record[0];
+    moment += weight * record[1] + boxes.Quadratic[0][node][lane] * record[0];
+  }
+  boxes.Mass[lane] = mass;
+  boxes.Moment[0][lane] = moment;
+}
+
+// In 2D the fourth entry of a record repeats the mass, so that one product with the weights of a
+// pair of neighbouring nodes along axis 0 gives the linear sums and the quadratic one of that axis.
+template <int Rows, bool BothSides>
+RT_INLINE void sumRows2D(const double* low, const double* high, Vector8 lowWeights,
+  Vector8 highWeights, const std::int64_t* offset, const double* weight, const double* quadratic,
+  Vector8& linear, Vector8& bent)
+{
+  for (int row = 0; row < Rows; ++row)
+  {
+    Vector8 sum = loadVector(high + offset[row]) * highWeights;
+    if constexpr (BothSides)
+    {
+      sum = sum + loadVector(low + offset[row]) * lowWeights;
+    }
+    const double w = weight[row * BlockSize];
+    const double q = quadratic[row * BlockSize];
+    linear = row == 0 ? sum * w : linear + sum * w;
+    bent = row == 0 ? sum * q : bent + sum * q;
+  }
+}
+
+RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
+{
+  const auto& level = tables.Levels[boxes.Level[lane]];
+  std::int64_t offset[4];
+  findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], offset);
+  const int first = boxes.FirstNode[1][lane];
+  const int rows = boxes.EndNode[1][lane] - first;
+  const double* weight = &boxes.Weight[1][first][lane];
+  const double* quadratic = &boxes.Quadratic[1][first][lane];
+  const double* low = level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4;
+  const double* high = level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4;
+
+  // {1-r, 1-r, 1-r, q, r, r, r, -q} with r and q of the high side, and the negative of that with
+  // those of the low side.
+  alignas(64) static constexpr double ones[8] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  alignas(64) static constexpr double places[8] = { -1.0, -1.0, -1.0, 0.0, 1.0, 1.0, 1.0, 0.0 };
+  alignas(64) static constexpr double bends[8] = { 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 };
+  const Vector8 one = loadVector(ones);
+  const Vector8 place = loadVector(places);
+  const Vector8 bend = loadVector(bends);
+  const Vector8 highWeights =
+    (one + place * boxes.Weight[0][2][lane]) + bend * boxes.Quadratic[0][3][lane];
+  const Vector8 lowWeights =
+    (place * boxes.Weight[0][1][lane] - one) + bend * boxes.Quadratic[0][0][lane];
+
+  Vector8 linear;
+  Vector8 bent;
+  const auto sum = [&](auto rowCount, auto bothSides) __attribute__((always_inline)) {
+    sumRows2D<decltype(rowCount)::Value, decltype(bothSides)::Value>(low, high, lowWeights,
+      highWeights, offset + first, weight, quadratic, linear, bent);
+  };
+  const auto sumAll = [&](auto bothSides) __attribute__((always_inline)) {
+    switch (rows)
+    {
+      case 1:
+        sum(Number<1>{}, bothSides);
+        break;
+      case 2:
+        sum(Number<2>{}, bothSides);
+        break;
+      case 3:
+        sum(Number<3>{}, bothSides);
+        break;
+      default:
+        sum(Number<4>{}, bothSides);
+        break;
+    }
+  };
+  if (boxes.FirstNode[0][lane] == 0)
+  {
+    sumAll(Number<1>{});
   }
   else
   {
-    std::memcpy(&pair, node, sizeof(pair));
+    sumAll(Number<0>{});
   }
-  return pair;
+  boxes.Mass[lane] = linear[0] + linear[4];
+  boxes.Moment[0][lane] = (linear[1] + linear[5]) + (linear[3] + linear[7]);
+  boxes.Moment[1][lane] = (linear[2] + linear[6]) + (bent[0] + bent[4]);
 }
 
-struct RowSums
-{
-  Vector8 Linear;
-  Vector8 Quadratic;
-};
-
-// Sums over the nodes of axis 1.
-template <int Dimension, int Rows>
-RT_INLINE RowSums sumRows(
-  const double* plane, const std::int64_t* offset, const double* weight, const double* quadratic)
-{
-  const Vector8 first = loadNodes<Dimension>(plane + offset[0]);
-  RowSums sums{ first * weight[0], first * quadratic[0] };
-  for (int row = 1; row < Rows; ++row)
-  {
-    const Vector8 nodes = loadNodes<Dimension>(plane + offset[row]);
-    sums.Linear += nodes * weight[row * BlockSize];
-    sums.Quadratic += nodes * quadratic[row * BlockSize];
-  }
-  return sums;
-}
-
-// Sums over the nodes of axes 1 and up of two neighbouring nodes along axis 0: linear along all
-// of them, or quadratic along one.
-template <int Dimension>
+// The sums of a pair of neighbouring nodes along axis 0 over the nodes of the other axes: linear
+// along both, or quadratic along one.
 struct PairSums
 {
   Vector8 Linear;
-  Vector8 Quadratic[Dimension]; // [0] is not used
+  Vector8 Bent1;
+  Vector8 Bent2;
 };
 
-template <int Dimension>
-struct NodeOffsets
+template <int Rows>
+RT_INLINE PairSums sumPair(const double* nodes, const BoxLanes<3>& boxes, int lane,
+  const std::int64_t (&rowOffset)[4], const std::int64_t (&planeOffset)[4])
 {
-  std::int64_t Of[Dimension][4];
-  int First[Dimension];
-  int Count[Dimension];
-};
-
-template <int Dimension, int Rows>
-RT_INLINE void sumPlanes(PairSums<Dimension>& sums, const BoxLanes<Dimension>& boxes, int lane,
-  const double* nodes, const NodeOffsets<Dimension>& offsets)
-{
-  const int firstRow = offsets.First[1];
-  const std::int64_t* rows = offsets.Of[1] + firstRow;
+  const int firstRow = boxes.FirstNode[1][lane];
+  const int firstPlane = boxes.FirstNode[2][lane];
+  const int endPlane = boxes.EndNode[2][lane];
   const double* weight = &boxes.Weight[1][firstRow][lane];
   const double* quadratic = &boxes.Quadratic[1][firstRow][lane];
-  if constexpr (Dimension == 2)
+  const Vector8 zero = fillVector(0.0, 0.0);
+  PairSums sums = { zero, zero, zero };
+  for (int plane = firstPlane; plane < endPlane; ++plane)
   {
-    const RowSums row = sumRows<Dimension, Rows>(nodes, rows, weight, quadratic);
-    sums.Linear = row.Linear;
-    sums.Quadratic[1] = row.Quadratic;
-  }
-  else
-  {
-    const int first = offsets.First[2];
-    const int end = first + offsets.Count[2];
-    RowSums row = sumRows<Dimension, Rows>(nodes + offsets.Of[2][first], rows, weight, quadratic);
-    double w = boxes.Weight[2][first][lane];
-    double q = boxes.Quadratic[2][first][lane];
-    sums.Linear = row.Linear * w;
-    sums.Quadratic[1] = row.Quadratic * w;
-    sums.Quadratic[2] = row.Linear * q;
-    for (int plane = first + 1; plane < end; ++plane)
+    const double* rows = nodes + planeOffset[plane];
+    Vector8 linear;
+    Vector8 bent;
+    for (int row = 0; row < Rows; ++row)
     {
-      row = sumRows<Dimension, Rows>(nodes + offsets.Of[2][plane], rows, weight, quadratic);
-      w = boxes.Weight[2][plane][lane];
-      q = boxes.Quadratic[2][plane][lane];
-      sums.Linear += row.Linear * w;
-      sums.Quadratic[1] += row.Quadratic * w;
-      sums.Quadratic[2] += row.Linear * q;
+      const Vector8 pair = loadVector(rows + rowOffset[firstRow + row]);
+      const double w = weight[row * BlockSize];
+      const double q = quadratic[row * BlockSize];
+      linear = row == 0 ? pair * w : linear + pair * w;
+      bent = row == 0 ? pair * q : bent + pair * q;
     }
-  }
-}
-
-template <int Dimension>
-RT_INLINE PairSums<Dimension> sumPair(const BoxLanes<Dimension>& boxes, int lane,
-  const double* nodes, const NodeOffsets<Dimension>& offsets)
-{
-  PairSums<Dimension> sums;
-  if constexpr (Dimension == 1)
-  {
-    sums.Linear = loadNodes<Dimension>(nodes);
-  }
-  else
-  {
-    switch (offsets.Count[1])
-    {
-      case 1:
-        sumPlanes<Dimension, 1>(sums, boxes, lane, nodes, offsets);
-        break;
-      case 2:
-        sumPlanes<Dimension, 2>(sums, boxes, lane, nodes, offsets);
-        break;
-      case 3:
-        sumPlanes<Dimension, 3>(sums, boxes, lane, nodes, offsets);
-        break;
-      default:
-        sumPlanes<Dimension, 4>(sums, boxes, lane, nodes, offsets);
-        break;
-    }
+    const double w = boxes.Weight[2][plane][lane];
+    const double q = boxes.Quadratic[2][plane][lane];
+    sums.Linear = sums.Linear + linear * w;
+    sums.Bent1 = sums.Bent1 + bent * w;
+    sums.Bent2 = sums.Bent2 + linear * q;
   }
   return sums;
 }
 
-// Both nodes of a pair, weighted; record entry 0 (the mass) of each.
-RT_INLINE double weighMass(Vector8 pair, double first, double second)
+template <int Rows>
+RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
-  return pair[0] * first + pair[4] * second;
-}
+  std::int64_t rowOffset[4];
+  std::int64_t planeOffset[4];
+  findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], rowOffset);
+  findOffsets(boxes.Low[2][lane], boxes.High[2][lane], level.Stride[2], planeOffset);
 
-RT_INLINE Vector8 spread(double first, double second)
-{
-  return Vector8{ first, first, first, first, second, second, second, second };
-}
-
-// The sums of one particle's box.
-template <int Dimension>
-RT_INLINE void sumBox(const TableView<Dimension>& tables, BoxLanes<Dimension>& boxes, int lane)
-{
-  const auto& level = tables.Levels[boxes.Level[lane]];
-  NodeOffsets<Dimension> offsets;
-  for (int axis = 1; axis < Dimension; ++axis)
-  {
-    std::int64_t* of = offsets.Of[axis];
-    of[0] = boxes.Low[axis][lane] * level.Stride[axis];
-    of[1] = of[0] + level.Stride[axis];
-    of[3] = boxes.High[axis][lane] * level.Stride[axis];
-    of[2] = of[3] + level.Stride[axis];
-    offsets.First[axis] = boxes.FirstNode[axis][lane];
-    offsets.Count[axis] = boxes.EndNode[axis][lane] - boxes.FirstNode[axis][lane];
-  }
-  constexpr std::int64_t record = TableView<Dimension>::Record;
-
-  const double high[2] = { boxes.Weight[0][3][lane], boxes.Weight[0][2][lane] };
-  const double quadratic = boxes.Quadratic[0][3][lane];
-  const PairSums<Dimension> highSums =
-    sumPair<Dimension>(boxes, lane, level.Nodes + boxes.High[0][lane] * record, offsets);
-  Vector8 total = highSums.Linear * spread(high[0], high[1]);
-  double correction[Dimension];
-  correction[0] = weighMass(highSums.Linear, quadratic, -quadratic);
-  for (int axis = 1; axis < Dimension; ++axis)
-  {
-    correction[axis] = weighMass(highSums.Quadratic[axis], high[0], high[1]);
-  }
-
+  const Vector8 weights = fillVector(boxes.Weight[0][3][lane], boxes.Weight[0][2][lane]);
+  const double bend = boxes.Quadratic[0][3][lane];
+  PairSums sums = sumPair<Rows>(level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4, boxes, lane,
+    rowOffset, planeOffset);
+  Vector8 linear = sums.Linear * weights;
+  Vector8 bent1 = sums.Bent1 * weights;
+  Vector8 bent2 = sums.Bent2 * weights;
+  double bent0 = bend * (sums.Linear[0] - sums.Linear[4]);
   if (boxes.FirstNode[0][lane] == 0)
   {
-    const double low[2] = { boxes.Weight[0][0][lane], boxes.Weight[0][1][lane] };
-    const double lowQuadratic = boxes.Quadratic[0][0][lane];
-    const PairSums<Dimension> lowSums =
-      sumPair<Dimension>(boxes, lane, level.Nodes + boxes.Low[0][lane] * record, offsets);
-    total += lowSums.Linear * spread(low[0], low[1]);
-    correction[0] += weighMass(lowSums.Linear, lowQuadratic, -lowQuadratic);
-    for (int axis = 1; axis < Dimension; ++axis)
-    {
-      correction[axis] += weighMass(lowSums.Quadratic[axis], low[0], low[1]);
-    }
+    const Vector8 lowWeights = fillVector(boxes.Weight[0][0][lane], boxes.Weight[0][1][lane]);
+    const double lowBend = boxes.Quadratic[0][0][lane];
+    sums = sumPair<Rows>(level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4, boxes, lane,
+      rowOffset, planeOffset);
+    linear = linear + sums.Linear * lowWeights;
+    bent1 = bent1 + sums.Bent1 * lowWeights;
+    bent2 = bent2 + sums.Bent2 * lowWeights;
+    bent0 += lowBend * (sums.Linear[0] - sums.Linear[4]);
   }
+  boxes.Mass[lane] = linear[0] + linear[4];
+  boxes.Moment[0][lane] = (linear[1] + linear[5]) + bent0;
+  boxes.Moment[1][lane] = (linear[2] + linear[6]) + (bent1[0] + bent1[4]);
+  boxes.Moment[2][lane] = (linear[3] + linear[7]) + (bent2[0] + bent2[4]);
+}
 
-  boxes.Mass[lane] = total[0] + total[4];
-  for (int axis = 0; axis < Dimension; ++axis)
+RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
+{
+  const auto& level = tables.Levels[boxes.Level[lane]];
+  switch (boxes.EndNode[1][lane] - boxes.FirstNode[1][lane])
   {
-    boxes.Moment[axis][lane] = (total[1 + axis] + total[5 + axis]) + correction[axis];
+    case 1:
+      sumBox3D<1>(level, boxes, lane);
+      break;
+    case 2:
+      sumBox3D<2>(level, boxes, lane);
+      break;
+    case 3:
+      sumBox3D<3>(level, boxes, lane);
+      break;
+    default:
+      sumBox3D<4>(level, boxes, lane);
+      break;
+  }
+}
+
+// Boxes on the finest level are the ones whose nodes are far apart in memory and not yet in the
+// caches; their addresses are known well before they are summed.
+constexpr int prefetchDistance = 3;
+
+template <int Dimension>
+RT_INLINE void prefetchBox(
+  const TableView<Dimension>& tables, const BoxLanes<Dimension>& boxes, int lane)
+{
+  if constexpr (Dimension == 2)
+  {
+    if (boxes.Level[lane] != 0)
+    {
+      return;
+    }
+    const auto& level = tables.Levels[0];
+    std::int64_t offset[4];
+    findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], offset);
+    const double* low = level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4;
+    const double* high = level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4;
+    for (const std::int64_t row : offset)
+    {
+      __builtin_prefetch(low + row);
+      __builtin_prefetch(low + row + 7);
+      __builtin_prefetch(high + row);
+      __builtin_prefetch(high + row + 7);
+    }
   }
 }

@@ -18,6 +18,8 @@ namespace RectifiedTransport
 namespace
 {
 
+#include "Vector8.txx"
+
 #include "BoxMoments.txx"
 #include "FlowVelocity.txx"
 

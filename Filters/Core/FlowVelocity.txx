@@ -17,6 +17,8 @@ struct VelocityLanes
   alignas(64) LaneVectors<Dimension> From;   // the clipped box
   alignas(64) LaneVectors<Dimension> To;
   alignas(64) LaneVectors<Dimension> Centre; // of the box before clipping
+  alignas(64) Lanes InverseTime;
+  alignas(64) Lanes InverseRest; // 1 / (1 - t)
   alignas(64) Lanes Narrowest;
   alignas(64) Lanes Void; // 1 where the box has no mass, else 0
 };
@@ -58,6 +60,8 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
+    lanes.InverseTime[i] = 1.0 / t[i];
+    lanes.InverseRest[i] = 1.0 / (1.0 - t[i]);
     lanes.Narrowest[i] = 1e300;
   }
   for (int axis = 0; axis < Dimension; ++axis)
@@ -72,7 +76,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double inverse = 1.0 / t[i];
+        const double inverse = lanes.InverseTime[i];
         const double a = size - (size - position[i]) * inverse;
         const double b = position[i] * inverse;
         centre[i] = 0.5 * (a + b);
@@ -86,7 +90,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double inverse = 1.0 / t[i];
+        const double inverse = lanes.InverseTime[i];
         const double a = size - (size - position[i]) * inverse;
         const double b = position[i] * inverse;
         centre[i] = 0.5 * (a + b);
@@ -95,6 +99,53 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
         lanes.Narrowest[i] = smaller(lanes.Narrowest[i], to[i] - from[i]);
       }
     }
+  }
+}
+
+// Nodes and weights along one axis. Where the widths of all levels divide the size (EvenLevels) no
+// cell is narrower than the others; the general form gives the same bits.
+template <int Dimension, bool Even>
+RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
+  int axis, const Lanes& width, const Lanes& inverseWidth)
+{
+  BoxLanes<Dimension>& boxes = lanes.Boxes;
+  const double size = job.Tables.Size[axis];
+  const double* from = lanes.From[axis];
+  const double* to = lanes.To[axis];
+  auto& weight = boxes.Weight[axis];
+  auto& quadratic = boxes.Quadratic[axis];
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    const double last = truncated((size - 1.0) * inverseWidth[i]);
+    const double lastWidth = Even ? width[i] : size - last * width[i];
+    const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
+
+    const double low = smaller(truncated(from[i] * inverseWidth[i]), last);
+    const double lowInverse = low == last ? inverseLastWidth : inverseWidth[i];
+    const double lowWidth = low == last ? lastWidth : width[i];
+    const double lowPlace = smaller((from[i] - low * width[i]) * lowInverse, 1.0);
+    const double lowBend = 0.5 * lowWidth * lowPlace * (1.0 - lowPlace);
+    weight[0][i] = lowPlace - 1.0;
+    weight[1][i] = -lowPlace;
+    quadratic[0][i] = -lowBend;
+    quadratic[1][i] = lowBend;
+
+    const double high = smaller(truncated(to[i] * inverseWidth[i]), last);
+    const double highInverse = high == last ? inverseLastWidth : inverseWidth[i];
+    const double highWidth = high == last ? lastWidth : width[i];
+    const double place = smaller((to[i] - high * width[i]) * highInverse, 1.0);
+    const double highPlace = to[i] >= size ? 1.0 : place;
+    const double highBend = 0.5 * highWidth * highPlace * (1.0 - highPlace);
+    weight[2][i] = highPlace;
+    weight[3][i] = 1.0 - highPlace;
+    quadratic[2][i] = -highBend;
+    quadratic[3][i] = highBend;
+
+    boxes.Low[axis][i] = static_cast<std::int32_t>(low);
+    boxes.High[axis][i] = static_cast<std::int32_t>(high);
+    boxes.FirstNode[axis][i] = from[i] <= 0.0 ? 2 : 0;
+    boxes.EndNode[axis][i] = to[i] >= size ? 3 : 4;
   }
 }
 
@@ -120,43 +171,13 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   }
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double size = job.Tables.Size[axis];
-    const double* from = lanes.From[axis];
-    const double* to = lanes.To[axis];
-    auto& weight = boxes.Weight[axis];
-    auto& quadratic = boxes.Quadratic[axis];
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
+    if (job.Tables.EvenLevels[axis])
     {
-      const double last = truncated((size - 1.0) * inverseWidth[i]);
-      const double lastWidth = size - last * width[i];
-      const double inverseLastWidth = 1.0 / lastWidth;
-
-      const double low = smaller(truncated(from[i] * inverseWidth[i]), last);
-      const double lowInverse = low == last ? inverseLastWidth : inverseWidth[i];
-      const double lowWidth = low == last ? lastWidth : width[i];
-      const double lowPlace = smaller((from[i] - low * width[i]) * lowInverse, 1.0);
-      const double lowBend = 0.5 * lowWidth * lowPlace * (1.0 - lowPlace);
-      weight[0][i] = lowPlace - 1.0;
-      weight[1][i] = -lowPlace;
-      quadratic[0][i] = -lowBend;
-      quadratic[1][i] = lowBend;
-
-      const double high = smaller(truncated(to[i] * inverseWidth[i]), last);
-      const double highInverse = high == last ? inverseLastWidth : inverseWidth[i];
-      const double highWidth = high == last ? lastWidth : width[i];
-      const double place = smaller((to[i] - high * width[i]) * highInverse, 1.0);
-      const double highPlace = to[i] >= size ? 1.0 : place;
-      const double highBend = 0.5 * highWidth * highPlace * (1.0 - highPlace);
-      weight[2][i] = highPlace;
-      weight[3][i] = 1.0 - highPlace;
-      quadratic[2][i] = -highBend;
-      quadratic[3][i] = highBend;
-
-      boxes.Low[axis][i] = static_cast<std::int32_t>(low);
-      boxes.High[axis][i] = static_cast<std::int32_t>(high);
-      boxes.FirstNode[axis][i] = from[i] <= 0.0 ? 2 : 0;
-      boxes.EndNode[axis][i] = to[i] >= size ? 3 : 4;
+      findAxisNodes<Dimension, true>(job, lanes, axis, width, inverseWidth);
+    }
+    else
+    {
+      findAxisNodes<Dimension, false>(job, lanes, axis, width, inverseWidth);
     }
   }
 }
@@ -175,9 +196,13 @@ RT_INLINE void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dim
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   for (int i = 0; i < count; ++i)
   {
+    if (i + prefetchDistance < count)
+    {
+      prefetchBox<Dimension>(job.Tables, boxes, i + prefetchDistance);
+    }
     if (!active || active[i])
     {
-      sumBox<Dimension>(job.Tables, boxes, i);
+      sumBox(job.Tables, boxes, i);
     }
   }
   const double voidMass = job.Tables.VoidMass;
@@ -196,7 +221,7 @@ RT_INLINE void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dim
     {
       const double mean = boxes.Moment[axis][i] * boxes.Mass[i];
       const double clamped = smaller(larger(mean, lanes.From[axis][i]), lanes.To[axis][i]);
-      const double rest = 1.0 / (1.0 - t[i]);
+      const double rest = lanes.InverseRest[i];
       const double c = lanes.Centre[axis][i];
       const double m = lanes.Void[i] > 0.0 ? c : clamped;
       const double early = (m - x[axis][i]) * rest;

@@ -178,6 +178,41 @@ void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, st
   }
 }
 
+// The least stride, in cache lines, that is at least `lines` and sends the rows that a particle's
+// neighbourhood reads to different sets of the caches. A grid of 2^k cells would send them all to
+// one. `rowStride` is that of the axis before, 0 for the first.
+std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
+{
+  constexpr std::int64_t sets = 64;
+  constexpr int reach = 10;
+  constexpr std::int64_t apart = 3;
+  const auto distance = [](std::int64_t offset) {
+    const std::int64_t set = ((offset % sets) + sets) % sets;
+    return std::min(set, sets - set);
+  };
+  for (std::int64_t stride = lines; stride < lines + sets; ++stride)
+  {
+    bool spread = true;
+    for (int step = 1; step <= reach && spread; ++step)
+    {
+      spread = distance(step * stride) >= apart;
+    }
+    const int across = rowStride > 0 ? 3 : 0;
+    for (int step = 1; step <= across && spread; ++step)
+    {
+      for (int row = -across; row <= across && spread; ++row)
+      {
+        spread = distance(step * stride + row * rowStride) >= 2;
+      }
+    }
+    if (spread)
+    {
+      return stride;
+    }
+  }
+  return lines;
+}
+
 // What a build shares between its passes.
 template <int Dimension>
 struct Build
@@ -550,6 +585,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     tables.Cells[axis] = size[axis];
     tables.Size[axis] = static_cast<double>(size[axis]);
+    tables.EvenLevels[axis] = size[axis] % (std::int64_t{ 1 } << (tables.LevelCount - 1)) == 0;
     estimate *= tables.Size[axis] + 1.0;
     rows *= axis > 0 ? size[axis] : 1;
   }
@@ -563,13 +599,15 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   for (int level = 0; level < tables.LevelCount; ++level)
   {
     offset[level] = total;
-    std::int64_t length = TableView<Dimension>::Record;
-    for (int axis = 0; axis < Dimension; ++axis)
+    auto& stride = tables.Levels[level].Stride;
+    const auto nodes = [&](int axis) { return ((size[axis] - 1) >> level) + 2; };
+    stride[0] = TableView<Dimension>::Record;
+    for (int axis = 1; axis < Dimension; ++axis)
     {
-      tables.Levels[level].Stride[axis] = length;
-      length *= ((size[axis] - 1) >> level) + 2;
+      const std::int64_t lines = (stride[axis - 1] * nodes(axis - 1) + line - 1) / line;
+      stride[axis] = spreadStride(lines, axis > 1 ? stride[axis - 1] / line : 0) * line;
     }
-    total += (length + line - 1) / line * line;
+    total += (stride[Dimension - 1] * nodes(Dimension - 1) + line - 1) / line * line;
   }
   this->Nodes = LargeBuffer<double>(total);
   for (int level = 0; level < tables.LevelCount; ++level)

@@ -2,6 +2,8 @@
 // One row of cells added to the summed-area tables (paper, Algorithm 2). Included by
 // FlowKernels.txx.
 
+using Vector4 = double __attribute__((vector_size(32)));
+
 // Tables that do not fit into the caches are written past them: nobody reads them back before the
 // caches have turned over.
 template <bool Stream>
@@ -37,7 +39,7 @@ RT_INLINE void addRow2D(const TableRow2D& row)
     sum += value;
     moment += value * centre;
     centre += 1.0;
-    const Vector4 node = loadNode(row.Running + 4 * i) + Vector4{ sum, moment, sum * row.Centre, 0.0 };
+    const Vector4 node = loadNode(row.Running + 4 * i) + Vector4{ sum, moment, sum * row.Centre, sum };
     std::memcpy(row.Running + 4 * i, &node, sizeof(node));
     storeNode<Stream>(row.Nodes + 4 * i, node);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the kernels see of the summed-area tables: plain pointers and numbers.
 //
-// A node record is {E, E_0} in 1D, {E, E_0, E_1, 0} in 2D and {E, E_0, E_1, E_2} in 3D, where E is
+// A node record is {E, E_0} in 1D, {E, E_0, E_1, E} in 2D and {E, E_0, E_1, E_2} in 3D, where E is
 // the sum of the density over the cells below the node and E_a the sum of density times cell
 // centre along axis a (paper, Section 3.3 and Algorithm 2). Level l holds every 2^l-th node; where
 // 2^l does not divide the size, the last coarse cell is narrower.
@@ -27,6 +27,7 @@ struct TableView
 
   Level Levels[MaximumLevels];
   int LevelCount;
+  bool EvenLevels[Dimension]; // no level has a narrower last cell
   double Size[Dimension];
   double Centroid[Dimension];
   double VoidMass; // a box with no more than this is taken to be empty
