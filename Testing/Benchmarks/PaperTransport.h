@@ -52,7 +52,7 @@ inline Tables<1> buildTables(const std::vector<double>& image, const Size<1>& ce
   for (std::int64_t j = 0; j < cells[0]; ++j)
   {
     tables.Mass[j + 1] = tables.Mass[j] + image[j];
-    tables.Moment[0][j + 1] = tables.Moment[0][j] + image[j] * (j + 0.5);
+    tables.Moment[0][j + 1] = tables.Moment[0][j] + image[j] * (static_cast<double>(j) + 0.5);
   }
   return tables;
 }
@@ -78,8 +78,10 @@ inline Tables<2> buildTables(const std::vector<double>& image, const Size<2>& ce
       const std::int64_t n10 = n00 + row;
       const std::int64_t n11 = n10 + 1;
       mass[n11] = mass[n10] + mass[n01] - mass[n00] + value;
-      momentX[n11] = momentX[n10] + momentX[n01] - momentX[n00] + value * (j + 0.5);
-      momentY[n11] = momentY[n10] + momentY[n01] - momentY[n00] + value * (i + 0.5);
+      momentX[n11] =
+        momentX[n10] + momentX[n01] - momentX[n00] + value * (static_cast<double>(j) + 0.5);
+      momentY[n11] =
+        momentY[n10] + momentY[n01] - momentY[n00] + value * (static_cast<double>(i) + 0.5);
     }
   }
   return tables;
@@ -108,9 +110,9 @@ inline Tables<3> buildTables(const std::vector<double>& image, const Size<3>& ce
             e[node + row + 1] - e[node + slice] - e[node + row] - e[node + 1] + e[node] + term;
         };
         accumulate(tables.Mass.data(), value);
-        accumulate(tables.Moment[0].data(), value * (i + 0.5));
-        accumulate(tables.Moment[1].data(), value * (j + 0.5));
-        accumulate(tables.Moment[2].data(), value * (k + 0.5));
+        accumulate(tables.Moment[0].data(), value * (static_cast<double>(i) + 0.5));
+        accumulate(tables.Moment[1].data(), value * (static_cast<double>(j) + 0.5));
+        accumulate(tables.Moment[2].data(), value * (static_cast<double>(k) + 0.5));
       }
     }
   }
@@ -120,8 +122,9 @@ inline Tables<3> buildTables(const std::vector<double>& image, const Size<3>& ce
 inline Integrals<1> interpolate(const Tables<1>& tables, double x)
 {
   const std::int64_t i = std::min(static_cast<std::int64_t>(x), tables.Cells[0] - 1);
-  const double cell = tables.Image[i] * (x - i);
-  return { tables.Mass[i] + cell, { tables.Moment[0][i] + cell * 0.5 * (x + i) } };
+  const double floorX = static_cast<double>(i);
+  const double cell = tables.Image[i] * (x - floorX);
+  return { tables.Mass[i] + cell, { tables.Moment[0][i] + cell * 0.5 * (x + floorX) } };
 }
 
 // Lerp, interp_x and interp_y at one corner: the integrals over [0,x] x [0,y]. The cell's value
@@ -130,8 +133,10 @@ inline Integrals<2> interpolate(const Tables<2>& tables, double x, double y)
 {
   const std::int64_t i = std::min(static_cast<std::int64_t>(x), tables.Cells[0] - 1);
   const std::int64_t j = std::min(static_cast<std::int64_t>(y), tables.Cells[1] - 1);
-  const double fractionX = x - i;
-  const double fractionY = y - j;
+  const double floorX = static_cast<double>(i);
+  const double floorY = static_cast<double>(j);
+  const double fractionX = x - floorX;
+  const double fractionY = y - floorY;
   const std::int64_t node = j * (tables.Cells[0] + 1) + i;
   const std::int64_t above = node + tables.Cells[0] + 1;
   const double* mass = tables.Mass.data();
@@ -142,9 +147,9 @@ inline Integrals<2> interpolate(const Tables<2>& tables, double x, double y)
   const double alongY = (mass[above] - mass[node]) * fractionY;
   return { mass[node] + alongX + alongY + cell,
     { momentX[node] + (momentX[above] - momentX[node]) * fractionY +
-        (alongX + cell) * 0.5 * (x + i),
+        (alongX + cell) * 0.5 * (x + floorX),
       momentY[node] + (momentY[node + 1] - momentY[node]) * fractionX +
-        (alongY + cell) * 0.5 * (y + j) } };
+        (alongY + cell) * 0.5 * (y + floorY) } };
 }
 
 // The same in 3D: trilinear, and quadratic along a moment's own axis: 20 loads (with every table
@@ -154,9 +159,12 @@ inline Integrals<3> interpolate(const Tables<3>& tables, double x, double y, dou
   const std::int64_t i = std::min(static_cast<std::int64_t>(x), tables.Cells[0] - 1);
   const std::int64_t j = std::min(static_cast<std::int64_t>(y), tables.Cells[1] - 1);
   const std::int64_t k = std::min(static_cast<std::int64_t>(z), tables.Cells[2] - 1);
-  const double u = x - i;
-  const double v = y - j;
-  const double w = z - k;
+  const double floorX = static_cast<double>(i);
+  const double floorY = static_cast<double>(j);
+  const double floorZ = static_cast<double>(k);
+  const double u = x - floorX;
+  const double v = y - floorY;
+  const double w = z - floorZ;
   const std::int64_t row = tables.Cells[0] + 1;
   const std::int64_t slice = row * (tables.Cells[1] + 1);
   const std::int64_t node = k * slice + j * row + i;
@@ -172,9 +180,9 @@ inline Integrals<3> interpolate(const Tables<3>& tables, double x, double y, dou
   const double alongY = (bilinear(mass + row, 1, slice, u, w) - bilinear(mass, 1, slice, u, w)) * v;
   const double alongZ = (bilinear(mass + slice, 1, row, u, v) - bilinear(mass, 1, row, u, v)) * w;
   return { mass0 + alongX,
-    { bilinear(tables.Moment[0].data() + node, row, slice, v, w) + alongX * 0.5 * (x + i),
-      bilinear(tables.Moment[1].data() + node, 1, slice, u, w) + alongY * 0.5 * (y + j),
-      bilinear(tables.Moment[2].data() + node, 1, row, u, v) + alongZ * 0.5 * (z + k) } };
+    { bilinear(tables.Moment[0].data() + node, row, slice, v, w) + alongX * 0.5 * (x + floorX),
+      bilinear(tables.Moment[1].data() + node, 1, slice, u, w) + alongY * 0.5 * (y + floorY),
+      bilinear(tables.Moment[2].data() + node, 1, row, u, v) + alongZ * 0.5 * (z + floorZ) } };
 }
 
 template <std::size_t Dimension>
@@ -234,7 +242,8 @@ Vector<Dimension> velocity(const Tables<Dimension>& tables, const Vector<Dimensi
   {
     for (std::size_t axis = 0; axis < Dimension; ++axis)
     {
-      v[axis] = finalVelocity == FinalVelocity::Limit ? x[axis] - 0.5 * tables.Cells[axis] : 0.0;
+      const double side = static_cast<double>(tables.Cells[axis]);
+      v[axis] = finalVelocity == FinalVelocity::Limit ? x[axis] - 0.5 * side : 0.0;
     }
     return v;
   }

@@ -390,7 +390,8 @@ PositionErrors comparePositions(const std::vector<Paper::Vector<Dimension>>& poi
     sum += distances[i];
   }
   std::sort(distances.begin(), distances.end());
-  return { sum / distances.size(), distances[(distances.size() - 1) * 95 / 100], distances.back() };
+  return { sum / static_cast<double>(distances.size()),
+    distances[(distances.size() - 1) * 95 / 100], distances.back() };
 }
 
 } // namespace RectifiedTransport

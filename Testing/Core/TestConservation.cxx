@@ -66,7 +66,7 @@ void expectConserved(const TestDensity<Dimension>& density, std::int64_t perCell
     Point<Dimension> centre;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      centre[axis] = cell[axis] + 0.5;
+      centre[axis] = static_cast<double>(cell[axis]) + 0.5;
     }
     wanted.Add(cell, centre, density.Values[i] / total);
   }

@@ -89,7 +89,7 @@ TestDensity<Dimension> sampleDensity(const GridSize<Dimension>& size, F&& value)
     Point<Dimension> p;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      p[axis] = (cell[axis] + 0.5) / size[axis];
+      p[axis] = (static_cast<double>(cell[axis]) + 0.5) / static_cast<double>(size[axis]);
     }
     density.Values[index] = value(p);
   }

@@ -56,7 +56,8 @@ Points<Dimension> latticePoints(const GridSize<Dimension>& size, const GridSize<
     const GridSize<Dimension> cell = cellAt<Dimension>(static_cast<std::int64_t>(i), perAxis);
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      points[i][axis] = (cell[axis] + 0.5) * size[axis] / perAxis[axis];
+      points[i][axis] = (static_cast<double>(cell[axis]) + 0.5) * static_cast<double>(size[axis]) /
+        static_cast<double>(perAxis[axis]);
     }
   }
   return points;
