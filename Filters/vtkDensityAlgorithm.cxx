@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/DensityImage.h"
+#include "Bridge/GuardedRun.h"
 #include "Bridge/PropertyCheck.h"
 
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 
 namespace
 {
 const char* const NegativeValuesTexts[] = { "Error", "Clamp" };
+
+// The names of the arrays that there are to choose from.
+std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
+{
+  std::string list;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = attributes->GetArray(i))
+    {
+      const char* name = array->GetName();
+      list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
+    }
+  }
+  return list.empty() ? std::string("no ") + owner + " arrays" : list + " (" + owner + ")";
 }
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkDensityAlgorithm::vtkDensityAlgorithm()
@@ -59,7 +82,8 @@ vtkTypeBool vtkDensityAlgorithm::ProcessRequest(
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
-    return this->RequestData(request, inputVector, outputVector);
+    return RectifiedTransport::runGuarded(
+      this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
@@ -100,6 +124,45 @@ int vtkDensityAlgorithm::RequestUpdateExtent(
     }
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
+  vtkDataObject* input, int arrayIndex)
+{
+  RectifiedTransport::requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
+  vtkImageData* image = vtkImageData::SafeDownCast(input);
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    return nullptr;
+  }
+  vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
+  int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS &&
+    association != vtkDataObject::FIELD_ASSOCIATION_CELLS &&
+    association != vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
+  {
+    throw RectifiedTransport::Failure("The field association of the density array is " +
+      std::to_string(association) + "; it must be 0 (points), 1 (cells) or 4 (points, then cells)");
+  }
+  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
+  vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
+  if (!array)
+  {
+    const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+    throw RectifiedTransport::Failure(
+      (chosen    ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
+          : name ? "The input image has no density array '" + std::string(name) + "'"
+                 : std::string("The input image has no active scalars for a density")) +
+      "; it has " + listArrays(image->GetPointData(), "point") + " and " +
+      listArrays(image->GetCellData(), "cell"));
+  }
+  RectifiedTransport::DensityRules rules;
+  rules.Component = this->Component;
+  rules.Invert = this->InvertDensity != 0;
+  rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
+  return new RectifiedTransport::DensityImage(
+    image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, rules);
 }
 
 //------------------------------------------------------------------------------

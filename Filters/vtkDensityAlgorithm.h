@@ -130,6 +130,12 @@ protected:
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
 
+  /**
+   * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr
+   * if the image has no points. Throws what RequestData may throw.
+   */
+  RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
+
   int Component;
   vtkTypeBool InvertDensity;
   int NegativeValues;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
+#include "Bridge/FlowCache.h"
 #include "Bridge/PropertyCheck.h"
+#include "Bridge/SMPExecutor.h"
+#include "Core/FlowOptions.h"
+
+#include <cmath>
 
 VTK_ABI_NAMESPACE_BEGIN
 
@@ -10,7 +15,13 @@ namespace
 const char* const IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 const char* const TableLookupTexts[] = { "Interpolated", "Nearest" };
 const char* const ThreadingTexts[] = { "Auto", "VTK", "OpenMP", "Serial" };
-}
+constexpr int MaximumNumberOfSteps = 10000;
+} // namespace
+
+struct vtkTransportAlgorithm::vtkInternals
+{
+  RectifiedTransport::FlowCache Cache;
+};
 
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm()
@@ -19,6 +30,7 @@ vtkTransportAlgorithm::vtkTransportAlgorithm()
   , Tolerance(0.01)
   , TableLookup(INTERPOLATED)
   , Threading(THREADING_AUTO)
+  , Internals(new vtkInternals)
 {
 }
 
@@ -46,7 +58,40 @@ const char* vtkTransportAlgorithm::GetThreadingAsString()
 //------------------------------------------------------------------------------
 vtkMTimeType vtkTransportAlgorithm::GetTableBuildTime()
 {
-  return 0;
+  return this->Internals->Cache.BuildTime();
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::FlowCache& vtkTransportAlgorithm::GetFlowCache()
+{
+  return this->Internals->Cache;
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::FlowOptions vtkTransportAlgorithm::GetFlowOptions()
+{
+  using namespace RectifiedTransport;
+  requireChoice("Integrator", this->Integrator, IntegratorTexts);
+  requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= MaximumNumberOfSteps,
+    "NumberOfSteps", this->NumberOfSteps, "from 1 to 10000");
+  requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance", this->Tolerance,
+    "a positive number of cells");
+  requireChoice("TableLookup", this->TableLookup, TableLookupTexts);
+  FlowOptions options;
+  options.Method = static_cast<RectifiedTransport::Integrator>(this->Integrator);
+  options.NumberOfSteps = this->NumberOfSteps;
+  options.Tolerance = this->Tolerance;
+  options.Lookup = static_cast<RectifiedTransport::TableLookup>(this->TableLookup);
+  return options;
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::Executor* vtkTransportAlgorithm::NewExecutor()
+{
+  RectifiedTransport::requireChoice("Threading", this->Threading, ThreadingTexts);
+  return RectifiedTransport::makeExecutor(
+    static_cast<RectifiedTransport::Threading>(this->Threading))
+    .release();
 }
 
 //------------------------------------------------------------------------------

@@ -18,6 +18,15 @@
 
 #include "vtkDensityAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
+
+namespace RectifiedTransport
+{
+class Executor;
+class FlowCache;
+struct FlowOptions;
+} // namespace RectifiedTransport
+
 VTK_ABI_NAMESPACE_BEGIN
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportAlgorithm : public vtkDensityAlgorithm
@@ -128,6 +137,21 @@ protected:
   vtkTransportAlgorithm();
   ~vtkTransportAlgorithm() override;
 
+  /**
+   * The properties as the core takes them. Throws what RequestData may throw.
+   */
+  RectifiedTransport::FlowOptions GetFlowOptions();
+
+  /**
+   * Who runs the parallel loops; the caller deletes it. Throws what RequestData may throw.
+   */
+  RectifiedTransport::Executor* NewExecutor();
+
+  /**
+   * The flow that is kept between runs.
+   */
+  RectifiedTransport::FlowCache& GetFlowCache();
+
   int Integrator;
   int NumberOfSteps;
   double Tolerance;
@@ -135,6 +159,9 @@ protected:
   int Threading;
 
 private:
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
 };

@@ -1,22 +1,225 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSampler.h"
 
+#include "Bridge/DensityImage.h"
+#include "Bridge/FlowCache.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/Memory.h"
+#include "Bridge/ParticleSet.h"
 #include "Bridge/PropertyCheck.h"
+#include "Bridge/SeedInput.h"
+#include "Bridge/UnitSeeds.h"
 
-#include "vtkDataObject.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSampler);
 
 namespace
 {
-const char* const SeedPatternTexts[] = { "BlueNoise", "Lattice", "Jittered", "LowDiscrepancy",
-  "Random" };
+using namespace RectifiedTransport;
+
+// What RequestData has fetched and checked.
+struct SamplerRun
+{
+  HostMonitor& Host;
+  const Executor& Threads;
+  DensityImage& Density;
+  FlowCache& Cache;
+  FlowOptions Options;
+  vtkPointSet* GivenSeeds;
+  SeedPattern Pattern;
+  vtkIdType Count;
+  int RandomSeed;
+  int SamplesPerCell;
+  double FlowTime;
+  bool Paths;
+};
+
+// What the user should be warned of.
+struct SamplerReport
+{
+  std::int64_t SeedsMoved = 0;
+  std::int64_t ParticlesMoved = 0;
+};
+
+// Progress at the ends of the stages, in proportion to the times that they take.
+struct SamplerStages
+{
+  double Tables;
+  double Seeds;
+  double Flow;
+};
+
+SamplerStages planStages(const SamplerRun& run, double particles, std::size_t times)
+{
+  const ImageGeometry& geometry = run.Density.Geometry();
+  const double evaluations =
+    run.Options.NumberOfSteps * (run.Options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+  // Nanoseconds, as measured.
+  const double tables =
+    run.Cache.IsOutdated(run.Density) ? 10.0 * static_cast<double>(geometry.NumberOfCells()) : 0.0;
+  const double seeds = tables + 20.0 * particles;
+  const double flow = seeds + particles * evaluations * (geometry.Dimension() == 3 ? 60.0 : 15.0);
+  const double all = flow + 50.0 * particles * static_cast<double>(times);
+  return { tables / all, seeds / all, flow / all };
 }
+
+// The moments at which positions are wanted: FlowTime, or all of a path.
+std::vector<double> timesOf(const SamplerRun& run)
+{
+  const int steps = run.Paths ? run.Options.NumberOfSteps : 0;
+  std::vector<double> times;
+  for (int i = 0; i < steps; ++i)
+  {
+    times.push_back(run.FlowTime * i / steps);
+  }
+  times.push_back(run.FlowTime);
+  return times;
+}
+
+template <int D>
+UnitSeeds<D> patternOf(const SamplerRun& run)
+{
+  const ImageGeometry& geometry = run.Density.Geometry();
+  if (run.SamplesPerCell > 0 &&
+    (run.Pattern == SeedPattern::Lattice || run.Pattern == SeedPattern::Jittered))
+  {
+    GridSize<D> grid = geometry.Size<D>();
+    for (std::int64_t& cells : grid)
+    {
+      cells *= run.SamplesPerCell;
+    }
+    return UnitSeeds<D>(run.Pattern, grid, run.RandomSeed);
+  }
+  return UnitSeeds<D>(run.Pattern, geometry.Lengths<D>(), run.Count, run.RandomSeed);
+}
+
+std::string describeParticles(double count, bool paths)
+{
+  constexpr double mostDigits = 1e15;
+  const std::string number =
+    count < mostDigits ? std::to_string(static_cast<std::int64_t>(count)) : "more than 1e15";
+  return (paths ? "the paths of " : "") + number +
+    " particles (see NumberOfParticles, SamplesPerCell and Seeds)";
+}
+
+template <int D>
+void makeSeeds(const UnitSeeds<D>& pattern, const SamplerRun& run, const std::string& purpose,
+  ParticleSet<D>& particles)
+{
+  double* seeds = particles.Seeds();
+  withMemory(purpose, pattern.Count() * D * sizeof(double), [&]() { pattern.Generate(seeds); });
+  const GridSize<D> size = run.Density.Geometry().Size<D>();
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  run.Host.Run(run.Threads, particles.Count(), grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      for (int a = 0; a < D; ++a)
+      {
+        seeds[i * D + a] *= static_cast<double>(size[a]);
+      }
+    }
+  });
+}
+
+// Returns how many particles had to be put into cells with mass.
+template <int D>
+std::int64_t advect(const SamplerRun& run, const std::vector<double>& times,
+  const std::string& purpose, ParticleSet<D>& particles)
+{
+  const double* seeds = particles.Seeds();
+  double* positions = particles.Positions();
+  const std::int64_t count = particles.Count();
+  if (times.size() == 1 && times[0] == 0.0)
+  {
+    std::copy_n(seeds, count * D, positions);
+    return 0;
+  }
+  const RectifiedFlow<D>& flow = run.Cache.Flow<D>();
+  const Monitor monitor = run.Host.GetMonitor();
+  const bool toEnd = times.size() == 1 && times[0] == 1.0;
+  const FlowReport report =
+    withMemory(purpose, static_cast<double>(count) * sizeof(std::int64_t), [&]() {
+      return toEnd
+        ? flow.Forward(seeds, count, positions, run.Options, run.Threads, monitor)
+        : flow.ForwardAt(seeds, count, times, positions, run.Options, run.Threads, monitor);
+    });
+  if (report.Cancelled)
+  {
+    throw Aborted();
+  }
+  return report.MovedToMass;
+}
+
+void addValue(vtkPolyData* output, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+template <int D>
+SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
+{
+  const ImageGeometry& geometry = run.Density.Geometry();
+  const UnitSeeds<D> pattern = patternOf<D>(run);
+  const double count =
+    run.GivenSeeds ? static_cast<double>(run.GivenSeeds->GetNumberOfPoints()) : pattern.Count();
+  const std::vector<double> times = timesOf(run);
+  const SamplerStages stages = planStages(run, count, times.size());
+  const std::string purpose = describeParticles(count, run.Paths);
+  ParticleSet<D> particles(
+    geometry, purpose, count, static_cast<std::int64_t>(times.size()), run.GivenSeeds != nullptr);
+
+  run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
+  SamplerReport report;
+  run.Host.BeginStage(stages.Seeds);
+  if (run.GivenSeeds)
+  {
+    report.SeedsMoved = readSeeds<D>(run.GivenSeeds, geometry, run.Threads, run.Host,
+      particles.Seeds(), particles.PhysicalSeeds());
+  }
+  else
+  {
+    makeSeeds<D>(pattern, run, purpose, particles);
+  }
+  run.Host.BeginStage(stages.Flow);
+  report.ParticlesMoved = advect<D>(run, times, purpose, particles);
+
+  vtkDataSetAttributes* cellsOrPoints = output->GetPointData();
+  if (run.Paths)
+  {
+    cellsOrPoints = output->GetCellData();
+  }
+  if (run.GivenSeeds)
+  {
+    cellsOrPoints->PassData(run.GivenSeeds->GetPointData());
+  }
+  const double mass = run.Cache.TotalMass();
+  const double cost = run.Paths
+    ? particles.WritePaths(mass, times, run.Threads, run.Host, 1.0, output)
+    : particles.WriteParticles(mass, run.Threads, run.Host, 1.0, output);
+  addValue(output, "TotalMass", mass);
+  addValue(output, "TransportCost", cost);
+  return report;
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()
@@ -37,7 +240,7 @@ vtkTransportSampler::~vtkTransportSampler() = default;
 //------------------------------------------------------------------------------
 const char* vtkTransportSampler::GetSeedPatternAsString()
 {
-  return RectifiedTransport::choiceText(SeedPatternTexts, this->SeedPattern);
+  return choiceText(SeedPatternTexts, this->SeedPattern);
 }
 
 //------------------------------------------------------------------------------
@@ -80,8 +283,48 @@ int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportSampler::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  vtkPointSet* seeds = vtkPointSet::GetData(inputVector[1], 0);
+  const bool usesGrid =
+    this->SamplesPerCell > 0 && (this->SeedPattern == LATTICE || this->SeedPattern == JITTERED);
+  requireChoice("SeedPattern", this->SeedPattern, SeedPatternTexts);
+  requireThat(
+    this->SamplesPerCell >= 0, "SamplesPerCell", this->SamplesPerCell, "0 (not used) or greater");
+  requireThat(this->NumberOfParticles >= 1 || seeds || usesGrid, "NumberOfParticles",
+    this->NumberOfParticles, "at least 1");
+  requireThat(
+    this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
+  const FlowOptions options = this->GetFlowOptions();
+  const std::unique_ptr<Executor> executor(this->NewExecutor());
+
+  const std::unique_ptr<DensityImage> density(
+    this->NewDensity(vtkDataObject::GetData(inputVector[0], 0)));
+  if (!density || (seeds && seeds->GetNumberOfPoints() == 0))
+  {
+    return 1;
+  }
+  HostMonitor host(this);
+  const SamplerRun run{ host, *executor, *density, this->GetFlowCache(), options, seeds,
+    static_cast<RectifiedTransport::SeedPattern>(this->SeedPattern), this->NumberOfParticles,
+    this->RandomSeed, this->SamplesPerCell, this->FlowTime, this->OutputPaths != 0 };
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const int dimension = density->Geometry().Dimension();
+  const SamplerReport report = dimension == 1 ? sample<1>(run, output)
+    : dimension == 2                          ? sample<2>(run, output)
+                                              : sample<3>(run, output);
+  if (report.SeedsMoved > 0)
+  {
+    vtkWarningMacro(<< report.SeedsMoved << " of " << seeds->GetNumberOfPoints()
+                    << " seeds lie outside the domain of the density; they were moved to its "
+                       "border");
+  }
+  if (report.ParticlesMoved > 0)
+  {
+    vtkWarningMacro(<< report.ParticlesMoved
+                    << " particles ended in empty cells; they were moved to the nearest cell with "
+                       "mass (more NumberOfSteps may spare them that)");
+  }
   return 1;
 }
 

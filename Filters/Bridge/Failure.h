@@ -20,6 +20,6 @@ class Aborted
 {
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

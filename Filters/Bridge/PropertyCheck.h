@@ -47,6 +47,6 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
   }
 }
 
-}
+} // namespace RectifiedTransport
 
 #endif

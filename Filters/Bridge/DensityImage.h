@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An array of an image as the density that the core reads, without a copy.
+#ifndef RectifiedTransport_DensityImage_h
+#define RectifiedTransport_DensityImage_h
+
+#include "../Core/Density.h"
+#include "ImageGeometry.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+
+namespace RectifiedTransport
+{
+
+class DensityReader;
+class Executor;
+class HostMonitor;
+
+// How the values of an array become a density; see vtkDensityAlgorithm.
+struct DensityRules
+{
+  int Component = -1;
+  bool Invert = false;
+  bool ClampNegative = false;
+};
+
+class DensityImage
+{
+public:
+  // What makes two densities the same one.
+  using Identity = std::array<std::uint64_t, 12>;
+
+  // Throws Failure where the array cannot be a density whatever its values. `array` belongs to the
+  // points or the cells of `image`.
+  DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
+  ~DensityImage();
+  DensityImage(const DensityImage&) = delete;
+  DensityImage& operator=(const DensityImage&) = delete;
+
+  const ImageGeometry& Geometry() const { return this->Place; }
+  const Identity& GetIdentity() const { return this->Key; }
+
+  // Finds what single rows cannot tell, such as the largest value. Call it before reading.
+  void Prepare(const Executor& executor, HostMonitor& host);
+
+  // Values of the cells [first, first + count), axis 0 fastest.
+  void Read(std::int64_t first, std::int64_t count, double* values) const;
+
+  // Throws the Failure that says what is wrong with the density, in the user's terms.
+  [[noreturn]] void Explain(const DensitySummary& summary) const;
+
+private:
+  void FindBlanks(vtkImageData* image, bool onPoints);
+  void BlankCellsOfHiddenPoints(const Executor& executor, HostMonitor& host);
+  void FindWhite(const Executor& executor, HostMonitor& host);
+  bool IsBlank(std::int64_t cell) const;
+
+  ImageGeometry Place;
+  vtkSmartPointer<vtkDataArray> Array;
+  std::unique_ptr<DensityReader> Reader;
+  DensityRules Rules;
+  std::string Name;
+  Identity Key;
+  double White = 0.0;
+
+  // Cells without mass: those whose flags meet the mask.
+  const unsigned char* Flags = nullptr;
+  unsigned char FlagMask = 0;
+  const unsigned char* HiddenPoints = nullptr;
+  std::vector<unsigned char> CombinedFlags;
+};
+
+// What the core sees of a DensityImage of its dimension.
+template <int D>
+class DensityImageSource final : public DensitySource<D>
+{
+public:
+  explicit DensityImageSource(const DensityImage& image)
+    : Image(image)
+    , Dims(image.Geometry().Size<D>())
+  {
+  }
+  GridSize<D> Size() const override { return this->Dims; }
+  void ReadRow(
+    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override
+  {
+    this->Image.Read(row * this->Dims[0] + first, count, values);
+  }
+
+private:
+  const DensityImage& Image;
+  GridSize<D> Dims;
+};
+
+} // namespace RectifiedTransport
+
+#endif

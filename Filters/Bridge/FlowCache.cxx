@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlowCache.h"
+
+#include "../Core/TableView.h"
+#include "Failure.h"
+#include "HostMonitor.h"
+#include "Memory.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// What the tables take: a record a node, and 2^-D of that for each coarser level.
+template <int D>
+double tableBytes(const GridSize<D>& size)
+{
+  double nodes = 1.0;
+  for (const std::int64_t cells : size)
+  {
+    nodes *= static_cast<double>(cells + 1);
+  }
+  constexpr double levels = static_cast<double>(1 << D) / ((1 << D) - 1);
+  return nodes * levels * TableView<D>::Record * sizeof(double);
+}
+
+template <int D>
+std::string describeTables(const GridSize<D>& size)
+{
+  std::string text = "the tables of a density of ";
+  for (int a = 0; a < D; ++a)
+  {
+    text += (a == 0 ? "" : " x ") + std::to_string(size[a]);
+  }
+  return text + " cells";
+}
+
+} // namespace
+
+bool FlowCache::IsOutdated(const DensityImage& density) const
+{
+  return std::holds_alternative<std::monostate>(this->Kept) || this->Key != density.GetIdentity();
+}
+
+void FlowCache::Update(
+  DensityImage& density, const Executor& executor, HostMonitor& host, double progress)
+{
+  if (!this->IsOutdated(density))
+  {
+    return;
+  }
+  constexpr double partOfPreparation = 0.1;
+  host.BeginStage(host.Reached() + partOfPreparation * (progress - host.Reached()));
+  density.Prepare(executor, host);
+  host.BeginStage(progress);
+  // Old and new tables side by side would double the peak.
+  this->Kept = std::monostate();
+  switch (density.Geometry().Dimension())
+  {
+    case 1:
+      return this->Build<1>(density, executor, host);
+    case 2:
+      return this->Build<2>(density, executor, host);
+    default:
+      return this->Build<3>(density, executor, host);
+  }
+}
+
+template <int D>
+void FlowCache::Build(DensityImage& density, const Executor& executor, HostMonitor& host)
+{
+  const GridSize<D> size = density.Geometry().Size<D>();
+  withMemory(describeTables<D>(size), tableBytes<D>(size), [&]() {
+    const Monitor monitor = host.GetMonitor();
+    try
+    {
+      RectifiedFlow<D> flow(DensityImageSource<D>(density), executor, monitor);
+      if (!flow)
+      {
+        throw Aborted();
+      }
+      DensitySummary found;
+      found.Total = flow.Total() * density.Geometry().CellMeasure();
+      if (!(found.Total > 0.0) || std::isinf(found.Total))
+      {
+        density.Explain(found);
+      }
+      this->Mass = found.Total;
+      this->Kept = std::move(flow);
+    }
+    catch (const InvalidDensity& invalid)
+    {
+      density.Explain(invalid.Summary());
+    }
+  });
+  this->Key = density.GetIdentity();
+  this->Built.Modified();
+}
+
+} // namespace RectifiedTransport

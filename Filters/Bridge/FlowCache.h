@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The flow of a density, kept until the density changes.
+#ifndef RectifiedTransport_FlowCache_h
+#define RectifiedTransport_FlowCache_h
+
+#include "../Core/RectifiedFlow.h"
+#include "DensityImage.h"
+
+#include "vtkTimeStamp.h"
+
+#include <variant>
+
+namespace RectifiedTransport
+{
+
+class HostMonitor;
+
+class FlowCache
+{
+public:
+  // Whether Update would build tables.
+  bool IsOutdated(const DensityImage& density) const;
+
+  // Builds the tables if the density is another one; progress then reaches `progress`. Throws
+  // Failure and Aborted; the cache is then empty.
+  void Update(DensityImage& density, const Executor& executor, HostMonitor& host, double progress);
+
+  template <int D>
+  const RectifiedFlow<D>& Flow() const
+  {
+    return std::get<RectifiedFlow<D>>(this->Kept);
+  }
+
+  // Density times cell measure, summed.
+  double TotalMass() const { return this->Mass; }
+
+  // Grows with each build; 0 before the first.
+  vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
+
+private:
+  template <int D>
+  void Build(DensityImage& density, const Executor& executor, HostMonitor& host);
+
+  std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;
+  DensityImage::Identity Key{};
+  double Mass = 0.0;
+  vtkTimeStamp Built;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HostMonitor.h"
+
+#include "../Core/Pacer.h"
+#include "Failure.h"
+#include "VTKCompatibility.h"
+
+#include "vtkAlgorithm.h"
+
+namespace RectifiedTransport
+{
+
+Monitor HostMonitor::GetMonitor()
+{
+  Monitor monitor;
+  monitor.Progress = [this](double fraction) {
+    this->Host->UpdateProgress(this->Begin + (this->End - this->Begin) * fraction);
+  };
+  monitor.Cancelled = [this]() { return this->IsCancelled(); };
+  return monitor;
+}
+
+void HostMonitor::Run(
+  const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel)
+{
+  const Monitor monitor = this->GetMonitor();
+  Pacer pacer(monitor);
+  pacer.BeginStage(1.0, count);
+  // Memory-bound work: a first slice that lasts about a millisecond.
+  constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 18;
+  std::int64_t slice = (firstSlice + grain - 1) / grain * grain;
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    slice = std::min(count - begin, pacer.NextSlice(slice));
+    executor.For(slice, grain,
+      [&](std::int64_t first, std::int64_t last) { kernel(begin + first, begin + last); });
+    begin += slice;
+    if (!pacer.EndSlice(slice))
+    {
+      throw Aborted();
+    }
+    slice = (firstSlice + grain - 1) / grain * grain;
+  }
+}
+
+void HostMonitor::ThrowIfCancelled() const
+{
+  if (this->IsCancelled())
+  {
+    throw Aborted();
+  }
+}
+
+bool HostMonitor::IsCancelled() const
+{
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_CHECK_ABORT
+  // CheckAbort looks upstream and marks the outputs, which is for one thread alone.
+  if (std::this_thread::get_id() == this->HostThread)
+  {
+    return this->Host->CheckAbort();
+  }
+#endif
+  return this->Host->GetAbortExecute() != 0;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Progress and abort of a vtkAlgorithm, as the core hears and says them.
+#ifndef RectifiedTransport_HostMonitor_h
+#define RectifiedTransport_HostMonitor_h
+
+#include "../Core/Executor.h"
+
+#include <cstdint>
+#include <thread>
+
+class vtkAlgorithm;
+
+namespace RectifiedTransport
+{
+
+// Lives on the thread that runs the algorithm.
+class HostMonitor
+{
+public:
+  explicit HostMonitor(vtkAlgorithm* host)
+    : Host(host)
+    , HostThread(std::this_thread::get_id())
+  {
+  }
+
+  // From here on the work of a stage takes progress from where it is to `end`.
+  void BeginStage(double end)
+  {
+    this->Begin = this->End;
+    this->End = end;
+  }
+
+  // The progress at the end of the current stage.
+  double Reached() const { return this->End; }
+
+  // For the core's work of the current stage.
+  Monitor GetMonitor();
+
+  // Runs a kernel over [0, count), cut at multiples of `grain`, as the work of the current stage.
+  // Throws Aborted.
+  void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel);
+
+  void ThrowIfCancelled() const;
+
+private:
+  bool IsCancelled() const;
+
+  vtkAlgorithm* Host;
+  std::thread::id HostThread;
+  double Begin = 0.0;
+  double End = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of particles: each has its own run of consecutive points.
+#ifndef RectifiedTransport_ParticleCells_h
+#define RectifiedTransport_ParticleCells_h
+
+#include "../Core/Executor.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+class vtkCellArray;
+
+namespace RectifiedTransport
+{
+
+class HostMonitor;
+
+// As the work of the host's current stage. Throws Failure and Aborted.
+vtkSmartPointer<vtkCellArray> newParticleCells(
+  vtkIdType count, vtkIdType pointsEach, const Executor& executor, HostMonitor& host);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Seeds that the user gives: points in physical space.
+#ifndef RectifiedTransport_SeedInput_h
+#define RectifiedTransport_SeedInput_h
+
+#include "../Core/Executor.h"
+#include "ImageGeometry.h"
+
+class vtkPointSet;
+
+namespace RectifiedTransport
+{
+
+class HostMonitor;
+
+// Writes the points of a set in index space (D doubles each), moved to the domain's border where
+// they lie outside, and where they then are in physical space (3 doubles each; a point inside keeps
+// its own coordinates to the last bit). Returns how many were moved by more than a millionth of the
+// domain's size, by which single precision may miss the border. Throws Failure for coordinates that
+// are not finite, and Aborted.
+template <int D>
+std::int64_t readSeeds(vtkPointSet* points, const ImageGeometry& geometry, const Executor& executor,
+  HostMonitor& host, double* indexSeeds, double* physicalSeeds);
+
+} // namespace RectifiedTransport
+
+#endif
