@@ -52,6 +52,22 @@ template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* troubled);
 
+// What one pass finds in a row of cells. Sums are taken in eight lanes, in the same order for every
+// instruction set.
+struct RowInspection
+{
+  double Sum;
+  double Moment; // about the low face of the first cell
+  double Largest;
+  double Smallest;
+  std::int64_t Wrong; // values that are negative or not finite
+};
+using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
+
+// Adds a row of cells to {f, f * centre} of every column.
+using AddToColumns = void (*)(const double* values, std::int64_t count, double centre,
+  double* columns, double* moments);
+
 // Adds one row of cells to a running row of nodes and writes the sums out. `running` holds, node
 // by node, the table's records below this row of cells; `values` are the row's cells from the
 // strip's start, `prefix` the sums {f, f * centre along axis 0} of the cells before the strip.
@@ -88,6 +104,8 @@ struct FlowKernels
   AdvectBlock<1> Advect1D;
   AdvectBlock<2> Advect2D;
   AdvectBlock<3> Advect3D;
+  InspectRow Inspect;
+  AddToColumns AddColumns;
   AddTableRow2D AddRow2D;
   AddTableRow3D AddRow3D;
   const char* InstructionSet;

@@ -52,7 +52,7 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
 const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
   static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
-    &addTableRow2D, &addTableRow3D, RECTIFIEDTRANSPORT_KERNELS_NAME };
+    &inspectRow, &addToColumns, &addTableRow2D, &addTableRow3D, RECTIFIEDTRANSPORT_KERNELS_NAME };
   return kernels;
 }
 

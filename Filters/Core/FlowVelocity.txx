@@ -156,18 +156,19 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 {
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   const double inverseRatio = 1.0 / job.CoarseRatio;
-  const double widest = static_cast<double>(std::int64_t{ 1 } << (job.Tables.LevelCount - 1));
-  constexpr std::uint64_t exponent = std::uint64_t{ 0x7ff } << 52;
+  const double widest = static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));
+  static_assert(levelShift == 2, "the exponent is rounded down to an even one");
   alignas(64) Lanes width;
   alignas(64) Lanes inverseWidth;
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
     const double ratio = smaller(larger(lanes.Narrowest[i] * inverseRatio, 1.0), widest);
-    const std::uint64_t bits = bitsOf(ratio) & exponent;
-    width[i] = fromBits(bits);
-    inverseWidth[i] = fromBits((std::uint64_t{ 2046 } << 52) - bits);
-    boxes.Level[i] = static_cast<std::int32_t>(bits >> 52) - 1023;
+    // The biased exponent is odd where the exponent is even.
+    const std::uint64_t exponent = ((bitsOf(ratio) >> 52) - 1) | 1;
+    width[i] = fromBits(exponent << 52);
+    inverseWidth[i] = fromBits((2046 - exponent) << 52);
+    boxes.Level[i] = (static_cast<std::int32_t>(exponent) - 1023) >> 1;
   }
   for (int axis = 0; axis < Dimension; ++axis)
   {

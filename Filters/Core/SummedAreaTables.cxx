@@ -29,83 +29,20 @@ constexpr std::int64_t slabBytes = std::int64_t{ 1 } << 21;
 // Tables past this size are written past the caches.
 constexpr std::int64_t streamBytes = std::int64_t{ 1 } << 24;
 
-constexpr int sumLanes = 8;
-
-struct SegmentSums
+// Counts what is wrong with cells, of which the first has the index `index`.
+void findWrong(const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
 {
-  double Sum;
-  double Moment; // about the segment's first cell's low face
-};
-
-double addLanes(const double (&lanes)[sumLanes])
-{
-  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
-    ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
-}
-
-// Looks at cells whose first has the index `index`.
-void inspect(const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
-{
-  double largest[sumLanes] = {};
-  std::int64_t wrong[sumLanes] = {};
-  const std::int64_t whole = count / sumLanes * sumLanes;
-  constexpr double limit = std::numeric_limits<double>::max();
-  for (std::int64_t i = 0; i < whole; i += sumLanes)
-  {
-    for (int lane = 0; lane < sumLanes; ++lane)
-    {
-      const double value = values[i + lane];
-      largest[lane] = value > largest[lane] ? value : largest[lane];
-      wrong[lane] += (value >= 0.0) & (value <= limit) ? 0 : 1;
-    }
-  }
-  std::int64_t suspects = 0;
-  for (std::int64_t i = whole; i < count; ++i)
-  {
-    largest[0] = std::max(largest[0], values[i]);
-    suspects += (values[i] >= 0.0 && values[i] <= limit) ? 0 : 1;
-  }
-  for (int lane = 0; lane < sumLanes; ++lane)
-  {
-    found.Maximum = std::max(found.Maximum, largest[lane]);
-    suspects += wrong[lane];
-  }
-  for (std::int64_t i = 0; suspects > 0 && i < count; ++i)
+  for (std::int64_t i = 0; i < count; ++i)
   {
     if (!std::isfinite(values[i]))
     {
       found.FirstNotFinite = found.NotFinite++ == 0 ? index + i : found.FirstNotFinite;
-      --suspects;
     }
     else if (values[i] < 0.0)
     {
       found.FirstNegative = found.Negative++ == 0 ? index + i : found.FirstNegative;
-      --suspects;
     }
   }
-}
-
-SegmentSums sumSegment(const double* values, std::int64_t count)
-{
-  double sum[sumLanes] = {};
-  double moment[sumLanes] = {};
-  const std::int64_t whole = count / sumLanes * sumLanes;
-  double place[sumLanes] = { 0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5 };
-  for (std::int64_t i = 0; i < whole; i += sumLanes)
-  {
-    for (int lane = 0; lane < sumLanes; ++lane)
-    {
-      sum[lane] += values[i + lane];
-      moment[lane] += values[i + lane] * place[lane];
-      place[lane] += sumLanes;
-    }
-  }
-  for (std::int64_t i = whole; i < count; ++i)
-  {
-    sum[i - whole] += values[i];
-    moment[i - whole] += values[i] * (static_cast<double>(i) + 0.5);
-  }
-  return { addLanes(sum), addLanes(moment) };
 }
 
 // One bit a cell that has mass.
@@ -114,22 +51,34 @@ void markOccupied(const double* values, std::int64_t count, std::uint64_t* words
   for (std::int64_t first = 0; first < count; first += 64)
   {
     const int cells = static_cast<int>(std::min<std::int64_t>(64, count - first));
-    double least = values[first];
-    for (int i = 1; i < cells; ++i)
+    std::uint64_t word = 0;
+    for (int i = 0; i < cells; ++i)
     {
-      least = std::min(least, values[first + i]);
-    }
-    std::uint64_t word = ~std::uint64_t{ 0 };
-    if (!(least > 0.0))
-    {
-      word = 0;
-      for (int i = 0; i < cells; ++i)
-      {
-        word |= static_cast<std::uint64_t>(values[first + i] > 0.0) << i;
-      }
+      word |= static_cast<std::uint64_t>(values[first + i] > 0.0) << i;
     }
     words[first / 64] = word;
   }
+}
+
+// Inspects part of a row, whose first cell has the index `index`, and marks its cells.
+RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
+  std::uint64_t* words, DensitySummary& found)
+{
+  const RowInspection row = flowKernels().Inspect(values, count);
+  found.Maximum = std::max(found.Maximum, row.Largest);
+  if (row.Wrong > 0)
+  {
+    findWrong(values, count, index, found);
+  }
+  if (row.Smallest > 0.0)
+  {
+    std::fill_n(words, (count + 63) / 64, ~std::uint64_t{ 0 });
+  }
+  else
+  {
+    markOccupied(values, count, words);
+  }
+  return row;
 }
 
 void merge(const DensitySummary& part, DensitySummary& whole)
@@ -152,29 +101,30 @@ void fenceStreams()
 #endif
 }
 
+// The number of a node on a level, -1 if the level does not have it.
 std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
 {
-  const std::int64_t width = std::int64_t{ 1 } << level;
-  return node == size || node % width == 0 ? (node + width - 1) >> level : -1;
+  const int shift = level * levelShift;
+  const std::int64_t width = std::int64_t{ 1 } << shift;
+  return node == size || (node & (width - 1)) == 0 ? (node + width - 1) >> shift : -1;
 }
 
 // Copies the nodes (first, first + count] of one row that level `level` has. `nodes` starts with
 // node first + 1, `coarse` with the level's node 0.
+template <int Record>
 void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, std::int64_t size,
-  int level, int record, double* coarse)
+  int level, double* coarse)
 {
-  const std::int64_t width = std::int64_t{ 1 } << level;
-  const auto copy = [&](std::int64_t node) {
-    std::copy_n(nodes + (node - first - 1) * record, record,
-      coarse + coarseNode(node, size, level) * record);
-  };
-  for (std::int64_t node = (first / width + 1) * width; node <= first + count; node += width)
+  const int shift = level * levelShift;
+  const std::int64_t width = std::int64_t{ 1 } << shift;
+  std::int64_t place = (first >> shift) + 1;
+  for (std::int64_t node = place << shift; node <= first + count; node += width, ++place)
   {
-    copy(node);
+    std::copy_n(nodes + (node - first - 1) * Record, Record, coarse + place * Record);
   }
-  if (first + count == size && size % width != 0)
+  if (first + count == size && (size & (width - 1)) != 0)
   {
-    copy(size);
+    std::copy_n(nodes + (count - 1) * Record, Record, coarse + place * Record);
   }
 }
 
@@ -247,10 +197,9 @@ bool buildTables(const Build<1>& build)
     const std::int64_t count = std::min(segment, size - first);
     build.Density.ReadRow(0, first, count, values.data());
     DensitySummary part;
-    inspect(values.data(), count, first, part);
-    part.Total = sumSegment(values.data(), count).Sum;
+    part.Total =
+      inspectCells(values.data(), count, first, build.Occupied + first / 64, part).Sum;
     merge(part, build.Found);
-    markOccupied(values.data(), count, build.Occupied + first / 64);
     for (std::int64_t i = 0; i < count; ++i)
     {
       const double value = values[i] * build.Scale;
@@ -261,7 +210,7 @@ bool buildTables(const Build<1>& build)
     }
     for (int level = 0; level < build.Tables.LevelCount; ++level)
     {
-      copyToLevel(nodes.data(), first, count, size, level, 2, build.Level(level));
+      copyToLevel<2>(nodes.data(), first, count, size, level, build.Level(level));
     }
     if (!build.Pace.EndSlice(1))
     {
@@ -307,17 +256,16 @@ bool buildTables(const Build<2>& build)
           const std::int64_t start = strip * stripCells;
           const std::int64_t length = std::min(stripCells, columns - start);
           build.Density.ReadRow(row, start, length, cells + start);
-          inspect(cells + start, length, row * columns + start, part);
           double* prefix = prefixes.data() + (j * strips + strip) * 2;
           prefix[0] = sum * build.Scale;
           prefix[1] = moment * build.Scale;
-          const SegmentSums sums = sumSegment(cells + start, length);
+          const RowInspection sums = inspectCells(cells + start, length, row * columns + start,
+            build.Occupied + row * build.Tables.WordsPerRow + start / 64, part);
           sum += sums.Sum;
           moment += sums.Moment + sums.Sum * static_cast<double>(start);
         }
         part.Total = sum;
         found[j] = part;
-        markOccupied(cells, columns, build.Occupied + row * build.Tables.WordsPerRow);
       }
     });
     for (std::int64_t j = 0; j < count; ++j)
@@ -354,7 +302,7 @@ bool buildTables(const Build<2>& build)
               }
               if (level > 0)
               {
-                copyToLevel(row.Running, row.First, row.Count, columns, level, 4, target);
+                copyToLevel<4>(row.Running, row.First, row.Count, columns, level, target);
               }
             }
           }
@@ -412,16 +360,12 @@ bool buildTables(const Build<3>& build)
           const std::int64_t row = (begin + k) * rows + j;
           double* cells = values.data() + k * sliceCells + j * columns;
           build.Density.ReadRow(row, 0, columns, cells);
-          inspect(cells, columns, row * columns, part);
-          markOccupied(cells, columns, build.Occupied + row * build.Tables.WordsPerRow);
-          const double centre = static_cast<double>(j) + 0.5;
-          for (std::int64_t i = 0; i < columns; ++i)
-          {
-            column[i] += cells[i];
-            columnMoment[i] += cells[i] * centre;
-          }
+          part.Total += inspectCells(cells, columns, row * columns,
+            build.Occupied + row * build.Tables.WordsPerRow, part)
+                          .Sum;
+          flowKernels().AddColumns(
+            cells, columns, static_cast<double>(j) + 0.5, column, columnMoment);
         }
-        part.Total = sumSegment(column, columns).Sum;
         found[task] = part;
       }
     });
@@ -498,7 +442,7 @@ bool buildTables(const Build<3>& build)
                 std::fill_n(target, 4, 0.0);
                 if (level > 0)
                 {
-                  copyToLevel(row.Running, 0, columns, columns, level, 4, target);
+                  copyToLevel<4>(row.Running, 0, columns, columns, level, target);
                 }
               }
             }
@@ -575,7 +519,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   TableView<Dimension>& tables = this->Tables;
   const std::int64_t narrowest = *std::min_element(size.begin(), size.end());
   tables.LevelCount = 1;
-  while ((narrowestBox << tables.LevelCount) <= narrowest)
+  while ((narrowestBox << (tables.LevelCount * levelShift)) <= narrowest)
   {
     ++tables.LevelCount;
   }
@@ -585,7 +529,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     tables.Cells[axis] = size[axis];
     tables.Size[axis] = static_cast<double>(size[axis]);
-    tables.EvenLevels[axis] = size[axis] % (std::int64_t{ 1 } << (tables.LevelCount - 1)) == 0;
+    tables.EvenLevels[axis] = size[axis] % (std::int64_t{ 1 } << ((tables.LevelCount - 1) * levelShift)) == 0;
     estimate *= tables.Size[axis] + 1.0;
     rows *= axis > 0 ? size[axis] : 1;
   }
@@ -600,7 +544,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     offset[level] = total;
     auto& stride = tables.Levels[level].Stride;
-    const auto nodes = [&](int axis) { return ((size[axis] - 1) >> level) + 2; };
+    const auto nodes = [&](int axis) { return ((size[axis] - 1) >> (level * levelShift)) + 2; };
     stride[0] = TableView<Dimension>::Record;
     for (int axis = 1; axis < Dimension; ++axis)
     {

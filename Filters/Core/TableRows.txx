@@ -2,6 +2,75 @@
 // One row of cells added to the summed-area tables (paper, Algorithm 2). Included by
 // FlowKernels.txx.
 
+constexpr int sumLanes = 8;
+
+RT_INLINE double addLanes(const double (&lanes)[sumLanes])
+{
+  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+    ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+}
+
+RowInspection inspectRow(const double* values, std::int64_t count)
+{
+  constexpr double limit = 1.7976931348623157e308;
+  alignas(64) double sum[sumLanes] = {};
+  alignas(64) double moment[sumLanes] = {};
+  alignas(64) double largest[sumLanes] = {};
+  alignas(64) double smallest[sumLanes];
+  alignas(64) double wrong[sumLanes] = {};
+  alignas(64) double place[sumLanes];
+  for (int lane = 0; lane < sumLanes; ++lane)
+  {
+    place[lane] = lane + 0.5;
+    smallest[lane] = limit;
+  }
+  const std::int64_t whole = count / sumLanes * sumLanes;
+  for (std::int64_t i = 0; i < whole; i += sumLanes)
+  {
+#pragma omp simd
+    for (int lane = 0; lane < sumLanes; ++lane)
+    {
+      const double value = values[i + lane];
+      sum[lane] += value;
+      moment[lane] += value * place[lane];
+      place[lane] += sumLanes;
+      largest[lane] = value > largest[lane] ? value : largest[lane];
+      smallest[lane] = value < smallest[lane] ? value : smallest[lane];
+      // Also true of what is not a number.
+      wrong[lane] += !(value >= 0.0) | !(value <= limit) ? 1.0 : 0.0;
+    }
+  }
+  for (std::int64_t i = whole; i < count; ++i)
+  {
+    const double value = values[i];
+    const std::int64_t lane = i - whole;
+    sum[lane] += value;
+    moment[lane] += value * (static_cast<double>(i) + 0.5);
+    largest[lane] = value > largest[lane] ? value : largest[lane];
+    smallest[lane] = value < smallest[lane] ? value : smallest[lane];
+    wrong[lane] += !(value >= 0.0) | !(value <= limit) ? 1.0 : 0.0;
+  }
+  RowInspection found = { addLanes(sum), addLanes(moment), largest[0], smallest[0], 0 };
+  for (int lane = 0; lane < sumLanes; ++lane)
+  {
+    found.Largest = larger(found.Largest, largest[lane]);
+    found.Smallest = smaller(found.Smallest, smallest[lane]);
+    found.Wrong += static_cast<std::int64_t>(wrong[lane]);
+  }
+  return found;
+}
+
+void addToColumns(const double* values, std::int64_t count, double centre, double* columns,
+  double* moments)
+{
+#pragma omp simd
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    columns[i] += values[i];
+    moments[i] += values[i] * centre;
+  }
+}
+
 using Vector4 = double __attribute__((vector_size(32)));
 
 // Tables that do not fit into the caches are written past them: nobody reads them back before the

@@ -3,8 +3,8 @@
 //
 // A node record is {E, E_0} in 1D, {E, E_0, E_1, E} in 2D and {E, E_0, E_1, E_2} in 3D, where E is
 // the sum of the density over the cells below the node and E_a the sum of density times cell
-// centre along axis a (paper, Section 3.3 and Algorithm 2). Level l holds every 2^l-th node; where
-// 2^l does not divide the size, the last coarse cell is narrower.
+// centre along axis a (paper, Section 3.3 and Algorithm 2). Level l holds every 4^l-th node; where
+// 4^l does not divide the size, the last coarse cell is narrower.
 #ifndef RectifiedTransport_TableView_h
 #define RectifiedTransport_TableView_h
 
@@ -13,11 +13,14 @@
 namespace RectifiedTransport
 {
 
+// Cells of a level are 2^levelShift times as wide as those of the level before.
+constexpr int levelShift = 2;
+
 template <int Dimension>
 struct TableView
 {
   static constexpr int Record = Dimension == 1 ? 2 : 4; // doubles a node
-  static constexpr int MaximumLevels = 32;
+  static constexpr int MaximumLevels = 16;
 
   struct Level
   {
