@@ -386,7 +386,8 @@ void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, double* 
   }
 }
 
-// The pattern of the other axes, with the golden-ratio sequence along a thin one.
+// The pattern of the other axes, with an additive recurrence along a thin one. Its step is the
+// golden ratio in 2D and the square root of 2 in 3D: a rod has both.
 template <int Dimension>
 void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
   std::uint64_t randomSeed, double* unitPoints)
@@ -397,6 +398,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
     rest[a] = lengths[a < thin ? a : a + 1];
   }
   generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints);
+  constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
   const std::uint64_t shift = randomWord(~randomSeed, Dimension);
   for (std::int64_t i = count - 1; i >= 0; --i)
   {
@@ -405,7 +407,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
     {
       point[a < thin ? a : a + 1] = unitPoints[i * (Dimension - 1) + a];
     }
-    point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15u);
+    point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * step);
     std::copy(point.begin(), point.end(), unitPoints + i * Dimension);
   }
 }
@@ -426,9 +428,8 @@ void generateBlueNoise(
   }
   else
   {
-    // The thickness where the spacing of either pattern is the same: a plane's points are farther
-    // apart than those of a slab of a volume of less than one mean spacing; a line's jittered ones
-    // below 0.63.
+    // As thin as the full pattern may be, to the power of the dimension and in mean spacings:
+    // where one dimension less keeps its points as far apart.
     constexpr double thinnest = Dimension == 2 ? 0.4 : 1.0;
     const int thin =
       static_cast<int>(std::min_element(lengths.begin(), lengths.end()) - lengths.begin());

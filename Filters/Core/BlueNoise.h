@@ -17,7 +17,7 @@ namespace RectifiedTransport
 // from a corner until it holds `count` points. The window is turned against the tile by a fixed
 // angle of badly approximable slope, so that even a thin strip sweeps the whole tile and no period
 // shows. The random seed chooses the corner and one of the tile's 8 or 48 symmetries. A box less
-// than about one point thick takes the pattern of one dimension less, and a golden-ratio sequence
+// than about one point thick takes the pattern of one dimension less, and an additive recurrence
 // across.
 // 1D: one point in each of `count` equal intervals, jittered over half of it: spacings are between
 // 0.5 and 1.5 of the mean.

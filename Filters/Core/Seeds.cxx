@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -23,9 +24,10 @@ void checkLengths(const Point<Dimension>& lengths)
   {
     if (!(lengths[a] > 0.0) || !std::isfinite(lengths[a]))
     {
-      throw std::invalid_argument("the sides of the seeds' box must be positive and finite, but "
-                                  "side " +
-        std::to_string(a) + " is " + std::to_string(lengths[a]));
+      std::ostringstream message;
+      message << "the sides of the seeds' box must be positive and finite, but side " << a << " is "
+              << lengths[a];
+      throw std::invalid_argument(message.str());
     }
   }
 }
@@ -55,13 +57,14 @@ void checkGrid(const GridSize<Dimension>& size)
 template <int Dimension>
 using AxisOrder = std::array<int, Dimension>;
 
+// Of equal axes the last first, so that rows run along axis 0.
 template <int Dimension>
 AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
 {
   AxisOrder<Dimension> order;
   for (int a = 0; a < Dimension; ++a)
   {
-    order[a] = a;
+    order[a] = Dimension - 1 - a;
   }
   std::stable_sort(
     order.begin(), order.end(), [&](int a, int b) { return lengths[a] < lengths[b]; });
@@ -113,7 +116,7 @@ private:
     if (k == Dimension)
     {
       // A hundredth of the points missing is as bad as cells a tenth too long.
-      const double cost = std::abs(remaining - 1.0) / std::max(remaining, 1e-300) + 0.1 * stretch;
+      const double cost = std::abs(1.0 / remaining - 1.0) + 0.1 * stretch;
       if (cost < this->Cost)
       {
         this->Cost = cost;
@@ -127,7 +130,7 @@ private:
     for (double n : { lower, upper })
     {
       size[this->Order[k]] = static_cast<std::int64_t>(n);
-      // Cells longer than a box less than one cell thick are nobody's fault.
+      // A box less than one cell thick has one layer of cells at no charge.
       const double ratio = ideal < 1.0 ? 1.0 : std::max(n / ideal, ideal / n);
       this->Try(size, k + 1, remaining / n, stretch + (ratio - 1.0));
     }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform points to start from. All patterns are reproducible from their arguments alone.
+// Uniform points to start from. All patterns are reproducible from their arguments alone, to the
+// last bit on every machine. Counts and grid sizes that are negative, and sides that are not
+// positive and finite, throw std::invalid_argument.
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
@@ -19,7 +21,8 @@ enum class SeedPattern
   Random          // independent uniform points
 };
 
-// The grid of cells as near to `count` as a box with sides `lengths` allows, at least 1 an axis.
+// The grid of cells as near to `count` as a box with sides `lengths` allows: at least 1 an axis (no
+// cells for a count of 0), and cells as near to cubes as that permits.
 template <int Dimension>
 GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count);
 

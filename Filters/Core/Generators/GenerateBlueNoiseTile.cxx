@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Generates BlueNoiseTile2D.cxx and BlueNoiseTile3D.cxx, the toroidal point sets behind
-// SeedPattern::BlueNoise. Not part of the build; one minute in 2D and a few in 3D. In Filters/Core:
+// SeedPattern::BlueNoise. Not part of the build: half a minute in 2D and three in 3D, in the folder
+// Filters/Core:
 //
-//   g++ -O2 -std=c++17 -ffp-contract=off Generators/GenerateBlueNoiseTile.cxx -o /tmp/generate
-//   /tmp/generate 2 BlueNoiseTile2D.cxx
-//   /tmp/generate 3 BlueNoiseTile3D.cxx
+//   g++ -O2 -std=c++17 -ffp-contract=off Generators/GenerateBlueNoiseTile.cxx -o generate
+//   ./generate 2 BlueNoiseTile2D.cxx
+//   ./generate 3 BlueNoiseTile3D.cxx
 //
 // The result is the same on every machine: only + - * / and sqrt of IEEE doubles are used.
 //

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of seeds share.
+#ifndef RectifiedTransport_TestSeeds_h
+#define RectifiedTransport_TestSeeds_h
+
+#include "Seeds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+std::vector<double> seeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed)
+{
+  std::vector<double> points(count * Dimension);
+  generateSeeds<Dimension>(pattern, lengths, count, randomSeed, points.data());
+  return points;
+}
+
+template <int Dimension>
+Point<Dimension> unitCube()
+{
+  Point<Dimension> lengths;
+  lengths.fill(1.0);
+  return lengths;
+}
+
+} // namespace RectifiedTransport
+
+#endif

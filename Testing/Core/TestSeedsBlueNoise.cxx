@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the blue noise is one: spacing, spectrum, faces of the box, thin boxes.
+#include "TestSeeds.h"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+// Nearest-neighbour distances in the box of sides `lengths`, relative to those of the hexagonal or
+// face-centred cubic lattice.
+struct Spacing
+{
+  double Smallest;
+  double Mean;
+};
+
+template <int Dimension>
+class NeighbourGrid
+{
+public:
+  NeighbourGrid(const std::vector<double>& points, const Point<Dimension>& lengths)
+    : Points(points)
+    , Lengths(lengths)
+    , Next(points.size() / Dimension)
+  {
+    double volume = 1.0;
+    for (double length : lengths)
+    {
+      volume *= length;
+    }
+    const double count = static_cast<double>(this->Next.size());
+    this->Largest = Dimension == 1 ? volume / count
+      : Dimension == 2             ? std::sqrt(2.0 / std::sqrt(3.0) * volume / count)
+                                   : std::cbrt(std::sqrt(2.0) * volume / count);
+    std::size_t cells = 1;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      this->Size[a] = std::max(1, static_cast<int>(lengths[a] / this->Largest));
+      cells *= this->Size[a];
+    }
+    this->Head.assign(cells, -1);
+    for (std::size_t i = 0; i < this->Next.size(); ++i)
+    {
+      int& head = this->Head[this->Index(this->CellOf(i))];
+      this->Next[i] = head;
+      head = static_cast<int>(i);
+    }
+  }
+
+  Spacing Measure() const
+  {
+    Spacing spacing = { std::numeric_limits<double>::infinity(), 0.0 };
+    for (std::size_t i = 0; i < this->Next.size(); ++i)
+    {
+      const double distance = this->Nearest(i) / this->Largest;
+      spacing.Smallest = std::min(spacing.Smallest, distance);
+      spacing.Mean += distance / static_cast<double>(this->Next.size());
+    }
+    return spacing;
+  }
+
+private:
+  using Cell = std::array<int, Dimension>;
+
+  Cell CellOf(std::size_t i) const
+  {
+    Cell cell;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const int c = static_cast<int>(this->Points[i * Dimension + a] * this->Size[a]);
+      cell[a] = std::min(c, this->Size[a] - 1);
+    }
+    return cell;
+  }
+
+  std::size_t Index(const Cell& cell) const
+  {
+    std::size_t index = 0;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      index = index * this->Size[a] + cell[a];
+    }
+    return index;
+  }
+
+  // Cells are at least as wide as the largest possible distance in the plane or space; in boxes
+  // thinner than that, neighbours may be farther away.
+  double Nearest(std::size_t i) const
+  {
+    const Cell centre = this->CellOf(i);
+    for (int reach = 1;; reach *= 2)
+    {
+      double squared = std::numeric_limits<double>::infinity();
+      double covered = std::numeric_limits<double>::infinity();
+      Cell lowest;
+      Cell highest;
+      for (int a = 0; a < Dimension; ++a)
+      {
+        lowest[a] = std::max(centre[a] - reach, 0);
+        highest[a] = std::min(centre[a] + reach, this->Size[a] - 1);
+        if (lowest[a] > 0 || highest[a] < this->Size[a] - 1)
+        {
+          covered = std::min(covered, reach * this->Lengths[a] / this->Size[a]);
+        }
+      }
+      Cell cell = lowest;
+      for (bool more = true; more;)
+      {
+        for (int j = this->Head[this->Index(cell)]; j >= 0; j = this->Next[j])
+        {
+          if (j != static_cast<int>(i))
+          {
+            squared = std::min(squared, this->SquaredDistance(i, j));
+          }
+        }
+        int a = 0;
+        for (; a < Dimension && ++cell[a] > highest[a]; ++a)
+        {
+          cell[a] = lowest[a];
+        }
+        more = a < Dimension;
+      }
+      if (squared <= covered * covered)
+      {
+        return std::sqrt(squared);
+      }
+    }
+  }
+
+  double SquaredDistance(std::size_t i, std::size_t j) const
+  {
+    double squared = 0.0;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const double difference =
+        (this->Points[i * Dimension + a] - this->Points[j * Dimension + a]) * this->Lengths[a];
+      squared += difference * difference;
+    }
+    return squared;
+  }
+
+  const std::vector<double>& Points;
+  Point<Dimension> Lengths;
+  std::vector<int> Next;
+  std::vector<int> Head;
+  Cell Size;
+  double Largest;
+};
+
+template <int Dimension>
+Spacing spacing(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed)
+{
+  const auto points = seeds<Dimension>(pattern, lengths, count, randomSeed);
+  return NeighbourGrid<Dimension>(points, lengths).Measure();
+}
+
+template <int Dimension>
+void expectSpacing(const Point<Dimension>& lengths, std::int64_t count, int numberOfSeeds,
+  double smallest, double mean)
+{
+  SCOPED_TRACE(testing::Message() << testing::PrintToString(lengths) << ", " << count);
+  for (int seed = 1; seed <= numberOfSeeds; ++seed)
+  {
+    const Spacing found = spacing<Dimension>(SeedPattern::BlueNoise, lengths, count, 7919 * seed);
+    EXPECT_GE(found.Smallest, smallest) << "seed " << 7919 * seed;
+    EXPECT_GE(found.Mean, mean) << "seed " << 7919 * seed;
+  }
+}
+
+// The project's promise is 0.65 and 0.85; it reaches 0.85 and 0.87 for any box and count from 100.
+constexpr double smallest2D = 0.83;
+constexpr double mean2D = 0.86;
+
+TEST(BlueNoise, KeepsItsSpacingInTheRectangle)
+{
+  const Point<2> boxes[] = { { 1.0, 1.0 }, { 4.0, 3.0 }, { 1.0, 3.0 }, { 10.0, 1.0 },
+    { 1.0, 100.0 } };
+  for (const Point<2>& lengths : boxes)
+  {
+    for (std::int64_t count : { 100, 101, 127, 200, 333, 1000 })
+    {
+      expectSpacing<2>(lengths, count, 100, smallest2D, mean2D);
+    }
+    expectSpacing<2>(lengths, 4096, 20, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 8192, 10, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 40000, 3, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 100000, 1, smallest2D, mean2D);
+  }
+}
+
+TEST(BlueNoise, KeepsItsSpacingForEveryCount)
+{
+  for (std::int64_t count = 100; count < 700; ++count)
+  {
+    expectSpacing<2>({ 1.5, 1.0 }, count, 3, smallest2D, mean2D);
+  }
+}
+
+TEST(BlueNoise, KeepsItsSpacingInStrips)
+{
+  // On both sides of the thickness where one dimension goes.
+  expectSpacing<2>({ 40000.0, 4.0 }, 8192, 4, 0.85, 0.9);
+  for (double aspect : { 150.0, 245.0, 255.0, 400.0, 1e6 })
+  {
+    expectSpacing<2>({ aspect, 1.0 }, 100, 20, 0.7, 0.9);
+    expectSpacing<2>({ 1.0, 10.0 * aspect }, 1000, 4, 0.7, 0.9);
+  }
+}
+
+TEST(BlueNoise, KeepsItsSpacingInTheBox)
+{
+  const Point<3> boxes[] = { { 1.0, 1.0, 1.0 }, { 4.0, 3.0, 2.0 }, { 10.0, 1.0, 10.0 },
+    { 100.0, 1.0, 1.0 }, { 100.0, 100.0, 1.0 }, { 1.0, 1000.0, 3.0 } };
+  for (const Point<3>& lengths : boxes)
+  {
+    expectSpacing<3>(lengths, 100, 10, 0.8, 0.84);
+    expectSpacing<3>(lengths, 1000, 4, 0.8, 0.84);
+    expectSpacing<3>(lengths, 8192, 1, 0.8, 0.84);
+  }
+}
+
+TEST(BlueNoise, IsEvenlySpacedOnTheLine)
+{
+  for (std::int64_t count : { 2, 10, 1000 })
+  {
+    expectSpacing<1>({ 3.0 }, count, 10, 0.5, 0.55);
+  }
+}
+
+TEST(BlueNoise, SpacingTellsOtherPatternsApart)
+{
+  const Spacing random = spacing<2>(SeedPattern::Random, { 1.0, 1.0 }, 1000, 1);
+  EXPECT_NEAR(random.Mean, 0.465, 0.03); // 1/2 of the mean spacing for independent points
+  EXPECT_LT(random.Smallest, 0.1);
+  EXPECT_LT(spacing<2>(SeedPattern::Jittered, { 1.0, 1.0 }, 1000, 1).Mean, 0.7);
+  // A square lattice in the centres of unit cells: 1 over the hexagonal 1.0746.
+  std::vector<double> lattice(200);
+  generateLattice<2>({ 10, 10 }, lattice.data());
+  EXPECT_NEAR(NeighbourGrid<2>(lattice, { 1.0, 1.0 }).Measure().Mean, 0.9306, 1e-4);
+}
+
+// |sum of exp(-2 pi i k x)|^2 / count in the unit square; 1 on average for independent points.
+class Spectrum
+{
+public:
+  Spectrum(const std::vector<double>& points, int largest)
+    : Largest(largest)
+    , Side(2 * largest + 1)
+    , Sums(Side * Side)
+  {
+    const std::size_t count = points.size() / 2;
+    std::vector<std::complex<double>> waves[2];
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (int a = 0; a < 2; ++a)
+      {
+        waves[a].resize(this->Side);
+        for (int k = -largest; k <= largest; ++k)
+        {
+          waves[a][k + largest] = std::polar(1.0, -2.0 * std::acos(-1.0) * k * points[2 * i + a]);
+        }
+      }
+      for (int y = 0; y < this->Side; ++y)
+      {
+        for (int x = 0; x < this->Side; ++x)
+        {
+          this->Sums[y * this->Side + x] += waves[0][x] * waves[1][y];
+        }
+      }
+    }
+    this->Scale = 1.0 / static_cast<double>(count);
+  }
+
+  double operator()(int x, int y) const
+  {
+    return this->Scale *
+      std::norm(this->Sums[(y + this->Largest) * this->Side + x + this->Largest]);
+  }
+
+private:
+  int Largest;
+  int Side;
+  std::vector<std::complex<double>> Sums;
+  double Scale;
+};
+
+TEST(BlueNoise, HasABlueAndIsotropicSpectrum)
+{
+  // 50 is the frequency of the mean spacing of 2500 points.
+  constexpr int largest = 60;
+  const Spectrum spectrum(seeds<2>(SeedPattern::BlueNoise, { 1.0, 1.0 }, 2500, 3), largest);
+  double low = 0.0;
+  int lowWaves = 0;
+  constexpr int sectors = 12;
+  double sector[sectors] = {};
+  int sectorWaves[sectors] = {};
+  std::vector<double> radial(largest + 1, 0.0);
+  std::vector<int> radialWaves(largest + 1, 0);
+  for (int y = 0; y <= largest; ++y)
+  {
+    for (int x = -largest; x <= largest; ++x)
+    {
+      const double radius = std::hypot(x, y);
+      if (radius < 1.0 || radius >= largest)
+      {
+        continue;
+      }
+      const double power = spectrum(x, y);
+      radial[static_cast<int>(radius)] += power;
+      ++radialWaves[static_cast<int>(radius)];
+      if (radius < 25.0)
+      {
+        low += power;
+        ++lowWaves;
+      }
+      if (radius > 47.0 && radius < 57.0)
+      {
+        const int s = static_cast<int>(std::atan2(y, x) / std::acos(-1.0) * sectors) % sectors;
+        sector[s] += power;
+        ++sectorWaves[s];
+      }
+    }
+  }
+  EXPECT_LT(low / lowWaves, 0.06); // what the cut at the faces leaves
+  double ring = 0.0;
+  for (int s = 0; s < sectors; ++s)
+  {
+    ring += sector[s] / sectorWaves[s] / sectors;
+  }
+  for (int s = 0; s < sectors; ++s)
+  {
+    EXPECT_NEAR(sector[s] / sectorWaves[s], ring, 0.35 * ring) << "sector " << s;
+  }
+  for (int r = 1; r < largest; ++r)
+  {
+    // A lattice's would be hundreds.
+    EXPECT_LT(radial[r] / radialWaves[r], 6.0) << "frequency " << r;
+  }
+}
+
+TEST(BlueNoise, IsAsDenseAtTheFacesAsInside)
+{
+  // Layers half a mean spacing thick.
+  constexpr int count = 400;
+  constexpr int numberOfSeeds = 500;
+  const double layer = 0.025;
+  double share[4] = {};
+  for (int seed = 0; seed < numberOfSeeds; ++seed)
+  {
+    const auto points = seeds<2>(SeedPattern::BlueNoise, { 1.0, 1.0 }, count, seed);
+    for (int i = 0; i < 2 * count; ++i)
+    {
+      share[i % 2] += points[i] < layer ? 1.0 : 0.0;
+      share[2 + i % 2] += points[i] > 1.0 - layer ? 1.0 : 0.0;
+    }
+  }
+  for (double found : share)
+  {
+    EXPECT_NEAR(found / (layer * count * numberOfSeeds), 1.0, 0.06);
+  }
+}
+
+} // namespace
+} // namespace RectifiedTransport
