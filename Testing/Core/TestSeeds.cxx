@@ -216,7 +216,7 @@ bool oneInEachBox(const std::vector<double>& points, int across, std::int64_t sl
     for (std::int64_t slab = 0; slab < slabs; ++slab)
     {
       const std::int64_t size = count / slabs + (slab < count % slabs ? 1 : 0);
-      if (points[2 * i + across] * count < static_cast<double>(begin + size))
+      if (points[2 * i + across] * static_cast<double>(count) < static_cast<double>(begin + size))
       {
         const double along = points[2 * i + 1 - across] * static_cast<double>(size);
         ++found[begin + std::min(static_cast<std::int64_t>(along), size - 1)];
