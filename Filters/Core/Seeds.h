@@ -42,6 +42,6 @@ template <int Dimension>
 void generateJitteredLattice(
   const GridSize<Dimension>& size, std::uint64_t randomSeed, double* unitPoints);
 
-}
+} // namespace RectifiedTransport
 
 #endif
