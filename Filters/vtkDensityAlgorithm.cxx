@@ -37,6 +37,20 @@ std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
   }
   return list.empty() ? std::string("no ") + owner + " arrays" : list + " (" + owner + ")";
 }
+
+// What is meant where no name is given, as by a host that has not seen the data yet: the active
+// scalars of the points, else of the cells, else the only array that there is.
+vtkDataArray* defaultArray(vtkImageData* image, int& association)
+{
+  vtkPointData* points = image->GetPointData();
+  vtkCellData* cells = image->GetCellData();
+  const bool single = points->GetNumberOfArrays() + cells->GetNumberOfArrays() == 1;
+  association = points->GetScalars() || (!cells->GetScalars() && points->GetNumberOfArrays() > 0)
+    ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+    : vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  vtkDataSetAttributes* attributes = image->GetAttributes(association);
+  return attributes->GetScalars() || !single ? attributes->GetScalars() : attributes->GetArray(0);
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -145,15 +159,19 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
     throw RectifiedTransport::Failure("The field association of the density array is " +
       std::to_string(association) + "; it must be 0 (points), 1 (cells) or 4 (points, then cells)");
   }
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
+  if (!chosen && (!name || !*name))
+  {
+    chosen = defaultArray(image, association);
+  }
   vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
   if (!array)
   {
-    const char* name = choice->Get(vtkDataObject::FIELD_NAME());
     throw RectifiedTransport::Failure(
-      (chosen    ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
-          : name ? "The input image has no density array '" + std::string(name) + "'"
-                 : std::string("The input image has no active scalars for a density")) +
+      (chosen ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
+          : name && *name ? "The input image has no density array '" + std::string(name) + "'"
+                          : std::string("The input image has no active scalars for a density")) +
       "; it has " + listArrays(image->GetPointData(), "point") + " and " +
       listArrays(image->GetCellData(), "cell"));
   }

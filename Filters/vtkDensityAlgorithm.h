@@ -4,7 +4,7 @@
  * @brief   what all filters that read a density from an image share
  *
  * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...); without a
- * choice it is the active scalars of the points, else of the cells. It is piecewise constant on
+ * choice it is the active scalars of the points, else of the cells, else the only array. It is piecewise constant on
  * cells: cell arrays are taken as they are; the values of a point array are those of the dual
  * cells, so that the domain is the image's bounds grown by half a spacing on each side of every
  * axis. An axis of one point is no axis, so that images may be 1D, 2D (in any coordinate plane) or

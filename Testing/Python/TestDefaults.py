@@ -87,6 +87,7 @@ class Defaults(unittest.TestCase):
                     filter_ = instance(proxy)
                     if filter_.GetNumberOfInputPorts() > 0:
                         filter_.SetInputData(density_image((4, 3)))
+                        filter_.SetNumberOfParticles(100)
                     heard = Listener(filter_)
                     getattr(filter_, prop.command)(value)
                     filter_.Update()

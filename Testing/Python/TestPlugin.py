@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin in ParaView: where its filters are found, and what the panel says of them."""
+import os
 import unittest
 
 from rt_proxies import proxies
-from rt_testing import density_image, load_plugin, main, output_of, producer
+from rt_testing import SOURCE, density_image, load_plugin, main, output_of, producer
 
 simple = load_plugin()
 
@@ -51,11 +52,21 @@ class Plugin(unittest.TestCase):
                              ["CELLS" if cells else "POINTS", "Density"])
             self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
 
+    def test_array_of_data_not_seen_yet(self):
+        """A reader that has not run names no array to the panel; the filter finds the only one."""
+        photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
+                                                                    "ascent.png")])
+        sampler = simple.SampleDensity(Input=photograph, NumberOfParticles=50)
+        self.assertEqual(output_of(sampler).GetNumberOfPoints(), 50)
+
     def test_only_images_are_accepted(self):
+        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
         sphere = simple.Sphere()
         sphere.UpdatePipeline()
-        with self.assertRaises(Exception):
-            simple.SampleDensity(Input=sphere)
+        accepted = sampler.SMProxy.GetProperty("Input")
+        self.assertTrue(accepted.IsInDomains())
+        accepted.SetUncheckedInputConnection(0, sphere.SMProxy, 0)
+        self.assertFalse(accepted.IsInDomains())
 
     def test_flow_time_is_animateable(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))

@@ -13,14 +13,11 @@ def pipeline():
     """A photograph, seeds of its own, and a sampler with settings that are not the defaults."""
     photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
                                                                 "ascent.png")])
-    seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500)
-    seeds.Pattern = "Jittered"
-    sampler = simple.SampleDensity(Input=photograph, Seeds=seeds)
-    sampler.InvertDensity = 1
-    sampler.FlowTime = 0.75
-    sampler.Integrator = "RungeKutta4"
-    sampler.NumberOfSteps = 12
-    simple.RenameSource("Sampler", sampler)
+    seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500,
+                                Pattern="Jittered")
+    sampler = simple.SampleDensity(registrationName="Sampler", Input=photograph, Seeds=seeds,
+                                   InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4",
+                                   NumberOfSteps=12)
     return sampler
 
 
