@@ -4,12 +4,33 @@
 //
 // A table is interpolated along its own axis by a quadratic and linearly along the others, which
 // is exact for a piecewise-constant density: with r the place in a cell of width h,
-//   L[F] = (1-r) F_i + r F_i+1,    Q[F] = -(h/2) r (1-r) (F_i+1 - F_i),
-//   E(x) = (L (x) L (x) L) E,      E_a(x) = (L (x) L (x) L) E_a + (Q_a (x) L (x) L) E.
-// A box takes four nodes an axis, two at each side. Sides on a face of the domain take none (the
-// tables are zero there) or one (they are total).
+//   L[F] = F_i + r (F_i+1 - F_i),    Q[F] = b (F_i+1 - F_i),    b = -(h/2) r (1-r),
+//   E(x) = (L (x) L (x) L) E,        E_a(x) = (L (x) L (x) L) E_a + (Q_a (x) L (x) L) E.
+// A box takes the difference of its two sides on every axis. The low face of the domain takes no
+// node (the tables are zero there), the high face one (they are total).
 
 using Lanes = double[BlockSize];
+
+// Which sides of a box lie on the faces of the domain, along one axis.
+constexpr int insideBoth = 0;
+constexpr int onLowFace = 1;
+constexpr int onHighFace = 2;
+constexpr int onBothFaces = 3;
+
+// The boxes of a block of particles, as the sums below want them, and what they return. [0] is the
+// low side, [1] the high side.
+template <int Dimension>
+struct BoxLanes
+{
+  alignas(64) double Place[Dimension][2][BlockSize]; // r
+  alignas(64) double Bend[Dimension][2][BlockSize];  // b
+  alignas(64) std::int32_t Node[Dimension][2][BlockSize];
+  alignas(64) std::int32_t Faces[Dimension][BlockSize];
+  alignas(64) std::int32_t Level[BlockSize];
+
+  alignas(64) Lanes Mass;
+  alignas(64) double Moment[Dimension][BlockSize];
+};
 
 template <int N>
 struct Number
@@ -17,47 +38,98 @@ struct Number
   static constexpr int Value = N;
 };
 
-// The boxes of a block of particles, as the sums below want them, and what they return.
-template <int Dimension>
-struct BoxLanes
+// Calls function(Number<faces>{}).
+template <class Function>
+RT_INLINE void dispatchFaces(int faces, const Function& function)
 {
-  // Nodes of an axis in the order low side, low side + 1, high side + 1, high side; the sides on a
-  // face drop out at the ends.
-  alignas(64) double Weight[Dimension][4][BlockSize];
-  alignas(64) double Quadratic[Dimension][4][BlockSize];
-  alignas(64) std::int32_t Low[Dimension][BlockSize];
-  alignas(64) std::int32_t High[Dimension][BlockSize];
-  alignas(64) std::int32_t FirstNode[Dimension][BlockSize];
-  alignas(64) std::int32_t EndNode[Dimension][BlockSize];
-  alignas(64) std::int32_t Level[BlockSize];
+  switch (faces)
+  {
+    case insideBoth:
+      function(Number<insideBoth>{});
+      break;
+    case onLowFace:
+      function(Number<onLowFace>{});
+      break;
+    case onHighFace:
+      function(Number<onHighFace>{});
+      break;
+    default:
+      function(Number<onBothFaces>{});
+      break;
+  }
+}
 
-  alignas(64) Lanes Mass;
-  alignas(64) double Moment[Dimension][BlockSize];
+// One axis of a box.
+struct BoxAxis
+{
+  double Place[2];
+  double Bend[2];
+  std::int64_t Offset[2]; // of the sides' nodes, in doubles
+  std::int64_t Stride;
 };
 
-// Offsets of the four nodes of an axis.
-RT_INLINE void findOffsets(
-  std::int64_t low, std::int64_t high, std::int64_t stride, std::int64_t (&offset)[4])
+template <int Dimension>
+RT_INLINE BoxAxis boxAxis(
+  const BoxLanes<Dimension>& boxes, int axis, int lane, std::int64_t stride)
 {
-  offset[0] = low * stride;
-  offset[1] = offset[0] + stride;
-  offset[3] = high * stride;
-  offset[2] = offset[3] + stride;
+  return { { boxes.Place[axis][0][lane], boxes.Place[axis][1][lane] },
+    { boxes.Bend[axis][0][lane], boxes.Bend[axis][1][lane] },
+    { boxes.Node[axis][0][lane] * stride, boxes.Node[axis][1][lane] * stride }, stride };
+}
+
+struct AxisSums
+{
+  Vector8 Linear;
+  Vector8 Bent;
+};
+
+// L and Q of one axis over the box, where value(offset) are the sums at a node of it.
+template <int Faces, class Value>
+RT_INLINE AxisSums sumAxis(const BoxAxis& axis, const Value& value)
+{
+  AxisSums sums;
+  if constexpr (Faces == insideBoth || Faces == onLowFace)
+  {
+    const Vector8 high = value(axis.Offset[1]);
+    const Vector8 step = value(axis.Offset[1] + axis.Stride) - high;
+    sums.Linear = high + step * axis.Place[1];
+    sums.Bent = step * axis.Bend[1];
+  }
+  else
+  {
+    sums.Linear = value(axis.Offset[1] + axis.Stride);
+    sums.Bent = fillVector(0.0, 0.0);
+  }
+  if constexpr (Faces == insideBoth || Faces == onHighFace)
+  {
+    const Vector8 low = value(axis.Offset[0]);
+    const Vector8 step = value(axis.Offset[0] + axis.Stride) - low;
+    sums.Linear = sums.Linear - (low + step * axis.Place[0]);
+    sums.Bent = sums.Bent - step * axis.Bend[0];
+  }
+  return sums;
 }
 
 RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
 {
   const double* nodes = tables.Levels[boxes.Level[lane]].Nodes;
-  std::int64_t offset[4];
-  findOffsets(boxes.Low[0][lane], boxes.High[0][lane], TableView<1>::Record, offset);
-  double mass = 0.0;
-  double moment = 0.0;
-  for (int node = boxes.FirstNode[0][lane]; node < boxes.EndNode[0][lane]; ++node)
+  const BoxAxis axis = boxAxis<1>(boxes, 0, lane, TableView<1>::Record);
+  const int faces = boxes.Faces[0][lane];
+  const double* high = nodes + axis.Offset[1];
+  double mass = high[2];
+  double moment = high[3];
+  if (!(faces & onHighFace))
   {
-    const double* record = nodes + offset[node];
-    const double weight = boxes.Weight[0][node][lane];
-    mass += weight * record[0];
-    moment += weight * record[1] + boxes.Quadratic[0][node][lane] * record[0];
+    const double step = high[2] - high[0];
+    mass = high[0] + step * axis.Place[1];
+    moment = (high[1] + (high[3] - high[1]) * axis.Place[1]) + step * axis.Bend[1];
+  }
+  if (!(faces & onLowFace))
+  {
+    const double* low = nodes + axis.Offset[0];
+    const double step = low[2] - low[0];
+    mass -= low[0] + step * axis.Place[0];
+    moment -= (low[1] + (low[3] - low[1]) * axis.Place[0]) + step * axis.Bend[0];
   }
   boxes.Mass[lane] = mass;
   boxes.Moment[0][lane] = moment;
@@ -65,84 +137,45 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
 
 // In 2D the fourth entry of a record repeats the mass, so that one product with the weights of a
 // pair of neighbouring nodes along axis 0 gives the linear sums and the quadratic one of that axis.
-template <int Rows, bool BothSides>
-RT_INLINE void sumRows2D(const double* low, const double* high, Vector8 lowWeights,
-  Vector8 highWeights, const std::int64_t* offset, const double* weight, const double* quadratic,
-  Vector8& linear, Vector8& bent)
-{
-  for (int row = 0; row < Rows; ++row)
-  {
-    Vector8 sum = loadVector(high + offset[row]) * highWeights;
-    if constexpr (BothSides)
-    {
-      sum = sum + loadVector(low + offset[row]) * lowWeights;
-    }
-    const double w = weight[row * BlockSize];
-    const double q = quadratic[row * BlockSize];
-    linear = row == 0 ? sum * w : linear + sum * w;
-    bent = row == 0 ? sum * q : bent + sum * q;
-  }
-}
-
 RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
-  std::int64_t offset[4];
-  findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], offset);
-  const int first = boxes.FirstNode[1][lane];
-  const int rows = boxes.EndNode[1][lane] - first;
-  const double* weight = &boxes.Weight[1][first][lane];
-  const double* quadratic = &boxes.Quadratic[1][first][lane];
-  const double* low = level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4;
-  const double* high = level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4;
+  const BoxAxis axis0 = boxAxis<2>(boxes, 0, lane, TableView<2>::Record);
+  const BoxAxis axis1 = boxAxis<2>(boxes, 1, lane, level.Stride[1]);
+  const double* low = level.Nodes + axis0.Offset[0];
+  const double* high = level.Nodes + axis0.Offset[1];
 
-  // {1-r, 1-r, 1-r, q, r, r, r, -q} with r and q of the high side, and the negative of that with
-  // those of the low side.
+  // {1-r, 1-r, 1-r, -b, r, r, r, b} of the high side, the negative of that of the low side.
   alignas(64) static constexpr double ones[8] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
   alignas(64) static constexpr double places[8] = { -1.0, -1.0, -1.0, 0.0, 1.0, 1.0, 1.0, 0.0 };
-  alignas(64) static constexpr double bends[8] = { 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 };
+  alignas(64) static constexpr double bends[8] = { 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0 };
   const Vector8 one = loadVector(ones);
   const Vector8 place = loadVector(places);
   const Vector8 bend = loadVector(bends);
-  const Vector8 highWeights =
-    (one + place * boxes.Weight[0][2][lane]) + bend * boxes.Quadratic[0][3][lane];
-  const Vector8 lowWeights =
-    (place * boxes.Weight[0][1][lane] - one) + bend * boxes.Quadratic[0][0][lane];
+  const Vector8 highWeights = (one + place * axis0.Place[1]) + bend * axis0.Bend[1];
+  const Vector8 lowWeights = (one + place * axis0.Place[0]) + bend * axis0.Bend[0];
 
-  Vector8 linear;
-  Vector8 bent;
-  const auto sum = [&](auto rowCount, auto bothSides) __attribute__((always_inline)) {
-    sumRows2D<decltype(rowCount)::Value, decltype(bothSides)::Value>(low, high, lowWeights,
-      highWeights, offset + first, weight, quadratic, linear, bent);
-  };
-  const auto sumAll = [&](auto bothSides) __attribute__((always_inline)) {
-    switch (rows)
+  AxisSums sums;
+  dispatchFaces(boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
+    if (boxes.Faces[0][lane] & onLowFace)
     {
-      case 1:
-        sum(Number<1>{}, bothSides);
-        break;
-      case 2:
-        sum(Number<2>{}, bothSides);
-        break;
-      case 3:
-        sum(Number<3>{}, bothSides);
-        break;
-      default:
-        sum(Number<4>{}, bothSides);
-        break;
+      sums = sumAxis<decltype(faces)::Value>(axis1,
+        [&](std::int64_t offset) __attribute__((always_inline)) {
+          return loadVector(high + offset) * highWeights;
+        });
     }
-  };
-  if (boxes.FirstNode[0][lane] == 0)
-  {
-    sumAll(Number<1>{});
-  }
-  else
-  {
-    sumAll(Number<0>{});
-  }
-  boxes.Mass[lane] = linear[0] + linear[4];
-  boxes.Moment[0][lane] = (linear[1] + linear[5]) + (linear[3] + linear[7]);
-  boxes.Moment[1][lane] = (linear[2] + linear[6]) + (bent[0] + bent[4]);
+    else
+    {
+      sums = sumAxis<decltype(faces)::Value>(axis1,
+        [&](std::int64_t offset) __attribute__((always_inline)) {
+          return loadVector(high + offset) * highWeights - loadVector(low + offset) * lowWeights;
+        });
+    }
+  });
+  boxes.Mass[lane] = sums.Linear[0] + sums.Linear[4];
+  boxes.Moment[0][lane] =
+    (sums.Linear[1] + sums.Linear[5]) + (sums.Linear[3] + sums.Linear[7]);
+  boxes.Moment[1][lane] = (sums.Linear[2] + sums.Linear[6]) + (sums.Bent[0] + sums.Bent[4]);
 }
 
 // The sums of a pair of neighbouring nodes along axis 0 over the nodes of the other axes: linear
@@ -154,65 +187,69 @@ struct PairSums
   Vector8 Bent2;
 };
 
-template <int Rows>
-RT_INLINE PairSums sumPair(const double* nodes, const BoxLanes<3>& boxes, int lane,
-  const std::int64_t (&rowOffset)[4], const std::int64_t (&planeOffset)[4])
+template <int Faces1>
+RT_INLINE PairSums sumSide(
+  const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, int side)
 {
-  const int firstRow = boxes.FirstNode[1][lane];
-  const int firstPlane = boxes.FirstNode[2][lane];
-  const int endPlane = boxes.EndNode[2][lane];
-  const double* weight = &boxes.Weight[1][firstRow][lane];
-  const double* quadratic = &boxes.Quadratic[1][firstRow][lane];
-  const Vector8 zero = fillVector(0.0, 0.0);
-  PairSums sums = { zero, zero, zero };
-  for (int plane = firstPlane; plane < endPlane; ++plane)
+  const auto plane = [&](std::int64_t offset) __attribute__((always_inline)) {
+    return sumAxis<Faces1>(axis1, [&](std::int64_t row) __attribute__((always_inline)) {
+      return loadVector(nodes + offset + row);
+    });
+  };
+  const AxisSums first = plane(axis2.Offset[side]);
+  const AxisSums second = plane(axis2.Offset[side] + axis2.Stride);
+  const Vector8 step = second.Linear - first.Linear;
+  return { first.Linear + step * axis2.Place[side],
+    first.Bent + (second.Bent - first.Bent) * axis2.Place[side], step * axis2.Bend[side] };
+}
+
+template <int Faces1>
+RT_INLINE PairSums sumPair(
+  const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, int faces2)
+{
+  PairSums sums;
+  if (faces2 & onHighFace)
   {
-    const double* rows = nodes + planeOffset[plane];
-    Vector8 linear;
-    Vector8 bent;
-    for (int row = 0; row < Rows; ++row)
-    {
-      const Vector8 pair = loadVector(rows + rowOffset[firstRow + row]);
-      const double w = weight[row * BlockSize];
-      const double q = quadratic[row * BlockSize];
-      linear = row == 0 ? pair * w : linear + pair * w;
-      bent = row == 0 ? pair * q : bent + pair * q;
-    }
-    const double w = boxes.Weight[2][plane][lane];
-    const double q = boxes.Quadratic[2][plane][lane];
-    sums.Linear = sums.Linear + linear * w;
-    sums.Bent1 = sums.Bent1 + bent * w;
-    sums.Bent2 = sums.Bent2 + linear * q;
+    const AxisSums total = sumAxis<Faces1>(axis1,
+      [&](std::int64_t row) __attribute__((always_inline)) {
+        return loadVector(nodes + axis2.Offset[1] + axis2.Stride + row);
+      });
+    sums = { total.Linear, total.Bent, fillVector(0.0, 0.0) };
+  }
+  else
+  {
+    sums = sumSide<Faces1>(nodes, axis1, axis2, 1);
+  }
+  if (!(faces2 & onLowFace))
+  {
+    const PairSums low = sumSide<Faces1>(nodes, axis1, axis2, 0);
+    sums = { sums.Linear - low.Linear, sums.Bent1 - low.Bent1, sums.Bent2 - low.Bent2 };
   }
   return sums;
 }
 
-template <int Rows>
+template <int Faces1>
 RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
-  std::int64_t rowOffset[4];
-  std::int64_t planeOffset[4];
-  findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], rowOffset);
-  findOffsets(boxes.Low[2][lane], boxes.High[2][lane], level.Stride[2], planeOffset);
+  const BoxAxis axis0 = boxAxis<3>(boxes, 0, lane, TableView<3>::Record);
+  const BoxAxis axis1 = boxAxis<3>(boxes, 1, lane, level.Stride[1]);
+  const BoxAxis axis2 = boxAxis<3>(boxes, 2, lane, level.Stride[2]);
+  const int faces2 = boxes.Faces[2][lane];
 
-  const Vector8 weights = fillVector(boxes.Weight[0][3][lane], boxes.Weight[0][2][lane]);
-  const double bend = boxes.Quadratic[0][3][lane];
-  PairSums sums = sumPair<Rows>(level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4, boxes, lane,
-    rowOffset, planeOffset);
+  PairSums sums = sumPair<Faces1>(level.Nodes + axis0.Offset[1], axis1, axis2, faces2);
+  Vector8 weights = fillVector(1.0 - axis0.Place[1], axis0.Place[1]);
   Vector8 linear = sums.Linear * weights;
   Vector8 bent1 = sums.Bent1 * weights;
   Vector8 bent2 = sums.Bent2 * weights;
-  double bent0 = bend * (sums.Linear[0] - sums.Linear[4]);
-  if (boxes.FirstNode[0][lane] == 0)
+  double bent0 = axis0.Bend[1] * (sums.Linear[4] - sums.Linear[0]);
+  if (!(boxes.Faces[0][lane] & onLowFace))
   {
-    const Vector8 lowWeights = fillVector(boxes.Weight[0][0][lane], boxes.Weight[0][1][lane]);
-    const double lowBend = boxes.Quadratic[0][0][lane];
-    sums = sumPair<Rows>(level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4, boxes, lane,
-      rowOffset, planeOffset);
-    linear = linear + sums.Linear * lowWeights;
-    bent1 = bent1 + sums.Bent1 * lowWeights;
-    bent2 = bent2 + sums.Bent2 * lowWeights;
-    bent0 += lowBend * (sums.Linear[0] - sums.Linear[4]);
+    sums = sumPair<Faces1>(level.Nodes + axis0.Offset[0], axis1, axis2, faces2);
+    weights = fillVector(1.0 - axis0.Place[0], axis0.Place[0]);
+    linear = linear - sums.Linear * weights;
+    bent1 = bent1 - sums.Bent1 * weights;
+    bent2 = bent2 - sums.Bent2 * weights;
+    bent0 -= axis0.Bend[0] * (sums.Linear[4] - sums.Linear[0]);
   }
   boxes.Mass[lane] = linear[0] + linear[4];
   boxes.Moment[0][lane] = (linear[1] + linear[5]) + bent0;
@@ -223,21 +260,9 @@ RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, in
 RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
-  switch (boxes.EndNode[1][lane] - boxes.FirstNode[1][lane])
-  {
-    case 1:
-      sumBox3D<1>(level, boxes, lane);
-      break;
-    case 2:
-      sumBox3D<2>(level, boxes, lane);
-      break;
-    case 3:
-      sumBox3D<3>(level, boxes, lane);
-      break;
-    default:
-      sumBox3D<4>(level, boxes, lane);
-      break;
-  }
+  dispatchFaces(boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
+    sumBox3D<decltype(faces)::Value>(level, boxes, lane);
+  });
 }
 
 // Boxes on the finest level are the ones whose nodes are far apart in memory and not yet in the
@@ -248,23 +273,25 @@ template <int Dimension>
 RT_INLINE void prefetchBox(
   const TableView<Dimension>& tables, const BoxLanes<Dimension>& boxes, int lane)
 {
-  if constexpr (Dimension == 2)
+  if (boxes.Level[lane] != 0)
   {
-    if (boxes.Level[lane] != 0)
+    return;
+  }
+  constexpr int lastOfPair = 2 * TableView<Dimension>::Record - 1;
+  const auto& level = tables.Levels[0];
+  for (int side = 0; side < (1 << Dimension); ++side)
+  {
+    const double* nodes = level.Nodes;
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      return;
+      nodes += boxes.Node[axis][(side >> axis) & 1][lane] * level.Stride[axis];
     }
-    const auto& level = tables.Levels[0];
-    std::int64_t offset[4];
-    findOffsets(boxes.Low[1][lane], boxes.High[1][lane], level.Stride[1], offset);
-    const double* low = level.Nodes + std::int64_t{ boxes.Low[0][lane] } * 4;
-    const double* high = level.Nodes + std::int64_t{ boxes.High[0][lane] } * 4;
-    for (const std::int64_t row : offset)
+    for (int row = 0; row < (1 << (Dimension - 1)); ++row)
     {
-      __builtin_prefetch(low + row);
-      __builtin_prefetch(low + row + 7);
-      __builtin_prefetch(high + row);
-      __builtin_prefetch(high + row + 7);
+      const double* pair = nodes + (row & 1) * level.Stride[1] +
+        (Dimension == 3 ? (row >> 1) * level.Stride[Dimension - 1] : 0);
+      __builtin_prefetch(pair);
+      __builtin_prefetch(pair + lastOfPair);
     }
   }
 }

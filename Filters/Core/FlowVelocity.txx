@@ -112,40 +112,29 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
   const double size = job.Tables.Size[axis];
   const double* from = lanes.From[axis];
   const double* to = lanes.To[axis];
-  auto& weight = boxes.Weight[axis];
-  auto& quadratic = boxes.Quadratic[axis];
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    const double last = truncated((size - 1.0) * inverseWidth[i]);
-    const double lastWidth = Even ? width[i] : size - last * width[i];
-    const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
-
-    const double low = smaller(truncated(from[i] * inverseWidth[i]), last);
-    const double lowInverse = low == last ? inverseLastWidth : inverseWidth[i];
-    const double lowWidth = low == last ? lastWidth : width[i];
-    const double lowPlace = smaller((from[i] - low * width[i]) * lowInverse, 1.0);
-    const double lowBend = 0.5 * lowWidth * lowPlace * (1.0 - lowPlace);
-    weight[0][i] = lowPlace - 1.0;
-    weight[1][i] = -lowPlace;
-    quadratic[0][i] = -lowBend;
-    quadratic[1][i] = lowBend;
-
-    const double high = smaller(truncated(to[i] * inverseWidth[i]), last);
-    const double highInverse = high == last ? inverseLastWidth : inverseWidth[i];
-    const double highWidth = high == last ? lastWidth : width[i];
-    const double place = smaller((to[i] - high * width[i]) * highInverse, 1.0);
-    const double highPlace = to[i] >= size ? 1.0 : place;
-    const double highBend = 0.5 * highWidth * highPlace * (1.0 - highPlace);
-    weight[2][i] = highPlace;
-    weight[3][i] = 1.0 - highPlace;
-    quadratic[2][i] = -highBend;
-    quadratic[3][i] = highBend;
-
-    boxes.Low[axis][i] = static_cast<std::int32_t>(low);
-    boxes.High[axis][i] = static_cast<std::int32_t>(high);
-    boxes.FirstNode[axis][i] = from[i] <= 0.0 ? 2 : 0;
-    boxes.EndNode[axis][i] = to[i] >= size ? 3 : 4;
+    boxes.Faces[axis][i] =
+      (from[i] <= 0.0 ? onLowFace : insideBoth) | (to[i] >= size ? onHighFace : insideBoth);
+  }
+  for (int side = 0; side < 2; ++side)
+  {
+    const double* plane = side == 0 ? from : to;
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double last = truncated((size - 1.0) * inverseWidth[i]);
+      const double lastWidth = Even ? width[i] : size - last * width[i];
+      const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
+      const double node = smaller(truncated(plane[i] * inverseWidth[i]), last);
+      const double inverse = node == last ? inverseLastWidth : inverseWidth[i];
+      const double cell = node == last ? lastWidth : width[i];
+      const double place = smaller((plane[i] - node * width[i]) * inverse, 1.0);
+      boxes.Place[axis][side][i] = place;
+      boxes.Bend[axis][side][i] = -0.5 * cell * place * (1.0 - place);
+      boxes.Node[axis][side][i] = static_cast<std::int32_t>(node);
+    }
   }
 }
 
@@ -188,7 +177,7 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 // whose box is empty get `held`, and Void is set; going backward they keep their place in the box
 // (m = c). Lanes that are not active are not computed. Needs 0 < t < 1.
 template <int Dimension>
-RT_INLINE void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
+__attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
   int count, const LaneVectors<Dimension>& x, const Lanes& t,
   const LaneVectors<Dimension>& held, LaneVectors<Dimension>& v, const bool* active = nullptr)
 {
@@ -197,9 +186,12 @@ RT_INLINE void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dim
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   for (int i = 0; i < count; ++i)
   {
-    if (i + prefetchDistance < count)
+    if constexpr (Dimension > 1)
     {
-      prefetchBox<Dimension>(job.Tables, boxes, i + prefetchDistance);
+      if (i + prefetchDistance < count)
+      {
+        prefetchBox<Dimension>(job.Tables, boxes, i + prefetchDistance);
+      }
     }
     if (!active || active[i])
     {

@@ -22,6 +22,7 @@ namespace
 constexpr int maximumSteps = 10000;
 constexpr int refinements = 5; // 2N, 4N ... 32N
 constexpr int rangeBlocks = 16;
+constexpr int particlesPerTile = 8;
 constexpr std::int64_t chunkParticles = std::int64_t{ 1 } << 20;
 
 void check(const FlowOptions& options)
@@ -57,7 +58,7 @@ double coarseRatio(const FlowOptions& options)
 {
   const bool accurate = options.Method == Integrator::Adaptive ? options.Tolerance < 0.03
                                                                : options.NumberOfSteps >= 48;
-  return accurate ? 64.0 : 32.0;
+  return accurate ? 64.0 : 16.0;
 }
 
 // What the ranges of one advection count; sums of integers do not depend on their order.
@@ -215,7 +216,7 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
   for (std::int64_t chunk = 0; chunk < count && !pacer.IsCancelled(); chunk += chunkParticles)
   {
     const std::int64_t length = std::min(chunkParticles, count - chunk);
-    const std::int64_t wrong = order.Sort(points, chunk, length, BlockSize);
+    const std::int64_t wrong = order.Sort(points, chunk, length, particlesPerTile);
     if (wrong >= 0)
     {
       throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
