@@ -248,7 +248,7 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
   }
 
   std::int64_t evaluations = 0;
-  while (left > 0 && !writer.IsFinished())
+  while (left > 0)
   {
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
@@ -320,7 +320,7 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       left -= lanes.Active[i] ? 0 : 1;
     }
   }
-  if (job.Backward || writer.IsFinished())
+  if (job.Backward)
   {
     return evaluations;
   }

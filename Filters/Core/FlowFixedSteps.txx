@@ -82,7 +82,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
 
   const std::int64_t steps = job.Steps << refinement;
-  for (std::int64_t step = 0; step + 1 < steps && !writer.IsFinished(); ++step)
+  for (std::int64_t step = 0; step + 1 < steps; ++step)
   {
     const StepWeights weights = stepWeights<Dimension>(job, step, steps);
     const auto& v0 = *lanes.V[0];
@@ -112,10 +112,6 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
     }
     std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
     lanes.Rotate();
-  }
-  if (writer.IsFinished())
-  {
-    return (steps - 1) * count;
   }
 
   const StepWeights last = stepWeights<Dimension>(job, steps - 1, steps);
@@ -333,7 +329,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   }
 
   const double one[3] = { 1.0, 0.0, 0.0 };
-  for (std::int64_t step = 0; step <= steps && !writer.IsFinished(); ++step)
+  for (std::int64_t step = 0; step <= steps; ++step)
   {
     // The slope at a step's start closes the interpolant over the step before it.
     auto& first = *lanes.V[3];

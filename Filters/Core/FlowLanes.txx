@@ -56,7 +56,8 @@ RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimensio
   }
 }
 
-// Positions at the requested times, or at time 1 alone.
+// Positions at the requested times, or at time 1 alone. Particles are advected to time 1 in any
+// case, because only the end tells which of them must be redone with smaller steps.
 template <int Dimension>
 struct PathWriter
 {
@@ -66,7 +67,6 @@ struct PathWriter
     , Seeds(seeds)
     , Index(index)
     , Count(count)
-    , Unfinished(job.Times ? count : 0)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -75,8 +75,6 @@ struct PathWriter
   }
 
   bool IsDense() const { return this->Job.Times != nullptr; }
-  // No time is left to write before the end point.
-  bool IsFinished() const { return this->IsDense() && this->Unfinished == 0; }
 
   double* Place(int lane, std::int64_t time) const
   {
@@ -96,10 +94,7 @@ struct PathWriter
         const double value = place(this->Job.Times[next], axis);
         position[axis] = smaller(larger(value, 0.0), this->Job.Tables.Size[axis]);
       }
-      if (++next == this->Job.TimeCount)
-      {
-        --this->Unfinished;
-      }
+      ++next;
     }
   }
 
@@ -150,7 +145,6 @@ struct PathWriter
   const double* Seeds;
   const std::int64_t* Index;
   int Count;
-  int Unfinished;
   std::int64_t Next[BlockSize];
 };
 

@@ -115,6 +115,25 @@ TYPED_TEST(Times, AnyChoice)
   }
 }
 
+// Whether a particle is redone, because it meets an empty box or ends in an empty cell, does not
+// depend on the times that are asked for.
+TYPED_TEST(Times, AnyChoiceWithHoles)
+{
+  constexpr int Dimension = TypeParam::value;
+  const RectifiedFlow<Dimension> flow = makeFlow(discWithHole<Dimension>(density<Dimension>().Size));
+  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 700);
+  for (const Integrator method : AllIntegrators)
+  {
+    const FlowOptions options = steps(8, method);
+    const auto all = forwardAt(flow, seeds, Moments, options);
+    for (const std::size_t i : { 2, 4, 7 })
+    {
+      const auto one = forwardAt(flow, seeds, { Moments[i] }, options);
+      EXPECT_TRUE(sameBits<Dimension>(one[0], all[i])) << nameOf(method) << " at " << Moments[i];
+    }
+  }
+}
+
 // Until the box is smaller than the domain, particles go straight to the centroid.
 TEST(TimesStraight, ToTheCentroid)
 {
