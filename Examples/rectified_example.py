@@ -5,6 +5,8 @@ import os
 import sys
 
 from paraview import simple
+from vtkmodules.vtkImagingCore import vtkImageShrink3D
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, os.pardir, "Testing", "Data")
@@ -22,15 +24,26 @@ def load_plugin():
         simple.LoadDistributedPlugin("RectifiedTransport", remote=False, ns=vars(simple))
 
 
+def fetch(source):
+    """The data that a source or filter makes, brought up to date."""
+    source.UpdatePipeline()
+    return simple.servermanager.Fetch(source)
+
+
+# ParaView's guess for these may be a reader of maps.
+PHOTOGRAPHS = {".png": "PNGSeriesReader", ".jpg": "JPEGSeriesReader", ".jpeg": "JPEGSeriesReader",
+               ".tif": "TIFFSeriesReader", ".tiff": "TIFFSeriesReader"}
+
+
 def open_image(path):
-    """The image in a file of any format that ParaView reads, and its first array's name."""
+    """A reader of the image in a file of any format that ParaView reads."""
     if not os.path.isfile(path):
         sys.exit("There is no file " + path)
-    reader = simple.OpenDataFile(path)
+    kind = PHOTOGRAPHS.get(os.path.splitext(path)[1].lower())
+    reader = getattr(simple, kind)(FileNames=[path]) if kind else simple.OpenDataFile(path)
     if reader is None:
         sys.exit("ParaView has no reader for " + path)
-    reader.UpdatePipeline()
-    if not reader.GetClientSideObject().GetOutputDataObject(0).IsA("vtkImageData"):
+    if not fetch(reader).IsA("vtkImageData"):
         sys.exit(path + " holds no image")
     return reader
 
@@ -44,3 +57,19 @@ def picture_view(size, background):
     view.OrientationAxesVisibility = 0
     view.CenterAxesVisibility = 0
     return view
+
+
+def save_picture(path, view):
+    """Draws a view at twice its size and averages: smooth edges for round points."""
+    simple.SaveScreenshot(path, view, ImageResolution=[2 * n for n in view.ViewSize])
+    drawn = vtkPNGReader()
+    drawn.SetFileName(path)
+    mean = vtkImageShrink3D()
+    mean.SetInputConnection(drawn.GetOutputPort())
+    mean.SetShrinkFactors(2, 2, 1)
+    mean.MeanOn()
+    mean.Update()
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(mean.GetOutputPort())
+    writer.SetFileName(path)
+    writer.Write()

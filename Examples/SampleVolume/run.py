@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Turns a volume into a cloud of particles and draws it."""
+"""Turns a volume into particles and draws half of them as spheres, coloured by the volume."""
 import argparse
+import math
 import os
 import sys
 
@@ -9,32 +10,61 @@ import rectified_example as example
 from paraview import simple
 
 
+def draw(path, particles, bounds, radius, pixels):
+    """The half of the particles behind the plane through the middle, seen from the side of x."""
+    size = [bounds[2 * i + 1] - bounds[2 * i] for i in range(3)]
+    middle = [(bounds[2 * i] + bounds[2 * i + 1]) / 2 for i in range(3)]
+    half = simple.Clip(Input=particles, ClipType="Plane")
+    half.ClipType.Origin = middle
+    half.ClipType.Normal = [1, 0, 0]
+
+    view = example.picture_view([pixels] * 2, [0.02, 0.02, 0.04])
+    shown = simple.Show(half, view)
+    shown.SetRepresentationType("Point Gaussian")
+    shown.ShaderPreset = "Sphere"
+    shown.GaussianRadius = radius
+    name = next(n for n in particles.PointData.keys() if n != "vtkValidPointMask")
+    simple.ColorBy(shown, ("POINTS", name))
+    shown.SetScalarBarVisibility(view, False)
+    colors = simple.GetColorTransferFunction(name)
+    colors.ApplyPreset("Inferno (matplotlib)", True)
+    lowest, highest = particles.PointData[name].GetRange(-1)
+    colors.RescaleTransferFunction(lowest + 0.15 * (highest - lowest), highest)
+
+    away = 2.6 * max(size)
+    view.CameraFocalPoint = middle
+    view.CameraPosition = [m + away * d for m, d in zip(middle, (0.95, 0.26, 0.19))]
+    view.CameraViewUp = [0, 0, 1]
+    view.CameraViewAngle = 22
+    example.save_picture(path, view)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("volume", nargs="?", default=os.path.join(example.DATA, "brain-t1.vti"),
                         help="an image of three dimensions in any format that ParaView reads")
-    parser.add_argument("--particles", type=int, default=200000, help="number of particles")
+    parser.add_argument("--particles", type=int, default=300000, help="number of particles")
     parser.add_argument("--pixels", type=int, default=1200, help="side of the picture")
     parser.add_argument("--output", default=".", help="folder of the picture")
     arguments = parser.parse_args()
 
     example.load_plugin()
     volume = example.open_image(arguments.volume)
-    cloud = simple.SampleDensity(Input=volume)
-    cloud.NumberOfParticles = arguments.particles
-    cloud.UpdatePipeline()
+    cloud = simple.SampleDensity(Input=volume, NumberOfParticles=arguments.particles)
+    data = example.fetch(cloud)
+    if data.GetNumberOfPoints() == 0:
+        sys.exit(1)  # the filter has said why
+    bounds = data.GetBounds()
+    room = math.prod(bounds[2 * i + 1] - bounds[2 * i] for i in range(3))
+    radius = 0.32 * (room / data.GetNumberOfPoints()) ** (1 / 3)
+    coloured = simple.ResampleWithDataset(SourceDataArrays=volume, DestinationMesh=cloud)
+    coloured.UpdatePipeline()
 
-    view = example.picture_view([arguments.pixels] * 2, [0.02, 0.02, 0.04])
-    shown = simple.Show(cloud, view, "GeometryRepresentation")
-    shown.SetRepresentationType("Point Gaussian")
-    shown.ShaderPreset = "Sphere"
-    shown.GaussianRadius = 1.0
-    simple.ResetCamera(view)
     os.makedirs(arguments.output, exist_ok=True)
     name = os.path.splitext(os.path.basename(arguments.volume))[0]
     path = os.path.join(arguments.output, "particles-" + name + ".png")
-    simple.SaveScreenshot(path, view, ImageResolution=[arguments.pixels] * 2)
-    print("%d particles: %s" % (arguments.particles, path))
+    draw(path, coloured, bounds, radius, arguments.pixels)
+    print("%d particles: %s" % (data.GetNumberOfPoints(), path))
 
 
 if __name__ == "__main__":

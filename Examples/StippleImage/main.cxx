@@ -24,7 +24,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputConnection(reader->GetOutputPort());
   sampler->InvertDensityOn(); // dark ink is mass
-  sampler->SetNumberOfParticles(argc > 3 ? std::atoi(argv[3]) : 20000);
+  sampler->SetNumberOfParticles(argc > 3 ? std::atoi(argv[3]) : 40000);
   sampler->Update();
   vtkPolyData* dots = sampler->GetOutput();
   const int zoom = 3;

@@ -16,11 +16,10 @@ def stipple(image, number):
     dots = simple.SampleDensity(Input=image)
     dots.InvertDensity = 1  # dark ink is mass
     dots.NumberOfParticles = number
-    dots.UpdatePipeline()
-    result = dots.GetClientSideObject().GetOutputDataObject(0)
+    result = example.fetch(dots)
     if result.GetNumberOfPoints() == 0:
         sys.exit(1)  # the filter has said why
-    array = image.GetClientSideObject().GetOutputDataObject(0).GetPointData().GetScalars()
+    array = example.fetch(image).GetPointData().GetArray(0)
     black = 255.0 if array.GetDataTypeSize() == 1 else array.GetRange(-1)[1]
     mass = result.GetPointData().GetArray("Mass").GetValue(0)
     return dots, math.sqrt(mass / black / math.pi)
@@ -47,7 +46,7 @@ def write_png(path, dots, bounds, radius, longest):
     shown.SetRepresentationType("Point Gaussian")
     shown.ShaderPreset = "Plain circle"
     shown.GaussianRadius = radius
-    simple.ColorBy(shown, None)
+    shown.ColorArrayName = [None, ""]
     shown.DiffuseColor = shown.AmbientColor = [0, 0, 0]
     view.InteractionMode = "2D"
     view.CameraParallelProjection = 1
@@ -55,14 +54,14 @@ def write_png(path, dots, bounds, radius, longest):
     view.CameraPosition = [(x0 + x1) / 2, (y0 + y1) / 2, max(x1 - x0, y1 - y0)]
     view.CameraViewUp = [0, 1, 0]
     view.CameraParallelScale = (y1 - y0) / 2
-    simple.SaveScreenshot(path, view, ImageResolution=size)
+    example.save_picture(path, view)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("image", nargs="?", default=os.path.join(example.DATA, "raccoon.png"),
                         help="a photograph in any format that ParaView reads")
-    parser.add_argument("--particles", type=int, default=20000, help="number of dots")
+    parser.add_argument("--particles", type=int, default=40000, help="number of dots")
     parser.add_argument("--pixels", type=int, default=2048, help="longest side of the PNG")
     parser.add_argument("--output", default=".", help="folder of the pictures")
     arguments = parser.parse_args()
@@ -70,14 +69,14 @@ def main():
     example.load_plugin()
     image = example.open_image(arguments.image)
     dots, radius = stipple(image, arguments.particles)
-    extent = image.GetClientSideObject().GetOutputDataObject(0)
-    x, y = extent.GetSpacing()[:2]
-    bounds = [b + s for b, s in zip(extent.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
+    data = example.fetch(image)
+    x, y = data.GetSpacing()[:2]
+    bounds = [b + s for b, s in zip(data.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
 
     os.makedirs(arguments.output, exist_ok=True)
     name = os.path.splitext(os.path.basename(arguments.image))[0]
     path = os.path.join(arguments.output, "stipple-" + name)
-    points = vtk_to_numpy(dots.GetClientSideObject().GetOutputDataObject(0).GetPoints().GetData())
+    points = vtk_to_numpy(example.fetch(dots).GetPoints().GetData())
     write_svg(path + ".svg", points[:, :2], bounds, radius)
     write_png(path + ".png", dots, bounds, radius, arguments.pixels)
     print("%d dots of radius %.2f pixels: %s.png, %s.svg" % (len(points), radius, path, path))

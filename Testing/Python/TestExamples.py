@@ -17,7 +17,7 @@ from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
 SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
-         "SampleVolume": ["--particles", "50000", "--pixels", "500"]}
+         "SampleVolume": ["--particles", "50000", "--pixels", "400"]}
 
 
 def run(example, *arguments):
