@@ -35,7 +35,7 @@ def draw(path, particles, bounds, radius, pixels):
     view.CameraFocalPoint = middle
     view.CameraPosition = [m + away * d for m, d in zip(middle, (0.95, 0.26, 0.19))]
     view.CameraViewUp = [0, 0, 1]
-    view.CameraViewAngle = 22
+    view.CameraViewAngle = 24
     example.save_picture(path, view)
 
 
