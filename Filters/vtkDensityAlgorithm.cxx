@@ -42,14 +42,29 @@ std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
 // scalars of the points, else of the cells, else the only array that there is.
 vtkDataArray* defaultArray(vtkImageData* image, int& association)
 {
-  vtkPointData* points = image->GetPointData();
-  vtkCellData* cells = image->GetCellData();
-  const bool single = points->GetNumberOfArrays() + cells->GetNumberOfArrays() == 1;
-  association = points->GetScalars() || (!cells->GetScalars() && points->GetNumberOfArrays() > 0)
-    ? vtkDataObject::FIELD_ASSOCIATION_POINTS
-    : vtkDataObject::FIELD_ASSOCIATION_CELLS;
-  vtkDataSetAttributes* attributes = image->GetAttributes(association);
-  return attributes->GetScalars() || !single ? attributes->GetScalars() : attributes->GetArray(0);
+  vtkDataArray* only = nullptr;
+  int count = 0;
+  for (const int owner :
+    { vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataObject::FIELD_ASSOCIATION_CELLS })
+  {
+    vtkDataSetAttributes* attributes = image->GetAttributes(owner);
+    if (vtkDataArray* scalars = attributes->GetScalars())
+    {
+      association = owner;
+      return scalars;
+    }
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = attributes->GetArray(i);
+      if (array && array != attributes->GetArray(vtkDataSetAttributes::GhostArrayName()))
+      {
+        association = owner;
+        only = array;
+        ++count;
+      }
+    }
+  }
+  return count == 1 ? only : nullptr;
 }
 } // namespace
 

@@ -20,6 +20,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <memory>
@@ -298,6 +299,12 @@ int vtkTransportSampler::RequestData(
   const FlowOptions options = this->GetFlowOptions();
   const std::unique_ptr<Executor> executor(this->NewExecutor());
 
+  // All particles are in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
   const std::unique_ptr<DensityImage> density(
     this->NewDensity(vtkDataObject::GetData(inputVector[0], 0)));
   if (!density || (seeds && seeds->GetNumberOfPoints() == 0))

@@ -16,10 +16,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// Rec. 709. Whole ten-thousandths, so that a grey of an integer type has exactly its own value.
+// Rec. 709. Whole ten-thousandths, so that a grey of an integer type has exactly its own value: the
+// double 1e-4 is near enough to it (5e-17, relatively) for the product to round to the integer.
 template <class T>
 double luminance(T red, T green, T blue)
 {
+  constexpr double unit = 1e-4;
   if constexpr (std::is_floating_point_v<T>)
   {
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
@@ -28,13 +30,13 @@ double luminance(T red, T green, T blue)
   {
     const std::int32_t sum =
       2126 * std::int32_t{ red } + 7152 * std::int32_t{ green } + 722 * std::int32_t{ blue };
-    return sum / 10000.0;
+    return unit * sum;
   }
   else
   {
-    return (2126.0 * static_cast<double>(red) + 7152.0 * static_cast<double>(green) +
-             722.0 * static_cast<double>(blue)) /
-      10000.0;
+    return unit *
+      (2126.0 * static_cast<double>(red) + 7152.0 * static_cast<double>(green) +
+        722.0 * static_cast<double>(blue));
   }
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PrintSelf names every property and its value; enumerations have texts; every setter is heard.
+#include "SamplerTest.h"
+
+#include "vtkUniformSeedSource.h"
+
+#include <sstream>
+
+namespace
+{
+
+void expectLines(Checks& checks, vtkObject* object, const std::vector<std::string>& lines)
+{
+  std::ostringstream os;
+  object->Print(os);
+  for (const std::string& line : lines)
+  {
+    checks.That(contains(os.str(), line + "\n"), line.c_str(), __LINE__);
+  }
+}
+
+} // namespace
+
+int TestPrintSelf(int, char*[])
+{
+  Checks checks;
+  vtkNew<vtkTransportSampler> sampler;
+  expectLines(checks, sampler,
+    { "Component: -1", "InvertDensity: Off", "NegativeValues: Error", "Integrator: Multistep",
+      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "Threading: Auto",
+      "TableBuildTime: 0", "NumberOfParticles: 8192", "SeedPattern: BlueNoise", "RandomSeed: 1",
+      "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off" });
+  sampler->SetComponent(2);
+  sampler->InvertDensityOn();
+  sampler->SetNegativeValuesToClamp();
+  sampler->SetIntegratorToRungeKutta4();
+  sampler->SetNumberOfSteps(7);
+  sampler->SetTolerance(0.5);
+  sampler->SetTableLookupToNearest();
+  sampler->SetThreadingToOpenMP();
+  sampler->SetNumberOfParticles(12345678901);
+  sampler->SetSeedPatternToLowDiscrepancy();
+  sampler->SetRandomSeed(-4);
+  sampler->SetSamplesPerCell(3);
+  sampler->SetFlowTime(0.25);
+  sampler->OutputPathsOn();
+  expectLines(checks, sampler,
+    { "Component: 2", "InvertDensity: On", "NegativeValues: Clamp", "Integrator: RungeKutta4",
+      "NumberOfSteps: 7", "Tolerance: 0.5", "TableLookup: Nearest", "Threading: OpenMP",
+      "NumberOfParticles: 12345678901", "SeedPattern: LowDiscrepancy", "RandomSeed: -4",
+      "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On" });
+
+  const char* const integrators[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
+  const char* const threadings[] = { "Auto", "VTK", "OpenMP", "Serial" };
+  for (int i = 0; i < 4; ++i)
+  {
+    sampler->SetIntegrator(i);
+    CHECK(checks, sampler->GetIntegratorAsString() == std::string(integrators[i]));
+    sampler->SetThreading(i);
+    CHECK(checks, sampler->GetThreadingAsString() == std::string(threadings[i]));
+  }
+  sampler->SetIntegrator(44);
+  CHECK(checks, sampler->GetIntegratorAsString() == std::string("Unknown"));
+
+  vtkNew<vtkUniformSeedSource> source;
+  expectLines(checks, source,
+    { "Bounds: 0 1 0 1 0 1", "Dimension: 2", "NumberOfPoints: 8192", "Pattern: BlueNoise",
+      "RandomSeed: 1" });
+  const char* const patterns[] = { "BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random" };
+  for (int i = 0; i < 5; ++i)
+  {
+    source->SetPattern(i);
+    CHECK(checks, source->GetPatternAsString() == std::string(patterns[i]));
+    sampler->SetSeedPattern(i);
+    CHECK(checks, sampler->GetSeedPatternAsString() == std::string(patterns[i]));
+  }
+  return checks.Result();
+}

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How arrays become densities: numeric types, memory layouts, components, colour, alpha, inversion.
+#include "SamplerTest.h"
+
+#include "vtkBitArray.h"
+#include "vtkCharArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkLongArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkShortArray.h"
+#include "vtkSignedCharArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnsignedIntArray.h"
+#include "vtkUnsignedLongArray.h"
+#include "vtkUnsignedLongLongArray.h"
+#include "vtkUnsignedShortArray.h"
+
+#include <algorithm>
+
+namespace
+{
+
+constexpr int width = 19;
+constexpr int height = 11;
+
+using Points = std::vector<double>;
+
+Points pointsOf(vtkImageData* image, int component = -1, bool invert = false)
+{
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(400);
+  sampler->SetComponent(component);
+  sampler->SetInvertDensity(invert);
+  return sampleCoordinates(sampler);
+}
+
+// The particles of the density that a function gives for each cell.
+Points pointsOf(const std::function<double(vtkIdType)>& density)
+{
+  return pointsOf(makeImage(width, height, 1, false, density));
+}
+
+template <class ArrayT>
+void checkType(Checks& checks, const Points& expected)
+{
+  auto image = makeImage<ArrayT>(width, height, 1, false, bumpy);
+  checks.That(pointsOf(image) == expected, "same particles", __LINE__,
+    image->GetPointData()->GetScalars()->GetClassName());
+}
+
+void checkTypes(Checks& checks)
+{
+  const Points expected = pointsOf(bumpy);
+  checkType<vtkCharArray>(checks, expected);
+  checkType<vtkSignedCharArray>(checks, expected);
+  checkType<vtkUnsignedCharArray>(checks, expected);
+  checkType<vtkShortArray>(checks, expected);
+  checkType<vtkUnsignedShortArray>(checks, expected);
+  checkType<vtkIntArray>(checks, expected);
+  checkType<vtkUnsignedIntArray>(checks, expected);
+  checkType<vtkLongArray>(checks, expected);
+  checkType<vtkUnsignedLongArray>(checks, expected);
+  checkType<vtkLongLongArray>(checks, expected);
+  checkType<vtkUnsignedLongLongArray>(checks, expected);
+  checkType<vtkIdTypeArray>(checks, expected);
+  checkType<vtkFloatArray>(checks, expected);
+  checkType<vtkSOADataArrayTemplate<float>>(checks, expected);
+  checkType<vtkSOADataArrayTemplate<int>>(checks, expected);
+
+  const auto bit = [](vtkIdType i) { return i % 3 == 0 ? 1.0 : 0.0; };
+  CHECK(checks, pointsOf(makeImage<vtkBitArray>(width, height, 1, false, bit)) == pointsOf(bit));
+}
+
+// Value i of an array of many components; the largest is 255.
+double colour(vtkIdType i)
+{
+  return static_cast<double>(i == 0 ? 255 : (i * 67 + i * i % 13) % 256);
+}
+
+double luminance(vtkIdType tuple, int components)
+{
+  const vtkIdType i = tuple * components;
+  return (2126 * colour(i) + 7152 * colour(i + 1) + 722 * colour(i + 2)) / 10000;
+}
+
+template <class ArrayT>
+void checkColours(Checks& checks)
+{
+  const auto image = [](int components) {
+    return makeImage<ArrayT>(width, height, 1, false, colour, components);
+  };
+  constexpr double rounding = 1e-7;
+  // Index
+  for (const int components : { 2, 3, 4, 7 })
+  {
+    const Points expected =
+      pointsOf([components](vtkIdType i) { return colour(i * components + 1); });
+    CHECK(checks, pointsOf(image(components), 1) == expected);
+  }
+  // Luminance
+  const Points grey = pointsOf([](vtkIdType i) { return luminance(i, 3); });
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(3)), grey), 0.0, rounding);
+  // Alpha over white, which is the largest value here and that of unsigned char.
+  const Points greyAlpha = pointsOf([](vtkIdType i) {
+    const double opacity = colour(2 * i + 1) / 255;
+    return opacity * colour(2 * i) + (1 - opacity) * 255;
+  });
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(2)), greyAlpha), 0.0, rounding);
+  const Points colourAlpha = pointsOf([](vtkIdType i) {
+    const double opacity = colour(4 * i + 3) / 255;
+    return opacity * luminance(i, 4) + (1 - opacity) * 255;
+  });
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(4)), colourAlpha), 0.0, rounding);
+  // Inverted
+  const Points inverted = pointsOf([](vtkIdType i) { return 255 - luminance(i, 3); });
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(3), -1, true), inverted), 0.0, rounding);
+  const Points invertedAlpha =
+    pointsOf([](vtkIdType i) { return colour(4 * i + 3) / 255 * (255 - luminance(i, 4)); });
+  CHECK_NEAR(checks, largestDifference(pointsOf(image(4), -1, true), invertedAlpha), 0.0, rounding);
+}
+
+// The white of unsigned char is 255 whatever the values are; of other types it is the largest one,
+// of the component where that is chosen.
+void checkWhite(Checks& checks)
+{
+  const auto small = [](vtkIdType i) { return 1.0 + static_cast<double>(i % 9); };
+  CHECK(checks,
+    pointsOf(makeImage<vtkUnsignedCharArray>(width, height, 1, false, small), -1, true) ==
+      pointsOf([&](vtkIdType i) { return 255 - small(i); }));
+  CHECK(checks,
+    pointsOf(makeImage<vtkShortArray>(width, height, 1, false, small), -1, true) ==
+      pointsOf([&](vtkIdType i) { return 9 - small(i); }));
+  const auto two = [&](vtkIdType i) { return i % 2 == 0 ? 1000.0 : small(i / 2); };
+  CHECK(checks,
+    pointsOf(makeImage<vtkFloatArray>(width, height, 1, false, two, 2), 1, true) ==
+      pointsOf([&](vtkIdType i) { return 9 - small(i); }));
+}
+
+// A grey in three channels is that grey, to the last bit, also inverted.
+void checkGreys(Checks& checks)
+{
+  const auto grey = [](vtkIdType i) { return colour(i); };
+  const auto three = [](vtkIdType i) { return colour(i / 3); };
+  for (const bool invert : { false, true })
+  {
+    CHECK(checks,
+      pointsOf(makeImage<vtkUnsignedCharArray>(width, height, 1, false, three, 3), -1, invert) ==
+        pointsOf(makeImage<vtkUnsignedCharArray>(width, height, 1, false, grey), -1, invert));
+  }
+}
+
+// All white but one pixel, in floating-point colours: rounding must not give negative ink.
+void checkWhitePaper(Checks& checks)
+{
+  const auto paper = [](vtkIdType i) { return i < 3 ? 0.1 : 0.7; };
+  vtkNew<vtkTransportSampler> sampler;
+  Messages messages(sampler);
+  sampler->SetInputData(makeImage<vtkFloatArray>(width, height, 1, false, paper, 3));
+  sampler->InvertDensityOn();
+  sampler->Update();
+  CHECK(checks, messages.Errors.empty());
+  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 8192);
+}
+
+// A chosen array of the cells is taken although the points have scalars, and by default the points'
+// scalars come first.
+void checkChoice(Checks& checks)
+{
+  auto image = makeImage(width, height, 1, false, bumpy);
+  const Points ofPoints = pointsOf(image);
+  auto cells = makeImage(width, height, 1, true, colour);
+  const Points ofCells = pointsOf(cells);
+  cells->GetCellData()->GetScalars()->SetName("Other");
+  image->GetCellData()->SetScalars(cells->GetCellData()->GetScalars());
+  CHECK(checks, pointsOf(image) == ofPoints);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(400);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Other");
+  CHECK(checks, sampleCoordinates(sampler) == ofCells);
+  sampler->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "Other");
+  CHECK(checks, sampleCoordinates(sampler) == ofCells);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  CHECK(checks, sampleCoordinates(sampler) == ofPoints);
+}
+
+// Clamp takes negative values as 0.
+void checkClamp(Checks& checks)
+{
+  const auto mixed = [](vtkIdType i) { return static_cast<double>(i % 7 - 2); };
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(makeImage(width, height, 1, false, mixed));
+  sampler->SetNumberOfParticles(400);
+  sampler->SetNegativeValuesToClamp();
+  CHECK(checks,
+    sampleCoordinates(sampler) == pointsOf([&](vtkIdType i) { return std::max(0.0, mixed(i)); }));
+}
+
+} // namespace
+
+int TestSamplerArrays(int, char*[])
+{
+  Checks checks;
+  checkTypes(checks);
+  checkColours<vtkUnsignedCharArray>(checks);
+  checkColours<vtkFloatArray>(checks);
+  checkColours<vtkSOADataArrayTemplate<short>>(checks);
+  checkColours<vtkIntArray>(checks);
+  checkWhite(checks);
+  checkGreys(checks);
+  checkWhitePaper(checks);
+  checkChoice(checks);
+  checkClamp(checks);
+  return checks.Result();
+}
