@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the benchmarks share. Everything is measured on one thread, in processor time, unless its
+// name says otherwise; the core and the literal transcription of the paper in one process, on the
+// same densities and particles.
+#ifndef RectifiedTransport_BenchmarkInputs_h
+#define RectifiedTransport_BenchmarkInputs_h
+
+#include "../Core/Oracle.h"
+#include "../Core/TestDensities.h"
+#include "RectifiedFlow.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <map>
+#include <random>
+#include <vector>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace RectifiedTransport
+{
+
+// What the paper settles on.
+constexpr int PaperSteps = 50;
+
+template <int Dimension>
+using Particles = std::vector<Point<Dimension>>;
+
+// Two Gaussians with a texture of noise; made once a size and kept.
+template <int Dimension>
+const TestDensity<Dimension>& texturedGaussians(std::int64_t side)
+{
+  static std::map<std::int64_t, TestDensity<Dimension>> densities;
+  TestDensity<Dimension>& density = densities[side];
+  if (density.Values.empty())
+  {
+    GridSize<Dimension> size;
+    size.fill(side);
+    density = twoGaussians<Dimension>(size);
+    std::mt19937_64 engine(1);
+    for (double& value : density.Values)
+    {
+      value *= 0.7 + 0.6 * uniformNumber(engine);
+    }
+  }
+  return density;
+}
+
+// One particle at every cell's centre, in the order of the cells; or, of `runs` > 0, the share that
+// consists of so many runs of 1024 consecutive particles, evenly spaced: neighbours in memory are
+// then neighbours in space, as in the whole lattice.
+template <int Dimension>
+Particles<Dimension> latticeParticles(const GridSize<Dimension>& size, std::int64_t runs = 0)
+{
+  const std::int64_t cells = cellCount<Dimension>(size);
+  const std::int64_t length = runs > 0 ? 1024 : cells;
+  runs = runs > 0 ? runs : 1;
+  Particles<Dimension> particles;
+  particles.reserve(static_cast<std::size_t>(runs * length));
+  for (std::int64_t run = 0; run < runs; ++run)
+  {
+    const std::int64_t first = (2 * run + 1) * cells / (2 * runs) - length / 2;
+    for (std::int64_t index = first; index < first + length; ++index)
+    {
+      const GridSize<Dimension> cell = cellAt<Dimension>(index, size);
+      Point<Dimension> particle;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        particle[axis] = static_cast<double>(cell[axis]) + 0.5;
+      }
+      particles.push_back(particle);
+    }
+  }
+  return particles;
+}
+
+// Moves particles from time 0 to time 1 in place.
+template <int Dimension>
+FlowReport moveForward(const RectifiedFlow<Dimension>& flow,
+  std::vector<std::array<double, static_cast<std::size_t>(Dimension)>>& particles,
+  const Executor& executor = SerialExecutor())
+{
+  double* data = particles.data()->data();
+  return flow.Forward(data, static_cast<std::int64_t>(particles.size()), data, {}, executor);
+}
+
+// Processor time of the process: other programs on the machine count little.
+class Stopwatch
+{
+public:
+  double Seconds() const
+  {
+    return static_cast<double>(std::clock() - this->Start) / CLOCKS_PER_SEC;
+  }
+
+private:
+  std::clock_t Start = std::clock();
+};
+
+// Limits OpenMP for the life of the object.
+class OpenMPThreads
+{
+public:
+#ifdef _OPENMP
+  explicit OpenMPThreads(int threads)
+    : Before(omp_get_max_threads())
+  {
+    omp_set_num_threads(threads);
+  }
+  ~OpenMPThreads()
+  {
+    omp_set_num_threads(this->Before);
+  }
+
+private:
+  int Before;
+#else
+  explicit OpenMPThreads(int) {}
+#endif
+};
+
+// Where an evenly spaced sample of particles truly goes.
+template <int Dimension>
+class SampleTruth
+{
+public:
+  SampleTruth(
+    const TestDensity<Dimension>& density, const Particles<Dimension>& seeds, std::size_t count)
+    : Stride(seeds.size() / count)
+    , Truth(Oracle<Dimension>(density.Values, density.Size).Forward(this->Choose(seeds)))
+  {
+  }
+
+  // States the errors of the positions of all particles, in cells.
+  void Report(benchmark::State& state, const Particles<Dimension>& positions) const
+  {
+    const PositionErrors errors = comparePositions<Dimension>(this->Choose(positions), this->Truth);
+    state.counters["error_mean"] = errors.Mean;
+    state.counters["error_95"] = errors.Percentile95;
+  }
+
+private:
+  Particles<Dimension> Choose(const Particles<Dimension>& particles) const
+  {
+    Particles<Dimension> chosen;
+    for (std::size_t i = this->Stride / 2; i < particles.size(); i += this->Stride)
+    {
+      chosen.push_back(particles[i]);
+    }
+    return chosen;
+  }
+
+  std::size_t Stride;
+  Particles<Dimension> Truth;
+};
+
+} // namespace RectifiedTransport
+
+#endif

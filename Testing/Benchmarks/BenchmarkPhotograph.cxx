@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stippling job: 40,000 blue-noise particles on a photograph of 1024^2 pixels, from the
+// transcription to the filter's whole update.
+#include "BenchmarkInputs.h"
+
+#include "PaperTransport.h"
+#include "Seeds.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkTransportSampler.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+constexpr std::int64_t Side = 1024;
+constexpr std::int64_t ParticleCount = 40000;
+
+// raccoon.png, 1024 x 768 in colour, its last 256 rows mirrored below. Dark is mass.
+class Photograph
+{
+public:
+  static const Photograph& Instance()
+  {
+    static const Photograph photograph;
+    return photograph;
+  }
+
+  vtkNew<vtkImageData> Image;
+  TestDensity<2> Density;
+  Particles<2> Seeds;
+
+private:
+  Photograph()
+  {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(RECTIFIEDTRANSPORT_DATA "/raccoon.png");
+    reader->Update();
+    vtkImageData* picture = reader->GetOutput();
+    auto* pixels = vtkUnsignedCharArray::SafeDownCast(picture->GetPointData()->GetScalars());
+    if (!pixels || picture->GetDimensions()[0] != Side || pixels->GetNumberOfComponents() != 3)
+    {
+      throw std::runtime_error("raccoon.png is not what the benchmark expects");
+    }
+    const std::int64_t rows = picture->GetDimensions()[1];
+    this->Image->SetDimensions(Side, Side, 1);
+    this->Image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* values = vtkUnsignedCharArray::SafeDownCast(this->Image->GetPointData()->GetScalars());
+    this->Density = uniformDensity<2>({ Side, Side });
+    for (std::int64_t y = 0; y < Side; ++y)
+    {
+      const std::int64_t from = y + rows >= Side ? y + rows - Side : Side - rows - 1 - y;
+      for (std::int64_t x = 0; x < Side; ++x)
+      {
+        const unsigned char* pixel = pixels->GetPointer(3 * (from * Side + x));
+        std::copy_n(pixel, 3, values->GetPointer(3 * (y * Side + x)));
+        this->Density.Values[y * Side + x] =
+          255.0 - (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]);
+      }
+    }
+    this->Seeds.resize(ParticleCount);
+    generateSeeds<2>(
+      SeedPattern::BlueNoise, { 1.0, 1.0 }, ParticleCount, 1, this->Seeds.data()->data());
+    for (Point<2>& seed : this->Seeds)
+    {
+      seed = { Side * seed[0], Side * seed[1] };
+    }
+  }
+};
+
+const SampleTruth<2>& truth()
+{
+  static const SampleTruth<2> sample(
+    Photograph::Instance().Density, Photograph::Instance().Seeds, 2000);
+  return sample;
+}
+
+void paper(benchmark::State& state, Paper::FinalVelocity finalVelocity)
+{
+  const Photograph& photograph = Photograph::Instance();
+  Particles<2> particles;
+  for (auto _ : state)
+  {
+    particles = photograph.Seeds;
+    const auto tables = Paper::buildTables(photograph.Density.Values, photograph.Density.Size);
+    Paper::advect(tables, particles, PaperSteps, finalVelocity);
+  }
+  truth().Report(state, particles);
+}
+
+// The seeds sorted by rows of 16 cells, to see what the order is worth to the transcription.
+void paperSorted(benchmark::State& state)
+{
+  const Photograph& photograph = Photograph::Instance();
+  Particles<2> sorted = photograph.Seeds;
+  std::sort(sorted.begin(), sorted.end(), [](const Point<2>& p, const Point<2>& q) {
+    const auto key = [](const Point<2>& r) { return std::make_pair(std::floor(r[1] / 16), r[0]); };
+    return key(p) < key(q);
+  });
+  for (auto _ : state)
+  {
+    Particles<2> particles = sorted;
+    const auto tables = Paper::buildTables(photograph.Density.Values, photograph.Density.Size);
+    Paper::advect(tables, particles, PaperSteps, Paper::FinalVelocity::Zero);
+    benchmark::DoNotOptimize(particles.data());
+  }
+}
+
+void core(benchmark::State& state, int threadCount)
+{
+  const Photograph& photograph = Photograph::Instance();
+  const OpenMPThreads threads(threadCount);
+  Particles<2> particles;
+  for (auto _ : state)
+  {
+    particles = photograph.Seeds;
+    const RectifiedFlow<2> flow(photograph.Density.Source());
+    moveForward(flow, particles, OpenMPExecutor());
+  }
+  truth().Report(state, particles);
+}
+
+void filter(benchmark::State& state)
+{
+  const Photograph& photograph = Photograph::Instance();
+  vtkNew<vtkImageData> image;
+  image->ShallowCopy(photograph.Image);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(ParticleCount);
+  sampler->InvertDensityOn();
+  sampler->SetThreadingToSerial();
+  for (auto _ : state)
+  {
+    image->Modified();
+    sampler->Update();
+  }
+  vtkPolyData* output = sampler->GetOutput();
+  Particles<2> particles(static_cast<std::size_t>(output->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    double point[3];
+    output->GetPoint(static_cast<vtkIdType>(i), point);
+    particles[i] = { point[0] + 0.5, point[1] + 0.5 };
+  }
+  truth().Report(state, particles);
+}
+
+BENCHMARK_CAPTURE(paper, published, Paper::FinalVelocity::Zero)
+  ->Name("Photograph/paper")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(paper, limit, Paper::FinalVelocity::Limit)
+  ->Name("Photograph/paper_limit")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK(paperSorted)->Name("Photograph/paper_sorted")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(core, one, 1)->Name("Photograph/core")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(core, two, 2)
+  ->Name("Photograph/core_2_threads")
+  ->Unit(benchmark::kMillisecond)
+  ->UseRealTime();
+BENCHMARK(filter)->Name("Photograph/filter")->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace RectifiedTransport

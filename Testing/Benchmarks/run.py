@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the benchmarks and prints the tables of the README.
+
+usage: python3 run.py [--repetitions N] PROGRAM
+
+Every figure is the median of the repetitions, which are interleaved at random. One thread is
+measured in processor time, two in wall-clock time.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+
+class Results:
+    """Medians of the repetitions' times (ms) and counters by benchmark name."""
+
+    def __init__(self, report):
+        self.context = report["context"]
+        self.runs = {}
+        self.add(report)
+
+    def add(self, report):
+        for entry in report["benchmarks"]:
+            if entry.get("error_occurred"):
+                sys.exit(f"{entry['name']}: {entry['error_message']}")
+            if entry["run_type"] == "iteration":
+                name = entry["run_name"]
+                for suffix in ("/real_time", "/manual_time", "/iterations:1", "/repeats:1"):
+                    name = name.replace(suffix, "")
+                manual = entry["run_name"].endswith("/manual_time")
+                entry["time"] = entry["real_time" if manual else "cpu_time"]
+                self.runs.setdefault(name, []).append(entry)
+
+    def median(self, name, what="time"):
+        return statistics.median(entry[what] for entry in self.runs[name])
+
+    def ratio(self, slow, fast, what="time"):
+        return self.median(slow, what) / self.median(fast, what)
+
+    def errors(self, name):
+        return f"{self.median(name, 'error_mean'):.2g} / {self.median(name, 'error_95'):.2g}"
+
+
+def milliseconds(value):
+    return f"{value / 1000:.3g} s" if value >= 1000 else f"{value:.3g} ms"
+
+
+def print_table(head, rows):
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def machine(results):
+    model = "unknown processor"
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
+        model = names[0] if names else model
+    except OSError:
+        pass
+    context = results.context
+    return (f"{model}, {context['num_cpus']} processors, {context['mhz_per_cpu']} MHz, "
+            f"{context.get('instruction_set', '?')} kernels, gcc {context.get('compiler', '?')}")
+
+
+def whole_jobs(r):
+    rows = [["40,000 particles, photograph of 1024²",
+             milliseconds(r.median("Photograph/paper")),
+             milliseconds(r.median("Photograph/core")),
+             f"{r.ratio('Photograph/paper', 'Photograph/core'):.1f}×",
+             milliseconds(r.median("Photograph/filter")),
+             f"{r.ratio('Photograph/paper', 'Photograph/filter'):.1f}×",
+             r.errors("Photograph/paper"), r.errors("Photograph/core")]]
+    for side in (64, 128, 256):
+        paper, core, whole = (f"Volume/{kind}/{side}" for kind in ("paper", "core", "filter"))
+        overhead = r.median(whole) / r.median(core, "unscaled_ms")
+        rows.append([f"one particle a cell, {side}³",
+                     milliseconds(r.median(paper)), milliseconds(r.median(core)),
+                     f"{r.ratio(paper, core):.1f}×", f"core + {100 * (overhead - 1):.0f} %",
+                     f"{r.ratio(paper, core) / overhead:.1f}×", r.errors(paper), r.errors(core)])
+    print_table(["work", "paper", "core", "ratio", "filter's whole update", "ratio",
+                 "error in cells (mean / 95 %): paper", "core"], rows)
+
+
+def tables(r):
+    rows = []
+    for group, sides, power in (("Tables2D", (1024, 4096), "²"),
+                                ("Tables3D", (64, 128, 256), "³")):
+        for side in sides:
+            name = f"{group}/%s/{side}"
+            rows.append([f"{side}{power}", milliseconds(r.median(name % "paper")),
+                         milliseconds(r.median(name % "core")),
+                         f"{r.ratio(name % 'paper', name % 'core'):.1f}×",
+                         f"{r.ratio(name % 'paper_reused', name % 'core_reused'):.1f}×",
+                         f"{r.ratio(name % 'core', name % 'core_2_threads', 'real_time'):.2f}×"])
+    print_table(["tables", "paper", "core", "ratio", "ratio in reused memory", "two threads"], rows)
+
+
+def flows(r):
+    rows = []
+    for group, sides, power in (("Flow2D", (256, 512, 1024, 2048, 4096), "²"),
+                                ("Flow3D", (64, 128, 256), "³")):
+        for side in sides:
+            name = f"{group}/%s/{side}"
+            rows.append([f"{side}{power}"] +
+                        [f"{scale * r.median(name % kind, what):.3g} {unit}"
+                         for what, scale, unit in (("per_velocity", 1e9, "ns"),
+                                                   ("per_particle", 1e6, "µs"))
+                         for kind in ("paper", "core")] +
+                        [f"{r.ratio(name % 'core', name % 'core_2_threads', 'real_time'):.2f}×"])
+    print_table(["flow", "one velocity: paper", "core", "one particle: paper", "core",
+                 "two threads"], rows)
+    growth = r.ratio("Flow2D/core/4096", "Flow2D/core/256", "per_particle")
+    print(f"A particle costs {growth:.2f} times as much on 4096² as on 256².", end=" ")
+    for group in ("Sort2D", "Sort3D"):
+        each = r.median(f"{group}/core/1000000")  # ms a million: ns each
+        print(f"{group[4:]} sort: {each:.2g} ns a particle.", end=" ")
+    print()
+
+
+def remarks(r):
+    memory = "Memory/core/256"
+    print(f"Memory at 256³, input and particles aside: "
+          f"{r.median(memory, 'peak_bytes') / 1e6:.0f} MB at most, "
+          f"{r.median(memory, 'table_bytes') / 1e6:.0f} MB of them tables.")
+    for name, shape in (("Holes2D/%s/256", "256²"), ("Holes3D/%s/64", "64³")):
+        counts = [", ".join(f"{r.median(name % kind, what):.0f} {text}"
+                            for what, text in (("in_empty_cells", "in empty cells"),
+                                               ("lost", "outside or NaN")))
+                  for kind in ("paper", "core")]
+        particles = r.median(name % "core", "particles")
+        print(f"0/1 shape with a hole, {shape}, {particles:.0f} particles: "
+              f"paper {counts[0]}; core {counts[1]}.")
+    print(f"With the correct velocity at t = 1 the paper's error on the photograph is "
+          f"{r.errors('Photograph/paper_limit')}; with its seeds sorted it takes "
+          f"{milliseconds(r.median('Photograph/paper_sorted'))}.")
+    print(f"Two threads on the photograph: "
+          f"{r.ratio('Photograph/core', 'Photograph/core_2_threads', 'real_time'):.2f}×.")
+
+
+def run(arguments, names):
+    """What the program reports of the benchmarks whose names match."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "benchmarks.json")
+        done = subprocess.run(
+            [arguments.program, f"--benchmark_filter={names}",
+             f"--benchmark_repetitions={arguments.repetitions}",
+             "--benchmark_enable_random_interleaving=true",
+             f"--benchmark_out={output}", "--benchmark_out_format=json"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(done.stdout)
+        with open(output, encoding="utf-8") as file:
+            return json.load(file)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", help="RectifiedTransportBenchmarks")
+    parser.add_argument("--repetitions", type=int, default=5)
+    arguments = parser.parse_args()
+
+    # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
+    results = Results(run(arguments, "-_reused"))
+    results.add(run(arguments, "_reused"))
+
+    print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
+    whole_jobs(results)
+    tables(results)
+    flows(results)
+    remarks(results)
+
+
+if __name__ == "__main__":
+    main()
