@@ -33,9 +33,14 @@ RT_INLINE double larger(double a, double b)
   return a > b ? a : b;
 }
 
+// Of values from 0 to 2^31.
 RT_INLINE double truncated(double value)
 {
+#if defined(__SSE4_1__)
+  return __builtin_floor(value);
+#else
   return static_cast<double>(static_cast<std::int32_t>(value));
+#endif
 }
 
 RT_INLINE std::uint64_t bitsOf(double value)
@@ -188,7 +193,7 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job, V
   {
     if constexpr (Dimension > 1)
     {
-      if (i + prefetchDistance < count)
+      if (job.Tables.BeyondCaches && i + prefetchDistance < count)
       {
         prefetchBox<Dimension>(job.Tables, boxes, i + prefetchDistance);
       }

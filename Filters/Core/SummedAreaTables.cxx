@@ -26,8 +26,8 @@ constexpr std::int64_t narrowestBox = 16;
 constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
 constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
 constexpr std::int64_t slabBytes = std::int64_t{ 1 } << 21;
-// Tables past this size are written past the caches.
-constexpr std::int64_t streamBytes = std::int64_t{ 1 } << 24;
+// Tables past this size are written past the caches and fetched ahead.
+constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
 
 // Counts what is wrong with cells, of which the first has the index `index`.
 void findWrong(const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
@@ -227,7 +227,6 @@ bool buildTables(const Build<2>& build)
   const std::int64_t strips = (columns + stripCells - 1) / stripCells;
   const std::int64_t slab =
     std::min(rows, std::max<std::int64_t>(1, slabBytes / 8 / columns));
-  const bool stream = (columns + 1) * (rows + 1) * 32 > streamBytes;
   LargeBuffer<double> values(slab * columns);
   LargeBuffer<double> prefixes(slab * strips * 2);
   LargeBuffer<double> running(columns * 4);
@@ -280,7 +279,7 @@ bool buildTables(const Build<2>& build)
         row.Count = std::min(stripCells, columns - row.First);
         row.Scale = build.Scale;
         row.Running = running.data() + row.First * 4;
-        row.Stream = stream;
+        row.Stream = build.Tables.BeyondCaches;
         for (std::int64_t j = 0; j < count; ++j)
         {
           const std::int64_t node = begin + j + 1;
@@ -328,7 +327,6 @@ bool buildTables(const Build<3>& build)
   const std::int64_t strips = (rows + stripRows - 1) / stripRows;
   const std::int64_t slab =
     std::min(slices, std::max<std::int64_t>(1, slabBytes / 8 / sliceCells));
-  const bool stream = (columns + 1) * (rows + 1) * (slices + 1) * 32 > streamBytes;
   LargeBuffer<double> values(slab * sliceCells);
   // Per slice and strip {f, f * centre 1} of every column, then what lies before the strip.
   LargeBuffer<double> sums(slab * strips * columns * 2);
@@ -408,7 +406,7 @@ bool buildTables(const Build<3>& build)
         TableRow3D row;
         row.Scale = build.Scale;
         row.Count = columns;
-        row.Stream = stream;
+        row.Stream = build.Tables.BeyondCaches;
         for (std::int64_t k = 0; k < count; ++k)
         {
           const std::int64_t plane = begin + k + 1;
@@ -553,6 +551,7 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
     }
     total += (stride[Dimension - 1] * nodes(Dimension - 1) + line - 1) / line * line;
   }
+  tables.BeyondCaches = total * static_cast<std::int64_t>(sizeof(double)) > cacheBytes;
   this->Nodes = LargeBuffer<double>(total);
   for (int level = 0; level < tables.LevelCount; ++level)
   {

@@ -31,6 +31,7 @@ struct TableView
   Level Levels[MaximumLevels];
   int LevelCount;
   bool EvenLevels[Dimension]; // no level has a narrower last cell
+  bool BeyondCaches;          // the finest level is worth fetching ahead
   double Size[Dimension];
   double Centroid[Dimension];
   double VoidMass; // a box with no more than this is taken to be empty
