@@ -228,7 +228,7 @@ TEST(Metamorphic, RefinementOfTheGrid)
 // Coarse tables of the finer grid are the tables of the coarser one.
 TEST(Metamorphic, RefinementWithCoarseLevels)
 {
-  expectRefinement<2>(randomCells<2>({ 128, 64 }, 0.1), { 2, 2 });
+  expectRefinement<2>(randomCells<2>({ 160, 128 }, 0.1), { 4, 4 });
 }
 
 // Another unit of length on one axis.

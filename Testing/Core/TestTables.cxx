@@ -155,7 +155,7 @@ void forAllNodes(
     GridSize<Dimension> count;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      count[axis] = ((size[axis] - 1) >> level) + 2;
+      count[axis] = ((size[axis] - 1) >> (level * levelShift)) + 2;
     }
     for (std::int64_t index = 0; index < cellCount<Dimension>(count); ++index)
     {
@@ -163,7 +163,7 @@ void forAllNodes(
       GridSize<Dimension> fine;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        fine[axis] = std::min(node[axis] << level, size[axis]);
+        fine[axis] = std::min(node[axis] << (level * levelShift), size[axis]);
       }
       f(level, node, fine);
     }
