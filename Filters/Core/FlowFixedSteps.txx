@@ -11,6 +11,7 @@ struct MultistepLanes
   LaneVectors<Dimension>* V[4]; // newest, second, third, the one to be written
   alignas(64) Lanes Time;
   alignas(64) Lanes Span; // of the whole graded interval
+  alignas(64) Lanes Trouble; // 1 once a box was empty
   VelocityLanes<Dimension> Field;
 
   MultistepLanes()
@@ -20,6 +21,7 @@ struct MultistepLanes
       this->V[k] = &this->Velocities[k];
     }
     std::memset(this->Velocities, 0, sizeof(this->Velocities));
+    std::memset(this->Trouble, 0, sizeof(this->Trouble));
     std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
     std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
   }
@@ -97,21 +99,29 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       lanes.Time[i] = start[i] + lanes.Span[i] * weights.Time;
     }
     evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest);
-    for (int i = 0; i < count; ++i)
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
     {
-      troubled[i] = troubled[i] || lanes.Field.Void[i] > 0.0;
+      lanes.Trouble[i] = larger(lanes.Trouble[i], lanes.Field.Void[i]);
     }
-    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Trial);
+    if (writer.IsDense())
+    {
+      std::memcpy(lanes.Trial, lanes.Position, sizeof(lanes.Trial));
+    }
+    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
     if (writer.IsDense())
     {
       for (int i = 0; i < count; ++i)
       {
         writer.WriteHermite(
-          i, before[i], lanes.Time[i], lanes.Position, v0, lanes.Trial, newest);
+          i, before[i], lanes.Time[i], lanes.Trial, v0, lanes.Position, newest);
       }
     }
-    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
     lanes.Rotate();
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    troubled[i] = lanes.Trouble[i] > 0.0;
   }
 
   const StepWeights last = stepWeights<Dimension>(job, steps - 1, steps);
@@ -251,8 +261,7 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
       evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
       evaluations += left;
     }
-    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Trial);
-    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
+    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
     lanes.Rotate();
     for (int i = 0; i < count; ++i)
     {
@@ -373,8 +382,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
         lanes.Rotate();
       }
     }
-    lanes.Advance(job, one, fourStages ? 1.0 / 6.0 : 1.0, sum, sum, sum, lanes.Trial);
-    std::memcpy(lanes.Position, lanes.Trial, sizeof(lanes.Position));
+    lanes.Advance(job, one, fourStages ? 1.0 / 6.0 : 1.0, sum, sum, sum, lanes.Position);
   }
   finishPositions<Dimension>(job, count, lanes.Position, troubled);
   if (!writer.IsDense())

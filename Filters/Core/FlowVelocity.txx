@@ -65,8 +65,11 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    lanes.InverseTime[i] = 1.0 / t[i];
-    lanes.InverseRest[i] = 1.0 / (1.0 - t[i]);
+    // One division for both.
+    const double rest = 1.0 - t[i];
+    const double inverse = 1.0 / (t[i] * rest);
+    lanes.InverseTime[i] = rest * inverse;
+    lanes.InverseRest[i] = t[i] * inverse;
     lanes.Narrowest[i] = 1e300;
   }
   for (int axis = 0; axis < Dimension; ++axis)
@@ -135,7 +138,8 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
       const double node = smaller(truncated(plane[i] * inverseWidth[i]), last);
       const double inverse = node == last ? inverseLastWidth : inverseWidth[i];
       const double cell = node == last ? lastWidth : width[i];
-      const double place = smaller((plane[i] - node * width[i]) * inverse, 1.0);
+      const double inCell = (plane[i] - node * width[i]) * inverse;
+      const double place = Even ? inCell : smaller(inCell, 1.0);
       boxes.Place[axis][side][i] = place;
       boxes.Bend[axis][side][i] = -0.5 * cell * place * (1.0 - place);
       boxes.Node[axis][side][i] = static_cast<std::int32_t>(node);
