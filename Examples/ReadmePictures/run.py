@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the pictures of README.md and Documentation/."""
+import argparse
+import os
+import runpy
+import sys
+import types
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXAMPLES = os.path.dirname(HERE)
+sys.path.insert(0, EXAMPLES)
+import rectified_example as example
+from paraview import simple
+from vtkmodules.vtkImagingColor import vtkImageLuminance
+from vtkmodules.vtkImagingCore import vtkImageResize
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+PHOTOGRAPH = os.path.join(example.DATA, "raccoon.png")
+STRIP = [560, 420]  # the size of a picture of the photograph
+
+
+def script(name):
+    """What the run.py of another example defines."""
+    return types.SimpleNamespace(**runpy.run_path(os.path.join(EXAMPLES, name, "run.py")))
+
+
+def draw_density(path):
+    """The photograph as the filter sees it: its luminance."""
+    photograph = vtkPNGReader()
+    photograph.SetFileName(PHOTOGRAPH)
+    grey = vtkImageLuminance()
+    grey.SetInputConnection(photograph.GetOutputPort())
+    small = vtkImageResize()
+    small.SetInputConnection(grey.GetOutputPort())
+    small.SetOutputDimensions(*STRIP, 1)
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(small.GetOutputPort())
+    writer.SetFileName(path)
+    writer.Write()
+
+
+def draw_particles(path, stipple):
+    dots, radius = stipple.stipple(example.open_image(PHOTOGRAPH), 10000)
+    stipple.write_png(path, dots, [-0.5, 1023.5, -0.5, 767.5], radius, STRIP[0])
+
+
+def draw_volume(path, volume):
+    folder = os.path.dirname(path)
+    sys.argv[1:] = ["--particles", "100000", "--pixels", str(STRIP[1]), "--output", folder]
+    volume.main()
+    os.replace(os.path.join(folder, "particles-brain-t1.png"), path)
+
+
+def draw_row(path, parts, size, radius, pixels, stipple):
+    """Point sets that fill boxes of one size from the origin, side by side."""
+    step = 1.06 * size[0]
+    moved = []
+    for i, part in enumerate(parts):
+        place = simple.Transform(Input=part, Transform="Transform")
+        place.Transform.Translate = [i * step, 0, 0]
+        moved.append(place)
+    row = simple.AppendGeometry(Input=moved)
+    width = (len(parts) - 1) * step + size[0]
+    stipple.write_png(path, row, [0, width, 0, size[1]], radius, pixels)
+
+
+def draw_patterns(path, stipple):
+    patterns = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
+    draw_row(path, [simple.UniformSeeds(Pattern=pattern, NumberOfPoints=900)
+                    for pattern in patterns], [1, 1], 0.007, 1100, stipple)
+
+
+def draw_flow(path, stipple):
+    photograph = example.open_image(PHOTOGRAPH)
+    draw_row(path, [simple.SampleDensity(Input=photograph, InvertDensity=1, NumberOfParticles=3000,
+                                         FlowTime=time) for time in (0, 0.5, 0.8, 1)],
+             [1024, 768], 6, 1200, stipple)
+
+
+def draw_paths(path):
+    paths = simple.SampleDensity(Input=example.open_image(PHOTOGRAPH), InvertDensity=1,
+                                 NumberOfParticles=250, OutputPaths=1)
+    view = example.picture_view(STRIP, [1, 1, 1])
+    shown = simple.Show(paths, view, "GeometryRepresentation")
+    shown.SetRepresentationType("Wireframe")
+    shown.LineWidth = 2
+    simple.ColorBy(shown, ("POINTS", "Time"))
+    shown.SetScalarBarVisibility(view, False)
+    simple.GetColorTransferFunction("Time").ApplyPreset("Viridis (matplotlib)", True)
+    view.InteractionMode = "2D"
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = [511.5, 383.5, 0]
+    view.CameraPosition = [511.5, 383.5, 1000]
+    view.CameraParallelScale = 384
+    example.save_picture(path, view)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--output", help="folder of the pictures, by default the documentation's",
+                        default=os.path.join(os.path.dirname(EXAMPLES), "Documentation", "Images"))
+    folder = parser.parse_args().output
+    os.makedirs(folder, exist_ok=True)
+    example.load_plugin()
+    stipple = script("StippleImage")
+
+    def path(name):
+        return os.path.join(folder, name + ".png")
+
+    draw_density(path("density"))
+    draw_particles(path("particles"), stipple)
+    draw_volume(path("volume"), script("SampleVolume"))
+    draw_patterns(path("patterns"), stipple)
+    draw_flow(path("flow"), stipple)
+    draw_paths(path("paths"))
+    print("density, particles, volume, patterns, flow, paths: " + folder)
+
+
+if __name__ == "__main__":
+    main()
