@@ -18,7 +18,7 @@ set(vtk_components CommonCore CommonDataModel CommonExecutionModel)
 set(vtk_optional WrappingPythonCore WrappingTools)
 if (RectifiedTransport_BUILD_TESTING)
   list(APPEND vtk_components
-    FiltersCore FiltersGeneral FiltersSources ImagingCore IOImage IOXML TestingCore)
+    FiltersCore FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
 endif ()
 if (RectifiedTransport_BUILD_EXAMPLES)
   list(APPEND vtk_components IOImage RenderingCore RenderingOpenGL2)

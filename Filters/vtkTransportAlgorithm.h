@@ -3,11 +3,15 @@
  * @class   vtkTransportAlgorithm
  * @brief   what all filters that move points with the rectified flow of a density share
  *
- * Holds how the flow of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
- * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147 is integrated, and keeps
- * the summed-area tables of the density between runs: they are built anew only when the density
- * changes (its array, ghost arrays, image or the properties of vtkDensityAlgorithm), at a cost of
- * O(cells) and about 32 bytes a cell in 1D and 3D and 43 in 2D.
+ * The flow is that of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
+ * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: points that are uniform at
+ * time 0 follow the velocity field of its equation 12, which needs the mass and the centroid of the
+ * density in a box (equations 10 and 11); both come from summed-area tables (Section 3.3).
+ *
+ * This class holds how the field is integrated, and keeps the tables between runs. They are built
+ * anew only when the density changes (its array, ghost arrays, image or the properties of
+ * vtkDensityAlgorithm), at a cost of O(cells) in time and of about 21, 34 and 33 bytes a cell in
+ * 1D, 2D and 3D in memory.
  *
  * Results are the same to the last bit for every number of threads and every setting of Threading.
  *
@@ -68,7 +72,7 @@ public:
 
   ///@{
   /**
-   * How the flow (section 4, equation 8 of the paper) is integrated. Multistep (default): a graded
+   * How the velocity field (equation 12) is integrated. Multistep (default): a graded
    * Adams-Bashforth-Moulton method of order 3, one velocity a step. RungeKutta4 (the paper's
    * Algorithm 2, with the correct limit of the velocity at the end) and Euler: uniform steps.
    * Adaptive: steps of each particle's own, chosen by Tolerance.
@@ -103,8 +107,8 @@ public:
 
   ///@{
   /**
-   * Interpolated (default) integrates the density exactly over every box. Nearest rounds boxes to
-   * whole cells, as the paper's ablation does: coarser, for comparisons.
+   * Interpolated (default) integrates the density exactly over every box (the paper's Algorithm 1).
+   * Nearest rounds boxes to whole cells (its Figure 4): coarser, for comparisons.
    */
   vtkSetMacro(TableLookup, int);
   vtkGetMacro(TableLookup, int);

@@ -4,13 +4,14 @@
  * @brief   sample a density of an image with particles
  *
  * Moves points that are spread uniformly over the domain of an image so that in the end they are
- * distributed like its density, along the flow of Do, Coeurjolly, Memari and Bonneel, "Linear-Time
- * Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
- * doi:10.1145/3731147.
+ * distributed like its density, along the rectified flow (equation 12) of Do, Coeurjolly, Memari
+ * and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4),
+ * 2025, doi:10.1145/3731147. It stipples pictures and samples volumes.
  *
  * Input 0 is the density, a vtkImageData (see vtkDensityAlgorithm). Input 1 is optional: a
  * vtkPointSet of seeds in physical space, in place of SeedPattern. Seeds outside the domain are
- * moved to its border, with one warning that counts them; NaN or infinite ones are an error.
+ * moved to its border, with one warning that counts them; NaN or infinite ones are an error. Point
+ * data of the seeds is passed on, to the particles or as cell data to their paths.
  *
  * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
  * - point data `SeedId` (the particle's number), `SeedPosition` (where it started), `Displacement`
@@ -23,7 +24,10 @@
  * With OutputPaths the output is one polyline a particle instead, see there.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(particles * steps)
- * for the flow. Memory: about 104 bytes a particle for the output, and the tables.
+ * for the flow. Memory: 104 bytes a particle for the output, and while it runs 32 more in 2D,
+ * beside the tables (see vtkTransportAlgorithm).
+ *
+ * The output is in one piece: of several pieces that are asked for, the first has all particles.
  *
  * \code{.cpp}
  * vtkNew<vtkPNGReader> reader;

@@ -16,7 +16,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// What the tables take: a record a node, and 2^-D of that for each coarser level.
+// What the tables take: a record a node of each level, which has a fixed share of the nodes of the
+// level before.
 template <int D>
 double tableBytes(const GridSize<D>& size)
 {
@@ -25,7 +26,7 @@ double tableBytes(const GridSize<D>& size)
   {
     nodes *= static_cast<double>(cells + 1);
   }
-  constexpr double levels = static_cast<double>(1 << D) / ((1 << D) - 1);
+  constexpr double levels = 1.0 / (1.0 - 1.0 / (1 << (D * levelShift)));
   return nodes * levels * TableView<D>::Record * sizeof(double);
 }
 

@@ -27,11 +27,11 @@ void HostMonitor::Run(
   Pacer pacer(monitor);
   pacer.BeginStage(1.0, count);
   // Memory-bound work: a first slice that lasts about a millisecond.
-  constexpr std::int64_t firstSlice = std::int64_t{ 1 } << 18;
-  std::int64_t slice = (firstSlice + grain - 1) / grain * grain;
+  constexpr std::int64_t units = std::int64_t{ 1 } << 18;
+  const std::int64_t smallest = (units + grain - 1) / grain * grain;
   for (std::int64_t begin = 0; begin < count;)
   {
-    slice = std::min(count - begin, pacer.NextSlice(slice));
+    const std::int64_t slice = std::min(count - begin, pacer.NextSlice(smallest));
     executor.For(slice, grain,
       [&](std::int64_t first, std::int64_t last) { kernel(begin + first, begin + last); });
     begin += slice;
@@ -39,7 +39,6 @@ void HostMonitor::Run(
     {
       throw Aborted();
     }
-    slice = (firstSlice + grain - 1) / grain * grain;
   }
 }
 

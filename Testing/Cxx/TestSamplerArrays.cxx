@@ -189,6 +189,32 @@ void checkChoice(Checks& checks)
   CHECK(checks, sampleCoordinates(sampler) == ofPoints);
 }
 
+// Without active scalars, the only array is taken, beside which ghosts do not count.
+void checkOnlyArray(Checks& checks)
+{
+  auto image = makeImage(width, height, 1, false, bumpy);
+  const Points expected = pointsOf(image);
+  vtkPointData* data = image->GetPointData();
+  data->SetActiveScalars(nullptr);
+  CHECK(checks, data->GetScalars() == nullptr);
+  CHECK(checks, pointsOf(image) == expected);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(image->GetNumberOfPoints());
+  ghosts->Fill(0);
+  data->AddArray(ghosts);
+  CHECK(checks, pointsOf(image) == expected);
+
+  auto other = makeImage(width, height, 1, true, bumpy);
+  other->GetCellData()->GetScalars()->SetName("Other");
+  image->GetCellData()->AddArray(other->GetCellData()->GetScalars());
+  vtkNew<vtkTransportSampler> sampler;
+  Messages messages(sampler);
+  sampler->SetInputData(image);
+  sampler->Update();
+  CHECK(checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "no active scalars"));
+}
+
 // Clamp takes negative values as 0.
 void checkClamp(Checks& checks)
 {
@@ -215,6 +241,7 @@ int TestSamplerArrays(int, char*[])
   checkGreys(checks);
   checkWhitePaper(checks);
   checkChoice(checks);
+  checkOnlyArray(checks);
   checkClamp(checks);
   return checks.Result();
 }

@@ -4,6 +4,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkIntegrateAttributes.h"
 #include "vtkStringArray.h"
 
 namespace
@@ -134,6 +135,26 @@ void checkFieldData(Checks& checks)
   CHECK(checks, old->GetValue(0) == -1.0);
 }
 
+// VTK's own integral of the density.
+void checkIntegral(Checks& checks)
+{
+  const int sizes[][3] = { { 30, 1, 1 }, { 1, 12, 1 }, { 13, 7, 1 }, { 9, 1, 8 }, { 5, 6, 7 } };
+  for (const auto& n : sizes)
+  {
+    auto image = makeImage(n[0], n[1], n[2], true, bumpy);
+    image->SetSpacing(0.5, 2.0, 0.3);
+    vtkNew<vtkIntegrateAttributes> integrate;
+    integrate->SetInputData(image);
+    integrate->Update();
+    auto* integral = vtkDataSet::SafeDownCast(integrate->GetOutputDataObject(0));
+    const double mass = integral->GetCellData()->GetArray("Density")->GetComponent(0, 0);
+    vtkNew<vtkTransportSampler> sampler;
+    sampler->SetInputData(image);
+    sampler->Update();
+    CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "TotalMass") / mass, 1.0, 1e-12);
+  }
+}
+
 } // namespace
 
 int TestSamplerOutput(int, char*[])
@@ -159,5 +180,6 @@ int TestSamplerOutput(int, char*[])
   checkCounts(checks);
   checkRandomSeed(checks);
   checkFieldData(checks);
+  checkIntegral(checks);
   return checks.Result();
 }
