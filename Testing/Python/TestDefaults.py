@@ -73,6 +73,14 @@ class Defaults(unittest.TestCase):
             comment = header_comment(proxy.class_name, prop.name)
             self.assertTrue(says_default(comment, prop.shown_default), comment)
 
+    def test_page(self):
+        """A row of the tables on a filter's page: | `property` | default | ..."""
+        for proxy, prop in self.each_value():
+            page = os.path.join(SOURCE, "Documentation", proxy.label.replace(" ", "") + ".md")
+            with open(page, encoding="utf-8") as file:
+                rows = re.findall(r"^\| `%s` \| (.*?) \|" % prop.name, file.read(), re.MULTILINE)
+            self.assertEqual(rows, [prop.shown_default])
+
     def test_ranges(self):
         """A value on the edge of a range runs; the next one outside is refused by name."""
         for proxy, prop in self.each_value():
