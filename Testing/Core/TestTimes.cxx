@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <type_traits>
 
 namespace RectifiedTransport
@@ -120,17 +121,47 @@ TYPED_TEST(Times, AnyChoice)
 TYPED_TEST(Times, AnyChoiceWithHoles)
 {
   constexpr int Dimension = TypeParam::value;
-  const RectifiedFlow<Dimension> flow = makeFlow(discWithHole<Dimension>(density<Dimension>().Size));
+  const RectifiedFlow<Dimension> flow =
+    makeFlow(discWithHole<Dimension>(density<Dimension>().Size));
   const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 700);
   for (const Integrator method : AllIntegrators)
   {
     const FlowOptions options = steps(8, method);
     const auto all = forwardAt(flow, seeds, Moments, options);
+    EXPECT_TRUE(sameBits<Dimension>(all.front(), seeds)) << nameOf(method);
+    EXPECT_TRUE(sameBits<Dimension>(all.back(), runForward(flow, seeds, options)))
+      << nameOf(method);
     for (const std::size_t i : { 2, 4, 7 })
     {
       const auto one = forwardAt(flow, seeds, { Moments[i] }, options);
       EXPECT_TRUE(sameBits<Dimension>(one[0], all[i])) << nameOf(method) << " at " << Moments[i];
     }
+  }
+}
+
+// Who runs the ranges and who else is there matters no more than in Forward.
+TEST(TimesWithHoles, ExecutorsAndSubsets)
+{
+  const TestDensity<2> target = discWithHole<2>({ 150, 97 });
+  const RectifiedFlow<2> flow = makeFlow(target);
+  const Points<2> seeds = randomPoints<2>(target.Size, 3000);
+  const std::size_t half = seeds.size() / 2;
+  const std::vector<double> times = { 0.4, 1.0 };
+  for (const Integrator method : AllIntegrators)
+  {
+    const FlowOptions options = steps(12, method);
+    const auto all = forwardAt(flow, seeds, times, options);
+    Points<2> reversed(seeds.rbegin(), seeds.rbegin() + static_cast<std::ptrdiff_t>(half));
+    Points<2> positions(times.size() * half);
+    flow.ForwardAt(reversed.data()->data(), static_cast<std::int64_t>(half), times,
+      positions.data()->data(), options, SerialExecutor());
+    std::int64_t different = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      const std::size_t particle = seeds.size() - 1 - i / times.size();
+      different += positions[i] != all[i % times.size()][particle];
+    }
+    EXPECT_EQ(different, 0) << nameOf(method);
   }
 }
 
