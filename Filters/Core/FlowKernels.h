@@ -71,11 +71,10 @@ using AddToColumns = void (*)(const double* values, std::int64_t count, double c
 // Adds one row of cells to a running row of nodes and writes the sums out. `running` holds, node
 // by node, the table's records below this row of cells; `values` are the row's cells from the
 // strip's start, `prefix` the sums {f, f * centre along axis 0} of the cells before the strip.
-// See SummedAreaTables.cxx for the rest.
+// See TableBuild.cxx for the rest.
 struct TableRow2D
 {
   const double* Values;
-  double Scale;
   std::int64_t First;  // first cell of the strip
   std::int64_t Count;  // cells in the strip
   double Prefix[2];
@@ -89,7 +88,6 @@ using AddTableRow2D = void (*)(const TableRow2D& row);
 struct TableRow3D
 {
   const double* Values;
-  double Scale;
   std::int64_t Count; // cells in the row
   double Centre[2];   // along axes 1 and 2
   double* Columns;    // {f, f * centre 1} of each column of the slice so far, updated

@@ -34,8 +34,7 @@ public:
 
 private:
   void Allocate(const GridSize<Dimension>& size);
-  bool Build(const DensitySource<Dimension>& density, double scale, const Executor& executor,
-    Pacer& pacer);
+  bool Build(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer);
 
   LargeBuffer<double> Nodes;
   LargeBuffer<std::uint64_t> Occupied;
@@ -44,6 +43,6 @@ private:
   bool Complete = false;
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

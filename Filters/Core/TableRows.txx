@@ -104,7 +104,7 @@ RT_INLINE void addRow2D(const TableRow2D& row)
   double centre = static_cast<double>(row.First) + 0.5;
   for (std::int64_t i = 0; i < row.Count; ++i)
   {
-    const double value = row.Values[i] * row.Scale;
+    const double value = row.Values[i];
     sum += value;
     moment += value * centre;
     centre += 1.0;
@@ -128,7 +128,7 @@ RT_INLINE void addRow3D(const TableRow3D& row)
   const Vector4 lift = { 1.0, 1.0, 1.0, row.Centre[1] };
   for (std::int64_t i = 0; i < row.Count; ++i)
   {
-    const double value = row.Values[i] * row.Scale;
+    const double value = row.Values[i];
     sum += value;
     moment += value * centre;
     centre += 1.0;

@@ -136,6 +136,33 @@ TEST(Hard, ExtremeValues)
   }
 }
 
+// A cell so heavy that its moment passes the largest double where its mass does not.
+template <int Dimension>
+void expectSameFromAfar(const GridSize<Dimension>& size, const GridSize<Dimension>& cell)
+{
+  TestDensity<Dimension> density = dirac<Dimension>(size, cell);
+  for (std::size_t i = 0; i < density.Values.size(); ++i)
+  {
+    density.Values[i] += 1e-6 * static_cast<double>(i % 13);
+  }
+  TestDensity<Dimension> heavy = density;
+  for (double& value : heavy.Values)
+  {
+    value *= 0x1p1018;
+  }
+  const Points<Dimension> seeds = randomPoints<Dimension>(size, 500);
+  EXPECT_TRUE(
+    sameBits<Dimension>(runForward(makeFlow(heavy), seeds), runForward(makeFlow(density), seeds)))
+    << Dimension << "D";
+}
+
+TEST(Hard, HeavyCellFarFromTheOrigin)
+{
+  expectSameFromAfar<1>({ 9000 }, { 8000 });
+  expectSameFromAfar<2>({ 2000, 20 }, { 600, 11 });
+  expectSameFromAfar<3>({ 10, 600, 10 }, { 5, 300, 5 });
+}
+
 // 16 decades between the cells: the light region gets its 1e-16 of the particles, that is none,
 // and the heavy one is filled as if the light one were empty.
 TEST(Hard, DynamicRange)
