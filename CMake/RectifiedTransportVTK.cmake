@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Which VTK: ParaView's own where the plugin is built, else the one that VTK_DIR or the system gives.
+# Which VTK: ParaView's own where the plugin is built, else the one that VTK_DIR or the system
+# gives.
 
 if (NOT DEFINED RectifiedTransport_BUILD_PARAVIEW_PLUGIN AND NOT VTK_DIR)
   find_package(ParaView QUIET COMPONENTS RemotingCore)

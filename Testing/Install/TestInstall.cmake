@@ -45,7 +45,8 @@ endforeach ()
 run("${WORK}/Downstream/Downstream")
 run("${WORK}/StippleImage/StippleImage" "${SOURCE}/Testing/Data/ascent.png" "${WORK}/dots.png" 500)
 
-file(GLOB_RECURSE libraries "${WORK}/moved/RectifiedTransport.so" "${WORK}/moved/vtkRectifiedTransport.so")
+file(GLOB_RECURSE libraries
+  "${WORK}/moved/RectifiedTransport.so" "${WORK}/moved/vtkRectifiedTransport.so")
 foreach (library IN LISTS libraries)
   check_loaded("${library}")
 endforeach ()

@@ -26,10 +26,19 @@ def header_comment(class_name, name):
     """The comment above a property's setter in the header of a class or of its superclasses."""
     with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
         header = file.read()
-    found = re.search(r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s," % name, header, re.DOTALL)
+    pattern = r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s,"
+    found = re.search(pattern % name, header, re.DOTALL)
     if found:
         return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
     return header_comment(re.search(r'#include "(vtk\w*Algorithm)\.h"', header).group(1), name)
+
+
+def page_rows(proxy):
+    """The tables of properties on a proxy's page: name, default and range."""
+    name = proxy.label.replace(" ", "").replace("-", "") + ".md"
+    with open(os.path.join(SOURCE, "Documentation", name), encoding="utf-8") as file:
+        return {row[0]: row[1:] for row in re.findall(
+            r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|[^|]*\|$", file.read(), re.MULTILINE)}
 
 
 def says_default(comment, text):
@@ -80,6 +89,17 @@ class Defaults(unittest.TestCase):
             with open(page, encoding="utf-8") as file:
                 rows = re.findall(r"^\| `%s` \| (.*?) \|" % prop.name, file.read(), re.MULTILINE)
             self.assertEqual(rows, [prop.shown_default])
+
+    def test_page(self):
+        for proxy, prop in self.each_value():
+            default, values = page_rows(proxy)[prop.name]
+            self.assertEqual(default, prop.shown_default)
+            if prop.texts:
+                self.assertEqual(values.split(", "), list(prop.texts.values()))
+
+    def test_page_has_nothing_else(self):
+        for proxy in proxies():
+            self.assertLessEqual(set(page_rows(proxy)), set(proxy.properties))
 
     def test_ranges(self):
         """A value on the edge of a range runs; the next one outside is refused by name."""

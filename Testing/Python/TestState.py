@@ -30,8 +30,8 @@ def in_a_process(script, path):
                    "found = [s for s in GetSources().values() if s.GetXMLName() == "
                    "'TransportSampler']\n"
                    "print('HASH', len(found), rt_testing.digest(rt_testing.output_of(found[0])))\n")
-    done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), path], stdout=subprocess.PIPE, universal_newlines=True,
-                          check=True)
+    done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), path],
+                          stdout=subprocess.PIPE, universal_newlines=True, check=True)
     return [line for line in done.stdout.splitlines() if line.startswith("HASH")][0].split()[1:]
 
 
