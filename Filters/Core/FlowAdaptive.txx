@@ -248,8 +248,12 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
   }
 
   std::int64_t evaluations = 0;
-  while (left > 0)
+  for (std::int64_t step = 0; left > 0; ++step)
   {
+    if (shouldStop<Dimension>(job, step))
+    {
+      return evaluations;
+    }
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
@@ -274,9 +278,9 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       const double ahead = job.Backward ? lanes.Time[i] : 1.0 - lanes.Time[i];
       const double ratio = tolerance / larger(lanes.Error[i], 1e-300);
       const double factor = safety * __builtin_sqrt(__builtin_sqrt(smaller(ratio, 1e6)));
-      const double step = lanes.Step[i];
-      lanes.Step[i] = step * smaller(larger(factor, shrinkage), growth);
-      if (ratio < 1.0 && step > shortest * ahead)
+      const double length = lanes.Step[i];
+      lanes.Step[i] = length * smaller(larger(factor, shrinkage), growth);
+      if (ratio < 1.0 && length > shortest * ahead)
       {
         continue;
       }

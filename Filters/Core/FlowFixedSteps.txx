@@ -86,6 +86,10 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   const std::int64_t steps = job.Steps << refinement;
   for (std::int64_t step = 0; step + 1 < steps; ++step)
   {
+    if (shouldStop<Dimension>(job, step))
+    {
+      return step * count;
+    }
     const StepWeights weights = stepWeights<Dimension>(job, step, steps);
     const auto& v0 = *lanes.V[0];
     const auto& v1 = *lanes.V[1];
@@ -240,6 +244,10 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
   std::int64_t evaluations = 0;
   for (std::int64_t step = 0; step < job.Steps && left > 0; ++step)
   {
+    if (shouldStop<Dimension>(job, step))
+    {
+      return evaluations;
+    }
     const StepWeights weights = stepWeights<Dimension>(job, step, job.Steps);
     const double time = 1.0 - weights.Time;
     const bool atStart = step + 1 == job.Steps;
@@ -340,6 +348,10 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   const double one[3] = { 1.0, 0.0, 0.0 };
   for (std::int64_t step = 0; step <= steps; ++step)
   {
+    if (shouldStop<Dimension>(job, step))
+    {
+      return step * count * (fourStages ? 4 : 1);
+    }
     // The slope at a step's start closes the interpolant over the step before it.
     auto& first = *lanes.V[3];
     velocityAt<Dimension>(

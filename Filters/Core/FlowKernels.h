@@ -40,14 +40,16 @@ struct FlowJob
   const StepWeights* Weights; // of Multistep with `Steps` steps, else null
   double CoarseRatio;         // a level is used while the box is this many of its cells wide
   double* Output;             // interleaved coordinates
-  const double* Times;      // dense output, ascending; null for the end point alone
-  std::int64_t TimeCount;   // 1 with the end point alone
+  const double* Times;        // dense output, ascending; null for the end point alone
+  std::int64_t TimeCount;     // 1 with the end point alone
+  bool (*ShouldStop)(void* host); // asked now and then, on any thread; null: never
+  void* Host;
 };
 
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the
 // output, with 2^refinement times the steps (or the tolerance lowered accordingly). Sets troubled[i]
 // if particle i met an empty box or ended in an empty cell. Returns the number of velocity
-// evaluations.
+// evaluations. Once the host wants to stop, positions are undefined.
 template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* troubled);

@@ -7,6 +7,14 @@ RT_INLINE double clampToDomain(double x, double size)
   return smaller(larger(x, faceDistance), size - faceDistance);
 }
 
+// Whether the host wants to stop before `step`: many steps would keep it waiting.
+template <int Dimension>
+RT_INLINE bool shouldStop(const FlowJob<Dimension>& job, std::int64_t step)
+{
+  constexpr std::int64_t interval = 64;
+  return step % interval == interval - 1 && job.ShouldStop && job.ShouldStop(job.Host);
+}
+
 // Lanes from `count` on repeat the last particle: their results are not used.
 template <int Dimension>
 RT_INLINE void loadPositions(

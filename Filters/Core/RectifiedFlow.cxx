@@ -103,7 +103,7 @@ public:
     {
       left = this->Pass(left, refinement);
     }
-    for (int i = 0; i < left; ++i)
+    for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
     {
       this->MoveToMass(this->Index[i]);
     }
@@ -207,6 +207,8 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
 
   Counters counters;
   Pacer pacer(monitor);
+  job.ShouldStop = [](void* host) { return static_cast<Pacer*>(host)->ShouldStop(); };
+  job.Host = &pacer;
   pacer.BeginStage(1.0, count);
   ParticleOrder<Dimension> order;
   // A range is short enough to be waited for, however many steps there are.
@@ -313,8 +315,9 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(const double* seeds, std::int64_t
   const std::vector<double>& times, double* positions, const FlowOptions& options,
   const Executor& executor, const Monitor& monitor) const
 {
-  const bool inside = !times.empty() && times.front() >= 0.0 && times.back() <= 1.0;
-  if (!inside || !std::is_sorted(times.begin(), times.end()))
+  const bool inside = std::all_of(
+    times.begin(), times.end(), [](double time) { return time >= 0.0 && time <= 1.0; });
+  if (times.empty() || !inside || !std::is_sorted(times.begin(), times.end()))
   {
     throw std::invalid_argument("times must be in [0,1] and ascend, and there must be at least one");
   }

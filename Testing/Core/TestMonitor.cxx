@@ -143,5 +143,31 @@ TEST(Monitor, CancelTheFlow)
   }
 }
 
+// However many steps a block of particles takes, the host is asked in between.
+TEST(Monitor, CancelManySteps)
+{
+  const RectifiedFlow<3> flow = makeFlow(volume());
+  const Points<3> seeds = randomPoints<3>(flow.Size(), 64);
+  Points<3> positions(seeds.size());
+  for (const Integrator method : AllIntegrators)
+  {
+    for (const bool backward : { false, true })
+    {
+      FlowOptions options = steps(10000, method);
+      options.Tolerance = 1e-14;
+      int asked = 0;
+      const Monitor monitor = { {}, [&asked]() { return ++asked > 3; } };
+      const double* from = seeds.data()->data();
+      double* to = positions.data()->data();
+      const FlowReport report = backward
+        ? flow.Backward(from, 64, to, options, SerialExecutor(), monitor)
+        : flow.Forward(from, 64, to, options, SerialExecutor(), monitor);
+      EXPECT_TRUE(report.Cancelled) << nameOf(method);
+      EXPECT_LE(report.Evaluations, 64 * 4 * 256) << nameOf(method);
+      EXPECT_GT(report.Evaluations, 0) << nameOf(method);
+    }
+  }
+}
+
 } // namespace
 } // namespace RectifiedTransport
