@@ -73,6 +73,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
   // The tiles of all axes together are numbered with at most this many bits.
   constexpr int bitBudget = 21;
   std::array<double, Dimension> perUnit;
+  std::array<double, Dimension> lastTile;
   std::array<std::vector<std::uint32_t>, Dimension> keys;
   std::uint32_t largest = 0;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -82,17 +83,12 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     const double wanted = tileSize > 0.0 ? std::ceil(extent / tileSize) : 1.0;
     const double number = std::max(1.0, std::min(wanted, most));
     perUnit[axis] = extent > 0.0 ? number / extent : 0.0;
-    keys[axis].resize(static_cast<std::size_t>(number) + 1);
+    lastTile[axis] = number - 1.0;
+    keys[axis].resize(static_cast<std::size_t>(number));
     for (std::size_t tile = 0; tile < keys[axis].size(); ++tile)
     {
-      // The high end of the box belongs to the last tile.
-      const auto inside = static_cast<std::uint32_t>(
-        std::min(tile, keys[axis].size() - 2));
-      keys[axis][tile] = spreadBits<Dimension>(inside) << axis;
-    }
-    for (const std::uint32_t key : keys[axis])
-    {
-      largest |= key;
+      keys[axis][tile] = spreadBits<Dimension>(static_cast<std::uint32_t>(tile)) << axis;
+      largest |= keys[axis][tile];
     }
   }
 
@@ -104,8 +100,10 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     std::uint32_t key = 0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // The high end belongs to the last tile, and so does what overflows.
       const double place = (begin[i * Dimension + axis] - low[axis]) * perUnit[axis];
-      key |= keys[axis][static_cast<std::size_t>(place)];
+      const double tile = place < lastTile[axis] ? place : lastTile[axis];
+      key |= keys[axis][static_cast<std::size_t>(tile)];
     }
     this->Tile[i] = key;
     ++this->Start[key + 1];

@@ -180,6 +180,7 @@ TEST(Errors, Times)
   EXPECT_NE(refused({ -0.5, 1.0 }).find("times"), std::string::npos);
   EXPECT_NE(refused({ 0.0, 1.5 }).find("times"), std::string::npos);
   EXPECT_NE(refused({ NaN }).find("times"), std::string::npos);
+  EXPECT_NE(refused({ 0.0, NaN, 1.0 }).find("times"), std::string::npos);
   EXPECT_NE(refused({ 0.75, 0.25 }).find("times"), std::string::npos);
 }
 

@@ -306,9 +306,9 @@ TEST(Hard, SeedsOutside)
   const TestDensity<2> density = twoGaussians<2>({ 100, 70 });
   const RectifiedFlow<2> flow = makeFlow(density);
   const Points<2> outside = { { -3.0, 31.0 }, { 1e300, 8.0 }, { 44.0, -1e-300 }, { 1e308, -1e308 },
-    { 50.0, 70.000001 } };
+    { -1e308, 1e308 }, { 50.0, 70.000001 } };
   const Points<2> border = { { 0.0, 31.0 }, { 100.0, 8.0 }, { 44.0, 0.0 }, { 100.0, 0.0 },
-    { 50.0, 70.0 } };
+    { 0.0, 70.0 }, { 50.0, 70.0 } };
   for (const Integrator method : AllIntegrators)
   {
     const FlowOptions options = steps(32, method);
