@@ -172,7 +172,7 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
     association != vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
   {
     throw RectifiedTransport::Failure("The field association of the density array is " +
-      std::to_string(association) + "; it must be 0 (points), 1 (cells) or 4 (points, then cells)");
+      std::to_string(association) + "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);

@@ -22,7 +22,7 @@ public:
   bool IsOutdated(const DensityImage& density) const;
 
   // Builds the tables if the density is another one; progress then reaches `progress`. Throws
-  // Failure and Aborted; the cache is then empty.
+  // Failure and Aborted; the next update then builds.
   void Update(DensityImage& density, const Executor& executor, HostMonitor& host, double progress);
 
   template <int D>
