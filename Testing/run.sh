@@ -42,7 +42,7 @@ run_tests()
 run_asan()
 {
   configure_and_build "$root/build-asan" --preset asan &&
-    run_tests "$root/build-asan" -LE '^(long|gui)$'
+    run_tests "$root/build-asan" -LE '^(long|gui|install)$'
 }
 
 # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.

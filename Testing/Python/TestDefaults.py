@@ -83,14 +83,6 @@ class Defaults(unittest.TestCase):
             self.assertTrue(says_default(comment, prop.shown_default), comment)
 
     def test_page(self):
-        """A row of the tables on a filter's page: | `property` | default | ..."""
-        for proxy, prop in self.each_value():
-            page = os.path.join(SOURCE, "Documentation", proxy.label.replace(" ", "") + ".md")
-            with open(page, encoding="utf-8") as file:
-                rows = re.findall(r"^\| `%s` \| (.*?) \|" % prop.name, file.read(), re.MULTILINE)
-            self.assertEqual(rows, [prop.shown_default])
-
-    def test_page(self):
         for proxy, prop in self.each_value():
             default, values = page_rows(proxy)[prop.name]
             self.assertEqual(default, prop.shown_default)
