@@ -2,6 +2,7 @@
 #include "vtkTransportSampler.h"
 
 #include "Bridge/DensityImage.h"
+#include "Bridge/Failure.h"
 #include "Bridge/FlowCache.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/Memory.h"
@@ -33,6 +34,8 @@ vtkStandardNewMacro(vtkTransportSampler);
 namespace
 {
 using namespace RectifiedTransport;
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 // What RequestData has fetched and checked.
 struct SamplerRun
@@ -121,12 +124,19 @@ std::string describeParticles(double count, bool paths)
 
 template <int D>
 void makeSeeds(const UnitSeeds<D>& pattern, const SamplerRun& run, const std::string& purpose,
-  ParticleSet<D>& particles)
+  double progress, ParticleSet<D>& particles)
 {
+  constexpr double partOfPattern = 0.8;
   double* seeds = particles.Seeds();
-  withMemory(purpose, pattern.Count() * D * sizeof(double), [&]() { pattern.Generate(seeds); });
+  run.Host.BeginStage(run.Host.Reached() + partOfPattern * (progress - run.Host.Reached()));
+  const bool complete = withMemory(purpose, pattern.Count() * D * sizeof(double),
+    [&]() { return pattern.Generate(seeds, run.Host.GetMonitor()); });
+  if (!complete)
+  {
+    throw Aborted();
+  }
+  run.Host.BeginStage(progress);
   const GridSize<D> size = run.Density.Geometry().Size<D>();
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   run.Host.Run(run.Threads, particles.Count(), grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
@@ -148,7 +158,9 @@ std::int64_t advect(const SamplerRun& run, const std::vector<double>& times,
   const std::int64_t count = particles.Count();
   if (times.size() == 1 && times[0] == 0.0)
   {
-    std::copy_n(seeds, count * D, positions);
+    run.Host.Run(run.Threads, count, grain, [=](std::int64_t first, std::int64_t last) {
+      std::copy(seeds + first * D, seeds + last * D, positions + first * D);
+    });
     return 0;
   }
   const RectifiedFlow<D>& flow = run.Cache.Flow<D>();
@@ -190,15 +202,15 @@ SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
 
   run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
   SamplerReport report;
-  run.Host.BeginStage(stages.Seeds);
   if (run.GivenSeeds)
   {
+    run.Host.BeginStage(stages.Seeds);
     report.SeedsMoved = readSeeds<D>(run.GivenSeeds, geometry, run.Threads, run.Host,
       particles.Seeds(), particles.PhysicalSeeds());
   }
   else
   {
-    makeSeeds<D>(pattern, run, purpose, particles);
+    makeSeeds<D>(pattern, run, purpose, stages.Seeds, particles);
   }
   run.Host.BeginStage(stages.Flow);
   report.ParticlesMoved = advect<D>(run, times, purpose, particles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkUniformSeedSource.h"
 
+#include "Bridge/Failure.h"
 #include "Bridge/GuardedRun.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/Memory.h"
@@ -61,12 +62,16 @@ void fillBox(const UnitSeeds<D>& seeds, const double* bounds, HostMonitor& host,
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   double* points = coordinates->GetPointer(0);
   LargeBuffer<double> separate;
-  withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
+  host.BeginStage(0.6);
+  const bool complete = withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
     separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
-    seeds.Generate(D == 3 ? points : separate.data());
+    return seeds.Generate(D == 3 ? points : separate.data(), host.GetMonitor());
   });
+  if (!complete)
+  {
+    throw Aborted();
+  }
   const double* unit = D == 3 ? points : separate.data();
-  host.ThrowIfCancelled();
 
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   host.BeginStage(0.8);

@@ -42,14 +42,6 @@ void HostMonitor::Run(
   }
 }
 
-void HostMonitor::ThrowIfCancelled() const
-{
-  if (this->IsCancelled())
-  {
-    throw Aborted();
-  }
-}
-
 bool HostMonitor::IsCancelled() const
 {
 #ifdef RECTIFIEDTRANSPORT_VTK_HAS_CHECK_ABORT

@@ -40,8 +40,6 @@ public:
   // Throws Aborted.
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel);
 
-  void ThrowIfCancelled() const;
-
 private:
   bool IsCancelled() const;
 

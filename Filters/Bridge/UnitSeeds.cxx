@@ -47,21 +47,18 @@ UnitSeeds<D>::UnitSeeds(SeedPattern pattern, const GridSize<D>& grid, int random
 }
 
 template <int D>
-void UnitSeeds<D>::Generate(double* points) const
+bool UnitSeeds<D>::Generate(double* points, const Monitor& monitor) const
 {
   if (!this->OnGrid)
   {
-    generateSeeds<D>(this->Pattern, this->Lengths, static_cast<std::int64_t>(this->Number),
-      this->RandomSeed, points);
+    return generateSeeds<D>(this->Pattern, this->Lengths, static_cast<std::int64_t>(this->Number),
+      this->RandomSeed, points, monitor);
   }
-  else if (this->Pattern == SeedPattern::Lattice)
+  if (this->Pattern == SeedPattern::Lattice)
   {
-    generateLattice<D>(this->Grid, points);
+    return generateLattice<D>(this->Grid, points, monitor);
   }
-  else
-  {
-    generateJitteredLattice<D>(this->Grid, this->RandomSeed, points);
-  }
+  return generateJitteredLattice<D>(this->Grid, this->RandomSeed, points, monitor);
 }
 
 template class UnitSeeds<1>;

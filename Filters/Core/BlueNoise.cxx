@@ -3,6 +3,7 @@
 
 #include "BlueNoiseTile.h"
 #include "ReproducibleMath.h"
+#include "SeedPace.h"
 
 #include <algorithm>
 #include <limits>
@@ -81,8 +82,10 @@ class Window
   static constexpr int BinsPerTile = 1 << (TileLevel * Dimension);
 
 public:
-  Window(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed)
-    : Count(count)
+  Window(
+    const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed, SeedPace& pace)
+    : Pace(pace)
+    , Count(count)
     , Axes(applySymmetry<Dimension>(windowAxes<Dimension>(), randomWord(randomSeed, Dimension)))
   {
     for (int a = 0; a < Dimension; ++a)
@@ -321,6 +324,7 @@ private:
     {
       const int first = this->BinStart[code << (level * Dimension)];
       const int last = this->BinStart[(code + 1) << (level * Dimension)];
+      this->Pace.Add(last - first);
       const Point<Dimension> origin = this->TileOrigin(cell);
       if (inside)
       {
@@ -359,6 +363,7 @@ private:
     return origin;
   }
 
+  SeedPace& Pace;
   std::int64_t Count;
   Matrix<Dimension> Axes;
   Matrix<Dimension> ToWindow;
@@ -376,13 +381,15 @@ private:
   double Size = 0.0;     // of the box
 };
 
-void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+void generateJitteredLine(
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
   const double n = static_cast<double>(count);
   for (std::int64_t i = 0; i < count; ++i)
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
     unitPoints[i] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
+    pace.Add(2);
   }
 }
 
@@ -390,14 +397,14 @@ void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, double* 
 // golden ratio in 2D and the square root of 2 in 3D: a rod has both.
 template <int Dimension>
 void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints)
+  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
   Point<Dimension - 1> rest;
   for (int a = 0; a < Dimension - 1; ++a)
   {
     rest[a] = lengths[a < thin ? a : a + 1];
   }
-  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints);
+  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints, pace);
   constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
   const std::uint64_t shift = randomWord(~randomSeed, Dimension);
   for (std::int64_t i = count - 1; i >= 0; --i)
@@ -409,14 +416,15 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
     }
     point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * step);
     std::copy(point.begin(), point.end(), unitPoints + i * Dimension);
+    pace.Add(1);
   }
 }
 
 } // namespace
 
 template <int Dimension>
-void generateBlueNoise(
-  const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
   if (count == 0)
   {
@@ -424,7 +432,7 @@ void generateBlueNoise(
   }
   if constexpr (Dimension == 1)
   {
-    generateJitteredLine(count, randomSeed, unitPoints);
+    generateJitteredLine(count, randomSeed, unitPoints, pace);
   }
   else
   {
@@ -440,17 +448,20 @@ void generateBlueNoise(
     }
     if (power < thinnest)
     {
-      generateFlat<Dimension>(lengths, thin, count, randomSeed, unitPoints);
+      generateFlat<Dimension>(lengths, thin, count, randomSeed, unitPoints, pace);
     }
     else
     {
-      Window<Dimension>(lengths, count, randomSeed).Generate(unitPoints);
+      Window<Dimension>(lengths, count, randomSeed, pace).Generate(unitPoints);
     }
   }
 }
 
-template void generateBlueNoise<1>(const Point<1>&, std::int64_t, std::uint64_t, double*);
-template void generateBlueNoise<2>(const Point<2>&, std::int64_t, std::uint64_t, double*);
-template void generateBlueNoise<3>(const Point<3>&, std::int64_t, std::uint64_t, double*);
+template void generateBlueNoise<1>(
+  const Point<1>&, std::int64_t, std::uint64_t, double*, SeedPace&);
+template void generateBlueNoise<2>(
+  const Point<2>&, std::int64_t, std::uint64_t, double*, SeedPace&);
+template void generateBlueNoise<3>(
+  const Point<3>&, std::int64_t, std::uint64_t, double*, SeedPace&);
 
 } // namespace RectifiedTransport

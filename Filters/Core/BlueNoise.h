@@ -10,8 +10,11 @@
 namespace RectifiedTransport
 {
 
+class SeedPace;
+
 // Exactly `count` points in the unit box, evenly spaced in a box of sides `lengths`; O(count) time,
-// O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked.
+// O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked. Adds about
+// 2 * count to the pace.
 //
 // 2D and 3D: a relaxed toroidal tile is repeated over space, and a window of the box's shape grows
 // from a corner until it holds `count` points. The window is turned against the tile by a fixed
@@ -23,7 +26,7 @@ namespace RectifiedTransport
 // 0.5 and 1.5 of the mean.
 template <int Dimension>
 void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints);
+  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace);
 
 } // namespace RectifiedTransport
 

@@ -3,6 +3,7 @@
 
 #include "BlueNoise.h"
 #include "ReproducibleMath.h"
+#include "SeedPace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,11 +150,13 @@ template <int Dimension>
 class JitteredBoxes
 {
 public:
-  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints)
+  JitteredBoxes(
+    const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
     , UnitPoints(unitPoints)
+    , Pace(pace)
   {
   }
 
@@ -179,6 +182,7 @@ public:
       {
         this->Fill(k + 1, first + begin, size);
       }
+      this->Pace.Add(size);
       begin += size;
     }
   }
@@ -199,21 +203,40 @@ private:
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
   double* UnitPoints;
+  SeedPace& Pace;
 };
 
+// False if it was cancelled on the way.
+template <class F>
+bool runToEnd(F&& generate)
+{
+  try
+  {
+    generate();
+    return true;
+  }
+  catch (const SeedPace::Cancelled&)
+  {
+    return false;
+  }
+}
+
 template <int Dimension>
-void generateRandom(std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+void generateRandom(
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
   for (std::int64_t i = 0; i < count * Dimension; ++i)
   {
     unitPoints[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
+    pace.Add(1);
   }
 }
 
 // The fractions of i / phi^k, phi the root of phi^(Dimension + 1) = phi + 1, in 64-bit fixed point:
 // i may be large without loss.
 template <int Dimension>
-void generateLowDiscrepancy(std::int64_t count, std::uint64_t randomSeed, double* unitPoints)
+void generateLowDiscrepancy(
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
   constexpr std::uint64_t steps[3][3] = {
     { 0x9E3779B97F4A7C16u, 0, 0 },
@@ -227,28 +250,33 @@ void generateLowDiscrepancy(std::int64_t count, std::uint64_t randomSeed, double
     {
       fraction += steps[Dimension - 1][a];
       unitPoints[i * Dimension + a] = unitReal(fraction);
+      pace.Add(1);
     }
   }
 }
 
-// Calls visit(cell) for every cell, axis 0 fastest.
+// Calls visit(cell) for every cell, axis 0 fastest. False if the monitor cancelled.
 template <int Dimension, class F>
-void visitCells(const GridSize<Dimension>& size, F&& visit)
+bool visitCells(const GridSize<Dimension>& size, const Monitor& monitor, F&& visit)
 {
   std::int64_t total = 1;
   for (std::int64_t n : size)
   {
     total *= n;
   }
-  GridSize<Dimension> cell{};
-  for (std::int64_t i = 0; i < total; ++i)
-  {
-    visit(cell);
-    for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
+  SeedPace pace(monitor, total);
+  return runToEnd([&]() {
+    GridSize<Dimension> cell{};
+    for (std::int64_t i = 0; i < total; ++i)
     {
-      cell[a] = 0;
+      visit(cell);
+      for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
+      {
+        cell[a] = 0;
+      }
+      pace.Add(1);
     }
-  }
+  });
 }
 
 } // namespace
@@ -266,29 +294,31 @@ GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t co
 }
 
 template <int Dimension>
-void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints)
+bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor)
 {
   checkLengths<Dimension>(lengths);
   checkCount(count);
   if (count == 0)
   {
-    return;
+    return true;
   }
+  const std::int64_t passes = pattern == SeedPattern::BlueNoise ? 2 : Dimension;
+  SeedPace pace(monitor, passes * count);
   switch (pattern)
   {
     case SeedPattern::BlueNoise:
-      generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints);
-      return;
+      return runToEnd(
+        [&]() { generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints, pace); });
     case SeedPattern::Jittered:
-      JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints).Fill(0, 0, count);
-      return;
+      return runToEnd([&]() {
+        JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints, pace).Fill(0, 0, count);
+      });
     case SeedPattern::LowDiscrepancy:
-      generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints);
-      return;
+      return runToEnd(
+        [&]() { generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints, pace); });
     case SeedPattern::Random:
-      generateRandom<Dimension>(count, randomSeed, unitPoints);
-      return;
+      return runToEnd([&]() { generateRandom<Dimension>(count, randomSeed, unitPoints, pace); });
     case SeedPattern::Lattice:
       break;
   }
@@ -297,10 +327,10 @@ void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::in
 }
 
 template <int Dimension>
-void generateLattice(const GridSize<Dimension>& size, double* unitPoints)
+bool generateLattice(const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor)
 {
   checkGrid<Dimension>(size);
-  visitCells<Dimension>(size, [&](const GridSize<Dimension>& cell) {
+  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
       *unitPoints++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
@@ -309,12 +339,12 @@ void generateLattice(const GridSize<Dimension>& size, double* unitPoints)
 }
 
 template <int Dimension>
-void generateJitteredLattice(
-  const GridSize<Dimension>& size, std::uint64_t randomSeed, double* unitPoints)
+bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  double* unitPoints, const Monitor& monitor)
 {
   checkGrid<Dimension>(size);
   std::uint64_t counter = 0;
-  visitCells<Dimension>(size, [&](const GridSize<Dimension>& cell) {
+  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
       const double jitter = unitReal(randomWord(randomSeed, counter++));
@@ -327,16 +357,22 @@ template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
 template GridSize<2> latticeSize<2>(const Point<2>&, std::int64_t);
 template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
 
-template void generateSeeds<1>(SeedPattern, const Point<1>&, std::int64_t, std::uint64_t, double*);
-template void generateSeeds<2>(SeedPattern, const Point<2>&, std::int64_t, std::uint64_t, double*);
-template void generateSeeds<3>(SeedPattern, const Point<3>&, std::int64_t, std::uint64_t, double*);
+template bool generateSeeds<1>(
+  SeedPattern, const Point<1>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+template bool generateSeeds<2>(
+  SeedPattern, const Point<2>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+template bool generateSeeds<3>(
+  SeedPattern, const Point<3>&, std::int64_t, std::uint64_t, double*, const Monitor&);
 
-template void generateLattice<1>(const GridSize<1>&, double*);
-template void generateLattice<2>(const GridSize<2>&, double*);
-template void generateLattice<3>(const GridSize<3>&, double*);
+template bool generateLattice<1>(const GridSize<1>&, double*, const Monitor&);
+template bool generateLattice<2>(const GridSize<2>&, double*, const Monitor&);
+template bool generateLattice<3>(const GridSize<3>&, double*, const Monitor&);
 
-template void generateJitteredLattice<1>(const GridSize<1>&, std::uint64_t, double*);
-template void generateJitteredLattice<2>(const GridSize<2>&, std::uint64_t, double*);
-template void generateJitteredLattice<3>(const GridSize<3>&, std::uint64_t, double*);
+template bool generateJitteredLattice<1>(
+  const GridSize<1>&, std::uint64_t, double*, const Monitor&);
+template bool generateJitteredLattice<2>(
+  const GridSize<2>&, std::uint64_t, double*, const Monitor&);
+template bool generateJitteredLattice<3>(
+  const GridSize<3>&, std::uint64_t, double*, const Monitor&);
 
 } // namespace RectifiedTransport

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Uniform points to start from. All patterns are reproducible from their arguments alone, to the
 // last bit on every machine. Counts and grid sizes that are negative, and sides that are not
-// positive and finite, throw std::invalid_argument.
+// positive and finite, throw std::invalid_argument. What makes points returns false if the monitor
+// cancelled it; the points are then undefined.
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
 #include "Density.h"
+#include "Executor.h"
 
 #include <cstdint>
 
@@ -30,17 +32,18 @@ GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t co
 // in a box of sides `lengths`, each > 0 and of any unit. Not for Lattice, whose count is
 // latticeSize's.
 template <int Dimension>
-void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints);
+bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor = {});
 
 // The centres of a grid of cells on the unit box, axis 0 fastest.
 template <int Dimension>
-void generateLattice(const GridSize<Dimension>& size, double* unitPoints);
+bool generateLattice(
+  const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor = {});
 
 // One random point in each cell of a grid on the unit box, axis 0 fastest.
 template <int Dimension>
-void generateJitteredLattice(
-  const GridSize<Dimension>& size, std::uint64_t randomSeed, double* unitPoints);
+bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  double* unitPoints, const Monitor& monitor = {});
 
 } // namespace RectifiedTransport
 

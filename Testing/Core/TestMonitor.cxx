@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the host hears of long work, and how it stops it.
+#include "Seeds.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +142,32 @@ TEST(Monitor, CancelTheFlow)
                     OpenMPExecutor(), at.Monitor())
                   .Cancelled);
   }
+}
+
+TEST(Monitor, ProgressAndCancelOfTheSeeds)
+{
+  constexpr std::int64_t count = 300000;
+  std::vector<double> points(3 * count);
+  const Point<3> lengths = { 1.0, 2.0, 3.0 };
+  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
+         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  {
+    for (const double limit : { 0.0, 2.0 })
+    {
+      Listener listener;
+      listener.Limit = limit;
+      const bool complete =
+        generateSeeds<3>(pattern, lengths, count, 1, points.data(), listener.Monitor());
+      EXPECT_EQ(complete, limit > 1.0) << static_cast<int>(pattern);
+      EXPECT_EQ(listener.Heard.size() > 1, complete) << static_cast<int>(pattern);
+      EXPECT_TRUE(std::is_sorted(listener.Heard.begin(), listener.Heard.end()));
+    }
+  }
+  Listener listener;
+  listener.Limit = 0.0;
+  EXPECT_FALSE(generateLattice<3>({ 50, 60, 70 }, points.data(), listener.Monitor()));
+  EXPECT_FALSE(generateJitteredLattice<3>({ 50, 60, 70 }, 1, points.data(), listener.Monitor()));
+  EXPECT_EQ(listener.Heard.size(), 2u);
 }
 
 // However many steps a block of particles takes, the host is asked in between.
