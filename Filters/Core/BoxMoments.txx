@@ -69,8 +69,7 @@ struct BoxAxis
 };
 
 template <int Dimension>
-RT_INLINE BoxAxis boxAxis(
-  const BoxLanes<Dimension>& boxes, int axis, int lane, std::int64_t stride)
+RT_INLINE BoxAxis boxAxis(const BoxLanes<Dimension>& boxes, int axis, int lane, std::int64_t stride)
 {
   return { { boxes.Place[axis][0][lane], boxes.Place[axis][1][lane] },
     { boxes.Bend[axis][0][lane], boxes.Bend[axis][1][lane] },
@@ -156,25 +155,25 @@ RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
   const Vector8 lowWeights = (one + place * axis0.Place[0]) + bend * axis0.Bend[0];
 
   AxisSums sums;
-  dispatchFaces(boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
-    if (boxes.Faces[0][lane] & onLowFace)
-    {
-      sums = sumAxis<decltype(faces)::Value>(axis1,
-        [&](std::int64_t offset) __attribute__((always_inline)) {
-          return loadVector(high + offset) * highWeights;
-        });
-    }
-    else
-    {
-      sums = sumAxis<decltype(faces)::Value>(axis1,
-        [&](std::int64_t offset) __attribute__((always_inline)) {
-          return loadVector(high + offset) * highWeights - loadVector(low + offset) * lowWeights;
-        });
-    }
-  });
+  dispatchFaces(
+    boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
+      if (boxes.Faces[0][lane] & onLowFace)
+      {
+        sums = sumAxis<decltype(faces)::Value>(
+          axis1, [&](std::int64_t offset) __attribute__((always_inline)) {
+            return loadVector(high + offset) * highWeights;
+          });
+      }
+      else
+      {
+        sums = sumAxis<decltype(faces)::Value>(
+          axis1, [&](std::int64_t offset) __attribute__((always_inline)) {
+            return loadVector(high + offset) * highWeights - loadVector(low + offset) * lowWeights;
+          });
+      }
+    });
   boxes.Mass[lane] = sums.Linear[0] + sums.Linear[4];
-  boxes.Moment[0][lane] =
-    (sums.Linear[1] + sums.Linear[5]) + (sums.Linear[3] + sums.Linear[7]);
+  boxes.Moment[0][lane] = (sums.Linear[1] + sums.Linear[5]) + (sums.Linear[3] + sums.Linear[7]);
   boxes.Moment[1][lane] = (sums.Linear[2] + sums.Linear[6]) + (sums.Bent[0] + sums.Bent[4]);
 }
 
@@ -191,10 +190,12 @@ template <int Faces1>
 RT_INLINE PairSums sumSide(
   const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, int side)
 {
-  const auto plane = [&](std::int64_t offset) __attribute__((always_inline)) {
-    return sumAxis<Faces1>(axis1, [&](std::int64_t row) __attribute__((always_inline)) {
-      return loadVector(nodes + offset + row);
-    });
+  const auto plane = [&](std::int64_t offset) __attribute__((always_inline))
+  {
+    return sumAxis<Faces1>(
+      axis1, [&](std::int64_t row) __attribute__((always_inline)) {
+        return loadVector(nodes + offset + row);
+      });
   };
   const AxisSums first = plane(axis2.Offset[side]);
   const AxisSums second = plane(axis2.Offset[side] + axis2.Stride);
@@ -210,8 +211,8 @@ RT_INLINE PairSums sumPair(
   PairSums sums;
   if (faces2 & onHighFace)
   {
-    const AxisSums total = sumAxis<Faces1>(axis1,
-      [&](std::int64_t row) __attribute__((always_inline)) {
+    const AxisSums total = sumAxis<Faces1>(
+      axis1, [&](std::int64_t row) __attribute__((always_inline)) {
         return loadVector(nodes + axis2.Offset[1] + axis2.Stride + row);
       });
     sums = { total.Linear, total.Bent, fillVector(0.0, 0.0) };
@@ -260,9 +261,10 @@ RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, in
 RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
-  dispatchFaces(boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
-    sumBox3D<decltype(faces)::Value>(level, boxes, lane);
-  });
+  dispatchFaces(
+    boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
+      sumBox3D<decltype(faces)::Value>(level, boxes, lane);
+    });
 }
 
 // Boxes on the finest level are the ones whose nodes are far apart in memory and not yet in the

@@ -29,7 +29,7 @@ std::string describe(const DensitySummary& summary)
   return "the density's total is zero";
 }
 
-}
+} // namespace
 
 InvalidDensity::InvalidDensity(const DensitySummary& summary)
   : std::runtime_error(describe(summary))
@@ -37,4 +37,4 @@ InvalidDensity::InvalidDensity(const DensitySummary& summary)
 {
 }
 
-}
+} // namespace RectifiedTransport

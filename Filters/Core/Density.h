@@ -79,6 +79,6 @@ private:
   DensitySummary Found;
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

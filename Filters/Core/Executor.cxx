@@ -39,4 +39,4 @@ int OpenMPExecutor::Concurrency() const
 #endif
 }
 
-}
+} // namespace RectifiedTransport

@@ -67,6 +67,6 @@ struct Monitor
   std::function<bool()> Cancelled;
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

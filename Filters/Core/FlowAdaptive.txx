@@ -92,8 +92,7 @@ RT_INLINE void finishInCells(const TableView<Dimension>& tables, const LaneVecto
     double place = 0.5 * (from[axis] + to[axis]);
     if (beta > 0.0 && below + above > 0.0)
     {
-      const double g =
-        (above * beta * beta - below * alpha * alpha) / (2.0 * (beta - alpha));
+      const double g = (above * beta * beta - below * alpha * alpha) / (2.0 * (beta - alpha));
       place = plane + (g > 0.0 ? g / above : g / below);
     }
     end[axis][lane] = place;
@@ -104,10 +103,10 @@ template <int Dimension>
 struct AdaptiveLanes
 {
   MultistepLanes<Dimension> Steps;
-  alignas(64) Lanes Step;        // the next step's length
-  alignas(64) Lanes Time;        // before the step
-  alignas(64) Lanes Back[2];     // times of the second and third newest velocity
-  alignas(64) Lanes History;     // accepted steps, up to 2
+  alignas(64) Lanes Step;    // the next step's length
+  alignas(64) Lanes Time;    // before the step
+  alignas(64) Lanes Back[2]; // times of the second and third newest velocity
+  alignas(64) Lanes History; // accepted steps, up to 2
   alignas(64) Lanes Error;
   alignas(64) LaneVectors<Dimension> Predicted;
   alignas(64) LaneVectors<Dimension> Corrected;
@@ -137,8 +136,7 @@ RT_INLINE void predictAdaptive(
       const double third2 = (1.0 / 3.0 - alpha / 2.0) / (beta * (beta - alpha));
       const double second = 0.5 / alpha;
       const double third = third0 * v0[i] + third1 * v1[i] + third2 * v2[i];
-      const double lower =
-        lanes.History[i] > 0.0 ? (1.0 - second) * v0[i] + second * v1[i] : v0[i];
+      const double lower = lanes.History[i] > 0.0 ? (1.0 - second) * v0[i] + second * v1[i] : v0[i];
       const double slope = lanes.History[i] > 1.0 ? third : lower;
       lanes.Predicted[axis][i] = clampToDomain(lanes.Steps.Position[axis][i] + h * slope, size);
     }
@@ -265,8 +263,8 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       steps.Time[i] = target > 0.0 && target < 1.0 ? target : 0.5;
     }
     predictAdaptive<Dimension>(job, lanes, direction);
-    evaluateVelocity<Dimension>(job, steps.Field, count, lanes.Predicted, steps.Time, *steps.V[0],
-      *steps.V[3], lanes.Active);
+    evaluateVelocity<Dimension>(
+      job, steps.Field, count, lanes.Predicted, steps.Time, *steps.V[0], *steps.V[3], lanes.Active);
     correctAdaptive<Dimension>(job, lanes, direction);
     evaluations += left;
     for (int i = 0; i < count; ++i)

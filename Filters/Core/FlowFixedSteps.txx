@@ -10,7 +10,7 @@ struct MultistepLanes
   alignas(64) LaneVectors<Dimension> Velocities[4];
   LaneVectors<Dimension>* V[4]; // newest, second, third, the one to be written
   alignas(64) Lanes Time;
-  alignas(64) Lanes Span; // of the whole graded interval
+  alignas(64) Lanes Span;    // of the whole graded interval
   alignas(64) Lanes Trouble; // 1 once a box was empty
   VelocityLanes<Dimension> Field;
 
@@ -46,8 +46,7 @@ struct MultistepLanes
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)
       {
-        const double sum =
-          a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
+        const double sum = a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
         result[axis][i] =
           clampToDomain(this->Position[axis][i] + this->Span[i] * length * sum, size);
       }
@@ -117,8 +116,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
     {
       for (int i = 0; i < count; ++i)
       {
-        writer.WriteHermite(
-          i, before[i], lanes.Time[i], lanes.Trial, v0, lanes.Position, newest);
+        writer.WriteHermite(i, before[i], lanes.Time[i], lanes.Trial, v0, lanes.Position, newest);
       }
     }
     lanes.Rotate();
@@ -140,8 +138,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       const double lambda = lanes.Span[i] * last.Length;
       const double known =
         c[1] * (*lanes.V[0])[axis][i] + c[2] * (*lanes.V[1])[axis][i] - c[0] * half;
-      lanes.Trial[axis][i] =
-        (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
+      lanes.Trial[axis][i] = (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
       final[axis][i] = lanes.Trial[axis][i] - half;
     }
   }
@@ -190,8 +187,8 @@ RT_INLINE void writeSeed(const FlowJob<Dimension>& job, const LaneVectors<Dimens
 
 // v(x, 1) = x - S/2.
 template <int Dimension>
-RT_INLINE void finalVelocity(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x,
-  LaneVectors<Dimension>& v)
+RT_INLINE void finalVelocity(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -206,8 +203,8 @@ RT_INLINE void finalVelocity(const FlowJob<Dimension>& job, const LaneVectors<Di
 
 // v(x, 0) = M - x.
 template <int Dimension>
-RT_INLINE void initialVelocity(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x,
-  LaneVectors<Dimension>& v)
+RT_INLINE void initialVelocity(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -223,8 +220,8 @@ RT_INLINE void initialVelocity(const FlowJob<Dimension>& job, const LaneVectors<
 // Time 1 to 0 over the reversed grid of [0,1]; a particle is done once its box is the whole
 // domain, from where its seed is known in closed form.
 template <int Dimension>
-std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count)
+std::int64_t multistepBackward(
+  const FlowJob<Dimension>& job, const double* seeds, const std::int64_t* index, int count)
 {
   MultistepLanes<Dimension> lanes;
   loadPositions<Dimension>(job, seeds, count, lanes.Position);
@@ -266,7 +263,8 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
       {
         lanes.Time[i] = time;
       }
-      evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
+      evaluateVelocity<Dimension>(
+        job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
       evaluations += left;
     }
     lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
@@ -286,8 +284,8 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
 
 // The velocity at one time for all lanes, the ends of [0,1] included.
 template <int Dimension>
-RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& field,
-  int count, const LaneVectors<Dimension>& x, double time, const LaneVectors<Dimension>& held,
+RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& field, int count,
+  const LaneVectors<Dimension>& x, double time, const LaneVectors<Dimension>& held,
   LaneVectors<Dimension>& v, bool* troubled)
 {
   if (time <= 0.0)
@@ -360,8 +358,8 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
     {
       for (int i = 0; i < count; ++i)
       {
-        writer.WriteHermite(i, timeAt(2 * step - 2), timeAt(2 * step), previous, slope,
-          lanes.Position, first);
+        writer.WriteHermite(
+          i, timeAt(2 * step - 2), timeAt(2 * step), previous, slope, lanes.Position, first);
       }
     }
     if (step == steps)

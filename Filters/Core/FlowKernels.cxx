@@ -50,7 +50,7 @@ const FlowKernels& chooseKernels()
   return flowKernelsSSE2();
 }
 
-}
+} // namespace
 
 StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
 {
@@ -92,4 +92,4 @@ const FlowKernels& flowKernels()
   return kernels;
 }
 
-}
+} // namespace RectifiedTransport

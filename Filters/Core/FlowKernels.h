@@ -37,19 +37,19 @@ struct FlowJob
   bool Nearest;
   double Tolerance;
   std::int64_t Steps;
-  const StepWeights* Weights; // of Multistep with `Steps` steps, else null
-  double CoarseRatio;         // a level is used while the box is this many of its cells wide
-  double* Output;             // interleaved coordinates
-  const double* Times;        // dense output, ascending; null for the end point alone
-  std::int64_t TimeCount;     // 1 with the end point alone
+  const StepWeights* Weights;     // of Multistep with `Steps` steps, else null
+  double CoarseRatio;             // a level is used while the box is this many of its cells wide
+  double* Output;                 // interleaved coordinates
+  const double* Times;            // dense output, ascending; null for the end point alone
+  std::int64_t TimeCount;         // 1 with the end point alone
   bool (*ShouldStop)(void* host); // asked now and then, on any thread; null: never
   void* Host;
 };
 
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the
-// output, with 2^refinement times the steps (or the tolerance lowered accordingly). Sets troubled[i]
-// if particle i met an empty box or ended in an empty cell. Returns the number of velocity
-// evaluations. Once the host wants to stop, positions are undefined.
+// output, with 2^refinement times the steps (or the tolerance lowered accordingly). Sets
+// troubled[i] if particle i met an empty box or ended in an empty cell. Returns the number of
+// velocity evaluations. Once the host wants to stop, positions are undefined.
 template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* troubled);
@@ -67,8 +67,8 @@ struct RowInspection
 using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
 
 // Adds a row of cells to {f, f * centre} of every column.
-using AddToColumns = void (*)(const double* values, std::int64_t count, double centre,
-  double* columns, double* moments);
+using AddToColumns = void (*)(
+  const double* values, std::int64_t count, double centre, double* columns, double* moments);
 
 // Adds one row of cells to a running row of nodes and writes the sums out. `running` holds, node
 // by node, the table's records below this row of cells; `values` are the row's cells from the
@@ -77,8 +77,8 @@ using AddToColumns = void (*)(const double* values, std::int64_t count, double c
 struct TableRow2D
 {
   const double* Values;
-  std::int64_t First;  // first cell of the strip
-  std::int64_t Count;  // cells in the strip
+  std::int64_t First; // first cell of the strip
+  std::int64_t Count; // cells in the strip
   double Prefix[2];
   double Centre; // along axis 1
   double* Running;
@@ -136,6 +136,6 @@ const FlowKernels& flowKernelsAVX512();
 // or AVX512) asks for a narrower one. All compute the same bits.
 const FlowKernels& flowKernels();
 
-}
+} // namespace RectifiedTransport
 
 #endif

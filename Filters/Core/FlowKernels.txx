@@ -41,13 +41,14 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
   }
   if (job.Method == Integrator::Multistep)
   {
-    return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count)
-                        : multistepForward<Dimension>(job, seeds, index, count, refinement, troubled);
+    return job.Backward
+      ? multistepBackward<Dimension>(job, seeds, index, count)
+      : multistepForward<Dimension>(job, seeds, index, count, refinement, troubled);
   }
   return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, troubled);
 }
 
-}
+} // namespace
 
 const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
@@ -56,4 +57,4 @@ const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
   return kernels;
 }
 
-}
+} // namespace RectifiedTransport

@@ -39,6 +39,6 @@ struct FlowReport
   bool Cancelled = false;       // positions are then undefined
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

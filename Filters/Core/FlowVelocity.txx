@@ -14,7 +14,7 @@ template <int Dimension>
 struct VelocityLanes
 {
   BoxLanes<Dimension> Boxes;
-  alignas(64) LaneVectors<Dimension> From;   // the clipped box
+  alignas(64) LaneVectors<Dimension> From; // the clipped box
   alignas(64) LaneVectors<Dimension> To;
   alignas(64) LaneVectors<Dimension> Centre; // of the box before clipping
   alignas(64) Lanes InverseTime;
@@ -154,7 +154,8 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 {
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   const double inverseRatio = 1.0 / job.CoarseRatio;
-  const double widest = static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));
+  const double widest =
+    static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));
   static_assert(levelShift == 2, "the exponent is rounded down to an even one");
   alignas(64) Lanes width;
   alignas(64) Lanes inverseWidth;
@@ -186,8 +187,8 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 // whose box is empty get `held`, and Void is set; going backward they keep their place in the box
 // (m = c). Lanes that are not active are not computed. Needs 0 < t < 1.
 template <int Dimension>
-__attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
-  int count, const LaneVectors<Dimension>& x, const Lanes& t,
+__attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
+  VelocityLanes<Dimension>& lanes, int count, const LaneVectors<Dimension>& x, const Lanes& t,
   const LaneVectors<Dimension>& held, LaneVectors<Dimension>& v, const bool* active = nullptr)
 {
   findBoxes<Dimension>(job, lanes, x, t);

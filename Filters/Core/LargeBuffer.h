@@ -54,10 +54,22 @@ public:
 #endif
   }
 
-  T* data() { return this->Memory.get(); }
-  const T* data() const { return this->Memory.get(); }
-  std::int64_t size() const { return this->Count; }
-  std::int64_t bytes() const { return this->Count * static_cast<std::int64_t>(sizeof(T)); }
+  T* data()
+  {
+    return this->Memory.get();
+  }
+  const T* data() const
+  {
+    return this->Memory.get();
+  }
+  std::int64_t size() const
+  {
+    return this->Count;
+  }
+  std::int64_t bytes() const
+  {
+    return this->Count * static_cast<std::int64_t>(sizeof(T));
+  }
 
 private:
   struct Free
@@ -68,6 +80,6 @@ private:
   std::int64_t Count = 0;
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

@@ -38,8 +38,7 @@ double gap(double x, std::int64_t cell)
 }
 
 // Looks through the cells of a row outwards from x, as far as `limit`.
-std::int64_t nearestInRow(
-  const std::uint64_t* row, std::int64_t columns, double x, double limit)
+std::int64_t nearestInRow(const std::uint64_t* row, std::int64_t columns, double x, double limit)
 {
   const auto start = std::min(static_cast<std::int64_t>(std::max(x, 0.0)), columns - 1);
   for (std::int64_t step = 0; step < columns; ++step)
@@ -66,7 +65,7 @@ std::int64_t nearestInRow(
   return -1;
 }
 
-}
+} // namespace
 
 template <int Dimension>
 bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
@@ -107,8 +106,8 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
   std::int64_t farthest = 1;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    centre[axis] = std::min(
-      static_cast<std::int64_t>(std::max(point[axis], 0.0)), tables.Cells[axis] - 1);
+    centre[axis] =
+      std::min(static_cast<std::int64_t>(std::max(point[axis], 0.0)), tables.Cells[axis] - 1);
     farthest = axis > 0 ? std::max(farthest, tables.Cells[axis]) : farthest;
   }
   Cell<Dimension> nearest = centre;
@@ -165,7 +164,8 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
       {
         const bool cap = std::abs(k) == shell;
         at[2] = centre[2] + k;
-        for (std::int64_t j = -shell; j <= shell; j += cap ? 1 : std::max<std::int64_t>(2 * shell, 1))
+        for (std::int64_t j = -shell; j <= shell;
+             j += cap ? 1 : std::max<std::int64_t>(2 * shell, 1))
         {
           at[1] = centre[1] + j;
           tryRow(at);
@@ -189,4 +189,4 @@ template Point<1> nearestMass<1>(const TableView<1>&, const Point<1>&);
 template Point<2> nearestMass<2>(const TableView<2>&, const Point<2>&);
 template Point<3> nearestMass<3>(const TableView<3>&, const Point<3>&);
 
-}
+} // namespace RectifiedTransport

@@ -17,6 +17,6 @@ bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 template <int Dimension>
 Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 
-}
+} // namespace RectifiedTransport
 
 #endif

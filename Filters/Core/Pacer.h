@@ -96,6 +96,6 @@ private:
   std::atomic<bool> Stop{ false };
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

@@ -24,7 +24,7 @@ std::uint32_t spreadBits(std::uint32_t value)
   return spread;
 }
 
-}
+} // namespace
 
 template <int Dimension>
 std::int64_t ParticleOrder<Dimension>::Sort(
@@ -123,4 +123,4 @@ template class ParticleOrder<1>;
 template class ParticleOrder<2>;
 template class ParticleOrder<3>;
 
-}
+} // namespace RectifiedTransport

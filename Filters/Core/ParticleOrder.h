@@ -17,8 +17,8 @@ public:
   // Orders particles [first, first + count) by tiles along a Morton curve, about
   // `particlesPerTile` in each. Returns the index of the first particle whose coordinates are not
   // finite, -1 if there is none.
-  std::int64_t Sort(const double* points, std::int64_t first, std::int64_t count,
-    int particlesPerTile);
+  std::int64_t Sort(
+    const double* points, std::int64_t first, std::int64_t count, int particlesPerTile);
   const std::int64_t* Order() const { return this->Sorted.data(); }
 
 private:
@@ -27,6 +27,6 @@ private:
   std::vector<std::int64_t> Sorted;
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif

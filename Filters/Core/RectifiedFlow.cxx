@@ -56,8 +56,8 @@ void check(const GridSize<Dimension>& size)
 // and add an error that a larger number of steps does not remove.
 double coarseRatio(const FlowOptions& options)
 {
-  const bool accurate = options.Method == Integrator::Adaptive ? options.Tolerance < 0.03
-                                                               : options.NumberOfSteps >= 48;
+  const bool accurate =
+    options.Method == Integrator::Adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48;
   return accurate ? 64.0 : 16.0;
 }
 
@@ -75,8 +75,8 @@ template <int Dimension>
 class RangeAdvection
 {
 public:
-  RangeAdvection(const FlowJob<Dimension>& job, const double* points, Counters& counters,
-    Pacer& pacer)
+  RangeAdvection(
+    const FlowJob<Dimension>& job, const double* points, Counters& counters, Pacer& pacer)
     : Job(job)
     , Points(points)
     , Count(counters)
@@ -158,7 +158,7 @@ private:
   double Seeds[rangeBlocks * BlockSize * Dimension];
 };
 
-}
+} // namespace
 
 template <int Dimension>
 struct RectifiedFlow<Dimension>::Internals
@@ -213,8 +213,11 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
   ParticleOrder<Dimension> order;
   // A range is short enough to be waited for, however many steps there are.
   constexpr int usualSteps = 64;
-  const std::int64_t grain = std::max(1, std::min(rangeBlocks,
-    rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) * BlockSize;
+  const std::int64_t grain =
+    std::max(1,
+      std::min(
+        rangeBlocks, rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) *
+    BlockSize;
   for (std::int64_t chunk = 0; chunk < count && !pacer.IsCancelled(); chunk += chunkParticles)
   {
     const std::int64_t length = std::min(chunkParticles, count - chunk);
@@ -315,11 +318,12 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(const double* seeds, std::int64_t
   const std::vector<double>& times, double* positions, const FlowOptions& options,
   const Executor& executor, const Monitor& monitor) const
 {
-  const bool inside = std::all_of(
-    times.begin(), times.end(), [](double time) { return time >= 0.0 && time <= 1.0; });
+  const bool inside =
+    std::all_of(times.begin(), times.end(), [](double time) { return time >= 0.0 && time <= 1.0; });
   if (times.empty() || !inside || !std::is_sorted(times.begin(), times.end()))
   {
-    throw std::invalid_argument("times must be in [0,1] and ascend, and there must be at least one");
+    throw std::invalid_argument(
+      "times must be in [0,1] and ascend, and there must be at least one");
   }
   return this->Data->Advect(seeds, count, times, positions, false, options, executor, monitor);
 }
@@ -340,8 +344,8 @@ std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& de
   std::vector<Point<Dimension>> positions(seeds.size());
   if (!seeds.empty())
   {
-    flow.Forward(seeds[0].data(), static_cast<std::int64_t>(seeds.size()), positions[0].data(),
-      options);
+    flow.Forward(
+      seeds[0].data(), static_cast<std::int64_t>(seeds.size()), positions[0].data(), options);
   }
   return positions;
 }
@@ -356,4 +360,4 @@ template std::vector<Point<2>> transportPoints<2>(
 template std::vector<Point<3>> transportPoints<3>(
   const DensitySource<3>&, const std::vector<Point<3>>&, const FlowOptions&);
 
-}
+} // namespace RectifiedTransport

@@ -45,9 +45,9 @@ public:
   explicit operator bool() const;
 
   const GridSize<Dimension>& Size() const;
-  double Total() const;                // sum of the density over the cells
-  Point<Dimension> Centroid() const;   // of the density
-  std::int64_t MemorySize() const;     // bytes that the tables hold
+  double Total() const;              // sum of the density over the cells
+  Point<Dimension> Centroid() const; // of the density
+  std::int64_t MemorySize() const;   // bytes that the tables hold
   // Whether the cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
 
@@ -61,8 +61,8 @@ public:
   // The positions at several times of [0,1], ascending, from one run: positions holds count *
   // times.size() * Dimension doubles, all times of a particle together.
   FlowReport ForwardAt(const double* seeds, std::int64_t count, const std::vector<double>& times,
-    double* positions, const FlowOptions& options = {},
-    const Executor& executor = OpenMPExecutor(), const Monitor& monitor = {}) const;
+    double* positions, const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
+    const Monitor& monitor = {}) const;
 
   // Advects points of time 1 back to time 0: the inverse map, density to uniform.
   FlowReport Backward(const double* points, std::int64_t count, double* positions,
@@ -79,6 +79,6 @@ template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
   const std::vector<Point<Dimension>>& seeds, const FlowOptions& options = {});
 
-}
+} // namespace RectifiedTransport
 
 #endif

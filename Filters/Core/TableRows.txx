@@ -60,8 +60,8 @@ RowInspection inspectRow(const double* values, std::int64_t count)
   return found;
 }
 
-void addToColumns(const double* values, std::int64_t count, double centre, double* columns,
-  double* moments)
+void addToColumns(
+  const double* values, std::int64_t count, double centre, double* columns, double* moments)
 {
 #pragma omp simd
   for (std::int64_t i = 0; i < count; ++i)
@@ -108,7 +108,8 @@ RT_INLINE void addRow2D(const TableRow2D& row)
     sum += value;
     moment += value * centre;
     centre += 1.0;
-    const Vector4 node = loadNode(row.Running + 4 * i) + Vector4{ sum, moment, sum * row.Centre, sum };
+    const Vector4 node =
+      loadNode(row.Running + 4 * i) + Vector4{ sum, moment, sum * row.Centre, sum };
     std::memcpy(row.Running + 4 * i, &node, sizeof(node));
     storeNode<Stream>(row.Nodes + 4 * i, node);
   }

@@ -42,6 +42,6 @@ struct TableView
   std::int64_t Cells[Dimension];
 };
 
-}
+} // namespace RectifiedTransport
 
 #endif
