@@ -61,6 +61,7 @@ public:
 
 // What the host wants to hear and may say during long work. Progress is in [0,1] and called on
 // the thread that called the library only; Cancelled may be called on any thread, one at a time.
+// Neither may throw.
 struct Monitor
 {
   std::function<void(double)> Progress;
