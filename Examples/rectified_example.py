@@ -43,8 +43,9 @@ def open_image(path):
     reader = getattr(simple, kind)(FileNames=[path]) if kind else simple.OpenDataFile(path)
     if reader is None:
         sys.exit("ParaView has no reader for " + path)
-    if not fetch(reader).IsA("vtkImageData"):
-        sys.exit(path + " holds no image")
+    image = fetch(reader)
+    if not image or not image.IsA("vtkImageData") or image.GetNumberOfPoints() == 0:
+        sys.exit(path + " holds no image that ParaView can read")
     return reader
 
 

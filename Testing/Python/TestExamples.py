@@ -102,6 +102,14 @@ class Examples(unittest.TestCase):
             self.assertNotEqual(code, 0)
             self.assertIn("nowhere.png", said)
 
+    def test_not_an_image(self):
+        path = os.path.join(OUTPUT, "broken.vti")
+        with open(path, "w") as file:
+            file.write("<VTKFile>")
+        said, code = run("SampleVolume", path)
+        self.assertNotEqual(code, 0)
+        self.assertIn("broken.vti holds no image", said)
+
     def test_sample_volume(self):
         said, code = run("SampleVolume")
         self.assertEqual(code, 0, said)
