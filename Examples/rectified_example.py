@@ -40,11 +40,12 @@ def open_image(path):
     if not os.path.isfile(path):
         sys.exit("There is no file " + path)
     kind = PHOTOGRAPHS.get(os.path.splitext(path)[1].lower())
-    reader = getattr(simple, kind)(FileNames=[path]) if kind else simple.OpenDataFile(path)
-    if reader is None:
+    try:
+        reader = getattr(simple, kind)(FileNames=[path]) if kind else simple.OpenDataFile(path)
+    except RuntimeError:
         sys.exit("ParaView has no reader for " + path)
     image = fetch(reader)
-    if not image or not image.IsA("vtkImageData") or image.GetNumberOfPoints() == 0:
+    if not image or not image.IsA("vtkImageData") or image.GetNumberOfPoints() < 2:
         sys.exit(path + " holds no image that ParaView can read")
     return reader
 

@@ -103,12 +103,14 @@ class Examples(unittest.TestCase):
             self.assertIn("nowhere.png", said)
 
     def test_not_an_image(self):
-        path = os.path.join(OUTPUT, "broken.vti")
-        with open(path, "w") as file:
-            file.write("<VTKFile>")
-        said, code = run("SampleVolume", path)
-        self.assertNotEqual(code, 0)
-        self.assertIn("broken.vti holds no image", said)
+        for name, what in (("broken.vti", "ParaView has no reader for"), ("broken.png", "no image")):
+            path = os.path.join(OUTPUT, name)
+            with open(path, "w") as file:
+                file.write("<VTKFile>")
+            said, code = run("SampleVolume", path)
+            self.assertNotEqual(code, 0)
+            self.assertIn(path, said)
+            self.assertIn(what, said)
 
     def test_sample_volume(self):
         said, code = run("SampleVolume")
