@@ -11,65 +11,46 @@ namespace
 {
 
 template <int Dimension>
-void paperTables(benchmark::State& state)
+void buildPaper(std::int64_t side)
 {
-  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
-  for (auto _ : state)
-  {
-    benchmark::DoNotOptimize(Paper::buildTables(density.Values, density.Size));
-  }
+  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(side);
+  benchmark::DoNotOptimize(Paper::buildTables(density.Values, density.Size));
 }
 
-template <int Dimension, int ThreadCount>
-void coreTables(benchmark::State& state)
+template <int Dimension>
+void buildCore(std::int64_t side)
 {
-  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
+  const RectifiedFlow<Dimension> flow(
+    texturedGaussians<Dimension>(side).Source(), OpenMPExecutor());
+  benchmark::DoNotOptimize(flow.Total());
+}
+
+// In pages that are new to the process. One build goes before, so that in a virtual machine the
+// host has found its pages: what that takes changes twentyfold from minute to minute.
+template <void (*Build)(std::int64_t), int ThreadCount>
+void fresh(benchmark::State& state)
+{
   const OpenMPThreads threads(ThreadCount);
+  Build(state.range(0));
   for (auto _ : state)
   {
-    const RectifiedFlow<Dimension> flow(density.Source(), OpenMPExecutor());
-    benchmark::DoNotOptimize(flow.Total());
+    Build(state.range(0));
   }
 }
 
-// As above, in memory that earlier builds have left. The allocator needs a few until a free block
-// fits.
-constexpr int EarlierBuilds = 3;
-
-template <int Dimension>
-void paperTablesReused(benchmark::State& state)
+// In memory that earlier builds have left. The allocator needs a few until a free block fits.
+template <void (*Build)(std::int64_t)>
+void reused(benchmark::State& state)
 {
-  const ReusedMemory reused;
-  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
-  const auto build = [&]() {
-    benchmark::DoNotOptimize(Paper::buildTables(density.Values, density.Size));
-  };
-  for (int i = 0; i < EarlierBuilds; ++i)
+  const ReusedMemory memory;
+  const OpenMPThreads threads(1);
+  for (int i = 0; i < 3; ++i)
   {
-    build();
+    Build(state.range(0));
   }
   for (auto _ : state)
   {
-    build();
-  }
-}
-
-template <int Dimension>
-void coreTablesReused(benchmark::State& state)
-{
-  const ReusedMemory reused;
-  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
-  const auto build = [&]() {
-    const RectifiedFlow<Dimension> flow(density.Source(), SerialExecutor());
-    benchmark::DoNotOptimize(flow.Total());
-  };
-  for (int i = 0; i < EarlierBuilds; ++i)
-  {
-    build();
-  }
-  for (auto _ : state)
-  {
-    build();
+    Build(state.range(0));
   }
 }
 
@@ -83,16 +64,16 @@ void sides3D(benchmark::internal::Benchmark* b)
   b->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK(paperTables<2>)->Name("Tables2D/paper")->Apply(sides2D);
-BENCHMARK(paperTables<3>)->Name("Tables3D/paper")->Apply(sides3D);
-BENCHMARK(paperTablesReused<2>)->Name("Tables2D/paper_reused")->Apply(sides2D);
-BENCHMARK(paperTablesReused<3>)->Name("Tables3D/paper_reused")->Apply(sides3D);
-BENCHMARK(coreTablesReused<2>)->Name("Tables2D/core_reused")->Apply(sides2D);
-BENCHMARK(coreTablesReused<3>)->Name("Tables3D/core_reused")->Apply(sides3D);
-BENCHMARK(coreTables<2, 1>)->Name("Tables2D/core")->Apply(sides2D);
-BENCHMARK(coreTables<3, 1>)->Name("Tables3D/core")->Apply(sides3D);
-BENCHMARK(coreTables<2, 2>)->Name("Tables2D/core_2_threads")->Apply(sides2D)->UseRealTime();
-BENCHMARK(coreTables<3, 2>)->Name("Tables3D/core_2_threads")->Apply(sides3D)->UseRealTime();
+BENCHMARK(fresh<buildPaper<2>, 1>)->Name("Tables2D/paper")->Apply(sides2D);
+BENCHMARK(fresh<buildPaper<3>, 1>)->Name("Tables3D/paper")->Apply(sides3D);
+BENCHMARK(reused<buildPaper<2>>)->Name("Tables2D/paper_reused")->Apply(sides2D);
+BENCHMARK(reused<buildPaper<3>>)->Name("Tables3D/paper_reused")->Apply(sides3D);
+BENCHMARK(reused<buildCore<2>>)->Name("Tables2D/core_reused")->Apply(sides2D);
+BENCHMARK(reused<buildCore<3>>)->Name("Tables3D/core_reused")->Apply(sides3D);
+BENCHMARK(fresh<buildCore<2>, 1>)->Name("Tables2D/core")->Apply(sides2D);
+BENCHMARK(fresh<buildCore<3>, 1>)->Name("Tables3D/core")->Apply(sides3D);
+BENCHMARK(fresh<buildCore<2>, 2>)->Name("Tables2D/core_2_threads")->Apply(sides2D)->UseRealTime();
+BENCHMARK(fresh<buildCore<3>, 2>)->Name("Tables3D/core_2_threads")->Apply(sides3D)->UseRealTime();
 
 } // namespace
 } // namespace RectifiedTransport
