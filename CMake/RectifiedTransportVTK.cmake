@@ -22,7 +22,7 @@ if (RectifiedTransport_BUILD_TESTING)
     FiltersCore FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
 endif ()
 if (RectifiedTransport_BUILD_EXAMPLES)
-  list(APPEND vtk_components IOImage RenderingCore RenderingOpenGL2)
+  list(APPEND vtk_components IOImage)
 endif ()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} OPTIONAL_COMPONENTS ${vtk_optional}
   ${vtk_place})

@@ -14,7 +14,6 @@ build_release
 
 output="$root/Examples/output"
 mkdir -p "$output"
-export RT_PLUGIN="$build/lib/paraview-5.11/plugins/RectifiedTransport/RectifiedTransport.so"
 for script in "$root"/Examples/*/run.py; do
   say "$(basename "$(dirname "$script")")"
   with_display pvpython "$script" --output "$output" < /dev/null
