@@ -87,8 +87,7 @@ public:
     Pacer& pace = this->Build.Pace;
     while (this->Begin < this->Rows)
     {
-      this->Count = std::min(
-        { this->Slab, this->Rows - this->Begin, pace.NextSlice(std::min(this->Slab, rowsAtOnce)) });
+      this->Count = std::min({ this->Slab, this->Rows - this->Begin, pace.NextSlice(this->Slab) });
       run.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
         const std::int64_t end = pace.ShouldStop() ? first : last;
         for (std::int64_t j = first; j < end; ++j)
@@ -117,8 +116,6 @@ public:
   }
 
 private:
-  static constexpr std::int64_t rowsAtOnce = 16;
-
   // Row j of the slab.
   void SumRow(std::int64_t j)
   {
@@ -226,7 +223,8 @@ public:
     Pacer& pace = this->Build.Pace;
     while (this->Begin < this->Slices)
     {
-      this->Count = std::min({ this->Slab, this->Slices - this->Begin, pace.NextSlice(1) });
+      this->Count =
+        std::min({ this->Slab, this->Slices - this->Begin, pace.NextSlice(this->Slab) });
       run.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t task = first; task < last && !pace.ShouldStop(); ++task)
         {
