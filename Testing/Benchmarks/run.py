@@ -156,7 +156,7 @@ def run(arguments, names):
              f"--benchmark_out={output}", "--benchmark_out_format=json"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if done.returncode != 0:
-            sys.exit(done.stdout)
+            sys.exit(f"{done.stdout}\n{arguments.program} ended with {done.returncode}")
         with open(output, encoding="utf-8") as file:
             return json.load(file)
 
