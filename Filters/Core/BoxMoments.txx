@@ -6,6 +6,9 @@
 // is exact for a piecewise-constant density: with r the place in a cell of width h,
 //   L[F] = F_i + r (F_i+1 - F_i),    Q[F] = b (F_i+1 - F_i),    b = -(h/2) r (1-r),
 //   E(x) = (L (x) L (x) L) E,        E_a(x) = (L (x) L (x) L) E_a + (Q_a (x) L (x) L) E.
+// On the finest level (h = 1) E_a rises by i + 1/2 times as much as E from node i to the next, so
+// that the quadratic is a weight of E_a itself:
+//   L[E_a] + Q[E] = E_a,i + q (E_a,i+1 - E_a,i),    q = r (i + r/2) / (i + 1/2).
 // A box takes the difference of its two sides on every axis. The low face of the domain takes no
 // node (the tables are zero there), the high face one (they are total).
 
@@ -24,6 +27,7 @@ struct BoxLanes
 {
   alignas(64) double Place[Dimension][2][BlockSize]; // r
   alignas(64) double Bend[Dimension][2][BlockSize];  // b
+  alignas(64) double Own[Dimension][2][BlockSize];   // q, in 3D
   alignas(64) std::int32_t Node[Dimension][2][BlockSize];
   alignas(64) std::int32_t Faces[Dimension][BlockSize];
   alignas(64) std::int32_t Level[BlockSize];
@@ -76,33 +80,34 @@ RT_INLINE BoxAxis boxAxis(const BoxLanes<Dimension>& boxes, int axis, int lane, 
     { boxes.Node[axis][0][lane] * stride, boxes.Node[axis][1][lane] * stride }, stride };
 }
 
+template <int N>
 struct AxisSums
 {
-  Vector8 Linear;
-  Vector8 Bent;
+  Vector<N> Linear;
+  Vector<N> Bent;
 };
 
 // L and Q of one axis over the box, where value(offset) are the sums at a node of it.
-template <int Faces, class Value>
-RT_INLINE AxisSums sumAxis(const BoxAxis& axis, const Value& value)
+template <int Faces, int N, class Value>
+RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
 {
-  AxisSums sums;
+  AxisSums<N> sums;
   if constexpr (Faces == insideBoth || Faces == onLowFace)
   {
-    const Vector8 high = value(axis.Offset[1]);
-    const Vector8 step = value(axis.Offset[1] + axis.Stride) - high;
+    const Vector<N> high = value(axis.Offset[1]);
+    const Vector<N> step = value(axis.Offset[1] + axis.Stride) - high;
     sums.Linear = high + step * axis.Place[1];
     sums.Bent = step * axis.Bend[1];
   }
   else
   {
     sums.Linear = value(axis.Offset[1] + axis.Stride);
-    sums.Bent = fillVector(0.0, 0.0);
+    sums.Bent = {};
   }
   if constexpr (Faces == insideBoth || Faces == onHighFace)
   {
-    const Vector8 low = value(axis.Offset[0]);
-    const Vector8 step = value(axis.Offset[0] + axis.Stride) - low;
+    const Vector<N> low = value(axis.Offset[0]);
+    const Vector<N> step = value(axis.Offset[0] + axis.Stride) - low;
     sums.Linear = sums.Linear - (low + step * axis.Place[0]);
     sums.Bent = sums.Bent - step * axis.Bend[0];
   }
@@ -134,47 +139,125 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
   boxes.Moment[0][lane] = moment;
 }
 
+// The sums of a box at one row of nodes along axis 0: those of the pairs of nodes around its two
+// sides, or around the high one alone.
+template <bool FromLowFace>
+RT_INLINE Vector4 sumRow(
+  const double* low, const double* high, const Vector8& lowWeights, const Vector8& highWeights)
+{
+  const Vector8 sum = loadVector<8>(high) * highWeights;
+  if constexpr (FromLowFace)
+  {
+    return addHalves(sum);
+  }
+  return addHalves(sum - loadVector<8>(low) * lowWeights);
+}
+
 // In 2D the fourth entry of a record repeats the mass, so that one product with the weights of a
 // pair of neighbouring nodes along axis 0 gives the linear sums and the quadratic one of that axis.
-RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
+template <int Faces1, bool FromLowFace>
+RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, int lane)
 {
-  const auto& level = tables.Levels[boxes.Level[lane]];
   const BoxAxis axis0 = boxAxis<2>(boxes, 0, lane, TableView<2>::Record);
   const BoxAxis axis1 = boxAxis<2>(boxes, 1, lane, level.Stride[1]);
   const double* low = level.Nodes + axis0.Offset[0];
   const double* high = level.Nodes + axis0.Offset[1];
 
-  // {1-r, 1-r, 1-r, -b, r, r, r, b} of the high side, the negative of that of the low side.
-  alignas(64) static constexpr double ones[8] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
-  alignas(64) static constexpr double places[8] = { -1.0, -1.0, -1.0, 0.0, 1.0, 1.0, 1.0, 0.0 };
-  alignas(64) static constexpr double bends[8] = { 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0 };
-  const Vector8 one = loadVector(ones);
-  const Vector8 place = loadVector(places);
-  const Vector8 bend = loadVector(bends);
-  const Vector8 highWeights = (one + place * axis0.Place[1]) + bend * axis0.Bend[1];
-  const Vector8 lowWeights = (one + place * axis0.Place[0]) + bend * axis0.Bend[0];
+  alignas(32) static constexpr double ones[4] = { 1.0, 1.0, 1.0, 0.0 };
+  const Vector4 one = loadVector<4>(ones);
+  const auto weights = [&](int side) __attribute__((always_inline))
+  {
+    const Vector4 second = fillVector<3>(axis0.Place[side], axis0.Bend[side]);
+    return joinVectors(one - second, second);
+  };
+  const Vector8 highWeights = weights(1);
+  const Vector8 lowWeights = FromLowFace ? Vector8{} : weights(0);
+  const AxisSums<4> sums = sumAxis<Faces1, 4>(
+    axis1, [&](std::int64_t row) __attribute__((always_inline)) {
+      return sumRow<FromLowFace>(low + row, high + row, lowWeights, highWeights);
+    });
+  boxes.Mass[lane] = sums.Linear[0];
+  boxes.Moment[0][lane] = sums.Linear[1] + sums.Linear[3];
+  boxes.Moment[1][lane] = sums.Linear[2] + sums.Bent[0];
+}
 
-  AxisSums sums;
+RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
+{
+  const auto& level = tables.Levels[boxes.Level[lane]];
   dispatchFaces(
     boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
       if (boxes.Faces[0][lane] & onLowFace)
       {
-        sums = sumAxis<decltype(faces)::Value>(
-          axis1, [&](std::int64_t offset) __attribute__((always_inline)) {
-            return loadVector(high + offset) * highWeights;
-          });
+        sumBox2D<decltype(faces)::Value, true>(level, boxes, lane);
       }
       else
       {
-        sums = sumAxis<decltype(faces)::Value>(
-          axis1, [&](std::int64_t offset) __attribute__((always_inline)) {
-            return loadVector(high + offset) * highWeights - loadVector(low + offset) * lowWeights;
-          });
+        sumBox2D<decltype(faces)::Value, false>(level, boxes, lane);
       }
     });
-  boxes.Mass[lane] = sums.Linear[0] + sums.Linear[4];
-  boxes.Moment[0][lane] = (sums.Linear[1] + sums.Linear[5]) + (sums.Linear[3] + sums.Linear[7]);
-  boxes.Moment[1][lane] = (sums.Linear[2] + sums.Linear[6]) + (sums.Bent[0] + sums.Bent[4]);
+}
+
+// One axis other than 0 of a box on the finest level.
+struct FineAxis
+{
+  Vector4 Weights[2]; // of the sides' second nodes
+  std::int64_t Offset[2];
+  std::int64_t Stride;
+};
+
+template <int Axis>
+RT_INLINE FineAxis fineAxis(const BoxLanes<3>& boxes, int lane, std::int64_t stride)
+{
+  const auto weights = [&](int side) __attribute__((always_inline))
+  {
+    return fillVector<Axis + 1>(boxes.Place[Axis][side][lane], boxes.Own[Axis][side][lane]);
+  };
+  return { { weights(0), weights(1) },
+    { boxes.Node[Axis][0][lane] * stride, boxes.Node[Axis][1][lane] * stride }, stride };
+}
+
+template <class Value>
+RT_INLINE Vector4 interpolate(const FineAxis& axis, int side, const Value& value)
+{
+  const Vector4 first = value(axis.Offset[side]);
+  return first + (value(axis.Offset[side] + axis.Stride) - first) * axis.Weights[side];
+}
+
+template <class Value>
+RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, int faces, const Value& value)
+{
+  const Vector4 high =
+    faces & onHighFace ? value(axis.Offset[1] + axis.Stride) : interpolate(axis, 1, value);
+  return faces & onLowFace ? high : high - interpolate(axis, 0, value);
+}
+
+template <int Faces1, bool FromLowFace>
+RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
+{
+  const double* low = level.Nodes + boxes.Node[0][0][lane] * TableView<3>::Record;
+  const double* high = level.Nodes + boxes.Node[0][1][lane] * TableView<3>::Record;
+  const FineAxis axis1 = fineAxis<1>(boxes, lane, level.Stride[1]);
+  const FineAxis axis2 = fineAxis<2>(boxes, lane, level.Stride[2]);
+  const auto weights = [&](int side) __attribute__((always_inline))
+  {
+    const Vector4 second = fillVector<1>(boxes.Place[0][side][lane], boxes.Own[0][side][lane]);
+    return joinVectors(fillVector(1.0) - second, second);
+  };
+  const Vector8 highWeights = weights(1);
+  const Vector8 lowWeights = FromLowFace ? Vector8{} : weights(0);
+  const Vector4 sums = sumFineAxis(
+    axis2, boxes.Faces[2][lane], [&](std::int64_t plane) __attribute__((always_inline)) {
+      return sumFineAxis(
+        axis1, Faces1, [&](std::int64_t row) __attribute__((always_inline)) {
+          return sumRow<FromLowFace>(
+            low + plane + row, high + plane + row, lowWeights, highWeights);
+        });
+    });
+  boxes.Mass[lane] = sums[0];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    boxes.Moment[axis][lane] = sums[1 + axis];
+  }
 }
 
 // The sums of a pair of neighbouring nodes along axis 0 over the nodes of the other axes: linear
@@ -192,13 +275,13 @@ RT_INLINE PairSums sumSide(
 {
   const auto plane = [&](std::int64_t offset) __attribute__((always_inline))
   {
-    return sumAxis<Faces1>(
+    return sumAxis<Faces1, 8>(
       axis1, [&](std::int64_t row) __attribute__((always_inline)) {
-        return loadVector(nodes + offset + row);
+        return loadVector<8>(nodes + offset + row);
       });
   };
-  const AxisSums first = plane(axis2.Offset[side]);
-  const AxisSums second = plane(axis2.Offset[side] + axis2.Stride);
+  const AxisSums<8> first = plane(axis2.Offset[side]);
+  const AxisSums<8> second = plane(axis2.Offset[side] + axis2.Stride);
   const Vector8 step = second.Linear - first.Linear;
   return { first.Linear + step * axis2.Place[side],
     first.Bent + (second.Bent - first.Bent) * axis2.Place[side], step * axis2.Bend[side] };
@@ -211,11 +294,11 @@ RT_INLINE PairSums sumPair(
   PairSums sums;
   if (faces2 & onHighFace)
   {
-    const AxisSums total = sumAxis<Faces1>(
+    const AxisSums<8> total = sumAxis<Faces1, 8>(
       axis1, [&](std::int64_t row) __attribute__((always_inline)) {
-        return loadVector(nodes + axis2.Offset[1] + axis2.Stride + row);
+        return loadVector<8>(nodes + axis2.Offset[1] + axis2.Stride + row);
       });
-    sums = { total.Linear, total.Bent, fillVector(0.0, 0.0) };
+    sums = { total.Linear, total.Bent, {} };
   }
   else
   {
@@ -230,7 +313,7 @@ RT_INLINE PairSums sumPair(
 }
 
 template <int Faces1>
-RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
+RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
   const BoxAxis axis0 = boxAxis<3>(boxes, 0, lane, TableView<3>::Record);
   const BoxAxis axis1 = boxAxis<3>(boxes, 1, lane, level.Stride[1]);
@@ -238,7 +321,7 @@ RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, in
   const int faces2 = boxes.Faces[2][lane];
 
   PairSums sums = sumPair<Faces1>(level.Nodes + axis0.Offset[1], axis1, axis2, faces2);
-  Vector8 weights = fillVector(1.0 - axis0.Place[1], axis0.Place[1]);
+  Vector8 weights = joinVectors(fillVector(1.0 - axis0.Place[1]), fillVector(axis0.Place[1]));
   Vector8 linear = sums.Linear * weights;
   Vector8 bent1 = sums.Bent1 * weights;
   Vector8 bent2 = sums.Bent2 * weights;
@@ -246,7 +329,7 @@ RT_INLINE void sumBox3D(const TableView<3>::Level& level, BoxLanes<3>& boxes, in
   if (!(boxes.Faces[0][lane] & onLowFace))
   {
     sums = sumPair<Faces1>(level.Nodes + axis0.Offset[0], axis1, axis2, faces2);
-    weights = fillVector(1.0 - axis0.Place[0], axis0.Place[0]);
+    weights = joinVectors(fillVector(1.0 - axis0.Place[0]), fillVector(axis0.Place[0]));
     linear = linear - sums.Linear * weights;
     bent1 = bent1 - sums.Bent1 * weights;
     bent2 = bent2 - sums.Bent2 * weights;
@@ -263,7 +346,19 @@ RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
   const auto& level = tables.Levels[boxes.Level[lane]];
   dispatchFaces(
     boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
-      sumBox3D<decltype(faces)::Value>(level, boxes, lane);
+      constexpr int faces1 = decltype(faces)::Value;
+      if (boxes.Level[lane] > 0)
+      {
+        sumCoarseBox<faces1>(level, boxes, lane);
+      }
+      else if (boxes.Faces[0][lane] & onLowFace)
+      {
+        sumFineBox<faces1, true>(level, boxes, lane);
+      }
+      else
+      {
+        sumFineBox<faces1, false>(level, boxes, lane);
+      }
     });
 }
 

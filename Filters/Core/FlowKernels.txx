@@ -6,7 +6,9 @@
 
 #include <cstring>
 
-#if defined(__SSE2__)
+#if defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
 #include <emmintrin.h>
 #endif
 
@@ -18,7 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
-#include "Vector8.txx"
+#include "Vectors.txx"
 
 #include "BoxMoments.txx"
 #include "FlowVelocity.txx"

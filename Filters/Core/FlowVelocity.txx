@@ -125,24 +125,33 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
   {
     boxes.Faces[axis][i] =
       (from[i] <= 0.0 ? onLowFace : insideBoth) | (to[i] >= size ? onHighFace : insideBoth);
-  }
-  for (int side = 0; side < 2; ++side)
-  {
-    const double* plane = side == 0 ? from : to;
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
+    const double last = truncated((size - 1.0) * inverseWidth[i]);
+    const double lastWidth = Even ? width[i] : size - last * width[i];
+    const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
+    double nodes[2];
+    double places[2];
+#pragma GCC unroll 2
+    for (int side = 0; side < 2; ++side)
     {
-      const double last = truncated((size - 1.0) * inverseWidth[i]);
-      const double lastWidth = Even ? width[i] : size - last * width[i];
-      const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
-      const double node = smaller(truncated(plane[i] * inverseWidth[i]), last);
+      const double plane = side == 0 ? from[i] : to[i];
+      const double node = smaller(truncated(plane * inverseWidth[i]), last);
       const double inverse = node == last ? inverseLastWidth : inverseWidth[i];
       const double cell = node == last ? lastWidth : width[i];
-      const double inCell = (plane[i] - node * width[i]) * inverse;
+      const double inCell = (plane - node * width[i]) * inverse;
       const double place = Even ? inCell : smaller(inCell, 1.0);
       boxes.Place[axis][side][i] = place;
-      boxes.Bend[axis][side][i] = -0.5 * cell * place * (1.0 - place);
+      boxes.Bend[axis][side][i] = (-0.5 * cell) * (place * (1.0 - place));
       boxes.Node[axis][side][i] = static_cast<std::int32_t>(node);
+      nodes[side] = node;
+      places[side] = place;
+    }
+    if constexpr (Dimension == 3)
+    {
+      // One division for both sides.
+      const double centre[2] = { nodes[0] + 0.5, nodes[1] + 0.5 };
+      const double inverse = 1.0 / (centre[0] * centre[1]);
+      boxes.Own[axis][0][i] = places[0] * (nodes[0] + 0.5 * places[0]) * (centre[1] * inverse);
+      boxes.Own[axis][1][i] = places[1] * (nodes[1] + 0.5 * places[1]) * (centre[0] * inverse);
     }
   }
 }

@@ -71,12 +71,12 @@ void addToColumns(
   }
 }
 
-using Vector4 = double __attribute__((vector_size(32)));
+using NodeRecord = double __attribute__((vector_size(32)));
 
 // Tables that do not fit into the caches are written past them: nobody reads them back before the
 // caches have turned over.
 template <bool Stream>
-RT_INLINE void storeNode(double* node, Vector4 value)
+RT_INLINE void storeNode(double* node, NodeRecord value)
 {
 #if defined(__SSE2__)
   if constexpr (Stream)
@@ -89,9 +89,9 @@ RT_INLINE void storeNode(double* node, Vector4 value)
   std::memcpy(node, &value, sizeof(value));
 }
 
-RT_INLINE Vector4 loadNode(const double* node)
+RT_INLINE NodeRecord loadNode(const double* node)
 {
-  Vector4 value;
+  NodeRecord value;
   std::memcpy(&value, node, sizeof(value));
   return value;
 }
@@ -108,8 +108,8 @@ RT_INLINE void addRow2D(const TableRow2D& row)
     sum += value;
     moment += value * centre;
     centre += 1.0;
-    const Vector4 node =
-      loadNode(row.Running + 4 * i) + Vector4{ sum, moment, sum * row.Centre, sum };
+    const NodeRecord node =
+      loadNode(row.Running + 4 * i) + NodeRecord{ sum, moment, sum * row.Centre, sum };
     std::memcpy(row.Running + 4 * i, &node, sizeof(node));
     storeNode<Stream>(row.Nodes + 4 * i, node);
   }
@@ -126,17 +126,17 @@ RT_INLINE void addRow3D(const TableRow3D& row)
   double sum = 0.0;
   double moment = 0.0;
   double centre = 0.5;
-  const Vector4 lift = { 1.0, 1.0, 1.0, row.Centre[1] };
+  const NodeRecord lift = { 1.0, 1.0, 1.0, row.Centre[1] };
   for (std::int64_t i = 0; i < row.Count; ++i)
   {
     const double value = row.Values[i];
     sum += value;
     moment += value * centre;
     centre += 1.0;
-    const Vector4 column =
-      loadNode(row.Columns + 4 * i) + Vector4{ sum, moment, sum * row.Centre[0], sum };
+    const NodeRecord column =
+      loadNode(row.Columns + 4 * i) + NodeRecord{ sum, moment, sum * row.Centre[0], sum };
     std::memcpy(row.Columns + 4 * i, &column, sizeof(column));
-    const Vector4 node = loadNode(row.Running + 4 * i) + column * lift;
+    const NodeRecord node = loadNode(row.Running + 4 * i) + column * lift;
     std::memcpy(row.Running + 4 * i, &node, sizeof(node));
     storeNode<Stream>(row.Nodes + 4 * i, node);
   }

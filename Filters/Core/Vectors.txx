@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Four or eight doubles, one or two node records, in as many registers as the instruction set
+// needs. Wider vector types than the hardware's own are legal, but compilers spill them. Included
+// by FlowKernels.txx.
+
+#if defined(__AVX512F__)
+constexpr int widestRegister = 8;
+#elif defined(__AVX__)
+constexpr int widestRegister = 4;
+#else
+constexpr int widestRegister = 2;
+#endif
+
+template <int Lanes>
+struct RegisterOf;
+template <>
+struct RegisterOf<2>
+{
+  using Type = double __attribute__((vector_size(16)));
+};
+template <>
+struct RegisterOf<4>
+{
+  using Type = double __attribute__((vector_size(32)));
+};
+template <>
+struct RegisterOf<8>
+{
+  using Type = double __attribute__((vector_size(64)));
+};
+
+template <int N>
+struct Vector
+{
+  static constexpr int Lanes = N < widestRegister ? N : widestRegister; // of a register
+  static constexpr int Registers = N / Lanes;
+  using Register = typename RegisterOf<Lanes>::Type;
+
+  Register Part[Registers];
+
+  RT_INLINE double operator[](int lane) const { return this->Part[lane / Lanes][lane % Lanes]; }
+};
+
+using Vector4 = Vector<4>;
+using Vector8 = Vector<8>;
+
+template <int N>
+RT_INLINE Vector<N> operator+(const Vector<N>& a, const Vector<N>& b)
+{
+  Vector<N> sum;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector<N>::Registers; ++i)
+  {
+    sum.Part[i] = a.Part[i] + b.Part[i];
+  }
+  return sum;
+}
+
+template <int N>
+RT_INLINE Vector<N> operator-(const Vector<N>& a, const Vector<N>& b)
+{
+  Vector<N> difference;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector<N>::Registers; ++i)
+  {
+    difference.Part[i] = a.Part[i] - b.Part[i];
+  }
+  return difference;
+}
+
+template <int N>
+RT_INLINE Vector<N> operator*(const Vector<N>& a, const Vector<N>& b)
+{
+  Vector<N> product;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector<N>::Registers; ++i)
+  {
+    product.Part[i] = a.Part[i] * b.Part[i];
+  }
+  return product;
+}
+
+template <int N>
+RT_INLINE Vector<N> operator*(const Vector<N>& a, double b)
+{
+  Vector<N> product;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector<N>::Registers; ++i)
+  {
+    product.Part[i] = a.Part[i] * b;
+  }
+  return product;
+}
+
+template <int N>
+RT_INLINE Vector<N> loadVector(const double* from)
+{
+  Vector<N> vector;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector<N>::Registers; ++i)
+  {
+    std::memcpy(&vector.Part[i], from + i * Vector<N>::Lanes, sizeof(typename Vector<N>::Register));
+  }
+  return vector;
+}
+
+// Four times `value`.
+RT_INLINE Vector4 fillVector(double value)
+{
+  Vector4 vector;
+#pragma GCC unroll 4
+  for (int i = 0; i < Vector4::Registers; ++i)
+  {
+    vector.Part[i] = Vector4::Register{} + value;
+  }
+  return vector;
+}
+
+// Four times `value`, but `other` in lane Lane.
+template <int Lane>
+RT_INLINE Vector4 fillVector(double value, double other)
+{
+#if defined(__AVX__)
+  return { { _mm256_blend_pd(_mm256_set1_pd(value), _mm256_set1_pd(other), 1 << Lane) } };
+#else
+  Vector4 vector = fillVector(value);
+  vector.Part[Lane / Vector4::Lanes][Lane % Vector4::Lanes] = other;
+  return vector;
+#endif
+}
+
+RT_INLINE Vector8 joinVectors(const Vector4& first, const Vector4& second)
+{
+#if defined(__AVX512F__)
+  return { { _mm512_insertf64x4(_mm512_castpd256_pd512(first.Part[0]), second.Part[0], 1) } };
+#else
+  Vector8 vector;
+#pragma GCC unroll 2
+  for (int i = 0; i < Vector4::Registers; ++i)
+  {
+    vector.Part[i] = first.Part[i];
+    vector.Part[Vector4::Registers + i] = second.Part[i];
+  }
+  return vector;
+#endif
+}
+
+// The sum of a vector's halves.
+RT_INLINE Vector4 addHalves(const Vector8& vector)
+{
+#if defined(__AVX512F__)
+  return { { _mm512_castpd512_pd256(vector.Part[0]) + _mm512_extractf64x4_pd(vector.Part[0], 1) } };
+#else
+  Vector4 sum;
+#pragma GCC unroll 2
+  for (int i = 0; i < Vector4::Registers; ++i)
+  {
+    sum.Part[i] = vector.Part[i] + vector.Part[Vector4::Registers + i];
+  }
+  return sum;
+#endif
+}
