@@ -20,6 +20,12 @@ constexpr int onLowFace = 1;
 constexpr int onHighFace = 2;
 constexpr int onBothFaces = 3;
 
+// Where these are in the number of a box's faces. In 2D and 3D only the low face of axis 0 is told.
+constexpr int facesShift(int axis)
+{
+  return axis == 0 ? 0 : 2 * axis - 1;
+}
+
 // The boxes of a block of particles, as the sums below want them, and what they return. [0] is the
 // low side, [1] the high side.
 template <int Dimension>
@@ -29,7 +35,7 @@ struct BoxLanes
   alignas(64) double Bend[Dimension][2][BlockSize];  // b
   alignas(64) double Own[Dimension][2][BlockSize];   // q, in 3D
   alignas(64) std::int32_t Node[Dimension][2][BlockSize];
-  alignas(64) std::int32_t Faces[Dimension][BlockSize];
+  alignas(64) std::int64_t Faces[BlockSize];
   alignas(64) std::int32_t Level[BlockSize];
 
   alignas(64) Lanes Mass;
@@ -42,24 +48,29 @@ struct Number
   static constexpr int Value = N;
 };
 
-// Calls function(Number<faces>{}).
+// Calls function(Number<faces of axis 1>{}, Number<whether on the low face of axis 0>{}).
 template <class Function>
-RT_INLINE void dispatchFaces(int faces, const Function& function)
+RT_INLINE void dispatchFaces(std::int64_t faces, const Function& function)
 {
-  switch (faces)
+  constexpr int low = 1;
+  switch (faces & 7)
   {
-    case insideBoth:
-      function(Number<insideBoth>{});
-      break;
-    case onLowFace:
-      function(Number<onLowFace>{});
-      break;
-    case onHighFace:
-      function(Number<onHighFace>{});
-      break;
+    case insideBoth << 1:
+      return function(Number<insideBoth>{}, Number<0>{});
+    case (insideBoth << 1) | low:
+      return function(Number<insideBoth>{}, Number<1>{});
+    case onLowFace << 1:
+      return function(Number<onLowFace>{}, Number<0>{});
+    case (onLowFace << 1) | low:
+      return function(Number<onLowFace>{}, Number<1>{});
+    case onHighFace << 1:
+      return function(Number<onHighFace>{}, Number<0>{});
+    case (onHighFace << 1) | low:
+      return function(Number<onHighFace>{}, Number<1>{});
+    case onBothFaces << 1:
+      return function(Number<onBothFaces>{}, Number<0>{});
     default:
-      function(Number<onBothFaces>{});
-      break;
+      return function(Number<onBothFaces>{}, Number<1>{});
   }
 }
 
@@ -118,7 +129,7 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
 {
   const double* nodes = tables.Levels[boxes.Level[lane]].Nodes;
   const BoxAxis axis = boxAxis<1>(boxes, 0, lane, TableView<1>::Record);
-  const int faces = boxes.Faces[0][lane];
+  const std::int64_t faces = boxes.Faces[lane];
   const double* high = nodes + axis.Offset[1];
   double mass = high[2];
   double moment = high[3];
@@ -185,15 +196,8 @@ RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
   dispatchFaces(
-    boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
-      if (boxes.Faces[0][lane] & onLowFace)
-      {
-        sumBox2D<decltype(faces)::Value, true>(level, boxes, lane);
-      }
-      else
-      {
-        sumBox2D<decltype(faces)::Value, false>(level, boxes, lane);
-      }
+    boxes.Faces[lane], [&](auto faces1, auto fromLowFace) __attribute__((always_inline)) {
+      sumBox2D<faces1.Value, fromLowFace.Value != 0>(level, boxes, lane);
     });
 }
 
@@ -224,7 +228,7 @@ RT_INLINE Vector4 interpolate(const FineAxis& axis, int side, const Value& value
 }
 
 template <class Value>
-RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, int faces, const Value& value)
+RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, std::int64_t faces, const Value& value)
 {
   const Vector4 high =
     faces & onHighFace ? value(axis.Offset[1] + axis.Stride) : interpolate(axis, 1, value);
@@ -246,7 +250,8 @@ RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, 
   const Vector8 highWeights = weights(1);
   const Vector8 lowWeights = FromLowFace ? Vector8{} : weights(0);
   const Vector4 sums = sumFineAxis(
-    axis2, boxes.Faces[2][lane], [&](std::int64_t plane) __attribute__((always_inline)) {
+    axis2,
+    boxes.Faces[lane] >> facesShift(2), [&](std::int64_t plane) __attribute__((always_inline)) {
       return sumFineAxis(
         axis1, Faces1, [&](std::int64_t row) __attribute__((always_inline)) {
           return sumRow<FromLowFace>(
@@ -289,7 +294,7 @@ RT_INLINE PairSums sumSide(
 
 template <int Faces1>
 RT_INLINE PairSums sumPair(
-  const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, int faces2)
+  const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, std::int64_t faces2)
 {
   PairSums sums;
   if (faces2 & onHighFace)
@@ -312,13 +317,13 @@ RT_INLINE PairSums sumPair(
   return sums;
 }
 
-template <int Faces1>
+template <int Faces1, bool FromLowFace>
 RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
   const BoxAxis axis0 = boxAxis<3>(boxes, 0, lane, TableView<3>::Record);
   const BoxAxis axis1 = boxAxis<3>(boxes, 1, lane, level.Stride[1]);
   const BoxAxis axis2 = boxAxis<3>(boxes, 2, lane, level.Stride[2]);
-  const int faces2 = boxes.Faces[2][lane];
+  const std::int64_t faces2 = boxes.Faces[lane] >> facesShift(2);
 
   PairSums sums = sumPair<Faces1>(level.Nodes + axis0.Offset[1], axis1, axis2, faces2);
   Vector8 weights = joinVectors(fillVector(1.0 - axis0.Place[1]), fillVector(axis0.Place[1]));
@@ -326,7 +331,7 @@ RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes
   Vector8 bent1 = sums.Bent1 * weights;
   Vector8 bent2 = sums.Bent2 * weights;
   double bent0 = axis0.Bend[1] * (sums.Linear[4] - sums.Linear[0]);
-  if (!(boxes.Faces[0][lane] & onLowFace))
+  if constexpr (!FromLowFace)
   {
     sums = sumPair<Faces1>(level.Nodes + axis0.Offset[0], axis1, axis2, faces2);
     weights = joinVectors(fillVector(1.0 - axis0.Place[0]), fillVector(axis0.Place[0]));
@@ -345,50 +350,63 @@ RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
   dispatchFaces(
-    boxes.Faces[1][lane], [&](auto faces) __attribute__((always_inline)) {
-      constexpr int faces1 = decltype(faces)::Value;
-      if (boxes.Level[lane] > 0)
+    boxes.Faces[lane], [&](auto faces1, auto fromLowFace) __attribute__((always_inline)) {
+      if (boxes.Level[lane] == 0)
       {
-        sumCoarseBox<faces1>(level, boxes, lane);
-      }
-      else if (boxes.Faces[0][lane] & onLowFace)
-      {
-        sumFineBox<faces1, true>(level, boxes, lane);
+        sumFineBox<faces1.Value, fromLowFace.Value != 0>(level, boxes, lane);
       }
       else
       {
-        sumFineBox<faces1, false>(level, boxes, lane);
+        sumCoarseBox<faces1.Value, fromLowFace.Value != 0>(level, boxes, lane);
       }
     });
 }
 
-// Boxes on the finest level are the ones whose nodes are far apart in memory and not yet in the
-// caches; their addresses are known well before they are summed.
+// In 2D the boxes on the finest level are the ones whose nodes are far apart in memory and not yet
+// in the caches; their addresses are known well before they are summed. In 3D there are too many of
+// them for that to pay.
 constexpr int prefetchDistance = 3;
 
-template <int Dimension>
-RT_INLINE void prefetchBox(
-  const TableView<Dimension>& tables, const BoxLanes<Dimension>& boxes, int lane)
+RT_INLINE void prefetchBox(const TableView<2>& tables, const BoxLanes<2>& boxes, int lane)
 {
   if (boxes.Level[lane] != 0)
   {
     return;
   }
-  constexpr int lastOfPair = 2 * TableView<Dimension>::Record - 1;
+  constexpr int lastOfPair = 2 * TableView<2>::Record - 1;
   const auto& level = tables.Levels[0];
-  for (int side = 0; side < (1 << Dimension); ++side)
+  for (int side1 = 0; side1 < 2; ++side1)
   {
-    const double* nodes = level.Nodes;
-    for (int axis = 0; axis < Dimension; ++axis)
+    for (int side0 = 0; side0 < 2; ++side0)
     {
-      nodes += boxes.Node[axis][(side >> axis) & 1][lane] * level.Stride[axis];
+      const double* pair = level.Nodes + boxes.Node[0][side0][lane] * TableView<2>::Record +
+        boxes.Node[1][side1][lane] * level.Stride[1];
+      for (int row = 0; row < 2; ++row)
+      {
+        __builtin_prefetch(pair + row * level.Stride[1]);
+        __builtin_prefetch(pair + row * level.Stride[1] + lastOfPair);
+      }
     }
-    for (int row = 0; row < (1 << (Dimension - 1)); ++row)
+  }
+}
+
+// Sums the boxes of the first `count` lanes, of those that are active if `active` is given.
+template <int Dimension, bool All>
+__attribute__((noinline)) void sumBoxes(
+  const TableView<Dimension>& tables, BoxLanes<Dimension>& boxes, int count, const bool* active)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    if constexpr (Dimension == 2)
     {
-      const double* pair = nodes + (row & 1) * level.Stride[1] +
-        (Dimension == 3 ? (row >> 1) * level.Stride[Dimension - 1] : 0);
-      __builtin_prefetch(pair);
-      __builtin_prefetch(pair + lastOfPair);
+      if (tables.BeyondCaches && i + prefetchDistance < count)
+      {
+        prefetchBox(tables, boxes, i + prefetchDistance);
+      }
+    }
+    if (All || active[i])
+    {
+      sumBox(tables, boxes, i);
     }
   }
 }

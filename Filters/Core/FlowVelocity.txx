@@ -123,8 +123,11 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    boxes.Faces[axis][i] =
-      (from[i] <= 0.0 ? onLowFace : insideBoth) | (to[i] >= size ? onHighFace : insideBoth);
+    const std::int64_t low = from[i] <= 0.0 ? onLowFace : insideBoth;
+    const std::int64_t high =
+      (Dimension == 1 || axis > 0) && to[i] >= size ? onHighFace : insideBoth;
+    const std::int64_t faces = (low | high) << facesShift(axis);
+    boxes.Faces[i] = axis > 0 ? boxes.Faces[i] | faces : faces;
     const double last = truncated((size - 1.0) * inverseWidth[i]);
     const double lastWidth = Even ? width[i] : size - last * width[i];
     const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
@@ -203,19 +206,13 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
   findBoxes<Dimension>(job, lanes, x, t);
   findNodes<Dimension>(job, lanes);
   BoxLanes<Dimension>& boxes = lanes.Boxes;
-  for (int i = 0; i < count; ++i)
+  if (active)
   {
-    if constexpr (Dimension > 1)
-    {
-      if (job.Tables.BeyondCaches && i + prefetchDistance < count)
-      {
-        prefetchBox<Dimension>(job.Tables, boxes, i + prefetchDistance);
-      }
-    }
-    if (!active || active[i])
-    {
-      sumBox(job.Tables, boxes, i);
-    }
+    sumBoxes<Dimension, false>(job.Tables, boxes, count, active);
+  }
+  else
+  {
+    sumBoxes<Dimension, true>(job.Tables, boxes, count, nullptr);
   }
   const double voidMass = job.Tables.VoidMass;
   const double hold = job.Backward ? 2.0 : 0.0;

@@ -132,7 +132,10 @@ RT_INLINE Vector4 fillVector(double value, double other)
 RT_INLINE Vector8 joinVectors(const Vector4& first, const Vector4& second)
 {
 #if defined(__AVX512F__)
-  return { { _mm512_insertf64x4(_mm512_castpd256_pd512(first.Part[0]), second.Part[0], 1) } };
+  // The masked forms, all lanes taken: GCC 12's headers make it warn of the others.
+  constexpr __mmask8 all = 0xff;
+  return { { _mm512_maskz_insertf64x4(
+    all, _mm512_castpd256_pd512(first.Part[0]), second.Part[0], 1) } };
 #else
   Vector8 vector;
 #pragma GCC unroll 2
@@ -149,7 +152,9 @@ RT_INLINE Vector8 joinVectors(const Vector4& first, const Vector4& second)
 RT_INLINE Vector4 addHalves(const Vector8& vector)
 {
 #if defined(__AVX512F__)
-  return { { _mm512_castpd512_pd256(vector.Part[0]) + _mm512_extractf64x4_pd(vector.Part[0], 1) } };
+  constexpr __mmask8 all = 0xff;
+  return { { _mm512_maskz_extractf64x4_pd(all, vector.Part[0], 0) +
+    _mm512_maskz_extractf64x4_pd(all, vector.Part[0], 1) } };
 #else
   Vector4 sum;
 #pragma GCC unroll 2
