@@ -70,32 +70,29 @@ using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
 using AddToColumns = void (*)(
   const double* values, std::int64_t count, double centre, double* columns, double* moments);
 
-// Adds one row of cells to a running row of nodes and writes the sums out. `running` holds, node
-// by node, the table's records below this row of cells; `values` are the row's cells from the
-// strip's start, `prefix` the sums {f, f * centre along axis 0} of the cells before the strip.
-// See TableBuild.cxx for the rest.
+// Adds one row of cells, or a strip of it, to the row of nodes below and writes the sums out.
+// `Values` are the cells from the strip's start, `Prefix` the sums {f, f * centre along axis 0} of
+// the row's cells before it. See TableBuild.cxx for the rest.
 struct TableRow2D
 {
   const double* Values;
   std::int64_t First; // first cell of the strip
   std::int64_t Count; // cells in the strip
   double Prefix[2];
-  double Centre; // along axis 1
-  double* Running;
-  double* Nodes; // where the strip's nodes First+1.. go, not read
-  bool Stream;   // write them past the caches
+  double Centre;       // along axis 1
+  const double* Below; // the records of the strip's nodes First+1.. below this row of cells
+  double* Nodes;       // where those above it go, not read
 };
 using AddTableRow2D = void (*)(const TableRow2D& row);
 
 struct TableRow3D
 {
   const double* Values;
-  std::int64_t Count; // cells in the row
-  double Centre[2];   // along axes 1 and 2
-  double* Columns;    // {f, f * centre 1} of each column of the slice so far, updated
-  double* Running;    // the records of this row of nodes in the slice below, updated
-  double* Nodes;      // where the row's nodes 1.. go, not read
-  bool Stream;        // write them past the caches
+  std::int64_t Count;  // cells in the row
+  double Centre[2];    // along axes 1 and 2
+  double* Columns;     // {f, f * centre 1} of each column of the slice so far, updated
+  const double* Below; // the records of this row's nodes 1.. below this slice
+  double* Nodes;       // where those above it go, not read
 };
 using AddTableRow3D = void (*)(const TableRow3D& row);
 

@@ -16,7 +16,7 @@ namespace
 
 // A coarse level is of use only while a box can be this many of its cells wide.
 constexpr std::int64_t narrowestBox = 16;
-// Tables past this size are written past the caches and fetched ahead.
+// Tables past this size are fetched ahead.
 constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
 
 // The least stride, in cache lines, that is at least `lines` and sends the rows that a particle's

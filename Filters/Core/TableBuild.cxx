@@ -9,10 +9,6 @@
 #include <algorithm>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 namespace RectifiedTransport
 {
 
@@ -22,14 +18,7 @@ namespace
 // Sums are taken over strips of this many cells, whatever runs them.
 constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
 constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
-constexpr std::int64_t slabCells = std::int64_t{ 1 } << 18;
-
-void fenceStreams()
-{
-#ifdef __SSE2__
-  _mm_sfence();
-#endif
-}
+constexpr std::int64_t slabCells = std::int64_t{ 1 } << 16;
 
 // The number of a node on a level, -1 if the level does not have it.
 std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
@@ -71,10 +60,8 @@ public:
     , Slab(std::min(this->Rows, std::max<std::int64_t>(1, slabCells / this->Columns)))
     , Values(this->Slab * this->Columns)
     , Prefixes(this->Slab * this->Strips * 2)
-    , Running(this->Columns * 4)
     , Found(static_cast<std::size_t>(this->Slab))
   {
-    std::fill_n(this->Running.data(), this->Running.size(), 0.0);
     for (int level = 0; level < build.Tables.LevelCount; ++level)
     {
       std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[1], 0.0);
@@ -104,7 +91,6 @@ public:
         {
           this->AddStrip(strip);
         }
-        fenceStreams();
       });
       this->Begin += this->Count;
       if (!pace.EndSlice(this->Count))
@@ -147,8 +133,6 @@ private:
     TableRow2D row;
     row.First = strip * stripCells;
     row.Count = std::min(stripCells, this->Columns - row.First);
-    row.Running = this->Running.data() + row.First * 4;
-    row.Stream = tables.BeyondCaches;
     for (std::int64_t j = 0; j < this->Count; ++j)
     {
       const std::int64_t node = this->Begin + j + 1;
@@ -156,6 +140,7 @@ private:
       std::copy_n(this->Prefixes.data() + (j * this->Strips + strip) * 2, 2, row.Prefix);
       row.Centre = static_cast<double>(this->Begin + j) + 0.5;
       row.Nodes = this->Build.Nodes + node * tables.Levels[0].Stride[1] + (row.First + 1) * 4;
+      row.Below = row.Nodes - tables.Levels[0].Stride[1];
       this->AddRow(row);
       for (int level = 0; level < tables.LevelCount; ++level)
       {
@@ -171,7 +156,7 @@ private:
         }
         if (level > 0)
         {
-          copyToLevel<4>(row.Running, row.First, row.Count, this->Columns, level, target);
+          copyToLevel<4>(row.Nodes, row.First, row.Count, this->Columns, level, target);
         }
       }
     }
@@ -187,7 +172,6 @@ private:
   std::int64_t Count = 0;  // rows in it
   LargeBuffer<double> Values;
   LargeBuffer<double> Prefixes;
-  LargeBuffer<double> Running;
   std::vector<DensitySummary> Found;
 };
 
@@ -207,10 +191,8 @@ public:
     , Values(this->Slab * this->Columns * this->Rows)
     , Sums(this->Slab * this->Strips * this->Columns * 2)
     , Before(this->Slab * this->Strips * this->Columns * 4)
-    , Running(this->Columns * this->Rows * 4)
     , Found(static_cast<std::size_t>(this->Slab * this->Strips))
   {
-    std::fill_n(this->Running.data(), this->Running.size(), 0.0);
     for (int level = 0; level < build.Tables.LevelCount; ++level)
     {
       std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[2], 0.0);
@@ -246,7 +228,6 @@ public:
         {
           this->AddStrip(strip);
         }
-        fenceStreams();
       });
       this->Begin += this->Count;
       if (!pace.EndSlice(this->Count))
@@ -314,7 +295,6 @@ private:
     const std::int64_t lastRow = std::min(firstRow + stripRows, this->Rows);
     TableRow3D row;
     row.Count = this->Columns;
-    row.Stream = this->Build.Tables.BeyondCaches;
     for (std::int64_t k = 0; k < this->Count; ++k)
     {
       const std::int64_t plane = this->Begin + k + 1;
@@ -324,16 +304,16 @@ private:
       {
         row.Values = this->Values.data() + (k * this->Rows + j) * this->Columns;
         row.Centre[0] = static_cast<double>(j) + 0.5;
-        row.Running = this->Running.data() + j * this->Columns * 4;
         row.Nodes = this->Build.Nodes + plane * stride[2] + (j + 1) * stride[1] + 4;
+        row.Below = row.Nodes - stride[2];
         this->AddRow(row);
-        this->CopyToLevels(row.Running, plane, j + 1);
+        this->CopyToLevels(row.Nodes, plane, j + 1);
       }
     }
   }
 
   // Node row `nodeRow` of plane `plane`; with the first, also the row of zeros below it.
-  void CopyToLevels(const double* running, std::int64_t plane, std::int64_t nodeRow)
+  void CopyToLevels(const double* nodes, std::int64_t plane, std::int64_t nodeRow)
   {
     const TableView<3>& tables = this->Build.Tables;
     for (int level = 0; level < tables.LevelCount; ++level)
@@ -356,7 +336,7 @@ private:
         std::fill_n(target, 4, 0.0);
         if (level > 0)
         {
-          copyToLevel<4>(running, 0, this->Columns, this->Columns, level, target);
+          copyToLevel<4>(nodes, 0, this->Columns, this->Columns, level, target);
         }
       }
     }
@@ -375,7 +355,6 @@ private:
   LargeBuffer<double> Values;
   LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, a slice and strip together
   LargeBuffer<double> Before; // the records of the columns before each strip, within the slice
-  LargeBuffer<double> Running;
   std::vector<DensitySummary> Found;
 };
 

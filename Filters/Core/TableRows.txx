@@ -73,22 +73,6 @@ void addToColumns(
 
 using NodeRecord = double __attribute__((vector_size(32)));
 
-// Tables that do not fit into the caches are written past them: nobody reads them back before the
-// caches have turned over.
-template <bool Stream>
-RT_INLINE void storeNode(double* node, NodeRecord value)
-{
-#if defined(__SSE2__)
-  if constexpr (Stream)
-  {
-    _mm_stream_pd(node, __m128d{ value[0], value[1] });
-    _mm_stream_pd(node + 2, __m128d{ value[2], value[3] });
-    return;
-  }
-#endif
-  std::memcpy(node, &value, sizeof(value));
-}
-
 RT_INLINE NodeRecord loadNode(const double* node)
 {
   NodeRecord value;
@@ -96,8 +80,12 @@ RT_INLINE NodeRecord loadNode(const double* node)
   return value;
 }
 
-template <bool Stream>
-RT_INLINE void addRow2D(const TableRow2D& row)
+RT_INLINE void storeNode(double* node, NodeRecord value)
+{
+  std::memcpy(node, &value, sizeof(value));
+}
+
+void addTableRow2D(const TableRow2D& row)
 {
   double sum = row.Prefix[0];
   double moment = row.Prefix[1];
@@ -108,20 +96,12 @@ RT_INLINE void addRow2D(const TableRow2D& row)
     sum += value;
     moment += value * centre;
     centre += 1.0;
-    const NodeRecord node =
-      loadNode(row.Running + 4 * i) + NodeRecord{ sum, moment, sum * row.Centre, sum };
-    std::memcpy(row.Running + 4 * i, &node, sizeof(node));
-    storeNode<Stream>(row.Nodes + 4 * i, node);
+    storeNode(row.Nodes + 4 * i,
+      loadNode(row.Below + 4 * i) + NodeRecord{ sum, moment, sum * row.Centre, sum });
   }
 }
 
-void addTableRow2D(const TableRow2D& row)
-{
-  row.Stream ? addRow2D<true>(row) : addRow2D<false>(row);
-}
-
-template <bool Stream>
-RT_INLINE void addRow3D(const TableRow3D& row)
+void addTableRow3D(const TableRow3D& row)
 {
   double sum = 0.0;
   double moment = 0.0;
@@ -135,14 +115,7 @@ RT_INLINE void addRow3D(const TableRow3D& row)
     centre += 1.0;
     const NodeRecord column =
       loadNode(row.Columns + 4 * i) + NodeRecord{ sum, moment, sum * row.Centre[0], sum };
-    std::memcpy(row.Columns + 4 * i, &column, sizeof(column));
-    const NodeRecord node = loadNode(row.Running + 4 * i) + column * lift;
-    std::memcpy(row.Running + 4 * i, &node, sizeof(node));
-    storeNode<Stream>(row.Nodes + 4 * i, node);
+    storeNode(row.Columns + 4 * i, column);
+    storeNode(row.Nodes + 4 * i, loadNode(row.Below + 4 * i) + column * lift);
   }
-}
-
-void addTableRow3D(const TableRow3D& row)
-{
-  row.Stream ? addRow3D<true>(row) : addRow3D<false>(row);
 }
