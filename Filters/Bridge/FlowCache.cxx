@@ -59,8 +59,6 @@ void FlowCache::Update(
   host.BeginStage(host.Reached() + partOfPreparation * (progress - host.Reached()));
   density.Prepare(executor, host);
   host.BeginStage(progress);
-  // Old and new tables side by side would double the peak.
-  this->Kept = std::monostate();
   switch (density.Geometry().Dimension())
   {
     case 1:
@@ -72,6 +70,21 @@ void FlowCache::Update(
   }
 }
 
+// Old and new tables side by side would double the peak.
+template <int D>
+RectifiedFlow<D> FlowCache::BuildFlow(
+  DensityImage& density, const Executor& executor, const Monitor& monitor)
+{
+  const DensityImageSource<D> source(density);
+  auto kept = std::exchange(this->Kept, std::monostate());
+  if (auto* previous = std::get_if<RectifiedFlow<D>>(&kept))
+  {
+    return RectifiedFlow<D>(source, std::move(*previous), executor, monitor);
+  }
+  kept = std::monostate();
+  return RectifiedFlow<D>(source, executor, monitor);
+}
+
 template <int D>
 void FlowCache::Build(DensityImage& density, const Executor& executor, HostMonitor& host)
 {
@@ -80,7 +93,7 @@ void FlowCache::Build(DensityImage& density, const Executor& executor, HostMonit
     const Monitor monitor = host.GetMonitor();
     try
     {
-      RectifiedFlow<D> flow(DensityImageSource<D>(density), executor, monitor);
+      RectifiedFlow<D> flow = this->BuildFlow<D>(density, executor, monitor);
       if (!flow)
       {
         throw Aborted();

@@ -39,6 +39,9 @@ public:
 
 private:
   template <int D>
+  RectifiedFlow<D> BuildFlow(
+    DensityImage& density, const Executor& executor, const Monitor& monitor);
+  template <int D>
   void Build(DensityImage& density, const Executor& executor, HostMonitor& host);
 
   std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;

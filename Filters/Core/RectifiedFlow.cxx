@@ -12,6 +12,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -166,9 +167,10 @@ private:
 template <int Dimension>
 struct RectifiedFlow<Dimension>::Internals
 {
-  Internals(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer)
+  Internals(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer,
+    TableMemory memory = {})
     : Size(density.Size())
-    , Tables(density, executor, pacer)
+    , Tables(density, executor, pacer, std::move(memory))
   {
   }
 
@@ -259,6 +261,21 @@ RectifiedFlow<Dimension>::RectifiedFlow(
   check<Dimension>(density.Size());
   Pacer pacer(monitor);
   this->Data = std::make_unique<Internals>(density, executor, pacer);
+}
+
+template <int Dimension>
+RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
+  RectifiedFlow&& previous, const Executor& executor, const Monitor& monitor)
+{
+  check<Dimension>(density.Size());
+  Pacer pacer(monitor);
+  TableMemory memory;
+  if (previous.Data)
+  {
+    memory = previous.Data->Tables.ReleaseMemory();
+    previous.Data.reset();
+  }
+  this->Data = std::make_unique<Internals>(density, executor, pacer, std::move(memory));
 }
 
 template <int Dimension>

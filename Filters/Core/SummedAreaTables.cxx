@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -54,6 +55,17 @@ std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
   return lines;
 }
 
+// Keeps memory of the right size; other memory is given back before new is asked for.
+template <class T>
+void resize(LargeBuffer<T>& buffer, std::int64_t size)
+{
+  if (buffer.size() != size)
+  {
+    buffer = {};
+    buffer = LargeBuffer<T>(size);
+  }
+}
+
 // A density times a power of two.
 template <int Dimension>
 class ScaledDensity final : public DensitySource<Dimension>
@@ -83,8 +95,9 @@ private:
 } // namespace
 
 template <int Dimension>
-SummedAreaTables<Dimension>::SummedAreaTables(
-  const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer)
+SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& density,
+  const Executor& executor, Pacer& pacer, TableMemory memory)
+  : Memory(std::move(memory))
 {
   this->Allocate(density.Size());
   if (!this->Build(density, executor, pacer))
@@ -117,7 +130,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
     node += tables.Cells[axis] *
       (axis == 0 ? std::int64_t{ TableView<Dimension>::Record } : tables.Levels[0].Stride[axis]);
   }
-  const double* last = this->Nodes.data() + node;
+  const double* last = this->Memory.Nodes.data() + node;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     tables.Centroid[axis] = last[1 + axis] / last[0];
@@ -125,11 +138,11 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   constexpr double roundingShare = 2e-15;
   tables.VoidMass = roundingShare * last[0];
   bool full = true;
-  for (std::int64_t word = 0; word < this->Occupied.size() && full; ++word)
+  for (std::int64_t word = 0; word < this->Memory.Occupied.size() && full; ++word)
   {
-    full = this->Occupied.data()[word] == ~std::uint64_t{ 0 };
+    full = this->Memory.Occupied.data()[word] == ~std::uint64_t{ 0 };
   }
-  tables.Occupied = full ? nullptr : this->Occupied.data();
+  tables.Occupied = full ? nullptr : this->Memory.Occupied.data();
   this->Complete = true;
 }
 
@@ -175,13 +188,13 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
     total += (stride[Dimension - 1] * nodes(Dimension - 1) + line - 1) / line * line;
   }
   tables.BeyondCaches = total * static_cast<std::int64_t>(sizeof(double)) > cacheBytes;
-  this->Nodes = LargeBuffer<double>(total);
+  resize(this->Memory.Nodes, total);
   for (int level = 0; level < tables.LevelCount; ++level)
   {
-    tables.Levels[level].Nodes = this->Nodes.data() + offset[level];
+    tables.Levels[level].Nodes = this->Memory.Nodes.data() + offset[level];
   }
   tables.WordsPerRow = (size[0] + 63) / 64;
-  this->Occupied = LargeBuffer<std::uint64_t>(tables.WordsPerRow * rows);
+  resize(this->Memory.Occupied, tables.WordsPerRow * rows);
 }
 
 template <int Dimension>
@@ -191,7 +204,7 @@ bool SummedAreaTables<Dimension>::Build(
   this->Found = {};
   pacer.BeginStage(1.0, this->Tables.Cells[Dimension - 1]);
   return buildTables(TableBuild<Dimension>{ density, executor, pacer, this->Tables,
-    this->Nodes.data(), this->Occupied.data(), this->Found });
+    this->Memory.Nodes.data(), this->Memory.Occupied.data(), this->Found });
 }
 
 template class SummedAreaTables<1>;

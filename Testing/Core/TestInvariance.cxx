@@ -236,6 +236,31 @@ TYPED_TEST(Invariance, RepeatedMovedAndOneOff)
   EXPECT_TRUE(sameBits<Dimension>(first, transportPoints<Dimension>(density.Source(), seeds)));
 }
 
+// Tables in the memory of other ones, of the same and of another size, even unfinished.
+TYPED_TEST(Invariance, MemoryOfAnotherFlow)
+{
+  constexpr int Dimension = TypeParam::value;
+  const TestDensity<Dimension> density = densityWithVoids<Dimension>();
+  const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, ParticleCount);
+  const Points<Dimension> expected = runForward(makeFlow(density), seeds);
+  GridSize<Dimension> otherSize = density.Size;
+  otherSize[0] += 3;
+  Monitor cancel;
+  cancel.Cancelled = []() { return true; };
+  for (const GridSize<Dimension>& size : { density.Size, otherSize })
+  {
+    const TestDensity<Dimension> other = randomCells<Dimension>(size);
+    const RectifiedFlow<Dimension> flow(density.Source(), makeFlow(other));
+    EXPECT_TRUE(sameBits<Dimension>(expected, runForward(flow, seeds)));
+    RectifiedFlow<Dimension> unfinished(other.Source(), SerialExecutor(), cancel);
+    ASSERT_FALSE(unfinished);
+    const RectifiedFlow<Dimension> after(density.Source(), std::move(unfinished));
+    EXPECT_TRUE(sameBits<Dimension>(expected, runForward(after, seeds)));
+    const RectifiedFlow<Dimension> afterMoved(density.Source(), std::move(unfinished));
+    EXPECT_TRUE(sameBits<Dimension>(expected, runForward(afterMoved, seeds)));
+  }
+}
+
 TYPED_TEST(Invariance, ConcurrentCalls)
 {
   constexpr int Dimension = TypeParam::value;
