@@ -335,14 +335,13 @@ int vtkTransportSampler::RequestData(
   if (report.SeedsMoved > 0)
   {
     vtkWarningMacro(<< report.SeedsMoved << " of " << seeds->GetNumberOfPoints()
-                    << " seeds lie outside the domain of the density; they were moved to its "
-                       "border");
+                    << " seeds outside the domain of the density moved to its border");
   }
   if (report.ParticlesMoved > 0)
   {
-    vtkWarningMacro(<< report.ParticlesMoved
-                    << " particles ended in empty cells; they were moved to the nearest cell with "
-                       "mass (more NumberOfSteps may spare them that)");
+    vtkWarningMacro(<< report.ParticlesMoved << " of " << output->GetNumberOfCells()
+                    << " particles in empty cells moved to the nearest cell with mass (more "
+                       "NumberOfSteps may spare them that)");
   }
   return 1;
 }

@@ -37,32 +37,47 @@ double gap(double x, std::int64_t cell)
   return std::max({ low - x, x - (low + 1.0), 0.0 });
 }
 
-// Looks through the cells of a row outwards from x, as far as `limit`.
+// The nearest set bit from `start` down to `last`, -1 if there is none.
+std::int64_t nearestBelow(const std::uint64_t* row, std::int64_t start, std::int64_t last)
+{
+  std::int64_t word = start >> 6;
+  std::uint64_t bits = row[word] & (~std::uint64_t{ 0 } >> (63 - (start & 63)));
+  while (bits == 0 && word > last >> 6)
+  {
+    bits = row[--word];
+  }
+  const std::int64_t found = bits == 0 ? -1 : word * 64 + 63 - __builtin_clzll(bits);
+  return found >= last ? found : -1;
+}
+
+// The nearest set bit from `start` up to `last`, -1 if there is none.
+std::int64_t nearestAbove(const std::uint64_t* row, std::int64_t start, std::int64_t last)
+{
+  std::int64_t word = start >> 6;
+  std::uint64_t bits = row[word] & (~std::uint64_t{ 0 } << (start & 63));
+  while (bits == 0 && word < last >> 6)
+  {
+    bits = row[++word];
+  }
+  const std::int64_t found = bits == 0 ? -1 : word * 64 + __builtin_ctzll(bits);
+  return found <= last ? found : -1;
+}
+
+// The cell of a row with mass that is nearest to x, -1 if there is none within `limit`.
 std::int64_t nearestInRow(const std::uint64_t* row, std::int64_t columns, double x, double limit)
 {
-  const auto start = std::min(static_cast<std::int64_t>(std::max(x, 0.0)), columns - 1);
-  for (std::int64_t step = 0; step < columns; ++step)
+  const double last = static_cast<double>(columns - 1);
+  const auto column = [last](double at) {
+    return static_cast<std::int64_t>(std::max(0.0, std::min(at, last)));
+  };
+  const std::int64_t start = column(x);
+  const std::int64_t below = nearestBelow(row, start, column(x - limit));
+  const std::int64_t above = nearestAbove(row, start, column(x + limit));
+  if (below < 0 || above < 0)
   {
-    const std::int64_t below = start - step;
-    const std::int64_t above = start + step;
-    const bool belowIn = below >= 0 && gap(x, below) <= limit;
-    const bool aboveIn = above < columns && gap(x, above) <= limit;
-    if (!belowIn && !aboveIn)
-    {
-      break;
-    }
-    const bool belowSet = belowIn && isSet(row, below);
-    const bool aboveSet = aboveIn && isSet(row, above);
-    if (belowSet && aboveSet)
-    {
-      return gap(x, below) <= gap(x, above) ? below : above;
-    }
-    if (belowSet || aboveSet)
-    {
-      return belowSet ? below : above;
-    }
+    return std::max(below, above);
   }
-  return -1;
+  return gap(x, below) <= gap(x, above) ? below : above;
 }
 
 } // namespace

@@ -40,6 +40,24 @@ void check(const FlowOptions& options)
   }
 }
 
+void check(const std::vector<double>& times)
+{
+  if (times.empty())
+  {
+    throw std::invalid_argument("no times are given, there must be at least one");
+  }
+  double before = 0.0;
+  for (const double time : times)
+  {
+    if (!(time >= before && time <= 1.0))
+    {
+      throw std::invalid_argument("time " + std::to_string(time) + " is given after " +
+        std::to_string(before) + ", times must ascend and be from 0 to 1");
+    }
+    before = time;
+  }
+}
+
 template <int Dimension>
 void check(const GridSize<Dimension>& size)
 {
@@ -338,13 +356,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(const double* seeds, std::int64_t
   const std::vector<double>& times, double* positions, const FlowOptions& options,
   const Executor& executor, const Monitor& monitor) const
 {
-  const bool inside =
-    std::all_of(times.begin(), times.end(), [](double time) { return time >= 0.0 && time <= 1.0; });
-  if (times.empty() || !inside || !std::is_sorted(times.begin(), times.end()))
-  {
-    throw std::invalid_argument(
-      "times must be in [0,1] and ascend, and there must be at least one");
-  }
+  check(times);
   return this->Data->Advect(seeds, count, times, positions, false, options, executor, monitor);
 }
 

@@ -97,7 +97,7 @@ void checkOutside(Checks& checks)
   sampler->Update();
   CHECK(checks, messages.Errors.empty());
   CHECK(checks, messages.Warnings.size() == 1);
-  CHECK(checks, contains(messages.Warnings[0], "4 of 6 seeds lie outside"));
+  CHECK(checks, contains(messages.Warnings[0], "4 of 6 seeds outside the domain"));
   CHECK(checks,
     seedPositions(sampler) ==
       std::vector<double>({ 1, 1, 0, 0, 1, 0, 1, 3, 0, 2, 2, 0, 4, 3, 0, 4, 3, 0 }));

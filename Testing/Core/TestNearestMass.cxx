@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nearest cell with mass, against a search through all of them.
+#include "NearestMass.h"
+#include "Pacer.h"
+#include "SummedAreaTables.h"
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+double distanceToCell(const Point<Dimension>& point, const GridSize<Dimension>& cell)
+{
+  double squared = 0.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double low = static_cast<double>(cell[axis]);
+    const double gap = std::max({ low - point[axis], point[axis] - (low + 1.0), 0.0 });
+    squared += gap * gap;
+  }
+  return std::sqrt(squared);
+}
+
+// One cell in `rarity` has mass.
+template <int Dimension>
+void expectNearest(const GridSize<Dimension>& size, int rarity)
+{
+  TestDensity<Dimension> density = uniformDensity<Dimension>(size);
+  std::mt19937_64 engine(7);
+  for (double& value : density.Values)
+  {
+    value = uniformNumber(engine) * rarity < 1.0 ? 1.0 : 0.0;
+  }
+  density.Values[density.Values.size() / 3] = 1.0;
+  const Monitor monitor;
+  Pacer pacer(monitor);
+  const SummedAreaTables<Dimension> tables(density.Source(), SerialExecutor(), pacer);
+  for (const Point<Dimension>& point : randomPoints<Dimension>(size, 200))
+  {
+    double least = std::numeric_limits<double>::max();
+    for (std::int64_t index = 0; index < cellCount<Dimension>(size); ++index)
+    {
+      if (density.Values[static_cast<std::size_t>(index)] > 0.0)
+      {
+        least = std::min(least, distanceToCell<Dimension>(point, cellAt<Dimension>(index, size)));
+      }
+    }
+    const Point<Dimension> moved = nearestMass<Dimension>(tables.View(), point);
+    EXPECT_TRUE(hasMass<Dimension>(tables.View(), moved));
+    double squared = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      squared += (moved[axis] - point[axis]) * (moved[axis] - point[axis]);
+    }
+    EXPECT_NEAR(std::sqrt(squared), least, 1e-5);
+  }
+}
+
+TEST(NearestMass, OnTheLine)
+{
+  expectNearest<1>({ 1000 }, 100);
+  expectNearest<1>({ 64 }, 1000);
+}
+
+TEST(NearestMass, InThePlane)
+{
+  expectNearest<2>({ 200, 30 }, 300);
+  expectNearest<2>({ 65, 64 }, 100000);
+}
+
+TEST(NearestMass, InSpace)
+{
+  expectNearest<3>({ 70, 11, 9 }, 500);
+  expectNearest<3>({ 5, 6, 130 }, 2000);
+}
+
+} // namespace
+} // namespace RectifiedTransport
