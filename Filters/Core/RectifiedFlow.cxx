@@ -77,10 +77,12 @@ void check(const GridSize<Dimension>& size)
 template <int Dimension>
 double coarseRatio(const FlowOptions& options)
 {
-  const bool accurate =
-    options.Method == Integrator::Adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48;
+  constexpr double never = 1e12;
   constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
-  return accurate ? 64.0 : usual;
+  const bool adaptive = options.Method == Integrator::Adaptive;
+  const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
+  const bool accurate = adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48;
+  return exact ? never : accurate ? 64.0 : usual;
 }
 
 // What the ranges of one advection count; sums of integers do not depend on their order.

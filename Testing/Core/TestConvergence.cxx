@@ -93,6 +93,21 @@ TEST(Convergence, CoarseLevels)
   EXPECT_LT(volume.Errors(steps(128)).Mean, 0.02);
 }
 
+// Many steps leave no error that the coarse levels would put below them.
+TEST(Convergence, ManyStepsOnALargeGrid)
+{
+  TestDensity<1> noisy = twoGaussians<1>({ 5003 });
+  std::mt19937_64 engine(1);
+  for (double& value : noisy.Values)
+  {
+    value *= 0.7 + 0.6 * uniformNumber(engine);
+  }
+  const Truth<1> line(noisy, 300);
+  EXPECT_LT(line.Errors(steps(2048)).Mean, 0.005);
+  const Truth<2> large(twoGaussians<2>({ 700, 530 }), 200);
+  EXPECT_LT(large.Errors(steps(512)).Mean, 0.002);
+}
+
 // With the limit of the velocity at t = 1, RK4 at the published 50 steps loses the 1/(6T) shrink
 // toward the centre: 1.2 cells on 1024^2.
 TEST(Convergence, RungeKutta4)
