@@ -4,10 +4,11 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
+#include "../Core/LargeBuffer.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkSmartPointer.h"
 
-#include <cstdlib>
 #include <limits>
 #include <new>
 #include <string>
@@ -45,7 +46,7 @@ vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdT
   void* memory = nullptr;
   if (bytes < static_cast<double>(std::numeric_limits<std::size_t>::max()))
   {
-    memory = std::malloc(static_cast<std::size_t>(tuples) * components * sizeof(Value) + 1);
+    memory = allocateLarge(static_cast<std::size_t>(tuples) * components * sizeof(Value) + 1);
   }
   if (!memory)
   {

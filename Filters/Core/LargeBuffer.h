@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for tables: aligned to cache lines, not initialised, on huge pages where the system has
-// them (a table is walked with large strides, and faulting it in page by page costs as much as
-// filling it).
+// Memory for tables and results: aligned to cache lines, not initialised, on huge pages where the
+// system has them (a table is walked with large strides, and faulting memory in page by page costs
+// as much as filling it).
 #ifndef RectifiedTransport_LargeBuffer_h
 #define RectifiedTransport_LargeBuffer_h
 
@@ -20,6 +20,28 @@
 namespace RectifiedTransport
 {
 
+// Memory that std::free gives back; null if there is none.
+inline void* allocateLarge(std::size_t bytes)
+{
+  constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
+  constexpr std::size_t line = 64;
+  if (bytes > std::numeric_limits<std::size_t>::max() / 2)
+  {
+    return nullptr;
+  }
+  const std::size_t alignment = bytes >= 2 * hugePage ? hugePage : line;
+  void* memory = std::aligned_alloc(alignment, (bytes + alignment) / alignment * alignment);
+#ifdef __linux__
+  if (memory && alignment == hugePage)
+  {
+    // Only advice: where it is not taken, all works as well, but slower. What does not fill a huge
+    // page is left to small ones, or the system would clear memory that nobody uses.
+    (void)madvise(memory, bytes / hugePage * hugePage, MADV_HUGEPAGE);
+  }
+#endif
+  return memory;
+}
+
 template <class T>
 class LargeBuffer
 {
@@ -30,46 +52,20 @@ public:
   explicit LargeBuffer(std::int64_t count)
     : Count(count)
   {
-    constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
-    constexpr std::size_t line = 64;
-    if (static_cast<std::uint64_t>(count) >
-      (std::numeric_limits<std::size_t>::max() / 2 - hugePage) / sizeof(T))
+    const bool possible =
+      static_cast<std::uint64_t>(count) <= std::numeric_limits<std::size_t>::max() / sizeof(T);
+    void* memory = possible ? allocateLarge(static_cast<std::size_t>(count) * sizeof(T)) : nullptr;
+    if (!memory)
     {
       throw std::bad_alloc();
     }
-    const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(T);
-    const std::size_t alignment = bytes >= 2 * hugePage ? hugePage : line;
-    const std::size_t rounded = (bytes + alignment) / alignment * alignment;
-    this->Memory.reset(static_cast<T*>(std::aligned_alloc(alignment, rounded)));
-    if (!this->Memory)
-    {
-      throw std::bad_alloc();
-    }
-#ifdef __linux__
-    if (alignment == hugePage)
-    {
-      // Only advice: where it is not taken, the tables work as well, but slower.
-      (void)madvise(this->Memory.get(), rounded, MADV_HUGEPAGE);
-    }
-#endif
+    this->Memory.reset(static_cast<T*>(memory));
   }
 
-  T* data()
-  {
-    return this->Memory.get();
-  }
-  const T* data() const
-  {
-    return this->Memory.get();
-  }
-  std::int64_t size() const
-  {
-    return this->Count;
-  }
-  std::int64_t bytes() const
-  {
-    return this->Count * static_cast<std::int64_t>(sizeof(T));
-  }
+  T* data() { return this->Memory.get(); }
+  const T* data() const { return this->Memory.get(); }
+  std::int64_t size() const { return this->Count; }
+  std::int64_t bytes() const { return this->Count * static_cast<std::int64_t>(sizeof(T)); }
 
 private:
   struct Free
