@@ -36,7 +36,9 @@ class DensityImage;
 }
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
 class vtkDataObject;
+class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkAlgorithm
 {
@@ -136,6 +138,12 @@ protected:
    * if the image has no points. Throws what RequestData may throw.
    */
   RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
+
+  /**
+   * The array that NewDensity reads, and whether it belongs to the points or the cells; nullptr if
+   * there is none.
+   */
+  vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
 
   int Component;
   vtkTypeBool InvertDensity;

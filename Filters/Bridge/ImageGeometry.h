@@ -69,6 +69,20 @@ public:
     }
   }
 
+  // The physical vector of a displacement in index space.
+  template <int D>
+  void ToPhysicalVector(const double* index, double* vector) const
+  {
+    for (int r = 0; r < 3; ++r)
+    {
+      vector[r] = 0.0;
+      for (int a = 0; a < D; ++a)
+      {
+        vector[r] += this->Matrix[r][this->Axis[a]] * index[a];
+      }
+    }
+  }
+
   // The nearest point of the (unbounded) line, plane or space that the axes span.
   template <int D>
   void ToIndex(const double* x, double* index) const
