@@ -4,6 +4,8 @@
 #define MapTest_h
 
 #include "SamplerTest.h"
+#include "vtkCell.h"
+#include "vtkMatrix3x3.h"
 #include "vtkTransportMap.h"
 
 using Values = std::vector<double>;

@@ -3,7 +3,6 @@
 // extents, spacings, directions, points and cells, other numbers of samples.
 #include "MapTest.h"
 
-#include "vtkCell.h"
 #include "vtkMath.h"
 
 #include <array>
@@ -171,11 +170,10 @@ void checkAgainstSampler(Checks& checks, vtkImageData* image, std::array<int, 3>
   sampler->SetSeedsData(seeds);
   sampler->Update();
   CHECK_NEAR(checks,
-    largestDifference(arrayValues(pointArray(sampler->GetOutput(), "Displacement")),
-      map.Displacement),
+    largestDifference(
+      arrayValues(pointArray(sampler->GetOutput(), "Displacement")), map.Displacement),
     0.0, 1e-9);
-  CHECK_NEAR(
-    checks, fieldValue(sampler->GetOutput(), "TransportCost") / map.Cost, 1.0, 1e-9);
+  CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "TransportCost") / map.Cost, 1.0, 1e-9);
   CHECK(checks, messages.Warnings.empty()); // all lie in the domain
 }
 
@@ -196,9 +194,9 @@ void checkSamples(Checks& checks)
       image->SetSpacing(0.5, 1.5, 2.0);
       image->SetDirectionMatrix(rotation);
       const int flat = image == plane ? 1 : 0;
-      for (const std::array<int, 3>& samples : { std::array<int, 3>{ 0, 0, 0 },
-             std::array<int, 3>{ 5, flat ? 1 : 3, 4 }, std::array<int, 3>{ 24, flat ? 0 : 16, 29 },
-             std::array<int, 3>{ 0, 0, 2 } })
+      for (const std::array<int, 3>& samples :
+        { std::array<int, 3>{ 0, 0, 0 }, std::array<int, 3>{ 5, flat ? 1 : 3, 4 },
+          std::array<int, 3>{ 24, flat ? 0 : 16, 29 }, std::array<int, 3>{ 0, 0, 2 } })
       {
         checkAgainstSampler(checks, image, samples);
       }
