@@ -69,20 +69,6 @@ public:
     }
   }
 
-  // The physical vector of a displacement in index space.
-  template <int D>
-  void ToPhysicalVector(const double* index, double* vector) const
-  {
-    for (int r = 0; r < 3; ++r)
-    {
-      vector[r] = 0.0;
-      for (int a = 0; a < D; ++a)
-      {
-        vector[r] += this->Matrix[r][this->Axis[a]] * index[a];
-      }
-    }
-  }
-
   // The nearest point of the (unbounded) line, plane or space that the axes span.
   template <int D>
   void ToIndex(const double* x, double* index) const
@@ -92,6 +78,20 @@ public:
     {
       const double* row = this->Inverse[a];
       index[a] = (row[0] * d[0] + row[1] * d[1] + row[2] * d[2]) / this->Spacing[a];
+    }
+  }
+
+  // The physical vector of a difference of indices.
+  template <int D>
+  void VectorToPhysical(const double* index, double* v) const
+  {
+    for (int r = 0; r < 3; ++r)
+    {
+      v[r] = 0.0;
+      for (int a = 0; a < D; ++a)
+      {
+        v[r] += this->Matrix[r][this->Axis[a]] * index[a];
+      }
     }
   }
 

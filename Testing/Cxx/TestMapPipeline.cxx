@@ -85,6 +85,23 @@ void checkInformation(Checks& checks)
   ofCells->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "RTData");
   checkInformation(checks, ofCells, __LINE__);
 
+  // Where nothing tells points from cells before the data, the data decides, and once is enough.
+  toCells->PassPointDataOff();
+  vtkNew<vtkTransportMap> unknown;
+  unknown->SetInputConnection(toCells->GetOutputPort());
+  unknown->SetNegativeValuesToClamp();
+  unknown->SetSampleDimensions(10, 20, 5);
+  for (int run = 0; run < 2; ++run)
+  {
+    unknown->Update();
+    CHECK(checks, unknown->GetOutput()->GetNumberOfCells() == 1000);
+    CHECK(checks, mapValues(unknown->GetOutput(), "Divergence").size() == 1000);
+  }
+  const vtkMTimeType made = unknown->GetOutput()->GetMTime();
+  unknown->Update();
+  CHECK(checks, unknown->GetOutput()->GetMTime() == made);
+  checkInformation(checks, unknown, __LINE__);
+
   // An image filter downstream believes what is published.
   vtkNew<vtkImageShrink3D> shrink;
   shrink->SetInputConnection(map->GetOutputPort());
@@ -142,6 +159,9 @@ void checkCache(Checks& checks)
   const vtkMTimeType built = map->GetTableBuildTime();
   CHECK(checks, built > 0);
   const Values forth = mapValues(map->GetOutput(), "Displacement");
+  const vtkMTimeType made = map->GetOutput()->GetMTime();
+  map->Update();
+  CHECK(checks, map->GetOutput()->GetMTime() == made);
   map->SetDirectionToDensityToUniform();
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
