@@ -156,17 +156,6 @@ int vtkDensityAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
-  vtkImageData* image, int arrayIndex, int& association)
-{
-  vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
-  association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
-  return chosen || (name && *name) ? chosen : defaultArray(image, association);
-}
-
-//------------------------------------------------------------------------------
 RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   vtkDataObject* input, int arrayIndex)
 {
@@ -203,6 +192,17 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
   return new RectifiedTransport::DensityImage(
     image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, rules);
+}
+
+//------------------------------------------------------------------------------
+vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
+  vtkImageData* image, int arrayIndex, int& association)
+{
+  vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
+  association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
+  return chosen || (name && *name) ? chosen : defaultArray(image, association);
 }
 
 //------------------------------------------------------------------------------

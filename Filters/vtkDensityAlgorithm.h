@@ -134,16 +134,16 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
   /**
-   * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr
-   * if the image has no points. Throws what RequestData may throw.
-   */
-  RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
-
-  /**
    * The array that NewDensity reads, and whether it belongs to the points or the cells; nullptr if
    * there is none.
    */
   vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
+
+  /**
+   * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr
+   * if the image has no points. Throws what RequestData may throw.
+   */
+  RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
 
   int Component;
   vtkTypeBool InvertDensity;

@@ -130,7 +130,7 @@ double MapField<D>::WriteDisplacement(
     }
     double* d = displacement + 3 * i; // in 3D the same memory as the position
     this->Geometry.template VectorToPhysical<D>(moved, d);
-    const double weight = flow ? flow->MassFraction(low, high) : 1.0;
+    const double weight = flow ? flow->Share(low, high) : 1.0;
     sums.Cost += weight * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     sums.Weight += weight;
   };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RectifiedFlow.h"
 
+#include "BoxShare.h"
 #include "FlowKernels.h"
 #include "LatticeOrder.h"
-#include "MassFraction.h"
 #include "NearestMass.h"
 #include "Pacer.h"
 #include "ParticleOrder.h"
@@ -408,10 +408,10 @@ bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 }
 
 template <int Dimension>
-double RectifiedFlow<Dimension>::MassFraction(
+double RectifiedFlow<Dimension>::Share(
   const Point<Dimension>& low, const Point<Dimension>& high) const
 {
-  return massFraction<Dimension>(this->Data->Tables.View(), low, high);
+  return boxShare<Dimension>(this->Data->Tables.View(), low, high);
 }
 
 template <int Dimension>

@@ -54,8 +54,8 @@ public:
   std::int64_t MemorySize() const;   // bytes that the tables hold
   // Whether the cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
-  // The part of the mass that lies in a box, in [0,1]; what is outside of the domain is empty.
-  double MassFraction(const Point<Dimension>& low, const Point<Dimension>& high) const;
+  // The share of the mass in a box.
+  double Share(const Point<Dimension>& low, const Point<Dimension>& high) const;
 
   // Advects points of time 0 (uniform) to time 1 (distributed like the density). Arrays hold
   // count * Dimension doubles, a point's coordinates together, and may be the same array. Points

@@ -170,7 +170,7 @@ TEST(Lattice, Cancel)
 
 // Mass of boxes, cell by cell.
 template <int Dimension>
-void expectMassFraction(const GridSize<Dimension>& size)
+void expectShare(const GridSize<Dimension>& size)
 {
   const TestDensity<Dimension> density = randomCells<Dimension>(size);
   const RectifiedFlow<Dimension> flow = makeFlow(density);
@@ -198,22 +198,22 @@ void expectMassFraction(const GridSize<Dimension>& size)
       }
       sum += part;
     }
-    EXPECT_NEAR(flow.MassFraction(low, high), sum / all, 1e-13);
+    EXPECT_NEAR(flow.Share(low, high), sum / all, 1e-13);
   }
   Point<Dimension> below;
   Point<Dimension> above;
   below.fill(-3.0);
   above.fill(1e9);
-  EXPECT_NEAR(flow.MassFraction(below, above), 1.0, 1e-15);
-  EXPECT_EQ(flow.MassFraction(below, below), 0.0);
-  EXPECT_EQ(flow.MassFraction(above, above), 0.0);
+  EXPECT_NEAR(flow.Share(below, above), 1.0, 1e-15);
+  EXPECT_EQ(flow.Share(below, below), 0.0);
+  EXPECT_EQ(flow.Share(above, above), 0.0);
 }
 
-TEST(Lattice, MassFraction)
+TEST(Lattice, ShareOfABox)
 {
-  expectMassFraction<1>({ 40 });
-  expectMassFraction<2>({ 13, 17 });
-  expectMassFraction<3>({ 7, 9, 6 });
+  expectShare<1>({ 40 });
+  expectShare<2>({ 13, 17 });
+  expectShare<3>({ 7, 9, 6 });
 }
 
 } // namespace

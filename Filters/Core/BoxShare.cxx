@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "MassFraction.h"
+#include "BoxShare.h"
 
 #include <algorithm>
 
@@ -42,7 +42,7 @@ double massBelow(const TableView<Dimension>& tables, const Point<Dimension>& poi
 } // namespace
 
 template <int Dimension>
-double massFraction(
+double boxShare(
   const TableView<Dimension>& tables, const Point<Dimension>& low, const Point<Dimension>& high)
 {
   Point<Dimension> last;
@@ -63,8 +63,8 @@ double massFraction(
   return std::max(0.0, std::min(sum / massBelow<Dimension>(tables, last), 1.0));
 }
 
-template double massFraction<1>(const TableView<1>&, const Point<1>&, const Point<1>&);
-template double massFraction<2>(const TableView<2>&, const Point<2>&, const Point<2>&);
-template double massFraction<3>(const TableView<3>&, const Point<3>&, const Point<3>&);
+template double boxShare<1>(const TableView<1>&, const Point<1>&, const Point<1>&);
+template double boxShare<2>(const TableView<2>&, const Point<2>&, const Point<2>&);
+template double boxShare<3>(const TableView<3>&, const Point<3>&, const Point<3>&);
 
 } // namespace RectifiedTransport
