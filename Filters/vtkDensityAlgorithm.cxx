@@ -175,11 +175,7 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
       std::to_string(association) + "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
-  if (!chosen && (!name || !*name))
-  {
-    chosen = defaultArray(image, association);
-  }
+  vtkAbstractArray* chosen = this->FindDensityArray(image, arrayIndex, association);
   vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
   if (!array)
   {
@@ -196,6 +192,17 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
   return new RectifiedTransport::DensityImage(
     image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, rules);
+}
+
+//------------------------------------------------------------------------------
+vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
+  vtkImageData* image, int arrayIndex, int& association)
+{
+  vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
+  association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
+  return chosen || (name && *name) ? chosen : defaultArray(image, association);
 }
 
 //------------------------------------------------------------------------------

@@ -36,7 +36,9 @@ class DensityImage;
 }
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
 class vtkDataObject;
+class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkAlgorithm
 {
@@ -130,6 +132,12 @@ protected:
    */
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
+
+  /**
+   * The array that NewDensity reads, and whether it belongs to the points or the cells; nullptr if
+   * there is none.
+   */
+  vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
 
   /**
    * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr

@@ -15,7 +15,7 @@
  *
  * Results are the same to the last bit for every number of threads and every setting of Threading.
  *
- * @sa vtkDensityAlgorithm vtkTransportSampler
+ * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */
 #ifndef vtkTransportAlgorithm_h
 #define vtkTransportAlgorithm_h

@@ -42,7 +42,7 @@
  * std::cout << particles->GetNumberOfPoints() << " particles share a mass of " << mass << "\n";
  * \endcode
  *
- * @sa vtkUniformSeedSource vtkTransportAlgorithm vtkDensityAlgorithm
+ * @sa vtkTransportMap vtkUniformSeedSource vtkTransportAlgorithm vtkDensityAlgorithm
  */
 #ifndef vtkTransportSampler_h
 #define vtkTransportSampler_h

@@ -77,6 +77,33 @@ def draw_flow(path, stipple):
              [1024, 768], 6, 1200, stipple)
 
 
+def flat_picture(path, view, centre, half_height):
+    """Keeps a view of the xy plane from above."""
+    view.InteractionMode = "2D"
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = [*centre, 0]
+    view.CameraPosition = [*centre, 1000]
+    view.CameraParallelScale = half_height
+    example.save_picture(path, view)
+
+
+def draw_map(path):
+    """A grid as the map bends it: its cells hold equal masses."""
+    transport = simple.TransportMap(Input=example.open_image(PHOTOGRAPH), InvertDensity=1,
+                                    SampleDimensions=[120, 90, 1])
+    transport.UpdatePipeline()  # WarpByVector looks for its vectors when it is made
+    view = example.picture_view(STRIP, [1, 1, 1])
+    shown = simple.Show(simple.WarpByVector(Input=transport), view, "StructuredGridRepresentation")
+    shown.SetRepresentationType("Wireframe")
+    shown.LineWidth = 1.5
+    simple.ColorBy(shown, ("POINTS", "JacobianDeterminant"))
+    shown.SetScalarBarVisibility(view, False)
+    colours = simple.GetColorTransferFunction("JacobianDeterminant")
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    colours.RescaleTransferFunction(0.5, 2.0)
+    flat_picture(path, view, [511.5, 383.5], 384)
+
+
 def draw_paths(path):
     paths = simple.SampleDensity(Input=example.open_image(PHOTOGRAPH), InvertDensity=1,
                                  NumberOfParticles=250, OutputPaths=1)
@@ -87,12 +114,7 @@ def draw_paths(path):
     simple.ColorBy(shown, ("POINTS", "Time"))
     shown.SetScalarBarVisibility(view, False)
     simple.GetColorTransferFunction("Time").ApplyPreset("Viridis (matplotlib)", True)
-    view.InteractionMode = "2D"
-    view.CameraParallelProjection = 1
-    view.CameraFocalPoint = [511.5, 383.5, 0]
-    view.CameraPosition = [511.5, 383.5, 1000]
-    view.CameraParallelScale = 384
-    example.save_picture(path, view)
+    flat_picture(path, view, [511.5, 383.5], 384)
 
 
 def main():
@@ -112,8 +134,9 @@ def main():
     draw_volume(path("volume"), script("SampleVolume"))
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
+    draw_map(path("map"))
     draw_paths(path("paths"))
-    print("density, particles, volume, patterns, flow, paths: " + folder)
+    print("density, particles, volume, patterns, flow, map, paths: " + folder)
 
 
 if __name__ == "__main__":

@@ -52,7 +52,8 @@ void requireComponent(const std::string& name, int component, int count)
 
 DensityImage::DensityImage(
   vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
-  : Array(array)
+  : OnPoints(onPoints)
+  , Array(array)
   , Rules(rules)
   , Name(array->GetName() ? std::string("density array '") + array->GetName() + "'"
                           : std::string("density array (which has no name)"))

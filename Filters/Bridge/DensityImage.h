@@ -48,6 +48,8 @@ public:
 
   const ImageGeometry& Geometry() const { return this->Place; }
   const Identity& GetIdentity() const { return this->Key; }
+  // Whether its values are those of points.
+  bool IsOnPoints() const { return this->OnPoints; }
 
   // Finds what single rows cannot tell, such as the largest value. Call it before reading.
   void Prepare(const Executor& executor, HostMonitor& host);
@@ -65,6 +67,7 @@ private:
   bool IsBlank(std::int64_t cell) const;
 
   ImageGeometry Place;
+  bool OnPoints;
   vtkSmartPointer<vtkDataArray> Array;
   std::unique_ptr<DensityReader> Reader;
   DensityRules Rules;

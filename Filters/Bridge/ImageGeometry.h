@@ -81,6 +81,20 @@ public:
     }
   }
 
+  // The physical vector of a difference of indices.
+  template <int D>
+  void VectorToPhysical(const double* index, double* v) const
+  {
+    for (int r = 0; r < 3; ++r)
+    {
+      v[r] = 0.0;
+      for (int a = 0; a < D; ++a)
+      {
+        v[r] += this->Matrix[r][this->Axis[a]] * index[a];
+      }
+    }
+  }
+
 private:
   int AxisCount = 0;
   int Axis[3] = { 0, 1, 2 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RectifiedFlow.h"
 
+#include "BoxShare.h"
 #include "FlowKernels.h"
+#include "LatticeOrder.h"
 #include "NearestMass.h"
 #include "Pacer.h"
 #include "ParticleOrder.h"
@@ -59,13 +61,13 @@ void check(const std::vector<double>& times)
 }
 
 template <int Dimension>
-void check(const GridSize<Dimension>& size)
+void check(const GridSize<Dimension>& size, const char* what)
 {
   for (const std::int64_t cells : size)
   {
     if (cells < 1 || cells > std::int64_t{ 1 } << 30)
     {
-      throw std::invalid_argument("a density has " + std::to_string(cells) +
+      throw std::invalid_argument(std::string(what) + " has " + std::to_string(cells) +
         " cells along an axis, it must have from 1 to 2^30");
     }
   }
@@ -93,30 +95,42 @@ struct Counters
   std::atomic<std::int64_t> Evaluations{ 0 };
 };
 
-// Advects the particles order[0..count), count <= rangeBlocks * BlockSize: all of them once, then
-// those in trouble again with ever more steps.
+// Points of an array in the order of a sort, as LatticeOrder gives those of a lattice.
+template <int Dimension>
+struct SortedPoints
+{
+  const double* Points;
+  const std::int64_t* Order;
+
+  void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      index[i] = this->Order[first + i];
+      std::copy_n(this->Points + index[i] * Dimension, Dimension, points + i * Dimension);
+    }
+  }
+};
+
+// Advects particles, at most rangeBlocks * BlockSize: all of them once, then those in trouble again
+// with ever more steps.
 template <int Dimension>
 class RangeAdvection
 {
 public:
-  RangeAdvection(
-    const FlowJob<Dimension>& job, const double* points, Counters& counters, Pacer& pacer)
+  RangeAdvection(const FlowJob<Dimension>& job, Counters& counters, Pacer& pacer)
     : Job(job)
-    , Points(points)
     , Count(counters)
     , Pace(pacer)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
 
-  void Run(const std::int64_t* order, int count)
+  template <class Source>
+  void Run(const Source& source, std::int64_t first, int count)
   {
     // The output may be the array of the seeds, so these are kept until all is done.
-    for (int i = 0; i < count; ++i)
-    {
-      this->Index[i] = order[i];
-      std::copy_n(this->Points + order[i] * Dimension, Dimension, this->Seeds + i * Dimension);
-    }
+    source.Fill(first, count, this->Index, this->Seeds);
     int left = this->Pass(count, 0);
     if (this->Job.Backward || this->Job.Nearest)
     {
@@ -174,12 +188,93 @@ private:
   }
 
   const FlowJob<Dimension>& Job;
-  const double* Points;
   Counters& Count;
   Pacer& Pace;
   const AdvectBlock<Dimension> Advect;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
+};
+
+// One advection of any number of particles, from one source of them after the other.
+template <int Dimension>
+class AdvectionRun
+{
+public:
+  AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
+    double* positions, bool backward, const FlowOptions& options, std::int64_t count,
+    const Monitor& monitor)
+    : Pace(monitor)
+  {
+    check(options);
+    this->Job.Tables = tables;
+    this->Job.Method = options.Method;
+    this->Job.Backward = backward;
+    this->Job.Nearest = options.Lookup == TableLookup::Nearest;
+    this->Job.Tolerance = options.Tolerance;
+    this->Job.Steps = options.NumberOfSteps;
+    this->Job.CoarseRatio = coarseRatio<Dimension>(options);
+    this->Job.Output = positions;
+    this->Job.Times = times.empty() ? nullptr : times.data();
+    this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
+    if (options.Method == Integrator::Multistep)
+    {
+      this->Weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
+      for (int step = 0; step < options.NumberOfSteps; ++step)
+      {
+        this->Weights.push_back(multistepWeights(step, options.NumberOfSteps));
+      }
+    }
+    this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
+    this->Job.ShouldStop = [](void* host) { return static_cast<Pacer*>(host)->ShouldStop(); };
+    this->Job.Host = &this->Pace;
+    this->Pace.BeginStage(1.0, count);
+    // A range is short enough to be waited for, however many steps there are.
+    constexpr int usualSteps = 64;
+    this->Grain = std::max(1,
+                    std::min(rangeBlocks,
+                      rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) *
+      BlockSize;
+  }
+  AdvectionRun(const AdvectionRun&) = delete;
+  AdvectionRun& operator=(const AdvectionRun&) = delete;
+
+  // Advects the first `count` particles of a source. False if the host wants to stop.
+  template <class Source>
+  bool Advect(const Source& source, std::int64_t count, const Executor& executor)
+  {
+    for (std::int64_t begin = 0; begin < count;)
+    {
+      const std::int64_t slice =
+        std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        RangeAdvection<Dimension> range(this->Job, this->Count, this->Pace);
+        range.Run(source, begin + first, static_cast<int>(last - first));
+      });
+      begin += slice;
+      if (!this->Pace.EndSlice(slice))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  FlowReport Report() const
+  {
+    FlowReport report;
+    report.Redone = this->Count.Redone;
+    report.MovedToMass = this->Count.MovedToMass;
+    report.Evaluations = this->Count.Evaluations;
+    report.Cancelled = this->Pace.IsCancelled();
+    return report;
+  }
+
+private:
+  FlowJob<Dimension> Job;
+  std::vector<StepWeights> Weights;
+  Counters Count;
+  Pacer Pace;
+  std::int64_t Grain = BlockSize;
 };
 
 } // namespace
@@ -197,6 +292,8 @@ struct RectifiedFlow<Dimension>::Internals
   FlowReport Advect(const double* points, std::int64_t count, const std::vector<double>& times,
     double* positions, bool backward, const FlowOptions& options, const Executor& executor,
     const Monitor& monitor) const;
+  FlowReport AdvectLattice(const GridSize<Dimension>& lattice, double* positions, bool backward,
+    const FlowOptions& options, const Executor& executor, const Monitor& monitor) const;
 
   GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
@@ -207,43 +304,10 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
   const std::vector<double>& times, double* positions, bool backward, const FlowOptions& options,
   const Executor& executor, const Monitor& monitor) const
 {
-  check(options);
-  FlowJob<Dimension> job;
-  job.Tables = this->Tables.View();
-  job.Method = options.Method;
-  job.Backward = backward;
-  job.Nearest = options.Lookup == TableLookup::Nearest;
-  job.Tolerance = options.Tolerance;
-  job.Steps = options.NumberOfSteps;
-  job.CoarseRatio = coarseRatio<Dimension>(options);
-  job.Output = positions;
-  job.Times = times.empty() ? nullptr : times.data();
-  job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
-  std::vector<StepWeights> weights;
-  if (options.Method == Integrator::Multistep)
-  {
-    weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
-    for (int step = 0; step < options.NumberOfSteps; ++step)
-    {
-      weights.push_back(multistepWeights(step, options.NumberOfSteps));
-    }
-  }
-  job.Weights = weights.empty() ? nullptr : weights.data();
-
-  Counters counters;
-  Pacer pacer(monitor);
-  job.ShouldStop = [](void* host) { return static_cast<Pacer*>(host)->ShouldStop(); };
-  job.Host = &pacer;
-  pacer.BeginStage(1.0, count);
+  AdvectionRun<Dimension> run(
+    this->Tables.View(), times, positions, backward, options, count, monitor);
   ParticleOrder<Dimension> order;
-  // A range is short enough to be waited for, however many steps there are.
-  constexpr int usualSteps = 64;
-  const std::int64_t grain =
-    std::max(1,
-      std::min(
-        rangeBlocks, rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) *
-    BlockSize;
-  for (std::int64_t chunk = 0; chunk < count && !pacer.IsCancelled(); chunk += chunkParticles)
+  for (std::int64_t chunk = 0; chunk < count; chunk += chunkParticles)
   {
     const std::int64_t length = std::min(chunkParticles, count - chunk);
     const std::int64_t wrong = order.Sort(points, chunk, length, particlesPerTile);
@@ -251,34 +315,32 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
     {
       throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
     }
-    for (std::int64_t begin = 0; begin < length;)
+    if (!run.Advect(SortedPoints<Dimension>{ points, order.Order() }, length, executor))
     {
-      const std::int64_t slice =
-        std::min(length - begin, pacer.NextSlice(grain * executor.Concurrency()));
-      executor.For(slice, grain, [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(job, points, counters, pacer);
-        range.Run(order.Order() + begin + first, static_cast<int>(last - first));
-      });
-      begin += slice;
-      if (!pacer.EndSlice(slice))
-      {
-        break;
-      }
+      break;
     }
   }
-  FlowReport report;
-  report.Redone = counters.Redone;
-  report.MovedToMass = counters.MovedToMass;
-  report.Evaluations = counters.Evaluations;
-  report.Cancelled = pacer.IsCancelled();
-  return report;
+  return run.Report();
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::Internals::AdvectLattice(const GridSize<Dimension>& lattice,
+  double* positions, bool backward, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  check<Dimension>(lattice, "a lattice");
+  const LatticeOrder<Dimension> order(lattice, this->Size);
+  AdvectionRun<Dimension> run(
+    this->Tables.View(), {}, positions, backward, options, order.Count(), monitor);
+  run.Advect(order, order.Count(), executor);
+  return run.Report();
 }
 
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, const Executor& executor, const Monitor& monitor)
 {
-  check<Dimension>(density.Size());
+  check<Dimension>(density.Size(), "a density");
   Pacer pacer(monitor);
   this->Data = std::make_unique<Internals>(density, executor, pacer);
 }
@@ -287,7 +349,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
   RectifiedFlow&& previous, const Executor& executor, const Monitor& monitor)
 {
-  check<Dimension>(density.Size());
+  check<Dimension>(density.Size(), "a density");
   Pacer pacer(monitor);
   TableMemory memory;
   if (previous.Data)
@@ -346,6 +408,13 @@ bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 }
 
 template <int Dimension>
+double RectifiedFlow<Dimension>::Share(
+  const Point<Dimension>& low, const Point<Dimension>& high) const
+{
+  return boxShare<Dimension>(this->Data->Tables.View(), low, high);
+}
+
+template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Forward(const double* seeds, std::int64_t count,
   double* positions, const FlowOptions& options, const Executor& executor,
   const Monitor& monitor) const
@@ -368,6 +437,22 @@ FlowReport RectifiedFlow<Dimension>::Backward(const double* points, std::int64_t
   const Monitor& monitor) const
 {
   return this->Data->Advect(points, count, {}, positions, true, options, executor, monitor);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
+  double* positions, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  return this->Data->AdvectLattice(lattice, positions, false, options, executor, monitor);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
+  double* positions, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  return this->Data->AdvectLattice(lattice, positions, true, options, executor, monitor);
 }
 
 template <int Dimension>

@@ -168,7 +168,7 @@ def main():
     arguments = parser.parse_args()
 
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused"))
+    results = Results(run(arguments, "-_reused|Lattice"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")

@@ -2,6 +2,7 @@
 // PrintSelf names every property and its value; enumerations have texts; every setter is heard.
 #include "SamplerTest.h"
 
+#include "vtkTransportMap.h"
 #include "vtkUniformSeedSource.h"
 
 #include <sstream>
@@ -61,6 +62,15 @@ int TestPrintSelf(int, char*[])
   }
   sampler->SetIntegrator(44);
   CHECK(checks, sampler->GetIntegratorAsString() == std::string("Unknown"));
+
+  vtkNew<vtkTransportMap> map;
+  expectLines(
+    checks, map, { "Direction: UniformToDensity", "SampleDimensions: 0 0 0", "Component: -1" });
+  map->SetDirectionToDensityToUniform();
+  map->SetSampleDimensions(4, 5, 6);
+  expectLines(checks, map, { "Direction: DensityToUniform", "SampleDimensions: 4 5 6" });
+  map->SetDirection(2);
+  CHECK(checks, map->GetDirectionAsString() == std::string("Unknown"));
 
   vtkNew<vtkUniformSeedSource> source;
   expectLines(checks, source,

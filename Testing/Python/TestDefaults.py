@@ -107,9 +107,10 @@ class Defaults(unittest.TestCase):
                     filter_ = instance(proxy)
                     if filter_.GetNumberOfInputPorts() > 0:
                         filter_.SetInputData(density_image((4, 3)))
-                        filter_.SetNumberOfParticles(100)
+                        if hasattr(filter_, "SetNumberOfParticles"):
+                            filter_.SetNumberOfParticles(100)
                     heard = Listener(filter_)
-                    getattr(filter_, prop.command)(value)
+                    getattr(filter_, prop.command)(*[value] * len(numbers(prop.default)))
                     filter_.Update()
                     if refused:
                         self.assertIn(prop.name, heard.errors[0])

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ImageFrame.h"
+
+#include "Failure.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int most = 1 << 30; // cells an axis, as in the core
+
+[[noreturn]] void failValues(const char* property, const int values[3], const std::string& rule)
+{
+  std::ostringstream message;
+  message << property << " is " << values[0] << " " << values[1] << " " << values[2]
+          << "; it must be " << rule;
+  throw Failure(message.str());
+}
+
+} // namespace
+
+ImageFrame::ImageFrame(vtkImageData* image)
+{
+  image->GetExtent(this->Extent.data());
+  image->GetOrigin(this->Origin.data());
+  image->GetSpacing(this->Spacing.data());
+  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, this->Direction.begin());
+}
+
+ImageFrame::ImageFrame(vtkInformation* information)
+  : Extent{ 0, -1, 0, -1, 0, -1 }
+  , Origin{ 0.0, 0.0, 0.0 }
+  , Spacing{ 1.0, 1.0, 1.0 }
+  , Direction{ 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 }
+{
+  const auto get = [information](auto* key, auto& values) {
+    if (information->Has(key))
+    {
+      information->Get(key, values.data());
+    }
+  };
+  get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Extent);
+  get(vtkDataObject::ORIGIN(), this->Origin);
+  get(vtkDataObject::SPACING(), this->Spacing);
+  get(vtkDataObject::DIRECTION(), this->Direction);
+}
+
+void ImageFrame::CopyTo(vtkImageData* image) const
+{
+  const auto& e = this->Extent;
+  image->SetExtent(e[0], e[1], e[2], e[3], e[4], e[5]);
+  image->SetOrigin(this->Origin.data());
+  image->SetSpacing(this->Spacing.data());
+  image->SetDirectionMatrix(this->Direction.data());
+}
+
+void ImageFrame::Publish(vtkInformation* information) const
+{
+  information->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Extent.data(), 6);
+  information->Set(vtkDataObject::ORIGIN(), this->Origin.data(), 3);
+  information->Set(vtkDataObject::SPACING(), this->Spacing.data(), 3);
+  information->Set(vtkDataObject::DIRECTION(), this->Direction.data(), 9);
+}
+
+bool ImageFrame::IsEmpty() const
+{
+  const auto& e = this->Extent;
+  return e[0] > e[1] || e[2] > e[3] || e[4] > e[5];
+}
+
+std::array<int, 3> ImageFrame::Values(bool onPoints) const
+{
+  std::array<int, 3> values;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
+    values[i] = onPoints || cells == 0 ? cells + 1 : cells;
+  }
+  return values;
+}
+
+ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char* property) const
+{
+  if (*std::min_element(wanted, wanted + 3) < 0)
+  {
+    failValues(property, wanted, "0 (as many as the input) or greater along every axis");
+  }
+  ImageFrame frame = *this;
+  const std::array<int, 3> values = this->Values(onPoints);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const int count = wanted[i];
+    if (count == 0 || count == values[i])
+    {
+      continue;
+    }
+    const std::string axis = std::string(" along ") + "xyz"[i];
+    if (this->Extent[2 * i] == this->Extent[2 * i + 1])
+    {
+      failValues(property, wanted, "0 or 1" + axis + ", where the input has one point");
+    }
+    if (onPoints && count == 1)
+    {
+      failValues(property, wanted,
+        "0 or at least 2" + axis + ": points have no axis where there is one of them");
+    }
+    if (count > most)
+    {
+      failValues(property, wanted, "at most " + std::to_string(most) + " along every axis");
+    }
+    // Where the new index is 0, in the old one.
+    const double ratio = static_cast<double>(values[i]) / count;
+    const double start = this->Extent[2 * i] + (onPoints ? 0.5 * (ratio - 1.0) : 0.0);
+    for (std::size_t r = 0; r < 3; ++r)
+    {
+      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * start;
+    }
+    frame.Spacing[i] *= ratio;
+    frame.Extent[2 * i] = 0;
+    frame.Extent[2 * i + 1] = onPoints ? count - 1 : count;
+  }
+  return frame;
+}
+
+} // namespace RectifiedTransport

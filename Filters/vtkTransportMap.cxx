@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportMap.h"
+
+#include "Bridge/DensityImage.h"
+#include "Bridge/Failure.h"
+#include "Bridge/FlowCache.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/ImageFrame.h"
+#include "Bridge/MapField.h"
+#include "Bridge/PropertyCheck.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <memory>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportMap);
+
+namespace
+{
+using namespace RectifiedTransport;
+
+const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
+
+// What RequestData has fetched and checked.
+struct MapRun
+{
+  HostMonitor& Host;
+  const Executor& Threads;
+  DensityImage& Density;
+  FlowCache& Cache;
+  FlowOptions Options;
+  bool Backward;
+  std::array<int, 3> Values; // along the image's axes, 1 where there is none
+};
+
+struct MapResult
+{
+  double Cost;
+  std::int64_t Samples;
+  std::int64_t MovedToMass;
+};
+
+// Progress at the ends of the stages, in proportion to the times that they take.
+struct MapStages
+{
+  double Tables;
+  double Flow;
+};
+
+MapStages planStages(const MapRun& run, double samples)
+{
+  const ImageGeometry& geometry = run.Density.Geometry();
+  const bool space = geometry.Dimension() == 3;
+  const double evaluations =
+    run.Options.NumberOfSteps * (run.Options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+  // Nanoseconds, as measured.
+  const double tables =
+    run.Cache.IsOutdated(run.Density) ? 10.0 * static_cast<double>(geometry.NumberOfCells()) : 0.0;
+  const double flow = tables + samples * evaluations * (space ? 60.0 : 15.0);
+  const double all = flow + samples * (run.Backward && space ? 150.0 : 50.0);
+  return { tables / all, flow / all };
+}
+
+template <int D>
+GridSize<D> latticeOf(const std::array<int, 3>& values, vtkImageData* input)
+{
+  int dimensions[3];
+  input->GetDimensions(dimensions);
+  GridSize<D> lattice{};
+  int axis = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (dimensions[i] > 1 && axis < D)
+    {
+      lattice[axis++] = values[i];
+    }
+  }
+  return lattice;
+}
+
+template <int D>
+MapResult makeMap(const MapRun& run, vtkImageData* input, vtkDataSetAttributes* output)
+{
+  const GridSize<D> lattice = latticeOf<D>(run.Values, input);
+  std::string purpose = "a map of ";
+  double samples = 1.0;
+  for (int a = 0; a < D; ++a)
+  {
+    purpose += (a == 0 ? "" : " x ") + std::to_string(lattice[a]);
+    samples *= static_cast<double>(lattice[a]);
+  }
+  purpose += " samples (see SampleDimensions)";
+  const MapStages stages = planStages(run, samples);
+  MapField<D> field(run.Density.Geometry(), lattice, purpose);
+
+  run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
+  run.Host.BeginStage(stages.Flow);
+  const RectifiedFlow<D>& flow = run.Cache.Flow<D>();
+  const Monitor monitor = run.Host.GetMonitor();
+  const FlowReport report = run.Backward
+    ? flow.BackwardLattice(lattice, field.Positions(), run.Options, run.Threads, monitor)
+    : flow.ForwardLattice(lattice, field.Positions(), run.Options, run.Threads, monitor);
+  if (report.Cancelled)
+  {
+    throw Aborted();
+  }
+  const double cost =
+    field.Write(run.Backward ? &flow : nullptr, run.Threads, run.Host, 1.0, output);
+  return { cost, field.Count(), report.MovedToMass };
+}
+
+void addValue(vtkImageData* output, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkTransportMap::vtkTransportMap()
+  : Direction(UNIFORM_TO_DENSITY)
+  , SampleDimensions{ 0, 0, 0 }
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportMap::~vtkTransportMap() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportMap::GetDirectionAsString()
+{
+  return choiceText(DirectionTexts, this->Direction);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkTransportMap::GetOutput()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportMap::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportMap::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTransportMap::IsDensityOnPoints(vtkInformation* inputInformation)
+{
+  int association = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_ASSOCIATION());
+  vtkImageData* image = vtkImageData::GetData(inputInformation);
+  if (image && image->GetNumberOfPoints() > 0)
+  {
+    this->FindDensityArray(image, 0, association);
+  }
+  if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
+  {
+    const auto hasScalars = [inputInformation](int owner) {
+      return vtkDataObject::GetActiveFieldInformation(
+               inputInformation, owner, vtkDataSetAttributes::SCALARS) != nullptr;
+    };
+    return hasScalars(vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
+      !hasScalars(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  }
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportMap::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkInformation* inputInformation = inputVector[0]->GetInformationObject(0);
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  const ImageFrame inputFrame(inputInformation);
+  inputFrame.Publish(outputInformation);
+  if (inputFrame.IsEmpty())
+  {
+    return 1;
+  }
+  try
+  {
+    const ImageFrame frame = inputFrame.WithValues(
+      this->SampleDimensions, this->IsDensityOnPoints(inputInformation), "SampleDimensions");
+    frame.Publish(outputInformation);
+    if (!frame.HasExtentOf(inputFrame))
+    {
+      // The input's scalars are not passed on.
+      outputInformation->Remove(vtkDataObject::POINT_DATA_VECTOR());
+      outputInformation->Remove(vtkDataObject::CELL_DATA_VECTOR());
+    }
+  }
+  catch (const Failure&)
+  {
+    return 1; // RequestData says it, once
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportMap::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireChoice("Direction", this->Direction, DirectionTexts);
+  const FlowOptions options = this->GetFlowOptions();
+  const std::unique_ptr<Executor> executor(this->NewExecutor());
+
+  // All samples are in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
+  vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
+  const std::unique_ptr<DensityImage> density(this->NewDensity(input));
+  if (!density)
+  {
+    return 1;
+  }
+  const bool onPoints = density->IsOnPoints();
+  const ImageFrame inputFrame(input);
+  const ImageFrame frame =
+    inputFrame.WithValues(this->SampleDimensions, onPoints, "SampleDimensions");
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  frame.CopyTo(output);
+  frame.Publish(outputInformation); // which array it is, is not always known before the data
+  if (frame.HasExtentOf(inputFrame))
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+    output->GetCellData()->PassData(input->GetCellData());
+  }
+  vtkDataSetAttributes* attributes = output->GetPointData();
+  if (!onPoints)
+  {
+    attributes = output->GetCellData();
+  }
+
+  HostMonitor host(this);
+  const MapRun run{ host, *executor, *density, this->GetFlowCache(), options,
+    this->Direction == DENSITY_TO_UNIFORM, frame.Values(onPoints) };
+  const int dimension = density->Geometry().Dimension();
+  const MapResult result = dimension == 1 ? makeMap<1>(run, input, attributes)
+    : dimension == 2                      ? makeMap<2>(run, input, attributes)
+                                          : makeMap<3>(run, input, attributes);
+  addValue(output, "TotalMass", run.Cache.TotalMass());
+  addValue(output, "TransportCost", result.Cost);
+  if (result.MovedToMass > 0)
+  {
+    vtkWarningMacro(<< result.MovedToMass << " of " << result.Samples
+                    << " samples in empty cells moved to the nearest cell with mass (more "
+                       "NumberOfSteps may spare them that)");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportMap::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Direction: " << this->GetDirectionAsString() << "\n";
+  os << indent << "SampleDimensions: " << this->SampleDimensions[0] << " "
+     << this->SampleDimensions[1] << " " << this->SampleDimensions[2] << "\n";
+}
+VTK_ABI_NAMESPACE_END

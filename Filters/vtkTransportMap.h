@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransportMap
+ * @brief   the map between the uniform measure and a density, as fields of an image
+ *
+ * Follows the rectified flow (equation 12) of Do, Coeurjolly, Memari and Bonneel, "Linear-Time
+ * Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
+ * doi:10.1145/3731147, from one point in each cell of an image: forward, from the uniform measure
+ * to the density, or backward (Section 4.2), from the density to the uniform measure.
+ *
+ * The input is the density, a vtkImageData (see vtkDensityAlgorithm). The output is a vtkImageData
+ * on the same domain with
+ * - `Displacement` (active vectors): where the map takes a sample, less the sample; 3 components
+ *   in physical units along the physical axes;
+ * - `Divergence`: the trace of the gradient of Displacement;
+ * - `JacobianDeterminant`: that of the map x + Displacement(x), det(I + gradient). Where the
+ * density f is positive and smooth it is mean / f(x + Displacement) forward and f(x) / mean
+ * backward;
+ * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
+ *   |Displacement|^2, in physical units), beside the input's own.
+ *
+ * They are point data where the density is, at the image's points, which are the centres of the
+ * dual cells; else cell data, at the centres of the cells. Derivatives are taken along the image's
+ * axes of more than one point only, by central differences, one-sided at the border. Along an axis
+ * of one sample Displacement is taken to be constant.
+ *
+ * TransportCost is the mean over the measure that the map starts from: over all samples alike
+ * forward; backward each one weighs as much as the density's mass in its cell. As this measure's
+ * image is the other one (up to the integrator's error and the spacing of the samples), the cost is
+ * an upper bound on the squared 2-Wasserstein distance between the density, per unit of mass, and
+ * the uniform measure.
+ *
+ * The output has the input's geometry unless SampleDimensions says otherwise. If it has, the
+ * input's point and cell data are passed on.
+ *
+ * Cost: O(cells) for the tables, which are kept until the density changes and serve both directions
+ * and all SampleDimensions, and O(samples * steps) for the flow. Memory: 40 bytes a sample for the
+ * output, and while it runs 16 more in 2D, beside the tables (see vtkTransportAlgorithm).
+ *
+ * The output is in one piece: of several pieces that are asked for, the first has all of it.
+ *
+ * @warning A sample of the density where there is none has no inverse. Backward it keeps its place
+ * in the box of its possible destinations until this box has mass, so that the map is not one to
+ * one there; where the density is thin it needs more NumberOfSteps than elsewhere.
+ *
+ * @sa vtkTransportSampler vtkTransportAlgorithm vtkDensityAlgorithm
+ */
+#ifndef vtkTransportMap_h
+#define vtkTransportMap_h
+
+#include "vtkTransportAlgorithm.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportMap : public vtkTransportAlgorithm
+{
+public:
+  static vtkTransportMap* New();
+  vtkTypeMacro(vtkTransportMap, vtkTransportAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Direction may be.
+   */
+  enum DirectionType
+  {
+    UNIFORM_TO_DENSITY = 0,
+    DENSITY_TO_UNIFORM = 1
+  };
+
+  ///@{
+  /**
+   * Which way the map goes: UniformToDensity (default) spreads points as the density is spread,
+   * DensityToUniform is the inverse map.
+   */
+  vtkSetMacro(Direction, int);
+  vtkGetMacro(Direction, int);
+  void SetDirectionToUniformToDensity() { this->SetDirection(UNIFORM_TO_DENSITY); }
+  void SetDirectionToDensityToUniform() { this->SetDirection(DENSITY_TO_UNIFORM); }
+  const char* GetDirectionAsString();
+  ///@}
+
+  ///@{
+  /**
+   * How many values the output has along x, y and z of the image, on the same domain; 0 is as many
+   * as the density. At least 0 each; along an axis of one point 0 or 1; for point data 0 or at
+   * least 2 along the others. Default 0 0 0.
+   */
+  vtkSetVector3Macro(SampleDimensions, int);
+  vtkGetVector3Macro(SampleDimensions, int);
+  ///@}
+
+  /**
+   * The image with the map's fields.
+   */
+  vtkImageData* GetOutput();
+
+protected:
+  vtkTransportMap();
+  ~vtkTransportMap() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Direction;
+  int SampleDimensions[3];
+
+private:
+  bool IsDensityOnPoints(vtkInformation* inputInformation);
+
+  vtkTransportMap(const vtkTransportMap&) = delete;
+  void operator=(const vtkTransportMap&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How vtkTransportMap lives in a pipeline: what it publishes and keeps, pieces, progress, abort,
+// threads.
+#include "MapTest.h"
+
+#include "vtkImageShrink3D.h"
+#include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPointDataToCellData.h"
+#include "vtkRTAnalyticSource.h"
+#include "vtkSMPTools.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace
+{
+
+// What is published before the data is what the data then is.
+void checkInformation(Checks& checks, vtkTransportMap* map, int line)
+{
+  map->UpdateInformation();
+  vtkInformation* information = map->GetOutputInformation(0);
+  std::array<int, 6> extent{};
+  std::array<double, 3> origin{};
+  std::array<double, 3> spacing{};
+  std::array<double, 9> direction{};
+  information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
+  information->Get(vtkDataObject::ORIGIN(), origin.data());
+  information->Get(vtkDataObject::SPACING(), spacing.data());
+  information->Get(vtkDataObject::DIRECTION(), direction.data());
+  map->Update();
+  vtkImageData* output = map->GetOutput();
+  const auto same = [&](const auto& published, const auto* values, const char* what) {
+    checks.That(std::equal(published.begin(), published.end(), values), what, line);
+  };
+  checks.That(output->GetNumberOfPoints() > 0, "not empty", line);
+  same(extent, output->GetExtent(), "extent");
+  same(origin, output->GetOrigin(), "origin");
+  same(spacing, output->GetSpacing(), "spacing");
+  same(direction, output->GetDirectionMatrix()->GetData(), "direction");
+}
+
+void checkInformation(Checks& checks)
+{
+  const double turned[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  for (const bool cells : { false, true })
+  {
+    auto image = makeImage(9, 7, 5, cells, bumpy);
+    image->SetExtent(2, 10, -3, 3, 0, 4);
+    image->SetSpacing(0.5, 1.5, 2.0);
+    image->SetOrigin(1.0, 2.0, 3.0);
+    image->SetDirectionMatrix(turned);
+    vtkNew<vtkTransportMap> map;
+    map->SetInputData(image);
+    checkInformation(checks, map, __LINE__);
+    map->SetSampleDimensions(4, 0, 30);
+    checkInformation(checks, map, __LINE__);
+    map->SetInputArrayToProcess(0, 0, 0,
+      cells ? vtkDataObject::FIELD_ASSOCIATION_CELLS : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+      "Density");
+    map->SetSampleDimensions(2, 3, 4);
+    checkInformation(checks, map, __LINE__);
+    CHECK(checks,
+      vtkDataObject::GetActiveFieldInformation(map->GetOutputInformation(0),
+        vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS) == nullptr);
+  }
+
+  // Upstream has not run when information is asked for.
+  vtkNew<vtkRTAnalyticSource> source;
+  source->SetWholeExtent(-9, 12, -3, 4, 5, 11);
+  vtkNew<vtkTransportMap> map;
+  map->SetInputConnection(source->GetOutputPort());
+  map->SetNegativeValuesToClamp();
+  map->SetSampleDimensions(10, 20, 5);
+  checkInformation(checks, map, __LINE__);
+  vtkNew<vtkPointDataToCellData> toCells;
+  toCells->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkTransportMap> ofCells;
+  ofCells->SetInputConnection(toCells->GetOutputPort());
+  ofCells->SetNegativeValuesToClamp();
+  ofCells->SetSampleDimensions(10, 20, 5);
+  ofCells->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "RTData");
+  checkInformation(checks, ofCells, __LINE__);
+
+  // Where nothing tells points from cells before the data, the data decides, and once is enough.
+  toCells->PassPointDataOff();
+  vtkNew<vtkTransportMap> unknown;
+  unknown->SetInputConnection(toCells->GetOutputPort());
+  unknown->SetNegativeValuesToClamp();
+  unknown->SetSampleDimensions(10, 20, 5);
+  for (int run = 0; run < 2; ++run)
+  {
+    unknown->Update();
+    CHECK(checks, unknown->GetOutput()->GetNumberOfCells() == 1000);
+    CHECK(checks, mapValues(unknown->GetOutput(), "Divergence").size() == 1000);
+  }
+  const vtkMTimeType made = unknown->GetOutput()->GetMTime();
+  unknown->Update();
+  CHECK(checks, unknown->GetOutput()->GetMTime() == made);
+  checkInformation(checks, unknown, __LINE__);
+
+  // An image filter downstream believes what is published.
+  vtkNew<vtkImageShrink3D> shrink;
+  shrink->SetInputConnection(map->GetOutputPort());
+  shrink->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "JacobianDeterminant");
+  shrink->SetShrinkFactors(2, 2, 1);
+  shrink->Update();
+  int dimensions[3];
+  shrink->GetOutput()->GetDimensions(dimensions);
+  CHECK(checks, dimensions[0] == 5 && dimensions[1] == 10 && dimensions[2] == 5);
+}
+
+// A whole image is asked for; the map is in the first piece.
+void checkPieces(Checks& checks)
+{
+  vtkNew<vtkRTAnalyticSource> source;
+  source->SetWholeExtent(-9, 12, -3, 4, 5, 11);
+  vtkNew<vtkTransportMap> map;
+  map->SetInputConnection(source->GetOutputPort());
+  map->SetNegativeValuesToClamp();
+  map->Update();
+  const Values whole = mapValues(map->GetOutput(), "Displacement");
+  map->UpdatePiece(0, 2, 1);
+  CHECK(checks, whole.size() == 3u * 22 * 8 * 7);
+  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == whole);
+  map->UpdatePiece(1, 2, 0);
+  CHECK(checks, map->GetOutput()->GetNumberOfPoints() == 0);
+}
+
+void checkComposite(Checks& checks)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, makeImage(9, 9, 1, true, bumpy));
+  blocks->SetBlock(2, makeImage(5, 6, 7, false, bumpy));
+  vtkNew<vtkTransportMap> map;
+  map->SetInputDataObject(blocks);
+  map->Update();
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(map->GetOutputDataObject(0));
+  CHECK(checks, output != nullptr);
+  for (const unsigned int block : { 0u, 2u })
+  {
+    auto* fields = output ? vtkImageData::SafeDownCast(output->GetBlock(block)) : nullptr;
+    CHECK(checks, fields && mapValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
+  }
+}
+
+// One table serves both directions and all samples.
+void checkCache(Checks& checks)
+{
+  auto image = makeImage(30, 20, 1, true, bumpy);
+  vtkNew<vtkTransportMap> map;
+  CHECK(checks, map->GetTableBuildTime() == 0);
+  map->SetInputData(image);
+  map->Update();
+  const vtkMTimeType built = map->GetTableBuildTime();
+  CHECK(checks, built > 0);
+  const Values forth = mapValues(map->GetOutput(), "Displacement");
+  const vtkMTimeType made = map->GetOutput()->GetMTime();
+  map->Update();
+  CHECK(checks, map->GetOutput()->GetMTime() == made);
+  map->SetDirectionToDensityToUniform();
+  map->Update();
+  CHECK(checks, map->GetTableBuildTime() == built);
+  const Values back = mapValues(map->GetOutput(), "Displacement");
+  CHECK(checks, back != forth);
+  map->SetSampleDimensions(10, 50, 1);
+  map->Update();
+  CHECK(checks, map->GetTableBuildTime() == built);
+  CHECK(checks, mapValues(map->GetOutput(), "Divergence").size() == 500);
+  map->SetNumberOfSteps(16);
+  map->Update();
+  CHECK(checks, map->GetTableBuildTime() == built);
+
+  // Kept tables give what new ones give.
+  map->SetSampleDimensions(0, 0, 0);
+  map->SetNumberOfSteps(32);
+  map->SetDirectionToUniformToDensity();
+  map->Update();
+  CHECK(checks, map->GetTableBuildTime() == built);
+  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
+  image->Modified();
+  map->Update();
+  CHECK(checks, map->GetTableBuildTime() > built);
+  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
+}
+
+void checkThreads(Checks& checks)
+{
+  for (const auto& image :
+    { makeImage(211, 173, 1, false, bumpy), makeImage(30, 31, 29, true, bumpy) })
+  {
+    for (const int direction : { 0, 1 })
+    {
+      vtkNew<vtkTransportMap> map;
+      map->SetInputData(image);
+      map->SetDirection(direction);
+      const auto run = [&](int threading) {
+        map->SetThreading(threading);
+        image->Modified(); // the tables, too
+        map->Update();
+        Values all = mapValues(map->GetOutput(), "Displacement");
+        for (const char* name : { "Divergence", "JacobianDeterminant" })
+        {
+          const Values values = mapValues(map->GetOutput(), name);
+          all.insert(all.end(), values.begin(), values.end());
+        }
+        all.push_back(mapField(map->GetOutput(), "TransportCost"));
+        all.push_back(mapField(map->GetOutput(), "TotalMass"));
+        return all;
+      };
+      const Values serial = run(vtkTransportMap::THREADING_SERIAL);
+      for (const char* backend : { "Sequential", "STDThread" })
+      {
+        for (const int threads : { 2, 3 })
+        {
+          if (vtkSMPTools::SetBackend(backend))
+          {
+            vtkSMPTools::Initialize(threads);
+            CHECK(checks, run(vtkTransportMap::THREADING_VTK) == serial);
+            CHECK(checks, run(vtkTransportMap::THREADING_AUTO) == serial);
+          }
+        }
+      }
+      CHECK(checks, run(vtkTransportMap::THREADING_OPENMP) == serial);
+    }
+  }
+}
+
+using Clock = std::chrono::steady_clock;
+
+// Hears the progress of a map, and aborts from a chosen one on.
+struct Progress
+{
+  double AbortFrom;
+  std::vector<double> Heard;
+  Clock::time_point AbortTime;
+};
+
+void hearProgress(vtkObject* caller, unsigned long, void* client, void* data)
+{
+  auto* progress = static_cast<Progress*>(client);
+  auto* map = static_cast<vtkAlgorithm*>(caller);
+  progress->Heard.push_back(*static_cast<double*>(data));
+  if (progress->Heard.back() >= progress->AbortFrom && !map->GetAbortExecute())
+  {
+    progress->AbortTime = Clock::now();
+    map->SetAbortExecute(1);
+  }
+}
+
+void checkAbort(Checks& checks)
+{
+  auto image =
+    makeImage(120, 110, 100, true, [](vtkIdType i) { return static_cast<double>(1 + i % 100); });
+  vtkNew<vtkTransportMap> map;
+  Messages messages(map);
+  map->SetInputData(image);
+  map->SetDirectionToDensityToUniform();
+  map->SetNumberOfSteps(8);
+  Progress progress{};
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&progress);
+  ear->SetCallback(hearProgress);
+  map->AddObserver(vtkCommand::ProgressEvent, ear);
+  for (const double from : { 0.001, 0.5, 0.97 })
+  {
+    // The shortest of some, because other processes may hold this one up.
+    double seconds = HUGE_VAL;
+    for (int attempt = 0; attempt < 4 && seconds > 0.1; ++attempt)
+    {
+      progress = { from, {}, {} };
+      image->Modified();
+      map->Update();
+      const Clock::time_point end = Clock::now();
+      CHECK(checks, map->GetAbortExecute() != 0);
+      vtkImageData* output = map->GetOutput();
+      CHECK(checks, output->GetNumberOfPoints() == 0);
+      CHECK(checks, output->GetCellData()->GetNumberOfArrays() == 0);
+      seconds = std::min(seconds, std::chrono::duration<double>(end - progress.AbortTime).count());
+      map->SetAbortExecute(0);
+    }
+    CHECK_NEAR(checks, seconds, 0.0, 0.1);
+  }
+  progress = { 2.0, {}, {} };
+  image->Modified();
+  map->Update();
+  CHECK(checks, mapValues(map->GetOutput(), "Divergence").size() == 119u * 109 * 99);
+  CHECK(checks, progress.Heard.size() > 10);
+  CHECK(checks, std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
+  CHECK(checks, !progress.Heard.empty() && progress.Heard.back() == 1.0);
+  CHECK(checks, messages.Errors.empty());
+}
+
+} // namespace
+
+int TestMapPipeline(int, char*[])
+{
+  Checks checks;
+  checkInformation(checks);
+  checkPieces(checks);
+  checkComposite(checks);
+  checkCache(checks);
+  checkThreads(checks);
+  checkAbort(checks);
+  return checks.Result();
+}
