@@ -2,6 +2,7 @@
 // PrintSelf names every property and its value; enumerations have texts; every setter is heard.
 #include "SamplerTest.h"
 
+#include "vtkDensityEqualizingWarp.h"
 #include "vtkUniformSeedSource.h"
 
 #include <sstream>
@@ -61,6 +62,11 @@ int TestPrintSelf(int, char*[])
   }
   sampler->SetIntegrator(44);
   CHECK(checks, sampler->GetIntegratorAsString() == std::string("Unknown"));
+
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  expectLines(checks, warp, { "DensityPort: 1", "Blend: 1" });
+  warp->SetBlend(0.5);
+  expectLines(checks, warp, { "Blend: 0.5" });
 
   vtkNew<vtkUniformSeedSource> source;
   expectLines(checks, source,

@@ -111,6 +111,63 @@ void checkSeparable(Checks& checks, const std::vector<int>& cells)
   CHECK(checks, messages.Errors.empty() && messages.Warnings.empty());
 }
 
+// What makes it density-equalizing: a region's area becomes its share of the mass. No factor of the
+// density is known here; regions are squares of cells, with outlines of many points.
+void checkAreas(Checks& checks)
+{
+  constexpr int columns = 48;
+  constexpr int rows = 40;
+  constexpr int side = 8;
+  constexpr int perSide = 64;
+  const auto density = [](vtkIdType i) {
+    const double x = static_cast<double>(i % columns) - 12.0;
+    const double y = static_cast<double>(i / columns) - 25.0;
+    return 0.2 + 3.0 * std::exp(-(x * x + y * y + x * y) / 90.0) + bumpy(i) / 40.0;
+  };
+  auto image = makeImage(columns + 1, rows + 1, 1, true, density);
+  double total = 0.0;
+  std::vector<double> masses((columns / side) * (rows / side));
+  for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+  {
+    const auto block = i / columns / side * (columns / side) + i % columns / side;
+    masses[static_cast<std::size_t>(block)] += density(i);
+    total += density(i);
+  }
+  std::vector<double> outlines;
+  for (std::size_t block = 0; block < masses.size(); ++block)
+  {
+    const double x = static_cast<double>(block % (columns / side)) * side;
+    const double y = static_cast<double>(block / (columns / side)) * side;
+    for (int i = 0; i < 4 * perSide; ++i)
+    {
+      const double s = side * static_cast<double>(i % perSide) / perSide;
+      const double around[4][2] = { { s, 0 }, { side, s }, { side - s, side }, { 0, side - s } };
+      outlines.insert(
+        outlines.end(), { x + around[i / perSide][0], y + around[i / perSide][1], 0 });
+    }
+  }
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  warp->SetInputData(makePoints(outlines));
+  warp->SetDensityData(image);
+  warp->SetNumberOfSteps(400);
+  const std::vector<double> found = warpCoordinates(warp);
+  const auto area = [](const double* x) {
+    double sum = 0.0;
+    for (int i = 0; i < 4 * perSide; ++i)
+    {
+      const double* a = x + 3 * i;
+      const double* b = x + 3 * ((i + 1) % (4 * perSide));
+      sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    }
+    return sum;
+  };
+  for (std::size_t block = 0; block < masses.size(); ++block)
+  {
+    const double expected = columns * rows * masses[block] / total;
+    CHECK_NEAR(checks, area(found.data() + 12 * perSide * block), expected, 0.01 * expected);
+  }
+}
+
 void checkUniform(Checks& checks)
 {
   for (const int depth : { 1, 8 })
@@ -251,6 +308,7 @@ int TestWarpAnalytic(int, char*[])
   checkSeparable(checks, { 60 });
   checkSeparable(checks, { 40, 25 });
   checkSeparable(checks, { 16, 12, 14 });
+  checkAreas(checks);
   checkUniform(checks);
   checkBlend(checks);
   checkOutside(checks);
