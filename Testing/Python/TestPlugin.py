@@ -60,6 +60,9 @@ class Plugin(unittest.TestCase):
                                                                     "ascent.png")])
         sampler = simple.SampleDensity(Input=photograph, NumberOfParticles=50)
         self.assertEqual(output_of(sampler).GetNumberOfPoints(), 50)
+        photograph = simple.PNGSeriesReader(FileNames=photograph.FileNames)
+        warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=photograph)
+        self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
 
     def test_only_images_are_accepted(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
