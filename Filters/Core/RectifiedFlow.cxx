@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RectifiedFlow.h"
 
+#include "BoxShare.h"
 #include "FlowKernels.h"
 #include "NearestMass.h"
 #include "Pacer.h"
@@ -343,6 +344,20 @@ template <int Dimension>
 bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 {
   return hasMass<Dimension>(this->Data->Tables.View(), point);
+}
+
+template <int Dimension>
+double RectifiedFlow<Dimension>::Share(
+  const Point<Dimension>& low, const Point<Dimension>& high) const
+{
+  return boxShare<Dimension>(this->Data->Tables.View(), low, high);
+}
+
+template <int Dimension>
+double RectifiedFlow<Dimension>::MeasureOfShare(
+  const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const
+{
+  return measureOfShare<Dimension>(this->Data->Tables.View(), centre, aspect, share);
 }
 
 template <int Dimension>
