@@ -3,6 +3,7 @@
 #include "SamplerTest.h"
 
 #include "vtkDensityEqualizingWarp.h"
+#include "vtkTransportQuality.h"
 #include "vtkUniformSeedSource.h"
 
 #include <sstream>
@@ -67,6 +68,11 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, warp, { "DensityPort: 1", "Blend: 1" });
   warp->SetBlend(0.5);
   expectLines(checks, warp, { "Blend: 0.5" });
+
+  vtkNew<vtkTransportQuality> quality;
+  expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });
+  quality->SetBlockSize(5);
+  expectLines(checks, quality, { "BlockSize: 5" });
 
   vtkNew<vtkUniformSeedSource> source;
   expectLines(checks, source,

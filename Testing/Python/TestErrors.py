@@ -82,6 +82,15 @@ class Errors(unittest.TestCase):
         warp.Blend = -0.5
         self.check(warp, "Blend", "-0.5", "from 0 to 1")
 
+    def test_quality(self):
+        image = producer(simple, density_image())
+        quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=0)
+        heard = Listener(quality.GetClientSideObject())
+        self.assertEqual(output_of(quality).GetNumberOfRows(), 0)
+        self.assertIn("BlockSize is 0; it must be at least 1", heard.errors[0])
+        quality.BlockSize = 3
+        self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
+
     def test_warp_outside_warns(self):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),
                                             Density=producer(simple, density_image()))
