@@ -98,8 +98,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("image", nargs="?", default=os.path.join(example.DATA, "raccoon.png"),
                         help="a photograph in any format that ParaView reads")
-    parser.add_argument("--columns", type=int, default=8, help="cells of the grid from left to right")
-    parser.add_argument("--rows", type=int, default=6, help="and from top to bottom")
+    parser.add_argument("--columns", type=int, default=8, help="cells of the grid, left to right")
+    parser.add_argument("--rows", type=int, default=6, help="and top to bottom")
     parser.add_argument("--blend", type=float, default=1, help="how far to warp, from 0 to 1")
     parser.add_argument("--pixels", type=int, default=2000, help="width of the picture")
     parser.add_argument("--output", default=".", help="folder of the picture")

@@ -36,11 +36,18 @@ vtkDataArray* findArray(vtkPointSet* particles, const char* name, int components
   auto* array = vtkDataArray::SafeDownCast(found);
   if (found && (!array || array->GetNumberOfComponents() != components))
   {
+    const int count = array ? array->GetNumberOfComponents() : 0;
     std::ostringstream message;
-    message << "The array '" << name << "' of the particles "
-            << (array ? "has " + std::to_string(array->GetNumberOfComponents()) + " components"
-                      : std::string("is not numeric"))
-            << "; it must be numeric and have " << components;
+    message << "The array '" << name << "' of the particles ";
+    if (array)
+    {
+      message << "has " << count << (count == 1 ? " component" : " components");
+    }
+    else
+    {
+      message << "is not numeric";
+    }
+    message << "; it must be numeric and have " << components;
     throw Failure(message.str());
   }
   if (array && array->GetNumberOfTuples() != particles->GetNumberOfPoints())
@@ -149,7 +156,7 @@ private:
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
     const double tolerance = this->Geometry.BorderTolerance();
-    visitPoints(this->Input, "input particles", this->Threads, this->Host,
+    visitPoints(this->Input, "input point set", this->Threads, this->Host,
       [&](std::int64_t i, const double* x) {
         std::copy_n(x, 3, this->Points.data() + 3 * i);
         Point<D> index;

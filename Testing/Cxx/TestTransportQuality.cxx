@@ -288,7 +288,7 @@ void checkErrors(Checks& checks)
   withArray("Mass", { 1, 2, 3 }, 1);
   expect({ "'Mass' of the particles has 3 tuples", "2 particles" }, __LINE__);
   withArray("Displacement", { 1, 2 }, 1);
-  expect({ "'Displacement' of the particles has 1 components", "have 3" }, __LINE__);
+  expect({ "'Displacement' of the particles has 1 component;", "have 3" }, __LINE__);
   withArray("Displacement", { 1, 2, 3, 4, nan, 6 }, 3);
   expect({ "'Displacement' of the particles has the value nan at index 1" }, __LINE__);
   auto words = points();
@@ -299,7 +299,7 @@ void checkErrors(Checks& checks)
   quality->SetInputData(words);
   expect({ "'Mass' of the particles is not numeric" }, __LINE__);
   quality->SetInputData(makePoints({ 3, 2, 0, 1, nan, 0 }));
-  expect({ "input particles has 1 point that is NaN", "first at index 1" }, __LINE__);
+  expect({ "input point set has 1 point that is NaN", "first at index 1" }, __LINE__);
   quality->SetInputData(points());
   quality->SetDensityData(
     makeImage(5, 4, 1, true, [](vtkIdType i) { return 1.0 - static_cast<double>(i); }));

@@ -74,7 +74,8 @@ class Errors(unittest.TestCase):
         self.assertIn(str(outside), heard.warnings[0])
 
     def test_warp(self):
-        image = producer(simple, density_image((4, 2), values=np.array([1, -1, 1, 1, 1, 1, 1, 1.0])))
+        values = np.array([1, -1, 1, 1, 1, 1, 1, 1.0])
+        image = producer(simple, density_image((4, 2), values=values))
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=image)
         self.check(warp, "Density", "1 negative value")
         warp.NegativeValues = "Clamp"
