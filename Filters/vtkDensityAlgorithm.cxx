@@ -69,13 +69,14 @@ vtkDataArray* defaultArray(vtkImageData* image, int& association)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkDensityAlgorithm::vtkDensityAlgorithm()
+vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
   : Component(-1)
   , InvertDensity(false)
   , NegativeValues(NEGATIVE_VALUES_ERROR)
+  , DensityPort(densityPort)
 {
-  this->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+  this->SetInputArrayToProcess(0, densityPort, 0,
+    vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
 }
 
 //------------------------------------------------------------------------------
@@ -135,24 +136,37 @@ int vtkDensityAlgorithm::RequestInformation(
 int vtkDensityAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkInformation* input = inputVector[port]->GetInformationObject(i);
-      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      if (input->Has(Pipeline::WHOLE_EXTENT()))
-      {
-        int extent[6];
-        input->Get(Pipeline::WHOLE_EXTENT(), extent);
-        input->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-      }
-    }
+    vtkDensityAlgorithm::RequestWhole(inputVector[port]);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkDensityAlgorithm::RequestWhole(vtkInformationVector* port)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* input = port->GetInformationObject(i);
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    if (input->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      int extent[6];
+      input->Get(Pipeline::WHOLE_EXTENT(), extent);
+      input->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
+  vtkInformationVector** inputVector)
+{
+  return this->NewDensity(vtkDataObject::GetData(inputVector[this->DensityPort], 0));
 }
 
 //------------------------------------------------------------------------------
@@ -212,5 +226,6 @@ void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "InvertDensity: " << (this->InvertDensity ? "On" : "Off") << "\n";
   os << indent << "NegativeValues: " << this->GetNegativeValuesAsString() << "\n";
+  os << indent << "DensityPort: " << this->DensityPort << "\n";
 }
 VTK_ABI_NAMESPACE_END

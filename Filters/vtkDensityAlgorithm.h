@@ -3,15 +3,15 @@
  * @class   vtkDensityAlgorithm
  * @brief   what all filters that read a density from an image share
  *
- * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...); without a
- * choice it is the active scalars of the points, else of the cells, else the only array. It is
- * piecewise constant on cells: cell arrays are taken as they are; the values of a point array are
- * those of the dual cells, so that the domain is the image's bounds grown by half a spacing on each
- * side of every axis. An axis of one point is no axis, so that images may be 1D, 2D (in any
- * coordinate plane) or 3D; one cell between two points is an axis of one cell. Origin, spacing,
- * extent and direction matrix are arbitrary, and so is the numeric type. Cells and points that the
- * ghost array marks as duplicate or hidden carry no mass, and neither do the cells of a hidden
- * point.
+ * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...), where the
+ * port is that of the image; without a choice it is the active scalars of the points, else of the
+ * cells, else the only array. It is piecewise constant on cells: cell arrays are taken as they are;
+ * the values of a point array are those of the dual cells, so that the domain is the image's bounds
+ * grown by half a spacing on each side of every axis. An axis of one point is no axis, so that
+ * images may be 1D, 2D (in any coordinate plane) or 3D; one cell between two points is an axis of
+ * one cell. Origin, spacing, extent and direction matrix are arbitrary, and so is the numeric type.
+ * Cells and points that the ghost array marks as duplicate or hidden carry no mass, and neither do
+ * the cells of a hidden point.
  *
  * Mass is physical: density times cell measure, which is the length, area or volume that the
  * image's axes of more than one point span.
@@ -105,7 +105,10 @@ public:
     vtkInformationVector* outputVector) override;
 
 protected:
-  vtkDensityAlgorithm();
+  /**
+   * The density is on input port `densityPort`.
+   */
+  explicit vtkDensityAlgorithm(int densityPort = 0);
   ~vtkDensityAlgorithm() override;
 
   /**
@@ -127,6 +130,11 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
+   * Ask for the whole of all that is connected to a port.
+   */
+  static void RequestWhole(vtkInformationVector* port);
+
+  /**
    * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
    * outputs.
    */
@@ -145,11 +153,18 @@ protected:
    */
   RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
 
+  /**
+   * The density on the port that the constructor was told, read as input array 0 says; as above.
+   */
+  RectifiedTransport::DensityImage* NewDensity(vtkInformationVector** inputVector);
+
   int Component;
   vtkTypeBool InvertDensity;
   int NegativeValues;
 
 private:
+  const int DensityPort;
+
   vtkDensityAlgorithm(const vtkDensityAlgorithm&) = delete;
   void operator=(const vtkDensityAlgorithm&) = delete;
 };

@@ -24,8 +24,9 @@ struct vtkTransportAlgorithm::vtkInternals
 };
 
 //------------------------------------------------------------------------------
-vtkTransportAlgorithm::vtkTransportAlgorithm()
-  : Integrator(MULTISTEP)
+vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
+  : vtkDensityAlgorithm(densityPort)
+  , Integrator(MULTISTEP)
   , NumberOfSteps(32)
   , Tolerance(0.01)
   , TableLookup(INTERPOLATED)

@@ -138,7 +138,10 @@ public:
   vtkMTimeType GetTableBuildTime();
 
 protected:
-  vtkTransportAlgorithm();
+  /**
+   * The density is on input port `densityPort`.
+   */
+  explicit vtkTransportAlgorithm(int densityPort = 0);
   ~vtkTransportAlgorithm() override;
 
   /**

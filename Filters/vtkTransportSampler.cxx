@@ -317,8 +317,7 @@ int vtkTransportSampler::RequestData(
   {
     return 1;
   }
-  const std::unique_ptr<DensityImage> density(
-    this->NewDensity(vtkDataObject::GetData(inputVector[0], 0)));
+  const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || (seeds && seeds->GetNumberOfPoints() == 0))
   {
     return 1;

@@ -64,6 +64,13 @@ def draw_row(path, parts, size, radius, pixels, stipple):
     stipple.write_png(path, row, [0, width, 0, size[1]], radius, pixels)
 
 
+def draw_cartogram(path, cartogram):
+    folder = os.path.dirname(path)
+    sys.argv[1:] = ["--pixels", "720", "--output", folder]
+    cartogram.main()
+    os.replace(os.path.join(folder, "cartogram-raccoon.png"), path)
+
+
 def draw_patterns(path, stipple):
     patterns = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
     draw_row(path, [simple.UniformSeeds(Pattern=pattern, NumberOfPoints=900)
@@ -132,11 +139,12 @@ def main():
     draw_density(path("density"))
     draw_particles(path("particles"), stipple)
     draw_volume(path("volume"), script("SampleVolume"))
+    draw_cartogram(path("cartogram"), script("Cartogram"))
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_map(path("map"))
     draw_paths(path("paths"))
-    print("density, particles, volume, patterns, flow, map, paths: " + folder)
+    print("density, particles, volume, cartogram, patterns, flow, map, paths: " + folder)
 
 
 if __name__ == "__main__":

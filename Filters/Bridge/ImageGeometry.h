@@ -6,6 +6,7 @@
 
 #include "../Core/Density.h"
 
+#include <algorithm>
 #include <cstdint>
 
 class vtkImageData;
@@ -28,6 +29,9 @@ public:
   double CellMeasure() const { return this->Measure; }
   // The physical length of the domain's diagonal, were its axes at right angles.
   double Diagonal() const;
+  // How far beyond the border a point may lie and not be outside: by more than single precision
+  // may miss it.
+  double BorderTolerance() const { return 1e-6 * this->Diagonal(); }
 
   template <int D>
   GridSize<D> Size() const
@@ -93,6 +97,20 @@ public:
         v[r] += this->Matrix[r][this->Axis[a]] * index[a];
       }
     }
+  }
+
+  // Moves a point to the nearest one of the domain, axis by axis. Returns whether it was inside.
+  template <int D>
+  bool ClampToDomain(double* index) const
+  {
+    bool inside = true;
+    for (int a = 0; a < D; ++a)
+    {
+      const double nearest = std::clamp(index[a], 0.0, static_cast<double>(this->Cells[a]));
+      inside = inside && nearest == index[a];
+      index[a] = nearest;
+    }
+    return inside;
   }
 
 private:

@@ -415,6 +415,13 @@ double RectifiedFlow<Dimension>::Share(
 }
 
 template <int Dimension>
+double RectifiedFlow<Dimension>::MeasureOfShare(
+  const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const
+{
+  return measureOfShare<Dimension>(this->Data->Tables.View(), centre, aspect, share);
+}
+
+template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Forward(const double* seeds, std::int64_t count,
   double* positions, const FlowOptions& options, const Executor& executor,
   const Monitor& monitor) const

@@ -56,6 +56,10 @@ public:
   bool HasMass(const Point<Dimension>& point) const;
   // The share of the mass in a box.
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const;
+  // The measure, in cells, of the smallest box about a point that holds a share of the mass, the
+  // part in the domain; the sides of the box are in proportion to `aspect`.
+  double MeasureOfShare(
+    const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
 
   // Advects points of time 0 (uniform) to time 1 (distributed like the density). Arrays hold
   // count * Dimension doubles, a point's coordinates together, and may be the same array. Points

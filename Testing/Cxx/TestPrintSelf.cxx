@@ -2,7 +2,9 @@
 // PrintSelf names every property and its value; enumerations have texts; every setter is heard.
 #include "SamplerTest.h"
 
+#include "vtkDensityEqualizingWarp.h"
 #include "vtkTransportMap.h"
+#include "vtkTransportQuality.h"
 #include "vtkUniformSeedSource.h"
 
 #include <sstream>
@@ -71,6 +73,16 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, map, { "Direction: DensityToUniform", "SampleDimensions: 4 5 6" });
   map->SetDirection(2);
   CHECK(checks, map->GetDirectionAsString() == std::string("Unknown"));
+
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  expectLines(checks, warp, { "DensityPort: 1", "Blend: 1" });
+  warp->SetBlend(0.5);
+  expectLines(checks, warp, { "Blend: 0.5" });
+
+  vtkNew<vtkTransportQuality> quality;
+  expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });
+  quality->SetBlockSize(5);
+  expectLines(checks, quality, { "BlockSize: 5" });
 
   vtkNew<vtkUniformSeedSource> source;
   expectLines(checks, source,

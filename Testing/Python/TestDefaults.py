@@ -5,7 +5,7 @@ import re
 import unittest
 
 from rt_proxies import proxies
-from rt_testing import SOURCE, Listener, density_image, main
+from rt_testing import SOURCE, Listener, feed, main, size_of
 
 import rectifiedtransport
 
@@ -105,17 +105,16 @@ class Defaults(unittest.TestCase):
                 for value, refused in ((int(domain.get(edge)), False),
                                        (int(domain.get(edge)) + step, True)):
                     filter_ = instance(proxy)
-                    if filter_.GetNumberOfInputPorts() > 0:
-                        filter_.SetInputData(density_image((4, 3)))
-                        if hasattr(filter_, "SetNumberOfParticles"):
-                            filter_.SetNumberOfParticles(100)
+                    feed(filter_)
+                    if hasattr(filter_, "SetNumberOfParticles"):
+                        filter_.SetNumberOfParticles(100)
                     heard = Listener(filter_)
                     getattr(filter_, prop.command)(*[value] * len(numbers(prop.default)))
                     filter_.Update()
                     if refused:
                         self.assertIn(prop.name, heard.errors[0])
                         self.assertIn(str(value), heard.errors[0])
-                        self.assertEqual(filter_.GetOutput().GetNumberOfPoints(), 0)
+                        self.assertEqual(size_of(filter_.GetOutputDataObject(0)), 0)
                     else:
                         self.assertEqual(heard.errors, [])
 

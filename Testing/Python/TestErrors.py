@@ -73,6 +73,33 @@ class Errors(unittest.TestCase):
         self.assertEqual(len(heard.warnings), 1)
         self.assertIn(str(outside), heard.warnings[0])
 
+    def test_warp(self):
+        values = np.array([1, -1, 1, 1, 1, 1, 1, 1.0])
+        image = producer(simple, density_image((4, 2), values=values))
+        warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=image)
+        self.check(warp, "Density", "1 negative value")
+        warp.NegativeValues = "Clamp"
+        self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
+        warp.Blend = -0.5
+        self.check(warp, "Blend", "-0.5", "from 0 to 1")
+
+    def test_quality(self):
+        image = producer(simple, density_image())
+        quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=0)
+        heard = Listener(quality.GetClientSideObject())
+        self.assertEqual(output_of(quality).GetNumberOfRows(), 0)
+        self.assertIn("BlockSize is 0; it must be at least 1", heard.errors[0])
+        quality.BlockSize = 3
+        self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
+
+    def test_warp_outside_warns(self):
+        warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),
+                                            Density=producer(simple, density_image()))
+        heard = Listener(warp.GetClientSideObject())
+        self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
+        self.assertEqual(len(heard.warnings), 1)
+        self.assertIn("3 of 4 points outside", heard.warnings[0])
+
 
 if __name__ == "__main__":
     main()

@@ -17,6 +17,7 @@ from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
 SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
+         "Cartogram": ["--pixels", "480"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"]}
 
 
@@ -111,6 +112,11 @@ class Examples(unittest.TestCase):
             self.assertNotEqual(code, 0)
             self.assertIn(path, said)
             self.assertIn(what, said)
+
+    def test_cartogram(self):
+        said, code = run("Cartogram")
+        self.assertEqual(code, 0, said)
+        self.check_picture("cartogram-raccoon.png")
 
     def test_sample_volume(self):
         said, code = run("SampleVolume")

@@ -5,6 +5,7 @@ import unittest
 
 from rt_proxies import proxies
 from rt_testing import SOURCE, density_image, load_plugin, main, output_of, producer
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 simple = load_plugin()
 
@@ -59,6 +60,9 @@ class Plugin(unittest.TestCase):
                                                                     "ascent.png")])
         sampler = simple.SampleDensity(Input=photograph, NumberOfParticles=50)
         self.assertEqual(output_of(sampler).GetNumberOfPoints(), 50)
+        photograph = simple.PNGSeriesReader(FileNames=photograph.FileNames)
+        warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=photograph)
+        self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
 
     def test_only_images_are_accepted(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
@@ -84,6 +88,29 @@ class Plugin(unittest.TestCase):
         self.assertEqual(output_of(sampler).GetNumberOfPoints(), 77)
         sampler.Seeds = None
         self.assertEqual(output_of(sampler).GetNumberOfPoints(), 8192)
+
+    def test_warp_reads_the_density_on_its_second_input(self):
+        for cells in (True, False):
+            image = producer(simple, density_image(cells=cells))
+            warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=image)
+            self.assertEqual(list(warp.DensityArray),
+                             ["CELLS" if cells else "POINTS", "Density"])
+            self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
+            choice = warp.GetClientSideObject().GetInputArrayInformation(0)
+            self.assertEqual(choice.Get(vtkAlgorithm.INPUT_PORT()), 1)
+            self.assertTrue(warp.GetProperty("Blend").SMProperty.GetAnimateable())
+
+    def test_second_inputs_accept_images_alone(self):
+        image = producer(simple, density_image())
+        sphere = simple.Sphere()
+        sphere.UpdatePipeline()
+        warp = simple.DensityEqualizingWarp(Input=sphere, Density=image)
+        for name, right, wrong in (("Input", sphere, image), ("Density", image, sphere)):
+            accepted = warp.SMProxy.GetProperty(name)
+            accepted.SetUncheckedInputConnection(0, right.SMProxy, 0)
+            self.assertTrue(accepted.IsInDomains())
+            accepted.SetUncheckedInputConnection(0, wrong.SMProxy, 0)
+            self.assertFalse(accepted.IsInDomains())
 
 
 if __name__ == "__main__":

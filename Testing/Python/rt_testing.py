@@ -9,7 +9,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 SOURCE = os.environ.get("RT_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..")
 OUTPUT = os.environ.get("RT_OUTPUT") or "."
@@ -45,6 +47,32 @@ def density_image(shape=(12, 10), cells=True, seed=0, values=None):
     array.SetName("Density")
     (image.GetCellData() if cells else image.GetPointData()).SetScalars(array)
     return image
+
+
+def points_in(image, number=50, seed=3):
+    """A vtkPolyData of random points in the bounds of an image."""
+    low, high = np.array(image.GetBounds()).reshape(3, 2).T
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(
+        low + (high - low) * np.random.default_rng(seed).random((number, 3)), deep=1))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    return data
+
+
+def feed(algorithm):
+    """Gives small data to the inputs that an algorithm requires."""
+    for port in range(algorithm.GetNumberOfInputPorts()):
+        information = algorithm.GetInputPortInformation(port)
+        if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
+            image = density_image((4, 3))
+            kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
+            algorithm.SetInputData(port, image if kind == "vtkImageData" else points_in(image))
+
+
+def size_of(data):
+    """How many points a data set or rows a table has."""
+    return data.GetNumberOfElements(data.ROW if data.IsA("vtkTable") else data.POINT)
 
 
 def positions(polydata):

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How well particles follow a density: what vtkTransportQuality reports.
+#ifndef RectifiedTransport_ParticleQuality_h
+#define RectifiedTransport_ParticleQuality_h
+
+#include "../Core/Executor.h"
+
+#include <cstdint>
+
+class vtkPointSet;
+
+namespace RectifiedTransport
+{
+
+class DensityImage;
+class FlowCache;
+class HostMonitor;
+
+struct ParticleQuality
+{
+  std::int64_t Particles = 0;
+  double TotalMass = 0.0;
+  std::int64_t InEmptyCells = 0;
+  std::int64_t Outside = 0;
+  double DensityError = 0.0;
+  double TransportCost = 0.0;
+  double SmallestSpacing = 0.0;
+  double MeanSpacing = 0.0;
+};
+
+// Compares particles with a density; the density's tables are those of the cache, which is brought
+// up to date. Throws Failure and Aborted.
+ParticleQuality measureQuality(vtkPointSet* particles, DensityImage& density, int blockSize,
+  FlowCache& cache, const Executor& executor, HostMonitor& host);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointInput.h"
+
+#include "Failure.h"
+
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+void NotFinitePoints::Add(std::int64_t count, std::int64_t first)
+{
+  this->Count += count;
+  std::int64_t known = this->First;
+  while ((known < 0 || first < known) && !this->First.compare_exchange_weak(known, first))
+  {
+  }
+}
+
+void NotFinitePoints::RequireNone(const std::string& what) const
+{
+  if (this->Count == 0)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << "The " << what << " has " << this->Count
+          << (this->Count == 1 ? " point that is" : " points that are")
+          << " NaN or infinite, the first at index " << this->First
+          << "; all coordinates must be finite";
+  throw Failure(message.str());
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportQuality.h"
+
+#include "Bridge/DensityImage.h"
+#include "Bridge/FlowCache.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/ParticleQuality.h"
+#include "Bridge/PropertyCheck.h"
+#include "Bridge/SMPExecutor.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkTable.h"
+
+#include <memory>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportQuality);
+
+namespace
+{
+using namespace RectifiedTransport;
+
+template <class ArrayT, class Value>
+void addColumn(vtkTable* table, const char* name, Value value)
+{
+  vtkNew<ArrayT> column;
+  column->SetName(name);
+  column->InsertNextValue(value);
+  table->AddColumn(column);
+}
+} // namespace
+
+struct vtkTransportQuality::vtkInternals
+{
+  FlowCache Cache;
+};
+
+//------------------------------------------------------------------------------
+vtkTransportQuality::vtkTransportQuality()
+  : vtkDensityAlgorithm(1)
+  , BlockSize(8)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportQuality::~vtkTransportQuality() = default;
+
+//------------------------------------------------------------------------------
+void vtkTransportQuality::SetDensityConnection(vtkAlgorithmOutput* density)
+{
+  this->SetInputConnection(1, density);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportQuality::SetDensityData(vtkDataObject* density)
+{
+  this->SetInputData(1, density);
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkTransportQuality::GetTableBuildTime()
+{
+  return this->Internals->Cache.BuildTime();
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkTransportQuality::GetOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportQuality::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportQuality::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportQuality::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
+  vtkPointSet* particles = vtkPointSet::GetData(inputVector[0]);
+  const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
+  if (!density || !particles || particles->GetNumberOfPoints() == 0)
+  {
+    return 1;
+  }
+  const auto executor = makeExecutor(Threading::Auto);
+  HostMonitor host(this);
+  const ParticleQuality quality =
+    measureQuality(particles, *density, this->BlockSize, this->Internals->Cache, *executor, host);
+
+  vtkTable* output = vtkTable::GetData(outputVector);
+  addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));
+  addColumn<vtkDoubleArray>(output, "TotalMass", quality.TotalMass);
+  addColumn<vtkIdTypeArray>(output, "InEmptyCells", static_cast<vtkIdType>(quality.InEmptyCells));
+  addColumn<vtkIdTypeArray>(output, "Outside", static_cast<vtkIdType>(quality.Outside));
+  addColumn<vtkDoubleArray>(output, "DensityError", quality.DensityError);
+  addColumn<vtkDoubleArray>(output, "TransportCost", quality.TransportCost);
+  addColumn<vtkDoubleArray>(output, "SmallestSpacing", quality.SmallestSpacing);
+  addColumn<vtkDoubleArray>(output, "MeanSpacing", quality.MeanSpacing);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportQuality::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "BlockSize: " << this->BlockSize << "\n";
+  os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";
+}
+VTK_ABI_NAMESPACE_END

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransportQuality
+ * @brief   how well particles follow a density, in one row of numbers
+ *
+ * Input 0 is the particles, any vtkPointSet, input 1 the density, a vtkImageData (see
+ * vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). Particles weigh by their
+ * point array `Mass` if they have it, else equally; weights count as shares of their sum.
+ *
+ * The output is a vtkTable of one row with the columns
+ * - `Particles`, their number, and `TotalMass`, the density times cell measure, summed;
+ * - `Outside`, the number of particles outside of the domain (off the plane or line of a density of
+ *   fewer than three dimensions, too), by more than a millionth of its diagonal;
+ * - `InEmptyCells`, the number of the others that are in cells without mass (on a face: if all
+ * cells at it are);
+ * - `DensityError`, the relative L2 distance between the particles' density and the given one, both
+ *   averaged over blocks of BlockSize cells: with p and m a block's shares of the particles' mass
+ * and of the density's, and v its measure, sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v). What is
+ * outside is missing from its block;
+ * - `TransportCost`, the mean of |Displacement|^2, by weight, in squared physical units, from the
+ *   point array `Displacement`; 0 without it;
+ * - `SmallestSpacing` and `MeanSpacing`, over the particles in the domain that have mass: the
+ *   distance from the nearest other particle, relative to the largest one that the density has room
+ *   for there. That is the distance in a regular row (1D), the hexagonal (2D) or face-centred cubic
+ *   lattice (3D) in which each point takes the measure V: V, sqrt(2 V / sqrt(3)), cbrt(sqrt(2) V)
+ *   (twice the r_max of Lagae and Dutre, "A Comparison of Methods for Generating Poisson Disk
+ *   Distributions", Computer Graphics Forum 27(1), 2008). V is the measure of the smallest cube
+ *   about the particle, clipped to the domain, in which the density has the particle's share of the
+ *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
+ *   the domain has a neighbour.
+ *
+ * An input without points gives a table without rows.
+ *
+ * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
+ * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables
+ * (see vtkTransportAlgorithm). The numbers are the same to the last bit for every number of
+ * threads.
+ *
+ * \code{.cpp}
+ * vtkNew<vtkTransportQuality> quality;
+ * quality->SetInputConnection(sampler->GetOutputPort());
+ * quality->SetDensityData(image);
+ * quality->Update();
+ * double error = quality->GetOutput()->GetValueByName(0, "DensityError").ToDouble();
+ * \endcode
+ *
+ * @sa vtkTransportSampler vtkDensityAlgorithm
+ */
+#ifndef vtkTransportQuality_h
+#define vtkTransportQuality_h
+
+#include "vtkDensityAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithmOutput;
+class vtkTable;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportQuality : public vtkDensityAlgorithm
+{
+public:
+  static vtkTransportQuality* New();
+  vtkTypeMacro(vtkTransportQuality, vtkDensityAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How many cells of the density a block of DensityError has along each axis, at least 1; the last
+   * block of an axis may have fewer. Default 8.
+   */
+  vtkSetMacro(BlockSize, int);
+  vtkGetMacro(BlockSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Give the density (input 1) as the output of another filter, or as data.
+   */
+  void SetDensityConnection(vtkAlgorithmOutput* density);
+  void SetDensityData(vtkDataObject* density);
+  ///@}
+
+  /**
+   * When the density's tables were last built: grows with each build, 0 before the first.
+   */
+  vtkMTimeType GetTableBuildTime();
+
+  /**
+   * The row of numbers.
+   */
+  vtkTable* GetOutput();
+
+protected:
+  vtkTransportQuality();
+  ~vtkTransportQuality() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int BlockSize;
+
+private:
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  vtkTransportQuality(const vtkTransportQuality&) = delete;
+  void operator=(const vtkTransportQuality&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif

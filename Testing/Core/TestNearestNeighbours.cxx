@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances of nearest neighbours, against a search through all pairs.
+#include "NearestNeighbours.h"
+
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+std::vector<double> distancesOf(
+  const Points<3>& points, const Executor& executor = SerialExecutor())
+{
+  std::vector<double> distances(points.size());
+  EXPECT_TRUE(nearestDistances(
+    points[0].data(), static_cast<std::int64_t>(points.size()), distances.data(), executor, {}));
+  return distances;
+}
+
+void expectSearched(const Points<3>& points)
+{
+  const std::vector<double> found = distancesOf(points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < points.size(); ++j)
+    {
+      double squared = 0.0;
+      for (int r = 0; r < 3; ++r)
+      {
+        squared += (points[j][r] - points[i][r]) * (points[j][r] - points[i][r]);
+      }
+      least = i == j ? least : std::min(least, squared);
+    }
+    ASSERT_EQ(found[i], std::sqrt(least)) << i;
+  }
+}
+
+TEST(NearestNeighbours, Random)
+{
+  expectSearched(randomPoints<3>({ 10, 20, 5 }, 1500));
+}
+
+TEST(NearestNeighbours, InAPlaneOnALineAndInClusters)
+{
+  Points<3> points = randomPoints<3>({ 10, 20, 5 }, 1200);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    Point<3>& point = points[i];
+    point[2] = i < 400 ? 1.0 : point[2];
+    point[1] = i < 200 ? 2.0 : point[1];
+    if (i >= 800)
+    {
+      const double cluster = static_cast<double>(i % 3);
+      point = { cluster + 1e-9 * point[0], 1e-9 * point[1], 0.0 };
+    }
+  }
+  expectSearched(points);
+}
+
+TEST(NearestNeighbours, SamePlaces)
+{
+  Points<3> points(300, Point<3>{ 1.0, 2.0, 3.0 });
+  points.push_back({ 4.0, 2.0, 3.0 });
+  for (int i = 0; i < 200; ++i)
+  {
+    points.push_back({ static_cast<double>(i % 7), 0.0, 0.0 });
+  }
+  expectSearched(points);
+  // All in one place is no more work.
+  const std::vector<double> zeros(1000000, 0.0);
+  std::vector<double> distances(zeros.size() / 3);
+  nearestDistances(zeros.data(), static_cast<std::int64_t>(distances.size()), distances.data(),
+    SerialExecutor(), {});
+  EXPECT_EQ(*std::max_element(distances.begin(), distances.end()), 0.0);
+}
+
+TEST(NearestNeighbours, OneAndTwo)
+{
+  EXPECT_EQ(distancesOf({ { 1.0, 2.0, 3.0 } })[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(distancesOf({ { 1.0, 2.0, 3.0 }, { 1.0, 2.0, 8.0 } })[0], 5.0);
+}
+
+TEST(NearestNeighbours, ExecutorsAndMonitor)
+{
+  const Points<3> points = randomPoints<3>({ 10, 20, 5 }, 100000);
+  EXPECT_EQ(distancesOf(points), distancesOf(points, OpenMPExecutor()));
+  std::vector<double> distances(points.size());
+  std::vector<double> heard;
+  Monitor monitor;
+  monitor.Progress = [&](double fraction) { heard.push_back(fraction); };
+  const auto count = static_cast<std::int64_t>(points.size());
+  EXPECT_TRUE(
+    nearestDistances(points[0].data(), count, distances.data(), OpenMPExecutor(), monitor));
+  EXPECT_GT(heard.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_EQ(heard.back(), 1.0);
+  monitor.Cancelled = [&]() { return true; };
+  EXPECT_FALSE(
+    nearestDistances(points[0].data(), count, distances.data(), OpenMPExecutor(), monitor));
+}
+
+} // namespace
+} // namespace RectifiedTransport

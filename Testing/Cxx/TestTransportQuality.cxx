@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers of vtkTransportQuality, against what is known by hand.
+#include "WarpTest.h"
+
+#include "vtkStringArray.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTable.h"
+#include "vtkTransportQuality.h"
+#include "vtkTransportSampler.h"
+#include "vtkVariant.h"
+
+#include <limits>
+
+namespace
+{
+
+double value(vtkTransportQuality* quality, const char* column)
+{
+  vtkTable* table = quality->GetOutput();
+  return table->GetNumberOfRows() == 1 && table->GetColumnByName(column)
+    ? table->GetValueByName(0, column).ToDouble()
+    : std::nan("");
+}
+
+double measured(vtkTransportQuality* quality, const char* column)
+{
+  quality->Update();
+  return value(quality, column);
+}
+
+void addArray(
+  vtkPointSet* particles, const char* name, const std::vector<double>& values, int components = 1)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  particles->GetPointData()->AddArray(array);
+}
+
+double ones(vtkIdType)
+{
+  return 1.0;
+}
+
+// Perfect lattices have a spacing of exactly 1, whatever the units and the rest of the scene.
+void checkLattices(Checks& checks)
+{
+  vtkNew<vtkTransportQuality> quality;
+  Messages messages(quality);
+  const auto expect = [&](double smallest, double mean, double tolerance, int line) {
+    quality->Update();
+    checks.Near(value(quality, "SmallestSpacing"), smallest, tolerance, "smallest", line);
+    checks.Near(value(quality, "MeanSpacing"), mean, tolerance, "mean", line);
+  };
+  std::vector<double> row;
+  for (int i = 0; i < 20; ++i)
+  {
+    row.insert(row.end(), { 0.15 + 0.3 * i, 0.0, 0.0 });
+  }
+  auto line = makeImage(13, 1, 1, true, ones);
+  line->SetSpacing(0.5, 1.0, 1.0);
+  quality->SetInputData(makePoints(row));
+  quality->SetDensityData(line);
+  expect(1.0, 1.0, 1e-7, __LINE__);
+
+  // 30 x 20 of distance 2, in a domain of other cells.
+  const double high = std::sqrt(3.0);
+  std::vector<double> hexagons;
+  for (int j = 0; j < 20; ++j)
+  {
+    for (int i = 0; i < 30; ++i)
+    {
+      hexagons.insert(hexagons.end(), { 0.5 + 2.0 * i + j % 2, high * (j + 0.5), 0.0 });
+    }
+  }
+  auto plane = makeImage(17, 9, 1, true, ones);
+  plane->SetSpacing(60.0 / 16.0, 20.0 * high / 8.0, 1.0);
+  quality->SetInputData(makePoints(hexagons));
+  quality->SetDensityData(plane);
+  expect(1.0, 1.0, 1e-7, __LINE__);
+  // A square lattice of one point a cell: sqrt(sqrt(3) / 2).
+  std::vector<double> squares;
+  for (int i = 0; i < 100; ++i)
+  {
+    squares.insert(squares.end(), { 0.5 + i % 10, 0.5 + i / 10, 0.0 });
+  }
+  quality->SetInputData(makePoints(squares));
+  quality->SetDensityData(makeImage(11, 11, 1, true, ones));
+  expect(0.9306048591, 0.9306048591, 1e-7, __LINE__);
+
+  std::vector<double> cubic;
+  for (int k = 0; k < 6; ++k)
+  {
+    for (int j = 0; j < 6; ++j)
+    {
+      for (int i = 0; i < 6; ++i)
+      {
+        if ((i + j + k) % 2 == 0)
+        {
+          cubic.insert(cubic.end(), { 0.5 + i, 0.5 + j, 0.5 + k });
+        }
+      }
+    }
+  }
+  quality->SetInputData(makePoints(cubic));
+  quality->SetDensityData(makeImage(7, 7, 7, true, ones));
+  expect(1.0, 1.0, 1e-7, __LINE__);
+  // One out of place is seen in the smallest, and hardly in the mean.
+  cubic[0] += 0.4;
+  quality->SetInputData(makePoints(cubic));
+  quality->Update();
+  CHECK(checks, value(quality, "SmallestSpacing") < 0.95);
+  CHECK(checks, value(quality, "MeanSpacing") > 0.95);
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.empty());
+}
+
+// Half of the domain has four times the density: a lattice of half the distance is as good there.
+void checkUnevenDensity(Checks& checks)
+{
+  auto image = makeImage(9, 5, 1, true, [](vtkIdType i) { return i % 8 < 4 ? 4.0 : 1.0; });
+  std::vector<double> x;
+  for (int i = 0; i < 8; ++i)
+  {
+    for (int j = 0; j < 8; ++j)
+    {
+      x.insert(x.end(), { 0.25 + 0.5 * i, 0.25 + 0.5 * j, 0.0 });
+      if (i < 4 && j < 4)
+      {
+        x.insert(x.end(), { 4.5 + i, 0.5 + j, 0.0 });
+      }
+    }
+  }
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(makePoints(x));
+  quality->SetDensityData(image);
+  CHECK_NEAR(checks, measured(quality, "MeanSpacing"), 0.9306048591, 0.02);
+  quality->SetBlockSize(1);
+  CHECK_NEAR(checks, measured(quality, "DensityError"), 0.0, 1e-12);
+}
+
+void checkBlocks(Checks& checks)
+{
+  // Blocks of 2 x 2, 2 x 1, 1 x 2 and 1 x 1 cells.
+  auto image = makeImage(4, 4, 1, true, [](vtkIdType i) { return 1.0 + static_cast<double>(i); });
+  const double expected[4] = { 1 + 2 + 4 + 5, 3 + 6, 7 + 8, 9 };
+  const double found[4] = { 2, 1, 1, 0 };
+  const double measure[4] = { 4, 2, 2, 1 };
+  double difference = 0.0;
+  double norm = 0.0;
+  for (int b = 0; b < 4; ++b)
+  {
+    const double m = expected[b] / 45.0;
+    const double p = found[b] / 5.0; // one of five is outside
+    difference += (p - m) * (p - m) / measure[b];
+    norm += m * m / measure[b];
+  }
+  image->SetSpacing(0.5, 4.0, 1.0);
+  image->SetOrigin(10.0, 0.0, 0.0);
+  auto particles = makePoints({ 10.1, 0.1, 0, 10.9, 7.9, 0, 11.4, 3, 0, 10.2, 11, 0, 12.0, 3, 0 });
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(particles);
+  quality->SetDensityData(image);
+  quality->SetBlockSize(2);
+  CHECK_NEAR(checks, measured(quality, "DensityError"), std::sqrt(difference / norm), 1e-12);
+  CHECK(checks, value(quality, "Particles") == 5);
+  CHECK(checks, value(quality, "Outside") == 1);
+  CHECK_NEAR(checks, value(quality, "TotalMass"), 90.0, 1e-12);
+  CHECK(checks, value(quality, "TransportCost") == 0.0);
+
+  // Masses count as shares, whatever their unit; those of the blocks leave no error.
+  auto matching = makePoints({ 10.1, 0.1, 0, 11.4, 3, 0, 10.2, 11, 0, 11.4, 9, 0, 12.0, 3, 0 });
+  addArray(matching, "Mass", { 120, 90, 150, 90, 0 });
+  quality->SetInputData(matching);
+  CHECK_NEAR(checks, measured(quality, "DensityError"), 0.0, 1e-12);
+  addArray(particles, "Mass", { 70, 50, 90, 150, 0 });
+  quality->SetInputData(particles);
+  addArray(particles, "Displacement", { 1, 2, 2, 0, 0, 0, 0, 0, 0, 3, 0, 4, 7, 7, 7 }, 3);
+  const double all = 70 + 50 + 90 + 150;
+  CHECK_NEAR(checks, measured(quality, "TransportCost"), (70 * 9 + 150 * 25) / all, 1e-12);
+}
+
+// What a sampler makes is good, and its own figures agree.
+void checkSampler(Checks& checks)
+{
+  for (const int depth : { 0, 1, 2 })
+  {
+    const int nx = depth == 0 ? 401 : depth == 1 ? 61 : 17;
+    const int ny = depth == 0 ? 1 : 17;
+    const int nz = depth == 2 ? 15 : 1;
+    const double all = static_cast<double>(nx) * ny * nz;
+    auto image = makeImage(nx, ny, nz, true, [=](vtkIdType i) {
+      return i % 40 < 4 ? 0.0 : bumpy(i) * (1.0 + 9.0 * static_cast<double>(i) / all);
+    });
+    image->SetSpacing(0.4, 1.5, 0.9);
+    vtkNew<vtkTransportSampler> sampler;
+    sampler->SetInputData(image);
+    sampler->SetNumberOfParticles(3000);
+    vtkNew<vtkTransportQuality> quality;
+    quality->SetInputConnection(sampler->GetOutputPort());
+    quality->SetDensityData(image);
+    quality->Update();
+    vtkPolyData* particles = sampler->GetOutput();
+    CHECK_NEAR(
+      checks, value(quality, "TotalMass") / fieldValue(particles, "TotalMass"), 1.0, 1e-12);
+    CHECK_NEAR(
+      checks, value(quality, "TransportCost") / fieldValue(particles, "TransportCost"), 1.0, 1e-12);
+    CHECK(checks, value(quality, "Particles") == 3000);
+    CHECK(checks, value(quality, "InEmptyCells") == 0);
+    CHECK(checks, value(quality, "Outside") == 0);
+    CHECK_NEAR(checks, value(quality, "DensityError"), 0.0, 0.2);
+    const double mean = value(quality, "MeanSpacing");
+    CHECK(checks, mean > 0.4 && mean < 1.0);
+    CHECK(checks, value(quality, "SmallestSpacing") <= mean);
+    // The seeds do not follow the density, and many are where there is no mass.
+    sampler->SetFlowTime(0.0);
+    quality->Update();
+    CHECK(checks, value(quality, "DensityError") > 0.2);
+    CHECK(checks, value(quality, "InEmptyCells") > 150);
+    sampler->SetFlowTime(1.0);
+    // Random seeds make clumps.
+    sampler->SetSeedPatternToRandom();
+    quality->Update();
+    CHECK(checks, value(quality, "MeanSpacing") < mean - 0.1);
+  }
+}
+
+void checkOutside(Checks& checks)
+{
+  auto image = makeImage(5, 4, 1, true, [](vtkIdType i) { return i == 5 ? 0.0 : 1.0; });
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetDensityData(image);
+  // In cell 5, on its border, beyond, above, and off by no more than single precision.
+  quality->SetInputData(
+    makePoints({ 1.5, 1.5, 0, 2, 1.5, 0, 4.1, 1, 0, 1, 1, 0.5, 4.000001, 0.5, -1e-7 }));
+  quality->Update();
+  CHECK(checks, value(quality, "Outside") == 2);
+  CHECK(checks, value(quality, "InEmptyCells") == 1);
+  // One alone has no neighbour.
+  quality->SetInputData(makePoints({ 1.5, 1.5, 0 }));
+  quality->Update();
+  CHECK(checks, value(quality, "SmallestSpacing") == 0.0 && value(quality, "MeanSpacing") == 0.0);
+}
+
+void checkErrors(Checks& checks)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  vtkNew<vtkTransportQuality> quality;
+  Messages messages(quality);
+  const auto points = []() { return makePoints({ 1, 1, 0, 2, 2, 0 }); };
+  quality->SetInputData(points());
+  quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
+  const auto expect = [&](const std::vector<std::string>& parts, int line) {
+    messages.Clear();
+    quality->Update();
+    checks.That(messages.Errors.size() == 1, "one error", line);
+    const std::string text = messages.Errors.empty() ? "" : messages.Errors[0];
+    for (const std::string& part : parts)
+    {
+      checks.That(contains(text, part), part.c_str(), line, text);
+    }
+    checks.That(quality->GetOutput()->GetNumberOfRows() == 0 &&
+        quality->GetOutput()->GetNumberOfColumns() == 0,
+      "empty output", line);
+  };
+  for (const int size : { 0, -8 })
+  {
+    quality->SetBlockSize(size);
+    expect({ "BlockSize is " + std::to_string(size), "at least 1" }, __LINE__);
+  }
+  quality->SetBlockSize(2147483647);
+  CHECK(checks, measured(quality, "DensityError") == 0.0); // one block
+  quality->SetBlockSize(8);
+  const auto withArray = [&](const char* name, const std::vector<double>& values, int components) {
+    auto set = points();
+    addArray(set, name, values, components);
+    quality->SetInputData(set);
+  };
+  withArray("Mass", { 1, nan }, 1);
+  expect({ "'Mass' of the particles has the value nan at index 1", "finite" }, __LINE__);
+  withArray("Mass", { -2, 1 }, 1);
+  expect({ "'Mass' of the particles has the value -2 at index 0", "not negative" }, __LINE__);
+  withArray("Mass", { 0, 0 }, 1);
+  expect({ "'Mass' of the particles sums to 0", "positive" }, __LINE__);
+  withArray("Mass", { 1, 2, 3, 4 }, 2);
+  expect({ "'Mass' of the particles has 2 components", "have 1" }, __LINE__);
+  withArray("Mass", { 1, 2, 3 }, 1);
+  expect({ "'Mass' of the particles has 3 tuples", "2 particles" }, __LINE__);
+  withArray("Displacement", { 1, 2 }, 1);
+  expect({ "'Displacement' of the particles has 1 component;", "have 3" }, __LINE__);
+  withArray("Displacement", { 1, 2, 3, 4, nan, 6 }, 3);
+  expect({ "'Displacement' of the particles has the value nan at index 1" }, __LINE__);
+  auto words = points();
+  vtkNew<vtkStringArray> text;
+  text->SetName("Mass");
+  text->SetNumberOfValues(2);
+  words->GetPointData()->AddArray(text);
+  quality->SetInputData(words);
+  expect({ "'Mass' of the particles is not numeric" }, __LINE__);
+  quality->SetInputData(makePoints({ 3, 2, 0, 1, nan, 0 }));
+  expect({ "input point set has 1 point that is NaN", "first at index 1" }, __LINE__);
+  quality->SetInputData(points());
+  quality->SetDensityData(
+    makeImage(5, 4, 1, true, [](vtkIdType i) { return 1.0 - static_cast<double>(i); }));
+  expect({ "'Density' has 10 negative values" }, __LINE__);
+  quality->SetDensityData(makeImage(1, 1, 1, false, bumpy));
+  expect({ "one point along every axis" }, __LINE__);
+  quality->SetInputArrayToProcess(0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
+  quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
+  expect({ "no density array 'Missing'" }, __LINE__);
+
+  // Nothing there is no error.
+  messages.Clear();
+  quality->SetInputArrayToProcess(0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
+  vtkNew<vtkStructuredGrid> nothing;
+  quality->SetInputData(nothing);
+  quality->Update();
+  CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
+  quality->SetInputData(points());
+  vtkNew<vtkImageData> empty;
+  quality->SetDensityData(empty);
+  quality->Update();
+  CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
+  CHECK(checks, messages.Errors.empty());
+}
+
+} // namespace
+
+int TestTransportQuality(int, char*[])
+{
+  Checks checks;
+  checkLattices(checks);
+  checkUnevenDensity(checks);
+  checkBlocks(checks);
+  checkSampler(checks);
+  checkOutside(checks);
+  checkErrors(checks);
+  return checks.Result();
+}

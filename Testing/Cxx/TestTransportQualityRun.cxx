@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How vtkTransportQuality runs: tables that are kept, the same bits on any number of threads and in
+// any place among others, progress, an abort.
+#include "WarpTest.h"
+
+#include "vtkSMPTools.h"
+#include "vtkTable.h"
+#include "vtkTransportQuality.h"
+#include "vtkVariant.h"
+
+#include <chrono>
+
+namespace
+{
+
+std::vector<double> row(vtkTransportQuality* quality)
+{
+  quality->Update();
+  std::vector<double> values;
+  vtkTable* table = quality->GetOutput();
+  for (vtkIdType i = 0; i < table->GetNumberOfColumns() && table->GetNumberOfRows() == 1; ++i)
+  {
+    values.push_back(table->GetValue(0, i).ToDouble());
+  }
+  return values;
+}
+
+void checkCache(Checks& checks)
+{
+  vtkNew<vtkTransportQuality> quality;
+  auto image = makeImage(9, 7, 1, true, bumpy);
+  quality->SetDensityData(image);
+  quality->SetInputData(makePoints({ 3, 2, 0 }));
+  vtkMTimeType last = 0;
+  const auto expect = [&](bool built, const char* what, int line) {
+    quality->Update();
+    checks.That((quality->GetTableBuildTime() > last) == built, what, line);
+    last = quality->GetTableBuildTime();
+  };
+  expect(true, "the first run builds", __LINE__);
+  quality->SetInputData(makePoints({ 4, 2, 0, 1, 1, 1 }));
+  expect(false, "other particles", __LINE__);
+  quality->SetBlockSize(3);
+  expect(false, "BlockSize", __LINE__);
+  quality->InvertDensityOn();
+  expect(true, "InvertDensity", __LINE__);
+  image->Modified();
+  expect(true, "the image", __LINE__);
+}
+
+void checkThreads(Checks& checks, int depth)
+{
+  auto image = makeImage(41, 37, depth, true, [](vtkIdType i) { return bumpy(i) - 1.0; });
+  const double bounds[6] = { -2, 42, 0, 36, 0, depth - 1.0 };
+  auto particles = makePoints(randomCoordinates(bounds, 30000));
+  vtkNew<vtkDoubleArray> masses;
+  masses->SetName("Mass");
+  for (vtkIdType i = 0; i < 30000; ++i)
+  {
+    masses->InsertNextValue(0.1 * bumpy(i));
+  }
+  particles->GetPointData()->AddArray(masses);
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(particles);
+  quality->SetDensityData(image);
+  vtkSMPTools::SetBackend("STDThread");
+  vtkSMPTools::Initialize(1);
+  const std::vector<double> one = row(quality);
+  CHECK(checks, one.size() == 8 && one[2] > 0 && one[3] > 0);
+  for (const char* backend : { "Sequential", "STDThread" })
+  {
+    vtkSMPTools::SetBackend(backend);
+    for (const int threads : { 1, 2, 3 })
+    {
+      vtkSMPTools::Initialize(threads);
+      image->Modified();
+      checks.That(row(quality) == one, "same bits", __LINE__,
+        std::string(backend) + ", " + std::to_string(threads) + " threads");
+    }
+  }
+}
+
+struct ProgressTest
+{
+  double AbortFrom = 2.0;
+  std::vector<double> Heard;
+  std::chrono::steady_clock::time_point AbortTime;
+};
+
+void checkAbort(Checks& checks)
+{
+  auto image = makeImage(301, 301, 1, true, bumpy);
+  const double bounds[6] = { 0, 300, 0, 300, 0, 0 };
+  vtkNew<vtkTransportQuality> quality;
+  Messages messages(quality);
+  quality->SetInputData(makePoints(randomCoordinates(bounds, 600000)));
+  quality->SetDensityData(image);
+  ProgressTest test;
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&test);
+  ear->SetCallback([](vtkObject* caller, unsigned long, void* self, void* data) {
+    auto* heard = static_cast<ProgressTest*>(self);
+    heard->Heard.push_back(*static_cast<double*>(data));
+    auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+    if (heard->Heard.back() >= heard->AbortFrom && !algorithm->GetAbortExecute())
+    {
+      heard->AbortTime = std::chrono::steady_clock::now();
+      algorithm->SetAbortExecute(1);
+    }
+  });
+  quality->AddObserver(vtkCommand::ProgressEvent, ear);
+  // In the points, before and in the tree, among the neighbours, in the spacings.
+  for (const double from : { 0.01, 0.43, 0.5, 0.62, 0.8 })
+  {
+    double seconds = HUGE_VAL;
+    for (int attempt = 0; attempt < 4 && seconds > 0.1; ++attempt)
+    {
+      test.AbortFrom = from;
+      quality->Modified();
+      quality->Update();
+      const auto end = std::chrono::steady_clock::now();
+      CHECK(checks, quality->GetAbortExecute() != 0);
+      CHECK(checks, quality->GetOutput()->GetNumberOfColumns() == 0);
+      seconds = std::min(seconds, std::chrono::duration<double>(end - test.AbortTime).count());
+      quality->SetAbortExecute(0);
+    }
+    CHECK_NEAR(checks, seconds, 0.0, 0.1);
+  }
+  test = ProgressTest();
+  image->Modified();
+  quality->SetInputData(makePoints(randomCoordinates(bounds, 50000)));
+  CHECK(checks, row(quality).size() == 8);
+  CHECK(checks, test.Heard.size() > 5);
+  CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
+  CHECK(checks, test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+  CHECK(checks, messages.Errors.empty());
+}
+
+} // namespace
+
+int TestTransportQualityRun(int, char*[])
+{
+  Checks checks;
+  checkCache(checks);
+  checkThreads(checks, 1);
+  checkThreads(checks, 9);
+  checkAbort(checks);
+  return checks.Result();
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How it runs: tables that are kept, the same bits on any number of threads, progress, an abort.
+#include "WarpTest.h"
+
+#include "vtkSMPTools.h"
+
+#include <chrono>
+
+namespace
+{
+
+void checkCache(Checks& checks)
+{
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  auto image = makeImage(9, 7, 1, true, bumpy);
+  warp->SetDensityData(image);
+  warp->SetInputData(makePoints({ 3, 2, 0 }));
+  vtkMTimeType last = 0;
+  const auto expect = [&](bool built, const char* what, int line) {
+    warp->Update();
+    checks.That((warp->GetTableBuildTime() > last) == built, what, line);
+    last = warp->GetTableBuildTime();
+  };
+  expect(true, "the first run builds", __LINE__);
+  warp->SetInputData(makePoints({ 4, 2, 0, 1, 1, 1 }));
+  expect(false, "other points", __LINE__);
+  warp->GetInputDataObject(0, 0)->Modified();
+  expect(false, "changed points", __LINE__);
+  warp->SetBlend(0.5);
+  expect(false, "Blend", __LINE__);
+  warp->SetNumberOfSteps(9);
+  expect(false, "NumberOfSteps", __LINE__);
+  warp->InvertDensityOn();
+  expect(true, "InvertDensity", __LINE__);
+  image->Modified();
+  expect(true, "the image", __LINE__);
+}
+
+void checkThreads(Checks& checks, int depth)
+{
+  auto image = makeImage(41, 37, depth, true, bumpy);
+  const double bounds[6] = { -2, 42, 0, 36, 0, depth - 1.0 };
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  Messages quiet(warp);
+  warp->SetInputData(makePoints(randomCoordinates(bounds, 20000)));
+  warp->SetDensityData(image);
+  warp->SetThreadingToSerial();
+  const std::vector<double> serial = warpCoordinates(warp);
+  const std::vector<double> moved = displacements(warp);
+  for (const char* backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
+  {
+    if (!vtkSMPTools::SetBackend(backend))
+    {
+      continue;
+    }
+    for (const int threading : { vtkTransportAlgorithm::THREADING_AUTO,
+           vtkTransportAlgorithm::THREADING_VTK, vtkTransportAlgorithm::THREADING_OPENMP })
+    {
+      warp->SetThreading(threading);
+      for (const int threads : { 1, 2, 3 })
+      {
+        vtkSMPTools::Initialize(threads);
+        image->Modified();
+        checks.That(warpCoordinates(warp) == serial && displacements(warp) == moved, "same bits",
+          __LINE__, std::string(backend) + ", " + std::to_string(threads) + " threads");
+      }
+    }
+  }
+  // Half of the points go where they go among all.
+  warp->SetInputData(makePoints(randomCoordinates(bounds, 10000)));
+  CHECK(
+    checks, warpCoordinates(warp) == std::vector<double>(serial.begin(), serial.begin() + 30000));
+}
+
+// Listens to progress, and aborts from a chosen one on.
+struct ProgressTest
+{
+  double AbortFrom = 2.0;
+  std::vector<double> Heard;
+  std::chrono::steady_clock::time_point AbortTime;
+};
+
+void checkAbort(Checks& checks)
+{
+  auto image = makeImage(301, 301, 1, true, bumpy);
+  const double bounds[6] = { 0, 300, 0, 300, 0, 0 };
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  Messages messages(warp);
+  warp->SetInputData(makePoints(randomCoordinates(bounds, 2000000)));
+  warp->SetDensityData(image);
+  ProgressTest test;
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&test);
+  ear->SetCallback([](vtkObject* caller, unsigned long, void* self, void* data) {
+    auto* heard = static_cast<ProgressTest*>(self);
+    heard->Heard.push_back(*static_cast<double*>(data));
+    auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+    if (heard->Heard.back() >= heard->AbortFrom && !algorithm->GetAbortExecute())
+    {
+      heard->AbortTime = std::chrono::steady_clock::now();
+      algorithm->SetAbortExecute(1);
+    }
+  });
+  warp->AddObserver(vtkCommand::ProgressEvent, ear);
+  for (const double from : { 0.01, 0.5, 0.99 })
+  {
+    double seconds = HUGE_VAL;
+    for (int attempt = 0; attempt < 4 && seconds > 0.1; ++attempt)
+    {
+      test.AbortFrom = from;
+      warp->Modified();
+      warp->Update();
+      const auto end = std::chrono::steady_clock::now();
+      CHECK(checks, warp->GetAbortExecute() != 0);
+      CHECK(checks, warp->GetOutput()->GetNumberOfPoints() == 0);
+      CHECK(checks, warp->GetOutput()->GetPointData()->GetNumberOfArrays() == 0);
+      seconds = std::min(seconds, std::chrono::duration<double>(end - test.AbortTime).count());
+      warp->SetAbortExecute(0);
+    }
+    CHECK_NEAR(checks, seconds, 0.0, 0.1);
+  }
+  test = ProgressTest();
+  image->Modified();
+  warp->SetInputData(makePoints(randomCoordinates(bounds, 100000)));
+  warp->Update();
+  CHECK(checks, warp->GetOutput()->GetNumberOfPoints() == 100000);
+  CHECK(checks, test.Heard.size() > 5);
+  CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
+  CHECK(checks, test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+  CHECK(checks, messages.Errors.empty());
+}
+
+} // namespace
+
+int TestWarpRun(int, char*[])
+{
+  Checks checks;
+  checkCache(checks);
+  checkThreads(checks, 1);
+  checkThreads(checks, 11);
+  checkAbort(checks);
+  return checks.Result();
+}
