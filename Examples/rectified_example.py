@@ -61,6 +61,22 @@ def picture_view(size, background):
     return view
 
 
+def pixel_bounds(image):
+    """The rectangle that the pixels of a photograph cover, centres and halves around them."""
+    x, y = image.GetSpacing()[:2]
+    return [b + s for b, s in zip(image.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
+
+
+def look_down(view, middle, height, distance):
+    """Sets the camera above a point of the plane, to show a height of it."""
+    view.InteractionMode = "2D"
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = [*middle, 0]
+    view.CameraPosition = [*middle, distance]
+    view.CameraViewUp = [0, 1, 0]
+    view.CameraParallelScale = height / 2
+
+
 def save_picture(path, view):
     """Draws a view at twice its size and averages: smooth edges for round points."""
     simple.SaveScreenshot(path, view, ImageResolution=[2 * n for n in view.ViewSize])

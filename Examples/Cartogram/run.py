@@ -84,13 +84,7 @@ def draw(path, parts, array, bounds, pixels):
                     shown.MapScalars = 0
                 else:
                     simple.GetColorTransferFunction(array.GetName()).ApplyPreset("Grayscale", True)
-    middle = [(x0 + step + x1) / 2, (y0 + y1) / 2]
-    view.InteractionMode = "2D"
-    view.CameraParallelProjection = 1
-    view.CameraFocalPoint = [*middle, 0]
-    view.CameraPosition = [*middle, 2 * step]
-    view.CameraViewUp = [0, 1, 0]
-    view.CameraParallelScale = (y1 - y0) / 2
+    example.look_down(view, [(x0 + step + x1) / 2, (y0 + y1) / 2], y1 - y0, 2 * step)
     example.save_picture(path, view)
 
 
@@ -108,8 +102,7 @@ def main():
     example.load_plugin()
     image = example.open_image(arguments.image)
     data = example.fetch(image)
-    x, y = data.GetSpacing()[:2]
-    bounds = [b + s for b, s in zip(data.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
+    bounds = example.pixel_bounds(data)
     surface = simple.ExtractSurface(Input=image)
     parts = [surface, *map(producer, grid(bounds, arguments.columns, arguments.rows))]
     warped = [simple.DensityEqualizingWarp(Input=part, Density=image, Blend=arguments.blend,

@@ -86,11 +86,7 @@ def draw_flow(path, stipple):
 
 def flat_picture(path, view, centre, half_height):
     """Keeps a view of the xy plane from above."""
-    view.InteractionMode = "2D"
-    view.CameraParallelProjection = 1
-    view.CameraFocalPoint = [*centre, 0]
-    view.CameraPosition = [*centre, 1000]
-    view.CameraParallelScale = half_height
+    example.look_down(view, centre, 2 * half_height, 1000)
     example.save_picture(path, view)
 
 

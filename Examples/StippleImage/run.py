@@ -48,12 +48,7 @@ def write_png(path, dots, bounds, radius, longest):
     shown.GaussianRadius = radius
     shown.ColorArrayName = [None, ""]
     shown.DiffuseColor = shown.AmbientColor = [0, 0, 0]
-    view.InteractionMode = "2D"
-    view.CameraParallelProjection = 1
-    view.CameraFocalPoint = [(x0 + x1) / 2, (y0 + y1) / 2, 0]
-    view.CameraPosition = [(x0 + x1) / 2, (y0 + y1) / 2, max(x1 - x0, y1 - y0)]
-    view.CameraViewUp = [0, 1, 0]
-    view.CameraParallelScale = (y1 - y0) / 2
+    example.look_down(view, [(x0 + x1) / 2, (y0 + y1) / 2], y1 - y0, max(x1 - x0, y1 - y0))
     example.save_picture(path, view)
 
 
@@ -69,9 +64,7 @@ def main():
     example.load_plugin()
     image = example.open_image(arguments.image)
     dots, radius = stipple(image, arguments.particles)
-    data = example.fetch(image)
-    x, y = data.GetSpacing()[:2]
-    bounds = [b + s for b, s in zip(data.GetBounds(), (-x / 2, x / 2, -y / 2, y / 2))]
+    bounds = example.pixel_bounds(example.fetch(image))
 
     os.makedirs(arguments.output, exist_ok=True)
     name = os.path.splitext(os.path.basename(arguments.image))[0]

@@ -22,17 +22,6 @@ namespace
 constexpr std::int64_t chunk = 4096;
 constexpr double real = sizeof(double);
 
-template <int D>
-double product(const GridSize<D>& lattice)
-{
-  double count = 1.0;
-  for (const std::int64_t cells : lattice)
-  {
-    count *= static_cast<double>(cells);
-  }
-  return count;
-}
-
 // The step from one sample to the next, in cells of the density.
 template <int D>
 Point<D> stepOf(const GridSize<D>& lattice, const GridSize<D>& size)
@@ -54,7 +43,7 @@ MapField<D>::MapField(
   , Lattice(lattice)
   , Size(geometry.Size<D>())
 {
-  const double count = product<D>(lattice);
+  const double count = numberOfCells<D>(lattice);
   const double scratch = D == 3 ? 0.0 : real * D * count;
   requireMemory(purpose, 5.0 * real * count + scratch);
   this->NumberOfSamples = static_cast<std::int64_t>(count);

@@ -4,22 +4,6 @@
 namespace RectifiedTransport
 {
 
-namespace
-{
-
-template <int D>
-double product(const GridSize<D>& grid)
-{
-  double count = 1.0;
-  for (const std::int64_t cells : grid)
-  {
-    count *= static_cast<double>(cells);
-  }
-  return count;
-}
-
-} // namespace
-
 template <int D>
 UnitSeeds<D>::UnitSeeds(
   SeedPattern pattern, const Point<D>& lengths, std::int64_t count, int randomSeed)
@@ -32,7 +16,7 @@ UnitSeeds<D>::UnitSeeds(
   if (this->OnGrid)
   {
     this->Grid = latticeSize<D>(lengths, count);
-    this->Number = product<D>(this->Grid);
+    this->Number = numberOfCells<D>(this->Grid);
   }
 }
 
@@ -42,7 +26,7 @@ UnitSeeds<D>::UnitSeeds(SeedPattern pattern, const GridSize<D>& grid, int random
   , Grid(grid)
   , OnGrid(true)
   , RandomSeed(static_cast<std::uint64_t>(randomSeed))
-  , Number(product<D>(grid))
+  , Number(numberOfCells<D>(grid))
 {
 }
 

@@ -17,6 +17,18 @@ using GridSize = std::array<std::int64_t, Dimension>;
 template <int Dimension>
 using Point = std::array<double, Dimension>;
 
+// Not an integer: what a user asks for may be more than fits into one.
+template <int Dimension>
+double numberOfCells(const GridSize<Dimension>& size)
+{
+  double count = 1.0;
+  for (const std::int64_t cells : size)
+  {
+    count *= static_cast<double>(cells);
+  }
+  return count;
+}
+
 // Cell (i0, i1, i2) covers [i0, i0+1] x ... of index space; axis 0 runs fastest. A row is a line
 // of cells along axis 0; row numbers run over the other axes, axis 1 fastest.
 template <int Dimension>
