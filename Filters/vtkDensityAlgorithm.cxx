@@ -2,7 +2,6 @@
 #include "vtkDensityAlgorithm.h"
 
 #include "Bridge/DensityImage.h"
-#include "Bridge/GuardedRun.h"
 #include "Bridge/PropertyCheck.h"
 
 #include "vtkCellData.h"
@@ -13,7 +12,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <string>
 
@@ -86,80 +84,6 @@ vtkDensityAlgorithm::~vtkDensityAlgorithm() = default;
 const char* vtkDensityAlgorithm::GetNegativeValuesAsString()
 {
   return RectifiedTransport::choiceText(NegativeValuesTexts, this->NegativeValues);
-}
-
-//------------------------------------------------------------------------------
-void vtkDensityAlgorithm::SetInputData(int port, vtkDataObject* input)
-{
-  this->SetInputDataInternal(port, input);
-}
-
-//------------------------------------------------------------------------------
-vtkTypeBool vtkDensityAlgorithm::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
-  {
-    return this->RequestDataObject(request, inputVector, outputVector);
-  }
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
-  {
-    return this->RequestInformation(request, inputVector, outputVector);
-  }
-  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
-  {
-    return this->RequestUpdateExtent(request, inputVector, outputVector);
-  }
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-  {
-    return RectifiedTransport::runGuarded(
-      this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
-  }
-  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityAlgorithm::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
-{
-  return 1; // the executive makes what the ports' information names
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityAlgorithm::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
-{
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkDensityAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
-{
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    vtkDensityAlgorithm::RequestWhole(inputVector[port]);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkDensityAlgorithm::RequestWhole(vtkInformationVector* port)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkInformation* input = port->GetInformationObject(i);
-    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    if (input->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      int extent[6];
-      input->Get(Pipeline::WHOLE_EXTENT(), extent);
-      input->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

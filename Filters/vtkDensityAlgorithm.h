@@ -26,9 +26,7 @@
 #ifndef vtkDensityAlgorithm_h
 #define vtkDensityAlgorithm_h
 
-#include "Bridge/VTKCompatibility.h"
-#include "vtkAlgorithm.h"
-#include "vtkRectifiedTransportModule.h" // for the export macro
+#include "vtkGuardedAlgorithm.h"
 
 namespace RectifiedTransport
 {
@@ -40,10 +38,10 @@ class vtkAbstractArray;
 class vtkDataObject;
 class vtkImageData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkGuardedAlgorithm
 {
 public:
-  vtkTypeMacro(vtkDensityAlgorithm, vtkAlgorithm);
+  vtkTypeMacro(vtkDensityAlgorithm, vtkGuardedAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -90,56 +88,12 @@ public:
   const char* GetNegativeValuesAsString();
   ///@}
 
-  ///@{
-  /**
-   * Give an input as a data object, without a pipeline that makes it.
-   */
-  void SetInputData(vtkDataObject* input) { this->SetInputData(0, input); }
-  void SetInputData(int port, vtkDataObject* input);
-  ///@}
-
-  /**
-   * Pass the executive's requests to the methods below.
-   */
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
 protected:
   /**
    * The density is on input port `densityPort`.
    */
   explicit vtkDensityAlgorithm(int densityPort = 0);
   ~vtkDensityAlgorithm() override;
-
-  /**
-   * Make the outputs that do not exist yet, of the type that the port's information names.
-   */
-  virtual int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-
-  /**
-   * Publish what is known before the data. By default nothing.
-   */
-  virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-
-  /**
-   * Ask for whole images, because a transport is global, and for all points of other inputs.
-   */
-  virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-
-  /**
-   * Ask for the whole of all that is connected to a port.
-   */
-  static void RequestWhole(vtkInformationVector* port);
-
-  /**
-   * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
-   * outputs.
-   */
-  virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) = 0;
 
   /**
    * The array that NewDensity reads, and whether it belongs to the points or the cells; nullptr if

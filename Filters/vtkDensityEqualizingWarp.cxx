@@ -261,7 +261,7 @@ int vtkDensityEqualizingWarp::RequestDataObject(
 int vtkDensityEqualizingWarp::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  vtkDensityAlgorithm::RequestWhole(inputVector[1]);
+  vtkGuardedAlgorithm::RequestWhole(inputVector[1]);
   return 1;
 }
 

@@ -2,21 +2,9 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Bridge/FlowCache.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SMPExecutor.h"
-#include "Core/FlowOptions.h"
-
-#include <cmath>
+#include "Bridge/FlowSettings.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-
-namespace
-{
-const char* const IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
-const char* const TableLookupTexts[] = { "Interpolated", "Nearest" };
-const char* const ThreadingTexts[] = { "Auto", "VTK", "OpenMP", "Serial" };
-constexpr int MaximumNumberOfSteps = 10000;
-} // namespace
 
 struct vtkTransportAlgorithm::vtkInternals
 {
@@ -41,19 +29,19 @@ vtkTransportAlgorithm::~vtkTransportAlgorithm() = default;
 //------------------------------------------------------------------------------
 const char* vtkTransportAlgorithm::GetIntegratorAsString()
 {
-  return RectifiedTransport::choiceText(IntegratorTexts, this->Integrator);
+  return this->GetFlowSettings().IntegratorText();
 }
 
 //------------------------------------------------------------------------------
 const char* vtkTransportAlgorithm::GetTableLookupAsString()
 {
-  return RectifiedTransport::choiceText(TableLookupTexts, this->TableLookup);
+  return this->GetFlowSettings().TableLookupText();
 }
 
 //------------------------------------------------------------------------------
 const char* vtkTransportAlgorithm::GetThreadingAsString()
 {
-  return RectifiedTransport::choiceText(ThreadingTexts, this->Threading);
+  return this->GetFlowSettings().ThreadingText();
 }
 
 //------------------------------------------------------------------------------
@@ -69,41 +57,29 @@ RectifiedTransport::FlowCache& vtkTransportAlgorithm::GetFlowCache()
 }
 
 //------------------------------------------------------------------------------
+RectifiedTransport::FlowSettings vtkTransportAlgorithm::GetFlowSettings()
+{
+  return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup,
+    this->Threading };
+}
+
+//------------------------------------------------------------------------------
 RectifiedTransport::FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 {
-  using namespace RectifiedTransport;
-  requireChoice("Integrator", this->Integrator, IntegratorTexts);
-  requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= MaximumNumberOfSteps,
-    "NumberOfSteps", this->NumberOfSteps, "from 1 to 10000");
-  requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance", this->Tolerance,
-    "a positive number of cells");
-  requireChoice("TableLookup", this->TableLookup, TableLookupTexts);
-  FlowOptions options;
-  options.Method = static_cast<RectifiedTransport::Integrator>(this->Integrator);
-  options.NumberOfSteps = this->NumberOfSteps;
-  options.Tolerance = this->Tolerance;
-  options.Lookup = static_cast<RectifiedTransport::TableLookup>(this->TableLookup);
-  return options;
+  return this->GetFlowSettings().Options();
 }
 
 //------------------------------------------------------------------------------
 RectifiedTransport::Executor* vtkTransportAlgorithm::NewExecutor()
 {
-  RectifiedTransport::requireChoice("Threading", this->Threading, ThreadingTexts);
-  return RectifiedTransport::makeExecutor(
-    static_cast<RectifiedTransport::Threading>(this->Threading))
-    .release();
+  return this->GetFlowSettings().MakeExecutor().release();
 }
 
 //------------------------------------------------------------------------------
 void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Integrator: " << this->GetIntegratorAsString() << "\n";
-  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "TableLookup: " << this->GetTableLookupAsString() << "\n";
-  os << indent << "Threading: " << this->GetThreadingAsString() << "\n";
+  this->GetFlowSettings().Print(os, indent);
   os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";
 }
 VTK_ABI_NAMESPACE_END

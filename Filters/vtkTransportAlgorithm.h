@@ -29,6 +29,7 @@ namespace RectifiedTransport
 class Executor;
 class FlowCache;
 struct FlowOptions;
+struct FlowSettings;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -166,6 +167,8 @@ protected:
   int Threading;
 
 private:
+  RectifiedTransport::FlowSettings GetFlowSettings();
+
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 

@@ -7,6 +7,7 @@
 #include "Executor.h"
 #include "FlowKernels.h"
 #include "FlowOptions.h"
+#include "LatticeOrder.h"
 #include "NearestMass.h"
 #include "Pacer.h"
 
@@ -14,6 +15,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,14 +45,29 @@ inline void check(const FlowOptions& options)
 // and add an error that a larger number of steps does not remove. In 3D they gain less, as the sums
 // on the finest level are simpler.
 template <int Dimension>
-double coarseRatio(const FlowOptions& options)
+double coarseRatio(const FlowOptions& options, bool toPoints)
 {
   constexpr double never = 1e12;
   constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
   const bool adaptive = options.Method == Integrator::Adaptive;
   const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
-  const bool accurate = adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48;
+  const bool accurate =
+    toPoints || (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
   return exact ? never : accurate ? 64.0 : usual;
+}
+
+// With few steps nearly all particles miss cells that lie scattered like points: what they would
+// be redone with is the first try.
+inline int firstRefinement(const FlowOptions& options)
+{
+  constexpr int enough = 128;
+  int refinement = 0;
+  while (options.Method != Integrator::Adaptive && refinement < refinements &&
+    (options.NumberOfSteps << refinement) < enough)
+  {
+    ++refinement;
+  }
+  return refinement;
 }
 
 // What the ranges of one advection count; sums of integers do not depend on their order.
@@ -62,13 +79,15 @@ struct Counters
 };
 
 // Advects particles, at most rangeBlocks * BlockSize: all of them once, then those in trouble again
-// with ever more steps.
+// with ever more steps, twice as many each time.
 template <int Dimension>
 class RangeAdvection
 {
 public:
-  RangeAdvection(const FlowJob<Dimension>& job, Counters& counters, Pacer& pacer)
+  RangeAdvection(
+    const FlowJob<Dimension>& job, int firstRefinement, Counters& counters, Pacer& pacer)
     : Job(job)
+    , First(firstRefinement)
     , Count(counters)
     , Pace(pacer)
     , Advect(flowKernels().Advect<Dimension>())
@@ -76,17 +95,17 @@ public:
   }
 
   template <class Source>
-  void Run(const Source& source, std::int64_t first, int count)
+  void Run(Source& source, std::int64_t first, int count)
   {
     // The output may be the array of the seeds, so these are kept until all is done.
     source.Fill(first, count, this->Index, this->Seeds);
-    int left = this->Pass(count, 0);
+    int left = this->Pass(count, this->First);
     if (this->Job.Backward || this->Job.Nearest)
     {
       return;
     }
     this->Count.Redone += left;
-    for (int refinement = 1; left > 0 && refinement <= refinements; ++refinement)
+    for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
     {
       left = this->Pass(left, refinement);
     }
@@ -137,11 +156,75 @@ private:
   }
 
   const FlowJob<Dimension>& Job;
+  const int First;
   Counters& Count;
   Pacer& Pace;
   const AdvectBlock<Dimension> Advect;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
+};
+
+// The samples of a lattice for one range, whose ends stay in memory of the range's own.
+template <int Dimension>
+class RangeCells
+{
+public:
+  RangeCells(const LatticeOrder<Dimension>& order, const FlowJob<Dimension>& job)
+    : Order(order)
+    , Job(job)
+  {
+    this->Job.Output = this->Ends;
+  }
+
+  const FlowJob<Dimension>& LocalJob() const { return this->Job; }
+
+  void Fill(std::int64_t first, int count, std::int64_t* index, double* points)
+  {
+    this->Order.Fill(first, count, this->Number, points);
+    std::iota(index, index + count, std::int64_t{ 0 });
+  }
+
+  // Writes the cells with mass that the samples have come to. Returns how many missed them.
+  std::int64_t Write(int count, std::int64_t* cells) const
+  {
+    std::int64_t missed = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      Point<Dimension> point;
+      std::copy_n(this->Ends + i * Dimension, Dimension, point.begin());
+      Point<Dimension> inside = this->Middle(point);
+      if (!hasMass<Dimension>(this->Job.Tables, inside))
+      {
+        missed += hasMass<Dimension>(this->Job.Tables, point) ? 0 : 1;
+        inside = this->Middle(nearestMass<Dimension>(this->Job.Tables, point));
+      }
+      std::int64_t cell = 0;
+      for (int axis = Dimension; axis-- > 0;)
+      {
+        cell = cell * this->Job.Tables.Cells[axis] + static_cast<std::int64_t>(inside[axis]);
+      }
+      cells[this->Number[i]] = cell;
+    }
+    return missed;
+  }
+
+private:
+  // Of the cell that holds a point; of two that meet there, the upper one.
+  Point<Dimension> Middle(const Point<Dimension>& point) const
+  {
+    Point<Dimension> middle;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double last = this->Job.Tables.Size[axis] - 1.0;
+      middle[axis] = std::min(std::floor(point[axis]), last) + 0.5;
+    }
+    return middle;
+  }
+
+  const LatticeOrder<Dimension>& Order;
+  FlowJob<Dimension> Job;
+  std::int64_t Number[rangeBlocks * BlockSize];
+  double Ends[rangeBlocks * BlockSize * Dimension];
 };
 
 // One advection of any number of particles, from one source of them after the other.
@@ -151,8 +234,9 @@ class AdvectionRun
 public:
   AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
     double* positions, bool backward, const FlowOptions& options, std::int64_t count,
-    const Monitor& monitor)
-    : Pace(monitor)
+    const Monitor& monitor, bool toPoints = false)
+    : First(toPoints ? firstRefinement(options) : 0)
+    , Pace(monitor)
   {
     check(options);
     this->Job.Tables = tables;
@@ -161,7 +245,7 @@ public:
     this->Job.Nearest = options.Lookup == TableLookup::Nearest;
     this->Job.Tolerance = options.Tolerance;
     this->Job.Steps = options.NumberOfSteps;
-    this->Job.CoarseRatio = coarseRatio<Dimension>(options);
+    this->Job.CoarseRatio = coarseRatio<Dimension>(options, toPoints);
     this->Job.Output = positions;
     this->Job.Times = times.empty() ? nullptr : times.data();
     this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
@@ -179,9 +263,9 @@ public:
     this->Pace.BeginStage(1.0, count);
     // A range is short enough to be waited for, however many steps there are.
     constexpr int usualSteps = 64;
-    this->Grain = std::max(1,
-                    std::min(rangeBlocks,
-                      rangeBlocks * usualSteps / std::max(options.NumberOfSteps, usualSteps))) *
+    const int steps = options.NumberOfSteps << this->First;
+    this->Grain =
+      std::max(1, std::min(rangeBlocks, rangeBlocks * usualSteps / std::max(steps, usualSteps))) *
       BlockSize;
   }
   AdvectionRun(const AdvectionRun&) = delete;
@@ -191,21 +275,25 @@ public:
   template <class Source>
   bool Advect(const Source& source, std::int64_t count, const Executor& executor)
   {
-    for (std::int64_t begin = 0; begin < count;)
-    {
-      const std::int64_t slice =
-        std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
-      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(this->Job, this->Count, this->Pace);
-        range.Run(source, begin + first, static_cast<int>(last - first));
-      });
-      begin += slice;
-      if (!this->Pace.EndSlice(slice))
+    return this->Run(count, executor, [&](std::int64_t first, int length) {
+      RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
+      range.Run(source, first, length);
+    });
+  }
+
+  // Advects the samples of a lattice and writes the cell that each comes to.
+  bool AdvectToCells(
+    const LatticeOrder<Dimension>& lattice, std::int64_t* cells, const Executor& executor)
+  {
+    return this->Run(lattice.Count(), executor, [&](std::int64_t first, int length) {
+      RangeCells<Dimension> ends(lattice, this->Job);
+      RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
+      range.Run(ends, first, length);
+      if (!this->Pace.ShouldStop())
       {
-        return false;
+        this->Count.MovedToMass += ends.Write(length, cells);
       }
-    }
-    return true;
+    });
   }
 
   FlowReport Report() const
@@ -219,6 +307,26 @@ public:
   }
 
 private:
+  template <class RunRange>
+  bool Run(std::int64_t count, const Executor& executor, const RunRange& runRange)
+  {
+    for (std::int64_t begin = 0; begin < count;)
+    {
+      const std::int64_t slice =
+        std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        runRange(begin + first, static_cast<int>(last - first));
+      });
+      begin += slice;
+      if (!this->Pace.EndSlice(slice))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const int First;
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;
   Counters Count;

@@ -257,6 +257,19 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
 }
 
 template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimension>& lattice,
+  std::int64_t* cells, const FlowOptions& options, const Executor& executor,
+  const Monitor& monitor) const
+{
+  check<Dimension>(lattice, "a lattice");
+  const LatticeOrder<Dimension> order(lattice, this->Data->Size);
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), {}, nullptr, false, options, order.Count(), monitor, true);
+  run.AdvectToCells(order, cells, executor);
+  return run.Report();
+}
+
+template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
   const std::vector<Point<Dimension>>& seeds, const FlowOptions& options)
 {

@@ -88,6 +88,13 @@ public:
     const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
     const Monitor& monitor = {}) const;
 
+  // Forwards too, but of every sample only the cell of the density that it comes to, which has
+  // mass: cells are numbered with axis 0 fastest. For densities of few cells scattered like points,
+  // which most particles miss at first: fewer than 128 steps become up to 32 times as many at once.
+  FlowReport ForwardLatticeToCells(const GridSize<Dimension>& lattice, std::int64_t* cells,
+    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
+    const Monitor& monitor = {}) const;
+
 private:
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the pixels that hold sites to the sites: those in one pixel divide its cell.
+#ifndef RectifiedTransport_CellShares_h
+#define RectifiedTransport_CellShares_h
+
+#include "SitePixels.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Turns `owners`, which say of each pixel which of the pixels with sites it goes to, into the
+// numbers of sites. A cell of several sites is cut into halves, and these again, until each has
+// a part, equal to the pixel: across the axis along which the sites differ most, or where they do
+// not differ the cell's longest one. `coordinates` are the sites', `spacing` the lengths of a
+// pixel's sides.
+template <int Dimension>
+void shareCells(const SitePixels<Dimension>& sites, const double* coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners);
+
+} // namespace RectifiedTransport
+
+#endif

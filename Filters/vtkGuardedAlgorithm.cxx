@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkGuardedAlgorithm.h"
+
+#include "Bridge/GuardedRun.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+
+//------------------------------------------------------------------------------
+vtkGuardedAlgorithm::vtkGuardedAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+vtkGuardedAlgorithm::~vtkGuardedAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
+{
+  this->SetInputDataInternal(port, input);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    return this->RequestInformation(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    return this->RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return RectifiedTransport::runGuarded(
+      this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1; // the executive makes what the ports' information names
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::RequestWhole(vtkInformationVector* port)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* input = port->GetInformationObject(i);
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    if (input->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      int extent[6];
+      input->Get(Pipeline::WHOLE_EXTENT(), extent);
+      input->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+    }
+  }
+}
+VTK_ABI_NAMESPACE_END

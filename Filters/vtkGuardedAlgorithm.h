@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkGuardedAlgorithm
+ * @brief   what all filters of the module share as algorithms
+ *
+ * Passes the executive's requests to virtual methods. What RequestData throws becomes one error of
+ * the filter; after an error or an abort all outputs are empty.
+ *
+ * @sa vtkDensityAlgorithm vtkEqualMassCells
+ */
+#ifndef vtkGuardedAlgorithm_h
+#define vtkGuardedAlgorithm_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "vtkAlgorithm.h"
+#include "vtkRectifiedTransportModule.h" // for the export macro
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkGuardedAlgorithm : public vtkAlgorithm
+{
+public:
+  vtkTypeMacro(vtkGuardedAlgorithm, vtkAlgorithm);
+
+  ///@{
+  /**
+   * Give an input as a data object, without a pipeline that makes it.
+   */
+  void SetInputData(vtkDataObject* input) { this->SetInputData(0, input); }
+  void SetInputData(int port, vtkDataObject* input);
+  ///@}
+
+  /**
+   * Pass the executive's requests to the methods below.
+   */
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+protected:
+  vtkGuardedAlgorithm();
+  ~vtkGuardedAlgorithm() override;
+
+  /**
+   * Make the outputs that do not exist yet, of the type that the port's information names.
+   */
+  virtual int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Publish what is known before the data. By default nothing.
+   */
+  virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Ask for whole images, because a transport is global, and for all points of other inputs.
+   */
+  virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
+   * Ask for the whole of all that is connected to a port.
+   */
+  static void RequestWhole(vtkInformationVector* port);
+
+  /**
+   * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
+   * outputs.
+   */
+  virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) = 0;
+
+private:
+  vtkGuardedAlgorithm(const vtkGuardedAlgorithm&) = delete;
+  void operator=(const vtkGuardedAlgorithm&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif
