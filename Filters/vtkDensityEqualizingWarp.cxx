@@ -246,13 +246,7 @@ int vtkDensityEqualizingWarp::FillOutputPortInformation(int, vtkInformation* inf
 int vtkDensityEqualizingWarp::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
-  vtkPointSet* output = vtkPointSet::GetData(outputVector);
-  if (input && (!output || output->GetDataObjectType() != input->GetDataObjectType()))
-  {
-    const auto made = vtkSmartPointer<vtkPointSet>::Take(input->NewInstance());
-    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
+  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
   return 1;
 }
 

@@ -5,6 +5,8 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -50,6 +52,19 @@ int vtkGuardedAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   return 1; // the executive makes what the ports' information names
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::MakeOutputLike(
+  vtkInformationVector* input, vtkInformationVector* outputVector, int port)
+{
+  vtkPointSet* like = vtkPointSet::GetData(input);
+  vtkPointSet* output = vtkPointSet::GetData(outputVector, port);
+  if (like && (!output || output->GetDataObjectType() != like->GetDataObjectType()))
+  {
+    const auto made = vtkSmartPointer<vtkPointSet>::Take(like->NewInstance());
+    outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -48,6 +48,12 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
+   * Make the point set of an output port of the type of the first input, where it is not.
+   */
+  static void MakeOutputLike(
+    vtkInformationVector* input, vtkInformationVector* outputVector, int port);
+
+  /**
    * Publish what is known before the data. By default nothing.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,

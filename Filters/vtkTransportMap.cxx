@@ -3,6 +3,7 @@
 
 #include "Bridge/DensityImage.h"
 #include "Bridge/Failure.h"
+#include "Bridge/FieldValue.h"
 #include "Bridge/FlowCache.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
@@ -11,12 +12,9 @@
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -119,14 +117,6 @@ MapResult makeMap(const MapRun& run, vtkImageData* input, vtkDataSetAttributes* 
   const double cost =
     field.Write(run.Backward ? &flow : nullptr, run.Threads, run.Host, 1.0, output);
   return { cost, field.Count(), report.MovedToMass };
-}
-
-void addValue(vtkImageData* output, const char* name, double value)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
 }
 } // namespace
 
@@ -265,8 +255,8 @@ int vtkTransportMap::RequestData(
   const MapResult result = dimension == 1 ? makeMap<1>(run, input, attributes)
     : dimension == 2                      ? makeMap<2>(run, input, attributes)
                                           : makeMap<3>(run, input, attributes);
-  addValue(output, "TotalMass", run.Cache.TotalMass());
-  addValue(output, "TransportCost", result.Cost);
+  addFieldValue(output, "TotalMass", run.Cache.TotalMass());
+  addFieldValue(output, "TransportCost", result.Cost);
   if (result.MovedToMass > 0)
   {
     vtkWarningMacro(<< result.MovedToMass << " of " << result.Samples

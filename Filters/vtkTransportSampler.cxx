@@ -3,6 +3,7 @@
 
 #include "Bridge/DensityImage.h"
 #include "Bridge/Failure.h"
+#include "Bridge/FieldValue.h"
 #include "Bridge/FlowCache.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/Memory.h"
@@ -12,11 +13,8 @@
 #include "Bridge/UnitSeeds.h"
 
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -179,14 +177,6 @@ std::int64_t advect(const SamplerRun& run, const std::vector<double>& times,
   return report.MovedToMass;
 }
 
-void addValue(vtkPolyData* output, const char* name, double value)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
-}
-
 template <int D>
 SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
 {
@@ -205,7 +195,7 @@ SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
   if (run.GivenSeeds)
   {
     run.Host.BeginStage(stages.Seeds);
-    report.SeedsMoved = readSeeds<D>(run.GivenSeeds, geometry, run.Threads, run.Host,
+    report.SeedsMoved = readSeeds<D>(run.GivenSeeds, "input Seeds", geometry, run.Threads, run.Host,
       particles.Seeds(), particles.PhysicalSeeds());
   }
   else
@@ -228,8 +218,8 @@ SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
   const double cost = run.Paths
     ? particles.WritePaths(mass, times, run.Threads, run.Host, 1.0, output)
     : particles.WriteParticles(mass, run.Threads, run.Host, 1.0, output);
-  addValue(output, "TotalMass", mass);
-  addValue(output, "TransportCost", cost);
+  addFieldValue(output, "TotalMass", mass);
+  addFieldValue(output, "TransportCost", cost);
   return report;
 }
 } // namespace

@@ -2,6 +2,7 @@
 #include "ImageFrame.h"
 
 #include "Failure.h"
+#include "PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
@@ -10,6 +11,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace RectifiedTransport
@@ -30,6 +32,8 @@ constexpr int most = 1 << 30; // cells an axis, as in the core
 
 } // namespace
 
+ImageFrame::ImageFrame() = default;
+
 ImageFrame::ImageFrame(vtkImageData* image)
 {
   image->GetExtent(this->Extent.data());
@@ -39,10 +43,6 @@ ImageFrame::ImageFrame(vtkImageData* image)
 }
 
 ImageFrame::ImageFrame(vtkInformation* information)
-  : Extent{ 0, -1, 0, -1, 0, -1 }
-  , Origin{ 0.0, 0.0, 0.0 }
-  , Spacing{ 1.0, 1.0, 1.0 }
-  , Direction{ 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 }
 {
   const auto get = [information](auto* key, auto& values) {
     if (information->Has(key))
@@ -54,6 +54,30 @@ ImageFrame::ImageFrame(vtkInformation* information)
   get(vtkDataObject::ORIGIN(), this->Origin);
   get(vtkDataObject::SPACING(), this->Spacing);
   get(vtkDataObject::DIRECTION(), this->Direction);
+}
+
+ImageFrame::ImageFrame(const double (&bounds)[6])
+{
+  constexpr double flat = 1e-9;
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    longest = std::max(longest, bounds[2 * i + 1] - bounds[2 * i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double length = bounds[2 * i + 1] - bounds[2 * i];
+    const bool isAxis = length > flat * longest;
+    this->Extent[2 * i + 1] = isAxis ? 1 : 0;
+    this->Origin[i] = bounds[2 * i];
+    this->Spacing[i] = isAxis ? length : 1.0;
+  }
+}
+
+bool ImageFrame::operator==(const ImageFrame& other) const
+{
+  return this->Extent == other.Extent && this->Origin == other.Origin &&
+    this->Spacing == other.Spacing && this->Direction == other.Direction;
 }
 
 void ImageFrame::CopyTo(vtkImageData* image) const
@@ -131,6 +155,28 @@ ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char
     frame.Extent[2 * i + 1] = onPoints ? count - 1 : count;
   }
   return frame;
+}
+
+ImageFrame ImageFrame::WithResolution(int resolution, const char* property) const
+{
+  requireThat(resolution >= 1 && resolution <= most, property, resolution, "from 1 to 1073741824");
+  const std::array<int, 3> cells = this->Values(false);
+  double lengths[3];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const bool isAxis = this->Extent[2 * i] != this->Extent[2 * i + 1];
+    lengths[i] = isAxis ? std::abs(this->Spacing[i]) * cells[i] : 0.0;
+  }
+  const double longest = std::max({ lengths[0], lengths[1], lengths[2] });
+  int wanted[3] = { 0, 0, 0 };
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (lengths[i] > 0.0)
+    {
+      wanted[i] = std::max(1, static_cast<int>(std::lround(resolution * (lengths[i] / longest))));
+    }
+  }
+  return this->WithValues(wanted, false, property);
 }
 
 } // namespace RectifiedTransport

@@ -15,14 +15,22 @@ namespace RectifiedTransport
 class ImageFrame
 {
 public:
+  ImageFrame(); // without points
   explicit ImageFrame(vtkImageData* image);
   // What a pipeline has published; it has no points where it has published no extent.
   explicit ImageFrame(vtkInformation* information);
+
+  // A box along the coordinate axes, {x0, x1, y0, y1, z0, z1}: one cell, and no axis where the box
+  // is flat (a billionth of its longest side is rounding).
+  explicit ImageFrame(const double (&bounds)[6]);
+
+  bool operator==(const ImageFrame& other) const;
 
   void CopyTo(vtkImageData* image) const;
   void Publish(vtkInformation* information) const;
 
   bool IsEmpty() const;
+  bool HasOnePoint() const { return this->Values(true) == std::array<int, 3>{ 1, 1, 1 }; }
   // The numbers of values of a point or cell array along the axes, 1 where there is no axis.
   std::array<int, 3> Values(bool onPoints) const;
 
@@ -30,14 +38,18 @@ public:
   // points) cover; 0 for as many as there are. Throws Failure, which names `property`.
   ImageFrame WithValues(const int values[3], bool onPoints, const char* property) const;
 
+  // The frame with `resolution` cells along the longest axis of the domain that the cells cover,
+  // and as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
+  ImageFrame WithResolution(int resolution, const char* property) const;
+
   // Of the numbers alone, which differ wherever WithValues changes anything.
   bool HasExtentOf(const ImageFrame& other) const { return this->Extent == other.Extent; }
 
 private:
-  std::array<int, 6> Extent;
-  std::array<double, 3> Origin;
-  std::array<double, 3> Spacing;
-  std::array<double, 9> Direction;
+  std::array<int, 6> Extent{ 0, -1, 0, -1, 0, -1 };
+  std::array<double, 3> Origin{ 0.0, 0.0, 0.0 };
+  std::array<double, 3> Spacing{ 1.0, 1.0, 1.0 };
+  std::array<double, 9> Direction{ 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
 };
 
 } // namespace RectifiedTransport

@@ -53,12 +53,12 @@ private:
 } // namespace
 
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const ImageGeometry& geometry, const Executor& executor,
-  HostMonitor& host, double* indexSeeds, double* physicalSeeds)
+std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGeometry& geometry,
+  const Executor& executor, HostMonitor& host, double* indexSeeds, double* physicalSeeds)
 {
   const PlaceSeed<D> place(geometry, indexSeeds, physicalSeeds);
   std::atomic<std::int64_t> moved{ 0 };
-  visitPoints(points, "input Seeds", executor, host, [&](std::int64_t i, const double* x) {
+  visitPoints(points, what, executor, host, [&](std::int64_t i, const double* x) {
     if (place(i, x))
     {
       ++moved;
@@ -67,11 +67,11 @@ std::int64_t readSeeds(vtkPointSet* points, const ImageGeometry& geometry, const
   return moved;
 }
 
-template std::int64_t readSeeds<1>(
-  vtkPointSet*, const ImageGeometry&, const Executor&, HostMonitor&, double*, double*);
-template std::int64_t readSeeds<2>(
-  vtkPointSet*, const ImageGeometry&, const Executor&, HostMonitor&, double*, double*);
-template std::int64_t readSeeds<3>(
-  vtkPointSet*, const ImageGeometry&, const Executor&, HostMonitor&, double*, double*);
+template std::int64_t readSeeds<1>(vtkPointSet*, const std::string&, const ImageGeometry&,
+  const Executor&, HostMonitor&, double*, double*);
+template std::int64_t readSeeds<2>(vtkPointSet*, const std::string&, const ImageGeometry&,
+  const Executor&, HostMonitor&, double*, double*);
+template std::int64_t readSeeds<3>(vtkPointSet*, const std::string&, const ImageGeometry&,
+  const Executor&, HostMonitor&, double*, double*);
 
 } // namespace RectifiedTransport

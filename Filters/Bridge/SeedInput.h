@@ -17,10 +17,10 @@ class HostMonitor;
 // they lie outside, and where they then are in physical space (3 doubles each; a point inside keeps
 // its own coordinates to the last bit). Returns how many were moved by more than a millionth of the
 // domain's size, by which single precision may miss the border. Throws Failure for coordinates that
-// are not finite, and Aborted.
+// are not finite, naming the input as `what`, and Aborted.
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const ImageGeometry& geometry, const Executor& executor,
-  HostMonitor& host, double* indexSeeds, double* physicalSeeds);
+std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGeometry& geometry,
+  const Executor& executor, HostMonitor& host, double* indexSeeds, double* physicalSeeds);
 
 } // namespace RectifiedTransport
 

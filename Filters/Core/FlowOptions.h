@@ -28,6 +28,12 @@ struct FlowOptions
   int NumberOfSteps = 32;  // of the fixed-step methods, 1 to 10000
   double Tolerance = 0.01; // cells, Adaptive only, > 0
   TableLookup Lookup = TableLookup::Interpolated;
+
+  bool operator==(const FlowOptions& other) const
+  {
+    return this->Method == other.Method && this->NumberOfSteps == other.NumberOfSteps &&
+      this->Tolerance == other.Tolerance && this->Lookup == other.Lookup;
+  }
 };
 
 // How an advection went.

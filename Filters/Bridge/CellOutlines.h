@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The borders of the cells of a labelled image, along the sides of its pixels.
+#ifndef RectifiedTransport_CellOutlines_h
+#define RectifiedTransport_CellOutlines_h
+
+#include "HostMonitor.h"
+#include "ImageGeometry.h"
+
+#include <cstdint>
+
+class vtkPolyData;
+
+namespace RectifiedTransport
+{
+
+// Each cell's own closed border with its label in the cell array `SiteId`: vertices in 1D, lines in
+// 2D, quads in 3D, these seen from outside against the clock (where the image's axes are
+// right-handed). What is between two cells is there once for each; points are shared. Throws
+// Aborted.
+template <int D>
+void outlineCells(const ImageGeometry& geometry, const std::int64_t* labels, HostMonitor& host,
+  vtkPolyData* output);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SiteLabels.h"
+
+#include "../Core/CellBalance.h"
+#include "../Core/CellShares.h"
+#include "../Core/RectifiedFlow.h"
+#include "Failure.h"
+#include "Memory.h"
+#include "SeedInput.h"
+
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::string describeGrid(const std::int64_t* size, int dimension)
+{
+  std::string text;
+  for (int a = 0; a < dimension; ++a)
+  {
+    text += (a == 0 ? "" : " x ") + std::to_string(size[a]);
+  }
+  return text;
+}
+
+} // namespace
+
+bool SiteLabels::IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const
+{
+  return this->Labels && this->Sites == sites && this->Time == sites->GetMTime() &&
+    this->Frame == frame && this->Options == options;
+}
+
+void SiteLabels::Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
+  vtkSmartPointer<SiteIdArray> labels)
+{
+  this->Labels = std::move(labels);
+  this->Sites = sites;
+  this->Time = sites->GetMTime();
+  this->Frame = frame;
+  this->Options = options;
+}
+
+template <int D>
+SiteGrid<D>::SiteGrid(
+  vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor, HostMonitor& host)
+  : Geometry(geometry)
+{
+  const std::int64_t count = sites->GetNumberOfPoints();
+  const GridSize<D> size = geometry.Size<D>();
+  if (static_cast<double>(count) > numberOfCells<D>(size))
+  {
+    throw Failure("The input has " + std::to_string(count) + " sites for " +
+      describeGrid(size.data(), D) + " pixels; raise Resolution until there is a pixel for each");
+  }
+  const std::string purpose = "the " + std::to_string(count) + " sites";
+  const double bytes = static_cast<double>(count) * (D + 3 + 4) * sizeof(double);
+  withMemory(purpose, bytes, [&]() {
+    this->Coordinates = LargeBuffer<double>(count * D);
+    LargeBuffer<double> inside(count * 3);
+    this->Outside = readSeeds<D>(
+      sites, "input point set", geometry, executor, host, this->Coordinates.data(), inside.data());
+    this->Grid = std::make_unique<SitePixels<D>>(size, this->Coordinates.data(), count);
+  });
+}
+
+template <int D>
+vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
+  const FlowOptions& options, const Executor& executor, HostMonitor& host, double progress) const
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const SitePixels<D>& grid = *this->Grid;
+  const GridSize<D> size = grid.Size();
+  const double pixels = numberOfCells<D>(size);
+  const std::string purpose = "labels of " + describeGrid(size.data(), D) + " pixels";
+  constexpr double recordBytes = (D == 1 ? 2.5 : 4.0) * sizeof(double);
+  requireMemory(purpose, pixels * (sizeof(std::int64_t) + recordBytes));
+  auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
+  std::int64_t* labels = array->GetPointer(0);
+  const double begin = host.Reached();
+  const auto beginStage = [&](double part) { host.BeginStage(begin + part * (progress - begin)); };
+  const auto require = [](bool complete) {
+    if (!complete)
+    {
+      throw Aborted();
+    }
+  };
+  if (grid.NumberOfPixels() == 1)
+  {
+    std::fill_n(labels, array->GetNumberOfTuples(), std::int64_t{ 0 });
+  }
+  else
+  {
+    withMemory(purpose, pixels * recordBytes, [&]() {
+      beginStage(0.03);
+      const RectifiedFlow<D> flow(grid, executor, host.GetMonitor());
+      require(static_cast<bool>(flow));
+      beginStage(0.93);
+      require(
+        !flow.ForwardLatticeToCells(size, labels, options, executor, host.GetMonitor()).Cancelled);
+    });
+    beginStage(0.95);
+    host.Run(
+      executor, array->GetNumberOfTuples(), grain, [&](std::int64_t first, std::int64_t last) {
+        std::transform(labels + first, labels + last, labels + first,
+          [&grid](std::int64_t pixel) { return grid.Find(pixel); });
+      });
+  }
+  const Point<D> lengths = this->Geometry.template Lengths<D>();
+  Point<D> spacing;
+  for (int a = 0; a < D; ++a)
+  {
+    spacing[a] = lengths[a] / static_cast<double>(size[a]);
+  }
+  withMemory(purpose, pixels * sizeof(std::int64_t), [&]() {
+    beginStage(1.0);
+    require(balanceCells<D>(grid, spacing, labels, host.GetMonitor()));
+    shareCells<D>(grid, this->Coordinates.data(), spacing, labels);
+  });
+  return array;
+}
+
+template class SiteGrid<1>;
+template class SiteGrid<2>;
+template class SiteGrid<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which site each pixel of a domain goes to, when the uniform measure flows to the sites.
+#ifndef RectifiedTransport_SiteLabels_h
+#define RectifiedTransport_SiteLabels_h
+
+#include "../Core/FlowOptions.h"
+#include "../Core/LargeBuffer.h"
+#include "../Core/SitePixels.h"
+#include "HostMonitor.h"
+#include "ImageFrame.h"
+#include "ImageGeometry.h"
+
+#include "vtkLongArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <type_traits>
+
+class vtkPointSet;
+class vtkPoints;
+
+namespace RectifiedTransport
+{
+
+using SiteIdArray =
+  std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
+
+// The labels of a run, kept for the next one, which may ask for other figures of the same cells.
+class SiteLabels
+{
+public:
+  // Whether these are the labels of such sites on such a grid.
+  bool IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const;
+  void Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
+    vtkSmartPointer<SiteIdArray> labels);
+  SiteIdArray* Array() const { return this->Labels; }
+
+private:
+  vtkSmartPointer<SiteIdArray> Labels;
+  vtkSmartPointer<vtkPoints> Sites;
+  vtkMTimeType Time = 0;
+  ImageFrame Frame;
+  FlowOptions Options;
+};
+
+// Sites on the grid of labels.
+template <int D>
+class SiteGrid
+{
+public:
+  // Throws Failure for coordinates that are not finite and for more sites than pixels, and Aborted.
+  SiteGrid(
+    vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor, HostMonitor& host);
+
+  const SitePixels<D>& Pixels() const { return *this->Grid; }
+  // How many sites are outside of the domain and count as the nearest point of its border.
+  std::int64_t NumberOutside() const { return this->Outside; }
+
+  // The label of each pixel, axis 0 fastest. Progress ends at `progress`. Throws Failure for memory
+  // that is not there, and Aborted.
+  vtkSmartPointer<SiteIdArray> MakeLabels(
+    const FlowOptions& options, const Executor& executor, HostMonitor& host, double progress) const;
+
+private:
+  const ImageGeometry& Geometry;
+  LargeBuffer<double> Coordinates; // in index space, inside
+  std::unique_ptr<SitePixels<D>> Grid;
+  std::int64_t Outside = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

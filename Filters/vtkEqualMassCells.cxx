@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkEqualMassCells.h"
+
+#include "Bridge/CellFigures.h"
+#include "Bridge/CellOutlines.h"
+#include "Bridge/Failure.h"
+#include "Bridge/FieldValue.h"
+#include "Bridge/FlowSettings.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/ImageFrame.h"
+#include "Bridge/PropertyCheck.h"
+#include "Bridge/SiteLabels.h"
+
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <cmath>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkEqualMassCells);
+
+namespace
+{
+using namespace RectifiedTransport;
+
+// What RequestData has fetched and checked.
+struct CellsRun
+{
+  HostMonitor& Host;
+  const Executor& Threads;
+  FlowOptions Options;
+  vtkPointSet* Input;
+  const ImageFrame& Frame;
+  SiteLabels& Labels;
+  CostNorm Norm;
+};
+
+struct CellsOutput
+{
+  vtkImageData* Labels;
+  vtkPointSet* Sites;
+  vtkPolyData* Outlines;
+};
+
+// Returns how many sites are outside of the domain.
+template <int D>
+std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const CellsOutput& output)
+{
+  run.Host.BeginStage(0.01);
+  const SiteGrid<D> sites(run.Input, geometry, run.Threads, run.Host);
+  vtkPoints* points = run.Input->GetPoints();
+  if (!run.Labels.IsFor(points, run.Frame, run.Options))
+  {
+    run.Labels.Keep(
+      points, run.Frame, run.Options, sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95));
+  }
+  SiteIdArray* labels = run.Labels.Array();
+  output.Labels->GetCellData()->SetScalars(labels);
+  run.Host.BeginStage(0.98);
+  const double cost = writeCellFigures<D>(run.Input, sites.Pixels(), geometry, labels, run.Norm,
+    run.Threads, run.Host, output.Sites->GetPointData());
+  addFieldValue(output.Labels, "TransportCost", cost);
+  addFieldValue(output.Sites, "TransportCost", cost);
+  run.Host.BeginStage(1.0);
+  outlineCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
+  return sites.NumberOutside();
+}
+
+// The input's points in double precision.
+vtkSmartPointer<vtkPoints> doublePoints(vtkPoints* points)
+{
+  if (points->GetDataType() == VTK_DOUBLE)
+  {
+    return points;
+  }
+  auto copy = vtkSmartPointer<vtkPoints>::New();
+  copy->SetDataTypeToDouble();
+  copy->DeepCopy(points);
+  return copy;
+}
+} // namespace
+
+struct vtkEqualMassCells::vtkInternals
+{
+  SiteLabels Labels;
+};
+
+//------------------------------------------------------------------------------
+vtkEqualMassCells::vtkEqualMassCells()
+  : Resolution(512)
+  , NormExponent(2.0)
+  , CostExponent(2.0)
+  , Integrator(0)
+  , NumberOfSteps(32)
+  , Tolerance(0.01)
+  , TableLookup(0)
+  , Threading(0)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
+}
+
+//------------------------------------------------------------------------------
+vtkEqualMassCells::~vtkEqualMassCells() = default;
+
+//------------------------------------------------------------------------------
+FlowSettings vtkEqualMassCells::GetFlowSettings()
+{
+  return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup,
+    this->Threading };
+}
+
+//------------------------------------------------------------------------------
+const char* vtkEqualMassCells::GetIntegratorAsString()
+{
+  return this->GetFlowSettings().IntegratorText();
+}
+
+//------------------------------------------------------------------------------
+const char* vtkEqualMassCells::GetTableLookupAsString()
+{
+  return this->GetFlowSettings().TableLookupText();
+}
+
+//------------------------------------------------------------------------------
+const char* vtkEqualMassCells::GetThreadingAsString()
+{
+  return this->GetFlowSettings().ThreadingText();
+}
+
+//------------------------------------------------------------------------------
+void vtkEqualMassCells::SetDomainConnection(vtkAlgorithmOutput* domain)
+{
+  this->SetInputConnection(1, domain);
+}
+
+//------------------------------------------------------------------------------
+void vtkEqualMassCells::SetDomainData(vtkDataObject* domain)
+{
+  this->SetInputData(1, domain);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkEqualMassCells::GetLabels()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPointSet* vtkEqualMassCells::GetSites()
+{
+  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkEqualMassCells::GetOutlines()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
+}
+
+//------------------------------------------------------------------------------
+int vtkEqualMassCells::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkEqualMassCells::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  const char* const types[] = { "vtkImageData", "vtkPointSet", "vtkPolyData" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkEqualMassCells::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
+{
+  constexpr double margin = 0.05; // on each side
+  double bounds[6];
+  sites->GetBounds(bounds);
+  for (int a = 0; a < 3; ++a)
+  {
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    bounds[2 * a] -= margin * length;
+    bounds[2 * a + 1] += margin * length;
+  }
+  return ImageFrame(bounds);
+}
+
+//------------------------------------------------------------------------------
+int vtkEqualMassCells::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  ImageFrame box;
+  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
+  {
+    box = ImageFrame(inputVector[1]->GetInformationObject(0));
+  }
+  else
+  {
+    // The sites' bounds are not known before their data; what is left of the last run is as good a
+    // guess as any, and the data say what is right.
+    vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
+    const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
+    box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);
+  }
+  try
+  {
+    box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
+  }
+  catch (const Failure&)
+  {
+    box = ImageFrame(); // RequestData says it, once
+  }
+  box.Publish(outputVector->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkEqualMassCells::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireThat(
+    this->NormExponent >= 1.0, "NormExponent", this->NormExponent, "at least 1, or infinite");
+  requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
+    this->CostExponent, "a number above 0");
+  const FlowSettings settings = this->GetFlowSettings();
+  const FlowOptions options = settings.Options();
+  const std::unique_ptr<Executor> executor = settings.MakeExecutor();
+
+  // All is in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* labelInformation = outputVector->GetInformationObject(0);
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    if (outputVector->GetInformationObject(port)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+    {
+      return 1;
+    }
+  }
+  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
+  if (!input || input->GetNumberOfPoints() == 0 || (domain && domain->GetNumberOfPoints() == 0))
+  {
+    return 1;
+  }
+  HostMonitor host(this);
+  const ImageFrame box = domain ? ImageFrame(domain) : this->FrameAround(input);
+  if (box.HasOnePoint())
+  {
+    throw Failure(domain
+        ? "The Domain has one point along every axis; it needs at least one axis "
+          "of two points or more"
+        : "The input's sites are all at one point, about which there is no domain; "
+          "connect an image as the Domain");
+  }
+  const ImageFrame frame = box.WithResolution(this->Resolution, "Resolution");
+
+  const CellsOutput output{ vtkImageData::GetData(outputVector, 0),
+    vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
+  frame.CopyTo(output.Labels);
+  frame.Publish(labelInformation); // without a Domain it is not known before the data
+  output.Sites->CopyStructure(input);
+  output.Sites->SetPoints(doublePoints(input->GetPoints()));
+  output.Sites->GetPointData()->PassData(input->GetPointData());
+  output.Sites->GetCellData()->PassData(input->GetCellData());
+
+  const ImageGeometry geometry(output.Labels, false);
+  const CellsRun run{ host, *executor, options, input, frame, this->Internals->Labels,
+    { this->NormExponent, this->CostExponent } };
+  const std::int64_t outside = geometry.Dimension() == 1 ? divide<1>(run, geometry, output)
+    : geometry.Dimension() == 2                          ? divide<2>(run, geometry, output)
+                                                         : divide<3>(run, geometry, output);
+  if (outside > 0)
+  {
+    vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()
+                    << " sites are outside the domain; their cells are those of the nearest points "
+                       "of its border");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkEqualMassCells::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "NormExponent: " << this->NormExponent << "\n";
+  os << indent << "CostExponent: " << this->CostExponent << "\n";
+  this->GetFlowSettings().Print(os, indent);
+}
+VTK_ABI_NAMESPACE_END

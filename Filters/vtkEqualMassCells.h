@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkEqualMassCells
+ * @brief   divide a domain among sites into cells of equal mass
+ *
+ * Every pixel of a domain goes to one of the given sites, each of which gets as much as any other:
+ * the pixels are carried to the sites by the rectified flow of Do, Coeurjolly, Memari and Bonneel,
+ * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
+ * doi:10.1145/3731147 (Section 4.2, Figure 5), from the uniform measure to a density that has one
+ * unit of mass in the pixel of each site. Pixels on the borders then change sides until the cells
+ * are equal to the pixel. The cells are like those of semi-discrete optimal transport, at a cost
+ * that is an upper bound on the optimal one.
+ *
+ * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain, a vtkImageData of which
+ * only the box counts (its bounds in its own axes; arrays are not read). Without it the domain is
+ * the bounds of the sites, a tenth longer, about their centre. Sides of no length are no axes:
+ * domains are 1D, 2D or 3D. The uniform measure has the density 1, so that masses are lengths,
+ * areas or volumes.
+ *
+ * Outputs:
+ * - 0, `Labels`: a vtkImageData of the domain, with the cell array `SiteId` (active scalars): the
+ *   index of the site that each pixel goes to;
+ * - 1, `Sites`: the sites, of the type of input 0, with their cells and data in their order, and
+ * the point arrays `CellMass`, `CellCentroid` (3 components) and `CellCost` (the cell's share of
+ * the cost: these add up to it);
+ * - 2, `Outlines`: a vtkPolyData of the cells' borders along the sides of pixels, with the cell
+ * array `SiteId`: lines in 2D, quads in 3D, vertices in 1D. Each cell has the whole of its border,
+ * so that what is between two cells is there twice.
+ *
+ * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
+ * centres x, an upper bound on W_p^q from the pixels' centres to the sites.
+ *
+ * Sites in one pixel share the mass of its cell, equally to the last bit; its pixels are cut into
+ * as many parts, equal to the pixel. Sites outside of the domain get the cells of the nearest
+ * points of its border, and a warning counts them; their cost is from where they are. There must be
+ * a pixel for each site. NaN or infinite coordinates, and sites that are all at one point without a
+ * domain, are errors.
+ *
+ * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps become up to 32 times as
+ * many at once, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels
+ * and while they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at
+ * 256^3, 5.5 GB at 512^3. The labels are kept until the sites, the domain or the integration
+ * change.
+ *
+ * \code{.cpp}
+ * vtkNew<vtkEqualMassCells> cells;
+ * cells->SetInputData(sites); // a vtkPolyData
+ * cells->SetResolution(1024);
+ * cells->Update();
+ * vtkImageData* labels = cells->GetLabels();
+ * \endcode
+ *
+ * @sa vtkTransportMap vtkTransportSampler
+ */
+#ifndef vtkEqualMassCells_h
+#define vtkEqualMassCells_h
+
+#include "vtkGuardedAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+namespace RectifiedTransport
+{
+class ImageFrame;
+struct FlowSettings;
+} // namespace RectifiedTransport
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithmOutput;
+class vtkImageData;
+class vtkPointSet;
+class vtkPolyData;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkEqualMassCells : public vtkGuardedAlgorithm
+{
+public:
+  static vtkEqualMassCells* New();
+  vtkTypeMacro(vtkEqualMassCells, vtkGuardedAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The number of pixels along the longest side of the domain, from 1; along the others as many as
+   * make the pixels nearest to cubes. Default 512.
+   */
+  vtkSetMacro(Resolution, int);
+  vtkGetMacro(Resolution, int);
+  ///@}
+
+  ///@{
+  /**
+   * p of the cost |x - site|_p^q: which norm measures a distance; at least 1, infinity for the
+   * largest component. Default 2. The cells do not depend on it.
+   */
+  vtkSetMacro(NormExponent, double);
+  vtkGetMacro(NormExponent, double);
+  ///@}
+
+  ///@{
+  /**
+   * q of the cost |x - site|_p^q: the power of the distance; above 0. Default 2. The cells do not
+   * depend on it.
+   */
+  vtkSetMacro(CostExponent, double);
+  vtkGetMacro(CostExponent, double);
+  ///@}
+
+  ///@{
+  /**
+   * How the flow is integrated, a value of vtkTransportAlgorithm::IntegratorType: Multistep
+   * (default), RungeKutta4, Euler or Adaptive.
+   */
+  vtkSetMacro(Integrator, int);
+  vtkGetMacro(Integrator, int);
+  void SetIntegratorToMultistep() { this->SetIntegrator(0); }
+  void SetIntegratorToRungeKutta4() { this->SetIntegrator(1); }
+  void SetIntegratorToEuler() { this->SetIntegrator(2); }
+  void SetIntegratorToAdaptive() { this->SetIntegrator(3); }
+  const char* GetIntegratorAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. Default 32. Fewer than 128
+   * are doubled until there are that many, five times at most.
+   */
+  vtkSetMacro(NumberOfSteps, int);
+  vtkGetMacro(NumberOfSteps, int);
+  ///@}
+
+  ///@{
+  /**
+   * The error that Adaptive allows, in pixels, above 0. Default 0.01.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How sums over boxes are looked up, a value of vtkTransportAlgorithm::TableLookupType:
+   * Interpolated (default) or Nearest, which is coarser.
+   */
+  vtkSetMacro(TableLookup, int);
+  vtkGetMacro(TableLookup, int);
+  void SetTableLookupToInterpolated() { this->SetTableLookup(0); }
+  void SetTableLookupToNearest() { this->SetTableLookup(1); }
+  const char* GetTableLookupAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Who runs the parallel loops, a value of vtkTransportAlgorithm::ThreadingType: Auto (default),
+   * VTK, OpenMP or Serial. It changes the time, never the result.
+   */
+  vtkSetMacro(Threading, int);
+  vtkGetMacro(Threading, int);
+  void SetThreadingToAuto() { this->SetThreading(0); }
+  void SetThreadingToVTK() { this->SetThreading(1); }
+  void SetThreadingToOpenMP() { this->SetThreading(2); }
+  void SetThreadingToSerial() { this->SetThreading(3); }
+  const char* GetThreadingAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Give the domain (input 1, optional) as the output of another filter, or as data.
+   */
+  void SetDomainConnection(vtkAlgorithmOutput* domain);
+  void SetDomainData(vtkDataObject* domain);
+  ///@}
+
+  ///@{
+  /**
+   * The outputs: which site each pixel goes to, the sites with figures of their cells, and the
+   * cells' borders.
+   */
+  vtkImageData* GetLabels();
+  vtkPointSet* GetSites();
+  vtkPolyData* GetOutlines();
+  ///@}
+
+protected:
+  vtkEqualMassCells();
+  ~vtkEqualMassCells() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Resolution;
+  double NormExponent;
+  double CostExponent;
+  int Integrator;
+  int NumberOfSteps;
+  double Tolerance;
+  int TableLookup;
+  int Threading;
+
+private:
+  RectifiedTransport::FlowSettings GetFlowSettings();
+  RectifiedTransport::ImageFrame FrameAround(vtkPointSet* sites);
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  vtkEqualMassCells(const vtkEqualMassCells&) = delete;
+  void operator=(const vtkEqualMassCells&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif
