@@ -50,7 +50,10 @@ public:
     const auto [bySites, spread] = this->Widest(sites, siteCount, siteAt);
     const int axis = spread > 0.0 ? bySites : this->Widest(pixels, pixelCount, pixelAt).first;
     const std::int64_t half = siteCount / 2;
-    const std::int64_t part = (pixelCount * half + siteCount / 2) / siteCount;
+    // Each gets as many as any other, or one more.
+    const std::int64_t each = pixelCount / siteCount;
+    const std::int64_t more = (pixelCount % siteCount * half + siteCount / 2) / siteCount;
+    const std::int64_t part = each * half + more;
     partition(sites, siteCount, half, axis, siteAt);
     partition(pixels, pixelCount, part, axis, pixelAt);
     this->Cut(sites, half, pixels, part);
