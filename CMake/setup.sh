@@ -5,7 +5,7 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="$root/build"
 packages_build="cmake ninja-build g++ paraview-dev python3-paraview libopenmpi-dev"
 packages_render="xvfb xauth"
-packages_test="libgtest-dev libbenchmark-dev"
+packages_test="libgtest-dev libbenchmark-dev python3-scipy"
 packages_gui="libqt5svg5 imagemagick xdotool"
 packages_vtk91="libtbb-dev"
 

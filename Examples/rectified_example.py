@@ -30,6 +30,13 @@ def fetch(source):
     return simple.servermanager.Fetch(source)
 
 
+def producer(data):
+    """A source that holds a data object."""
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    return source
+
+
 # ParaView's guess for these may be a reader of maps.
 PHOTOGRAPHS = {".png": "PNGSeriesReader", ".jpg": "JPEGSeriesReader", ".jpeg": "JPEGSeriesReader",
                ".tif": "TIFFSeriesReader", ".tiff": "TIFFSeriesReader"}

@@ -71,6 +71,13 @@ def draw_cartogram(path, cartogram):
     os.replace(os.path.join(folder, "cartogram-raccoon.png"), path)
 
 
+def draw_cells(path, cells):
+    folder = os.path.dirname(path)
+    sys.argv[1:] = ["--sites", "256", "--resolution", "512", "--pixels", "1020", "--output", folder]
+    cells.main()
+    os.replace(os.path.join(folder, "figure5-cells.png"), path)
+
+
 def draw_patterns(path, stipple):
     patterns = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
     draw_row(path, [simple.UniformSeeds(Pattern=pattern, NumberOfPoints=900)
@@ -136,11 +143,12 @@ def main():
     draw_particles(path("particles"), stipple)
     draw_volume(path("volume"), script("SampleVolume"))
     draw_cartogram(path("cartogram"), script("Cartogram"))
+    draw_cells(path("cells"), script("Figure5Cells"))
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_map(path("map"))
     draw_paths(path("paths"))
-    print("density, particles, volume, cartogram, patterns, flow, map, paths: " + folder)
+    print("density, particles, volume, cartogram, cells, patterns, flow, map, paths: " + folder)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include "SamplerTest.h"
 
 #include "vtkDensityEqualizingWarp.h"
+#include "vtkEqualMassCells.h"
 #include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
 #include "vtkUniformSeedSource.h"
@@ -78,6 +79,22 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, warp, { "DensityPort: 1", "Blend: 1" });
   warp->SetBlend(0.5);
   expectLines(checks, warp, { "Blend: 0.5" });
+
+  vtkNew<vtkEqualMassCells> cells;
+  expectLines(checks, cells,
+    { "Resolution: 512", "NormExponent: 2", "CostExponent: 2", "Integrator: Multistep",
+      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "Threading: Auto" });
+  cells->SetResolution(77);
+  cells->SetNormExponent(4.0);
+  cells->SetCostExponent(1.5);
+  cells->SetIntegratorToAdaptive();
+  cells->SetNumberOfSteps(64);
+  cells->SetTolerance(0.25);
+  cells->SetTableLookupToNearest();
+  cells->SetThreadingToVTK();
+  expectLines(checks, cells,
+    { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Integrator: Adaptive",
+      "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "Threading: VTK" });
 
   vtkNew<vtkTransportQuality> quality;
   expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });

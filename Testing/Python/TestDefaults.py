@@ -5,7 +5,7 @@ import re
 import unittest
 
 from rt_proxies import proxies
-from rt_testing import SOURCE, Listener, feed, main, size_of
+from rt_testing import SOURCE, Listener, density_image, feed, main, points_in, size_of
 
 import rectifiedtransport
 
@@ -106,6 +106,10 @@ class Defaults(unittest.TestCase):
                                        (int(domain.get(edge)) + step, True)):
                     filter_ = instance(proxy)
                     feed(filter_)
+                    if hasattr(filter_, "SetDomainData"):  # a pixel holds one site
+                        image = density_image((4, 3))
+                        filter_.SetInputData(points_in(image, 1))
+                        filter_.SetDomainData(image)
                     if hasattr(filter_, "SetNumberOfParticles"):
                         filter_.SetNumberOfParticles(100)
                     heard = Listener(filter_)

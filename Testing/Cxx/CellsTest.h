@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of vtkEqualMassCells share.
+#ifndef CellsTest_h
+#define CellsTest_h
+
+#include "WarpTest.h"
+
+#include "vtkEqualMassCells.h"
+
+#include <array>
+
+// An image of one cell that has a box; flat axes have one point.
+inline vtkSmartPointer<vtkImageData> makeDomain(const std::array<double, 6>& bounds)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  int dimensions[3];
+  double spacing[3];
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    dimensions[a] = length > 0.0 ? 2 : 1;
+    spacing[a] = length > 0.0 ? length : 1.0;
+  }
+  image->SetDimensions(dimensions);
+  image->SetSpacing(spacing);
+  image->SetOrigin(bounds[0], bounds[2], bounds[4]);
+  return image;
+}
+
+// Sites at random in a box.
+inline vtkSmartPointer<vtkPolyData> makeSites(const std::array<double, 6>& bounds, int count)
+{
+  return makePoints(randomCoordinates(bounds.data(), count));
+}
+
+inline std::vector<vtkIdType> labelsOf(vtkDataObject* output)
+{
+  auto* data = vtkDataSet::SafeDownCast(output);
+  vtkDataArray* array = data ? data->GetCellData()->GetArray("SiteId") : nullptr;
+  std::vector<vtkIdType> labels;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    labels.push_back(static_cast<vtkIdType>(array->GetTuple1(i)));
+  }
+  return labels;
+}
+
+inline std::vector<vtkIdType> runCells(vtkEqualMassCells* cells)
+{
+  cells->Update();
+  return labelsOf(cells->GetLabels());
+}
+
+inline std::vector<int> countLabels(const std::vector<vtkIdType>& labels, vtkIdType sites)
+{
+  std::vector<int> counts(static_cast<std::size_t>(sites), 0);
+  for (const vtkIdType label : labels)
+  {
+    ++counts.at(static_cast<std::size_t>(label));
+  }
+  return counts;
+}
+
+inline double siteValue(vtkEqualMassCells* cells, const char* name, vtkIdType site, int part = 0)
+{
+  vtkDataArray* array = cells->GetSites()->GetPointData()->GetArray(name);
+  return array ? array->GetComponent(site, part) : std::nan("");
+}
+
+#endif
