@@ -1,81 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stippling job: 40,000 blue-noise particles on a photograph of 1024^2 pixels, from the
 // transcription to the filter's whole update.
-#include "BenchmarkInputs.h"
-
 #include "PaperTransport.h"
-#include "Seeds.h"
+#include "PhotographInput.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkTransportSampler.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace RectifiedTransport
 {
 namespace
 {
-
-constexpr std::int64_t Side = 1024;
-constexpr std::int64_t ParticleCount = 40000;
-
-// raccoon.png, 1024 x 768 in colour, its last 256 rows mirrored below. Dark is mass.
-class Photograph
-{
-public:
-  static const Photograph& Instance()
-  {
-    static const Photograph photograph;
-    return photograph;
-  }
-
-  vtkNew<vtkImageData> Image;
-  TestDensity<2> Density;
-  Particles<2> Seeds;
-
-private:
-  Photograph()
-  {
-    vtkNew<vtkPNGReader> reader;
-    reader->SetFileName(RECTIFIEDTRANSPORT_DATA "/raccoon.png");
-    reader->Update();
-    vtkImageData* picture = reader->GetOutput();
-    auto* pixels = vtkUnsignedCharArray::SafeDownCast(picture->GetPointData()->GetScalars());
-    if (!pixels || picture->GetDimensions()[0] != Side || pixels->GetNumberOfComponents() != 3)
-    {
-      throw std::runtime_error("raccoon.png is not what the benchmark expects");
-    }
-    const std::int64_t rows = picture->GetDimensions()[1];
-    this->Image->SetDimensions(Side, Side, 1);
-    this->Image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    auto* values = vtkUnsignedCharArray::SafeDownCast(this->Image->GetPointData()->GetScalars());
-    this->Density = uniformDensity<2>({ Side, Side });
-    for (std::int64_t y = 0; y < Side; ++y)
-    {
-      const std::int64_t from = y + rows >= Side ? y + rows - Side : Side - rows - 1 - y;
-      for (std::int64_t x = 0; x < Side; ++x)
-      {
-        const unsigned char* pixel = pixels->GetPointer(3 * (from * Side + x));
-        std::copy_n(pixel, 3, values->GetPointer(3 * (y * Side + x)));
-        this->Density.Values[y * Side + x] =
-          255.0 - (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]);
-      }
-    }
-    this->Seeds.resize(ParticleCount);
-    generateSeeds<2>(
-      SeedPattern::BlueNoise, { 1.0, 1.0 }, ParticleCount, 1, this->Seeds.data()->data());
-    for (Point<2>& seed : this->Seeds)
-    {
-      seed = { Side * seed[0], Side * seed[1] };
-    }
-  }
-};
 
 const SampleTruth<2>& truth()
 {
@@ -136,7 +73,7 @@ void filter(benchmark::State& state)
   image->ShallowCopy(photograph.Image);
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(image);
-  sampler->SetNumberOfParticles(ParticleCount);
+  sampler->SetNumberOfParticles(PhotographParticles);
   sampler->InvertDensityOn();
   sampler->SetThreadingToSerial();
   for (auto _ : state)

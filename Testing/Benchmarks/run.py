@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of the README.
 
-usage: python3 run.py [--repetitions N] PROGRAM
+usage: python3 run.py [--repetitions N] [--quality] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -145,6 +145,36 @@ def remarks(r):
           f"{r.ratio('Photograph/core', 'Photograph/core_2_threads', 'real_time'):.2f}×.")
 
 
+QUALITY = (("photograph", "photograph, 1024²"), ("gaussians_1024", "two Gaussians, 1024²"),
+           ("shape_256", "0/1 shape with a hole, 256²"), ("gaussians_128", "two Gaussians, 128³"),
+           ("shape_64", "0/1 shape with a hole, 64³"))
+METHODS = (("paper", "paper, 50 steps of RK4"), ("multistep_16", "Multistep, 16"),
+           ("multistep_32", "**Multistep, 32**"), ("multistep_64", "Multistep, 64"),
+           ("adaptive", "Adaptive, 0.01"))
+
+
+def quality(r):
+    rows = []
+    for density, text in QUALITY:
+        for method, label in METHODS:
+            name = f"Quality/{density}/{method}"
+            rows.append([text if method == "paper" else "", label,
+                         f"{r.median(name, 'evaluations'):.0f}", r.errors(name),
+                         f"{r.median(name, 'density_error'):.3g}",
+                         f"{r.median(name, 'in_empty_cells'):.0f}",
+                         f"{r.median(name, 'lost'):.0f}"])
+    print_table(["density", "integrator", "velocities a particle",
+                 "error in cells (mean / 95 %)", "density error", "in empty cells",
+                 "outside or NaN"], rows)
+
+
+def filters(r):
+    print(f"A map of the photograph at one sample a pixel: {milliseconds(r.median('Filters/map'))}; "
+          f"as many particles: {milliseconds(r.median('Filters/particles'))}. "
+          f"Cells of 1024 sites: {milliseconds(r.median('Filters/cells/512'))} at 512², "
+          f"{milliseconds(r.median('Filters/cells/1024'))} at 1024².")
+
+
 def run(arguments, names):
     """What the program reports of the benchmarks whose names match."""
     with tempfile.TemporaryDirectory() as folder:
@@ -165,10 +195,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="RectifiedTransportBenchmarks")
     parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--quality", action="store_true", help="only how good the particles are")
     arguments = parser.parse_args()
 
+    if arguments.quality:
+        return quality(Results(run(arguments, "Quality")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice"))
+    results = Results(run(arguments, "-_reused|Lattice|Quality"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
@@ -176,6 +209,8 @@ def main():
     tables(results)
     flows(results)
     remarks(results)
+    filters(results)
+    return None
 
 
 if __name__ == "__main__":

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole updates of the filters that make maps and cells.
+#include "PhotographInput.h"
+
+#include <vtkEqualMassCells.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkTransportMap.h>
+#include <vtkTransportSampler.h>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <class Filter>
+void runOnPhotograph(benchmark::State& state, Filter* filter)
+{
+  vtkNew<vtkImageData> image;
+  image->ShallowCopy(Photograph::Instance().Image);
+  filter->SetInputData(image);
+  filter->InvertDensityOn();
+  filter->SetThreadingToSerial();
+  for (auto _ : state)
+  {
+    image->Modified();
+    filter->Update();
+  }
+}
+
+// A map at one sample a pixel, and as many particles from the same seeds.
+void map(benchmark::State& state)
+{
+  vtkNew<vtkTransportMap> filter;
+  runOnPhotograph(state, filter.Get());
+}
+
+void particles(benchmark::State& state)
+{
+  vtkNew<vtkTransportSampler> filter;
+  filter->SetSeedPatternToLattice();
+  filter->SetSamplesPerCell(1);
+  runOnPhotograph(state, filter.Get());
+}
+
+// 1024 random sites.
+void cells(benchmark::State& state)
+{
+  constexpr int count = 1024;
+  std::mt19937_64 engine(1);
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = uniformNumber(engine);
+    points->InsertNextPoint(x, uniformNumber(engine), 0.0);
+  }
+  vtkNew<vtkPolyData> sites;
+  sites->SetPoints(points);
+  vtkNew<vtkImageData> domain;
+  domain->SetDimensions(2, 2, 1);
+  vtkNew<vtkEqualMassCells> filter;
+  filter->SetInputData(sites);
+  filter->SetDomainData(domain);
+  filter->SetResolution(static_cast<int>(state.range(0)));
+  filter->SetThreadingToSerial();
+  for (auto _ : state)
+  {
+    points->Modified();
+    filter->Update();
+  }
+}
+
+BENCHMARK(map)->Name("Filters/map")->Unit(benchmark::kMillisecond);
+BENCHMARK(particles)->Name("Filters/particles")->Unit(benchmark::kMillisecond);
+BENCHMARK(cells)
+  ->Name("Filters/cells")
+  ->Arg(512)
+  ->Arg(1024)
+  ->Iterations(1)
+  ->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace RectifiedTransport
