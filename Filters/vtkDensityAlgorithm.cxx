@@ -15,12 +15,54 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <set>
 #include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 
 namespace
 {
+// The executive hands on the first input's times alone; the outputs change with those of all.
+void publishTimes(
+  vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  std::set<double> steps;
+  std::set<double> ends;
+  for (int port = 0; port < numberOfPorts; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      if (input->Has(Pipeline::TIME_STEPS()))
+      {
+        const double* times = input->Get(Pipeline::TIME_STEPS());
+        steps.insert(times, times + input->Length(Pipeline::TIME_STEPS()));
+      }
+      if (input->Has(Pipeline::TIME_RANGE()))
+      {
+        const double* range = input->Get(Pipeline::TIME_RANGE());
+        ends.insert(range, range + input->Length(Pipeline::TIME_RANGE()));
+      }
+    }
+  }
+  const std::vector<double> times(steps.begin(), steps.end());
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(i);
+    if (!times.empty())
+    {
+      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    }
+    if (!ends.empty())
+    {
+      const double range[2] = { *ends.begin(), *ends.rbegin() };
+      output->Set(Pipeline::TIME_RANGE(), range, 2);
+    }
+  }
+}
+
 const char* const NegativeValuesTexts[] = { "Error", "Clamp" };
 
 // The names of the arrays that there are to choose from.
@@ -104,6 +146,7 @@ vtkTypeBool vtkDensityAlgorithm::ProcessRequest(
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
+    publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
     return this->RequestInformation(request, inputVector, outputVector);
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))

@@ -118,7 +118,7 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Publish what is known before the data. By default nothing.
+   * Publish what is known before the data, beside the times of all inputs. By default nothing.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
