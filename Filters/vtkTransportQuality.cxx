@@ -15,6 +15,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <memory>
@@ -97,6 +98,12 @@ int vtkTransportQuality::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
+  // The row is in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
   vtkPointSet* particles = vtkPointSet::GetData(inputVector[0]);
   const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || !particles || particles->GetNumberOfPoints() == 0)
