@@ -18,6 +18,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <atomic>
@@ -251,6 +252,12 @@ int vtkDensityEqualizingWarp::RequestDataObject(
   if (input && (!output || output->GetDataObjectType() != input->GetDataObjectType()))
   {
     const auto made = vtkSmartPointer<vtkPointSet>::Take(input->NewInstance());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  else if (!output)
+  {
+    // Without an output the executive would not come to say which input is wrong.
+    vtkNew<vtkPolyData> made;
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
   return 1;

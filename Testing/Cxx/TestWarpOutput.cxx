@@ -282,6 +282,34 @@ void checkErrors(Checks& checks)
   CHECK(checks, messages.Errors.empty() && warp->GetOutput()->GetNumberOfPoints() == 2);
 }
 
+// An input of another type: the executive says what would be right.
+void checkTypesOfInputs(Checks& checks)
+{
+  for (const int port : { 0, 1 })
+  {
+    vtkNew<vtkDensityEqualizingWarp> warp;
+    std::string said;
+    vtkNew<vtkCallbackCommand> ear;
+    ear->SetClientData(&said);
+    ear->SetCallback([](vtkObject*, unsigned long, void* all, void* text) {
+      *static_cast<std::string*>(all) += static_cast<const char*>(text);
+    });
+    warp->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ear);
+    const vtkSmartPointer<vtkDataObject> points = makePoints({ 3, 2, 0 });
+    const vtkSmartPointer<vtkDataObject> image = flatDensity();
+    warp->SetInputData(port == 0 ? image : points);
+    warp->SetDensityData(port == 0 ? image : points);
+    warp->Update();
+    CHECK(checks, contains(said, "input port index " + std::to_string(port)));
+    CHECK(
+      checks, contains(said, port == 0 ? "vtkPointSet is required" : "vtkImageData is required"));
+    warp->SetInputData(points);
+    warp->SetDensityData(image);
+    warp->Update();
+    CHECK(checks, warp->GetOutput() && warp->GetOutput()->GetNumberOfPoints() == 1);
+  }
+}
+
 // No points, or no density yet: an empty output of the right type.
 void checkEmpty(Checks& checks)
 {
@@ -313,6 +341,7 @@ int TestWarpOutput(int, char*[])
   checkGeometry(checks);
   checkArray(checks);
   checkErrors(checks);
+  checkTypesOfInputs(checks);
   checkEmpty(checks);
   return checks.Result();
 }
