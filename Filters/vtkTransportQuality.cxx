@@ -5,6 +5,7 @@
 #include "Bridge/FlowCache.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ParticleQuality.h"
+#include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SMPExecutor.h"
 
@@ -14,7 +15,6 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -104,7 +104,7 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  vtkPointSet* particles = vtkPointSet::GetData(inputVector[0]);
+  vtkPointSet* particles = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || !particles || particles->GetNumberOfPoints() == 0)
   {

@@ -153,6 +153,18 @@ void checkBlocks(Checks& checks)
   CHECK(checks, output && vtkPolyData::SafeDownCast(output->GetBlock(0)) != nullptr);
   CHECK(checks, output && vtkUnstructuredGrid::SafeDownCast(output->GetBlock(1)) != nullptr);
   CHECK(checks, messages.Errors.empty());
+
+  // A block without points of its own does not go unsaid, and the others are moved.
+  blocks->SetBlock(1, flatDensity());
+  source->Modified();
+  warp->Update();
+  output = vtkMultiBlockDataSet::SafeDownCast(warp->GetOutputDataObject(0));
+  auto* moved = output ? vtkPolyData::SafeDownCast(output->GetBlock(0)) : nullptr;
+  CHECK(checks, moved && moved->GetNumberOfPoints() == 2);
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks,
+    !messages.Errors.empty() &&
+      contains(messages.Errors[0], "a block of type vtkImageData; it must be a vtkPointSet"));
 }
 
 // A piece of the points goes where the whole takes it.
