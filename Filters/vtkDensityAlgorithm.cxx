@@ -99,6 +99,12 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
 {
   RectifiedTransport::requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
   vtkImageData* image = vtkImageData::SafeDownCast(input);
+  if (input && !image)
+  {
+    // Of a composite input; the executive refuses others.
+    throw RectifiedTransport::Failure(std::string("The density has a block of type ") +
+      input->GetClassName() + "; it must be a vtkImageData, as Resample To Image makes one of it");
+  }
   if (!image || image->GetNumberOfPoints() == 0)
   {
     return nullptr;

@@ -18,6 +18,7 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <atomic>
@@ -266,7 +267,7 @@ int vtkDensityEqualizingWarp::RequestData(
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
   const FlowOptions options = this->GetFlowOptions();
   const std::unique_ptr<Executor> executor(this->NewExecutor());
-  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {

@@ -8,6 +8,7 @@
 #include "Bridge/FlowSettings.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
+#include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SiteLabels.h"
 
@@ -264,7 +265,7 @@ int vtkEqualMassCells::RequestData(
       return 1;
     }
   }
-  vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
+  vtkPointSet* input = pointSetOf(inputVector[0]);
   vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
   if (!input || input->GetNumberOfPoints() == 0 || (domain && domain->GetNumberOfPoints() == 0))
   {

@@ -6,10 +6,57 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <set>
+#include <vector>
+
 VTK_ABI_NAMESPACE_BEGIN
+
+namespace
+{
+// The executive hands on the first input's times alone; the outputs change with those of all.
+void publishTimes(
+  vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  std::set<double> steps;
+  std::set<double> ends;
+  for (int port = 0; port < numberOfPorts; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      if (input->Has(Pipeline::TIME_STEPS()))
+      {
+        const double* times = input->Get(Pipeline::TIME_STEPS());
+        steps.insert(times, times + input->Length(Pipeline::TIME_STEPS()));
+      }
+      if (input->Has(Pipeline::TIME_RANGE()))
+      {
+        const double* range = input->Get(Pipeline::TIME_RANGE());
+        ends.insert(range, range + input->Length(Pipeline::TIME_RANGE()));
+      }
+    }
+  }
+  const std::vector<double> times(steps.begin(), steps.end());
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(i);
+    if (!times.empty())
+    {
+      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    }
+    if (!ends.empty())
+    {
+      const double range[2] = { *ends.begin(), *ends.rbegin() };
+      output->Set(Pipeline::TIME_RANGE(), range, 2);
+    }
+  }
+}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkGuardedAlgorithm::vtkGuardedAlgorithm() = default;
@@ -33,6 +80,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
+    publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
     return this->RequestInformation(request, inputVector, outputVector);
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
@@ -63,6 +111,12 @@ void vtkGuardedAlgorithm::MakeOutputLike(
   if (like && (!output || output->GetDataObjectType() != like->GetDataObjectType()))
   {
     const auto made = vtkSmartPointer<vtkPointSet>::Take(like->NewInstance());
+    outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  else if (!output)
+  {
+    // Without an output the executive would not come to say which input is wrong.
+    const auto made = vtkSmartPointer<vtkPolyData>::New();
     outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
 }

@@ -48,13 +48,14 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Make the point set of an output port of the type of the first input, where it is not.
+   * Make the point set of an output port of the type of an input, where it is not; polydata while
+   * there is none.
    */
   static void MakeOutputLike(
     vtkInformationVector* input, vtkInformationVector* outputVector, int port);
 
   /**
-   * Publish what is known before the data. By default nothing.
+   * Publish what is known before the data, beside the times of all inputs. By default nothing.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);

@@ -225,7 +225,7 @@ int vtkTransportMap::RequestData(
     return 1;
   }
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
-  const std::unique_ptr<DensityImage> density(this->NewDensity(input));
+  const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density)
   {
     return 1;

@@ -22,7 +22,8 @@
  * They are point data where the density is, at the image's points, which are the centres of the
  * dual cells; else cell data, at the centres of the cells. Derivatives are taken along the image's
  * axes of more than one point only, by central differences, one-sided at the border. Along an axis
- * of one sample Displacement is taken to be constant.
+ * of one sample Displacement is taken to be constant. In the corners of the domain the map has no
+ * derivative, and the determinant of the corner's sample is off at any resolution.
  *
  * TransportCost is the mean over the measure that the map starts from: over all samples alike
  * forward; backward each one weighs as much as the density's mass in its cell. As this measure's

@@ -5,6 +5,7 @@
 #include "Bridge/FlowCache.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ParticleQuality.h"
+#include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SMPExecutor.h"
 
@@ -14,7 +15,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <memory>
@@ -97,7 +98,13 @@ int vtkTransportQuality::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
-  vtkPointSet* particles = vtkPointSet::GetData(inputVector[0]);
+  // The row is in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
+  vtkPointSet* particles = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || !particles || particles->GetNumberOfPoints() == 0)
   {

@@ -29,7 +29,7 @@
  *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
  *   the domain has a neighbour.
  *
- * An input without points gives a table without rows.
+ * An input without points gives a table without rows, and so does every piece but the first.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
  * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables

@@ -8,6 +8,7 @@
 #include "Bridge/HostMonitor.h"
 #include "Bridge/Memory.h"
 #include "Bridge/ParticleSet.h"
+#include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SeedInput.h"
 #include "Bridge/UnitSeeds.h"
@@ -288,7 +289,7 @@ int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
 int vtkTransportSampler::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkPointSet* seeds = vtkPointSet::GetData(inputVector[1], 0);
+  vtkPointSet* seeds = pointSetOf(inputVector[1]);
   const bool usesGrid =
     this->SamplesPerCell > 0 && (this->SeedPattern == LATTICE || this->SeedPattern == JITTERED);
   requireChoice("SeedPattern", this->SeedPattern, SeedPatternTexts);

@@ -20,14 +20,12 @@ Monitor HostMonitor::GetMonitor()
   return monitor;
 }
 
-void HostMonitor::Run(
-  const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel)
+void HostMonitor::Run(const Executor& executor, std::int64_t count, std::int64_t grain,
+  RangeKernel kernel, std::int64_t units)
 {
   const Monitor monitor = this->GetMonitor();
   Pacer pacer(monitor);
   pacer.BeginStage(1.0, count);
-  // Memory-bound work: a first slice that lasts about a millisecond.
-  constexpr std::int64_t units = std::int64_t{ 1 } << 18;
   const std::int64_t smallest = (units + grain - 1) / grain * grain;
   for (std::int64_t begin = 0; begin < count;)
   {

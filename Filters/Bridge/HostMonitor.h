@@ -37,8 +37,10 @@ public:
   Monitor GetMonitor();
 
   // Runs a kernel over [0, count), cut at multiples of `grain`, as the work of the current stage.
-  // Throws Aborted.
-  void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel);
+  // The first slice has `units`, which should take a few milliseconds: by default for work that is
+  // bound by memory. Throws Aborted.
+  void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel,
+    std::int64_t units = std::int64_t{ 1 } << 18);
 
 private:
   bool IsCancelled() const;

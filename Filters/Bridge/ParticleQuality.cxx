@@ -342,7 +342,8 @@ private:
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
     this->Host.Run(
-      this->Threads, this->Count, smallGrain, [=](std::int64_t first, std::int64_t last) {
+      this->Threads, this->Count, smallGrain,
+      [=](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
         {
           const double share = this->Share.data()[i];
@@ -358,7 +359,8 @@ private:
             this->Flow.MeasureOfShare(index, aspect, share) * this->Geometry.CellMeasure();
           spacing[i] /= largestSpacing<D>(measure);
         }
-      });
+      },
+      16 * smallGrain);
   }
 
   void Average()

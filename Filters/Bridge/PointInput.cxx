@@ -3,10 +3,25 @@
 
 #include "Failure.h"
 
+#include "vtkDataObject.h"
+
 #include <sstream>
+#include <string>
 
 namespace RectifiedTransport
 {
+
+vtkPointSet* pointSetOf(vtkInformationVector* port)
+{
+  vtkDataObject* data = vtkDataObject::GetData(port);
+  vtkPointSet* points = vtkPointSet::SafeDownCast(data);
+  if (data && !points)
+  {
+    throw Failure(std::string("The input has a block of type ") + data->GetClassName() +
+      "; it must be a vtkPointSet, as Extract Surface makes one of it");
+  }
+  return points;
+}
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)
 {

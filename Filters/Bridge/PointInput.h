@@ -16,8 +16,14 @@
 #include <cstdint>
 #include <string>
 
+class vtkInformationVector;
+
 namespace RectifiedTransport
 {
+
+// The point set of a port, nullptr if there is none. Throws Failure for a block of another type,
+// which no executive refuses.
+vtkPointSet* pointSetOf(vtkInformationVector* port);
 
 // Points whose coordinates are not finite, as several threads find them.
 class NotFinitePoints

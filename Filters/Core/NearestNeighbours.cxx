@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NearestNeighbours.h"
 
+#include "LargeBuffer.h"
 #include "Pacer.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -34,22 +36,49 @@ struct TreeBox
   std::int64_t Second;
 };
 
-class PointTree
+// Work of a known number of units in pieces short enough for the host.
+class Pieces
 {
 public:
-  PointTree(const double* points, std::int64_t count)
-    : Points(static_cast<std::size_t>(count))
+  static constexpr std::int64_t Most = std::int64_t{ 1 } << 15;
+
+  Pieces(Pacer& pacer, double end, std::int64_t units)
+    : Pace(pacer)
   {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      TreePoint& point = this->Points[static_cast<std::size_t>(i)];
-      std::copy_n(points + 3 * i, 3, point.X);
-      point.Id = i;
-    }
+    pacer.BeginStage(end, units);
+    this->Slice = pacer.NextSlice(Most);
   }
 
   // False if the host wants to stop.
-  bool Build(Pacer& pacer)
+  bool Finish(std::int64_t units)
+  {
+    this->Done += units;
+    if (this->Done < this->Slice)
+    {
+      return true;
+    }
+    const bool goOn = this->Pace.EndSlice(this->Done);
+    this->Done = 0;
+    this->Slice = this->Pace.NextSlice(Most);
+    return goOn;
+  }
+
+private:
+  Pacer& Pace;
+  std::int64_t Done = 0;
+  std::int64_t Slice = 0;
+};
+
+class PointTree
+{
+public:
+  explicit PointTree(std::int64_t count)
+    : Points(count)
+  {
+  }
+
+  // False if the host wants to stop.
+  bool Build(const double* points, Pacer& pacer, double progress)
   {
     struct Task
     {
@@ -57,49 +86,49 @@ public:
       std::int64_t Last;
       std::int64_t Parent; // whose second child it is, -1: none's
     };
-    constexpr std::int64_t reported = std::int64_t{ 1 } << 15;
-    std::int64_t done = 0;
-    pacer.NextSlice(reported);
-    std::vector<Task> tasks{ { 0, static_cast<std::int64_t>(this->Points.size()), -1 } };
+    const std::int64_t count = this->Points.size();
+    // Every halving looks at each point twice.
+    std::int64_t passes = 2;
+    for (std::int64_t rest = count; rest > leafPoints; rest /= 2)
+    {
+      passes += 2;
+    }
+    Pieces pieces(pacer, progress, passes * count);
+    if (!this->Read(points, pieces))
+    {
+      return false;
+    }
+    std::vector<Task> tasks{ { 0, count, -1 } };
     while (!tasks.empty())
     {
       const Task task = tasks.back();
       tasks.pop_back();
-      if (task.Last - task.First > reported && pacer.ShouldStop())
-      {
-        return false;
-      }
       const auto box = static_cast<std::int64_t>(this->Boxes.size());
       if (task.Parent >= 0)
       {
         this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
       }
-      this->Boxes.push_back(this->Bound(task.First, task.Last));
-      const std::int64_t middle = this->Divide(this->Boxes.back());
+      TreeBox made = EmptyBox(task.First, task.Last);
+      if (!this->Bound(made, pieces))
+      {
+        return false;
+      }
+      this->Boxes.push_back(made);
+      std::int64_t middle = task.First;
+      if (!this->Divide(made, middle, pieces))
+      {
+        return false;
+      }
       if (middle > task.First)
       {
         tasks.push_back({ middle, task.Last, box });
         tasks.push_back({ task.First, middle, -1 });
-        continue;
-      }
-      done += task.Last - task.First;
-      if (done >= reported)
-      {
-        if (!pacer.EndSlice(done))
-        {
-          return false;
-        }
-        done = 0;
-        pacer.NextSlice(reported);
       }
     }
     return true;
   }
 
-  const TreePoint& At(std::int64_t place) const
-  {
-    return this->Points[static_cast<std::size_t>(place)];
-  }
+  const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
 
   // The least squared distance of a point from another one, or `best` if that is less.
   double Search(const TreePoint& point, double best, std::int64_t box = 0) const
@@ -133,28 +162,62 @@ public:
   }
 
 private:
-  TreeBox Bound(std::int64_t first, std::int64_t last) const
+  static TreeBox EmptyBox(std::int64_t first, std::int64_t last)
   {
-    TreeBox box{ {}, {}, first, last, -1 };
-    for (int r = 0; r < 3; ++r)
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity }, first, last,
+      -1 };
+  }
+
+  bool Read(const double* points, Pieces& pieces)
+  {
+    TreePoint* to = this->Points.data();
+    for (std::int64_t first = 0; first < this->Points.size(); first += Pieces::Most)
     {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
+      const std::int64_t last = std::min(first + Pieces::Most, this->Points.size());
       for (std::int64_t i = first; i < last; ++i)
       {
-        low = std::min(low, this->At(i).X[r]);
-        high = std::max(high, this->At(i).X[r]);
+        std::copy_n(points + 3 * i, 3, to[i].X);
+        to[i].Id = i;
       }
-      box.Low[r] = low;
-      box.High[r] = high;
+      if (!pieces.Finish(last - first))
+      {
+        return false;
+      }
     }
-    return box;
+    return true;
+  }
+
+  bool Bound(TreeBox& box, Pieces& pieces) const
+  {
+    for (std::int64_t first = box.First; first < box.Last; first += Pieces::Most)
+    {
+      const std::int64_t last = std::min(first + Pieces::Most, box.Last);
+      for (int r = 0; r < 3; ++r)
+      {
+        double low = box.Low[r];
+        double high = box.High[r];
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          low = std::min(low, this->At(i).X[r]);
+          high = std::max(high, this->At(i).X[r]);
+        }
+        box.Low[r] = low;
+        box.High[r] = high;
+      }
+      if (!pieces.Finish(last - first))
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   // Sorts the points of a box into two parts along its widest axis, about the median of a sample.
-  // Returns where the second begins; the first point of the box if it stays whole.
-  std::int64_t Divide(const TreeBox& box)
+  // The second begins at `middle`, the first point of the box if it stays whole.
+  bool Divide(const TreeBox& box, std::int64_t& middle, Pieces& pieces)
   {
+    middle = box.First;
     int axis = 0;
     for (int r = 1; r < 3; ++r)
     {
@@ -163,7 +226,7 @@ private:
     const std::int64_t count = box.Last - box.First;
     if (count <= leafPoints || !(box.High[axis] > box.Low[axis]))
     {
-      return box.First;
+      return true;
     }
     std::array<double, 63> sample;
     const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
@@ -171,17 +234,40 @@ private:
     {
       sample[static_cast<std::size_t>(i)] = this->At(box.First + i * count / taken).X[axis];
     }
-    const auto middle = sample.begin() + taken / 2;
-    std::nth_element(sample.begin(), middle, sample.begin() + taken);
+    const auto median = sample.begin() + taken / 2;
+    std::nth_element(sample.begin(), median, sample.begin() + taken);
     // Points on the pivot go up, unless all others are above it too.
-    const double pivot = *middle;
+    const double pivot = *median;
     const bool lowest = !(pivot > box.Low[axis]);
-    const auto begin = this->Points.begin();
-    const auto second =
-      std::partition(begin + box.First, begin + box.Last, [=](const TreePoint& point) {
-        return lowest ? point.X[axis] <= pivot : point.X[axis] < pivot;
-      });
-    return second - begin;
+    const auto isBelow = [=](const TreePoint& point) {
+      return lowest ? point.X[axis] <= pivot : point.X[axis] < pivot;
+    };
+    TreePoint* points = this->Points.data();
+    std::int64_t last = box.Last;
+    while (middle < last)
+    {
+      const std::int64_t open = last - middle;
+      while (middle < last && open - (last - middle) < Pieces::Most)
+      {
+        if (isBelow(points[middle]))
+        {
+          ++middle;
+        }
+        else if (!isBelow(points[last - 1]))
+        {
+          --last;
+        }
+        else
+        {
+          std::swap(points[middle++], points[--last]);
+        }
+      }
+      if (!pieces.Finish(open - (last - middle)))
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   // The squared distance of a point from a box.
@@ -197,7 +283,7 @@ private:
     return squared;
   }
 
-  std::vector<TreePoint> Points;
+  LargeBuffer<TreePoint> Points;
   std::vector<TreeBox> Boxes;
 };
 
@@ -207,9 +293,8 @@ bool nearestDistances(const double* points, std::int64_t count, double* distance
   const Executor& executor, const Monitor& monitor)
 {
   Pacer pacer(monitor);
-  pacer.BeginStage(0.4, count);
-  PointTree tree(points, count);
-  if (!tree.Build(pacer))
+  PointTree tree(count);
+  if (!tree.Build(points, pacer, 0.4))
   {
     return false;
   }

@@ -122,10 +122,9 @@ double smooth(const Point<Dimension>& p)
   return 0.6 + 2.0 * product + 0.1 * sum;
 }
 
-// The relative spread of det J f(T(x)), which has to be the mean of f everywhere; backward of
-// f(x) / det J.
+// det J f(T(x)), backward f(x) / det J, over the mean of f: 1 everywhere, were there no errors.
 template <int Dimension>
-double spread(std::int64_t side, bool backward)
+std::vector<double> measureRatios(std::int64_t side, bool backward)
 {
   GridSize<Dimension> size;
   size.fill(side);
@@ -143,9 +142,8 @@ double spread(std::int64_t side, bool backward)
     flow.ForwardLattice(size, to, adaptive(0.0001));
   }
   const Derivatives found = derive<Dimension>(size, size, positions);
-  const auto count = static_cast<double>(samples.size());
-  const double mean = flow.Total() / count;
-  double squares = 0.0;
+  const double mean = flow.Total() / static_cast<double>(samples.size());
+  std::vector<double> ratios(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     Point<Dimension> p = backward ? samples[i] : positions[i];
@@ -154,10 +152,22 @@ double spread(std::int64_t side, bool backward)
       coordinate /= static_cast<double>(side);
     }
     const double f = smooth<Dimension>(p);
-    const double part = (backward ? f / found.Determinant[i] : f * found.Determinant[i]) / mean;
-    squares += (part - 1.0) * (part - 1.0);
+    ratios[i] = (backward ? f / found.Determinant[i] : f * found.Determinant[i]) / mean;
   }
-  return std::sqrt(squares / count);
+  return ratios;
+}
+
+// Their relative spread.
+template <int Dimension>
+double spread(std::int64_t side, bool backward)
+{
+  const std::vector<double> ratios = measureRatios<Dimension>(side, backward);
+  double squares = 0.0;
+  for (const double ratio : ratios)
+  {
+    squares += (ratio - 1.0) * (ratio - 1.0);
+  }
+  return std::sqrt(squares / static_cast<double>(ratios.size()));
 }
 
 template <int Dimension>
@@ -177,6 +187,54 @@ TEST(MapDerivatives, TurnOneMeasureIntoTheOther)
   expectMeasure<1>(100, 0.05);
   expectMeasure<2>(48, 0.05);
   expectMeasure<3>(16, 0.1);
+}
+
+// Near a corner the map scales, but the diagonal does not go where the sum of the sides goes: the
+// corner has no derivative, and no stencil finds one.
+TEST(MapDerivatives, CornersScaleAndHaveNone)
+{
+  const GridSize<2> size{ 512, 512 };
+  const RectifiedFlow<2> flow = makeFlow(sampleDensity<2>(size, smooth<2>));
+  for (const bool backward : { false, true })
+  {
+    const auto at = [&](double scale) {
+      const Points<2> rays{ { scale, 0.0 }, { 0.0, scale }, { scale, scale } };
+      Points<2> found = backward ? runBackward<2>(flow, rays, adaptive(1e-6))
+                                 : runForward<2>(flow, rays, adaptive(1e-6));
+      for (Point<2>& point : found)
+      {
+        point = { point[0] / scale, point[1] / scale };
+      }
+      return found;
+    };
+    const Points<2> small = at(1.0);
+    const Points<2> large = at(4.0);
+    for (std::size_t ray = 0; ray < small.size(); ++ray)
+    {
+      EXPECT_NEAR(small[ray][0], large[ray][0], 0.003);
+      EXPECT_NEAR(small[ray][1], large[ray][1], 0.003);
+    }
+    const double x = small[2][0] / (small[0][0] + small[1][0]);
+    const double y = small[2][1] / (small[0][1] + small[1][1]);
+    EXPECT_GT(std::max(std::abs(x - 1.0), std::abs(y - 1.0)), 0.1);
+  }
+}
+
+// What is lost there: it stays as it is with more samples, in the corners alone.
+TEST(MapDerivatives, Corners)
+{
+  for (const bool backward : { false, true })
+  {
+    for (const std::int64_t side : { 48, 96 })
+    {
+      const std::vector<double> ratios = measureRatios<2>(side, backward);
+      const auto off = [&](std::int64_t i) {
+        return std::abs(ratios[static_cast<std::size_t>(i * side + i)] - 1.0);
+      };
+      EXPECT_LT(std::max(off(0), off(side - 1)), 0.25);
+      EXPECT_LT(std::max(off(1), off(side - 2)), 0.035);
+    }
+  }
 }
 
 } // namespace

@@ -146,6 +146,17 @@ void checkComposite(Checks& checks)
     auto* fields = output ? vtkImageData::SafeDownCast(output->GetBlock(block)) : nullptr;
     CHECK(checks, fields && mapValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
   }
+
+  // A block that is no image does not go unsaid.
+  Messages messages(map);
+  vtkNew<vtkPolyData> points;
+  blocks->SetBlock(2, points);
+  map->Modified();
+  map->Update();
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks,
+    !messages.Errors.empty() &&
+      contains(messages.Errors[0], "a block of type vtkPolyData; it must be a vtkImageData"));
 }
 
 // One table serves both directions and all samples.

@@ -47,6 +47,24 @@ void checkCache(Checks& checks)
   expect(true, "the image", __LINE__);
 }
 
+// The row is in the first piece alone, and has the field data of the particles.
+void checkPieces(Checks& checks)
+{
+  vtkNew<vtkTransportQuality> quality;
+  auto particles = makePoints({ 3, 2, 0, 1, 1, 0 });
+  vtkNew<vtkDoubleArray> own;
+  own->SetName("Own");
+  own->InsertNextValue(5.0);
+  particles->GetFieldData()->AddArray(own);
+  quality->SetInputData(particles);
+  quality->SetDensityData(makeImage(9, 7, 1, true, bumpy));
+  quality->UpdatePiece(0, 2, 0);
+  CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 1);
+  CHECK(checks, quality->GetOutput()->GetFieldData()->GetArray("Own") == own);
+  quality->UpdatePiece(1, 2, 0);
+  CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
+}
+
 void checkThreads(Checks& checks, int depth)
 {
   auto image = makeImage(41, 37, depth, true, [](vtkIdType i) { return bumpy(i) - 1.0; });
@@ -79,6 +97,18 @@ void checkThreads(Checks& checks, int depth)
   }
 }
 
+// In the middle of the spacings, which take a volume long; their first slice, too.
+void checkLateAbort(Checks& checks)
+{
+  vtkNew<vtkTransportQuality> quality;
+  const double bounds[6] = { 0, 60, 0, 60, 0, 60 };
+  quality->SetInputData(makePoints(randomCoordinates(bounds, 300000)));
+  quality->SetDensityData(makeImage(61, 61, 61, true, bumpy));
+  checkAbort(
+    checks, quality, 0.6999, [&]() { quality->Modified(); },
+    [&]() { return quality->GetOutput()->GetNumberOfColumns() == 0; }, __LINE__, 20);
+}
+
 void checkAbort(Checks& checks)
 {
   auto image = makeImage(301, 301, 1, true, bumpy);
@@ -94,6 +124,7 @@ void checkAbort(Checks& checks)
       checks, quality, from, [&]() { quality->Modified(); },
       [&]() { return quality->GetOutput()->GetNumberOfColumns() == 0; }, __LINE__);
   }
+  checkLateAbort(checks);
   ProgressTest test(quality);
   image->Modified();
   quality->SetInputData(makePoints(randomCoordinates(bounds, 50000)));
@@ -110,6 +141,7 @@ int TestTransportQualityRun(int, char*[])
 {
   Checks checks;
   checkCache(checks);
+  checkPieces(checks);
   checkThreads(checks, 1);
   checkThreads(checks, 9);
   checkAbort(checks);

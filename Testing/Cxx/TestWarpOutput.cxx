@@ -153,6 +153,18 @@ void checkBlocks(Checks& checks)
   CHECK(checks, output && vtkPolyData::SafeDownCast(output->GetBlock(0)) != nullptr);
   CHECK(checks, output && vtkUnstructuredGrid::SafeDownCast(output->GetBlock(1)) != nullptr);
   CHECK(checks, messages.Errors.empty());
+
+  // A block without points of its own does not go unsaid, and the others are moved.
+  blocks->SetBlock(1, flatDensity());
+  source->Modified();
+  warp->Update();
+  output = vtkMultiBlockDataSet::SafeDownCast(warp->GetOutputDataObject(0));
+  auto* moved = output ? vtkPolyData::SafeDownCast(output->GetBlock(0)) : nullptr;
+  CHECK(checks, moved && moved->GetNumberOfPoints() == 2);
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks,
+    !messages.Errors.empty() &&
+      contains(messages.Errors[0], "a block of type vtkImageData; it must be a vtkPointSet"));
 }
 
 // A piece of the points goes where the whole takes it.
@@ -282,6 +294,34 @@ void checkErrors(Checks& checks)
   CHECK(checks, messages.Errors.empty() && warp->GetOutput()->GetNumberOfPoints() == 2);
 }
 
+// An input of another type: the executive says what would be right.
+void checkTypesOfInputs(Checks& checks)
+{
+  for (const int port : { 0, 1 })
+  {
+    vtkNew<vtkDensityEqualizingWarp> warp;
+    std::string said;
+    vtkNew<vtkCallbackCommand> ear;
+    ear->SetClientData(&said);
+    ear->SetCallback([](vtkObject*, unsigned long, void* all, void* text) {
+      *static_cast<std::string*>(all) += static_cast<const char*>(text);
+    });
+    warp->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ear);
+    const vtkSmartPointer<vtkDataObject> points = makePoints({ 3, 2, 0 });
+    const vtkSmartPointer<vtkDataObject> image = flatDensity();
+    warp->SetInputData(port == 0 ? image : points);
+    warp->SetDensityData(port == 0 ? image : points);
+    warp->Update();
+    CHECK(checks, contains(said, "input port index " + std::to_string(port)));
+    CHECK(
+      checks, contains(said, port == 0 ? "vtkPointSet is required" : "vtkImageData is required"));
+    warp->SetInputData(points);
+    warp->SetDensityData(image);
+    warp->Update();
+    CHECK(checks, warp->GetOutput() && warp->GetOutput()->GetNumberOfPoints() == 1);
+  }
+}
+
 // No points, or no density yet: an empty output of the right type.
 void checkEmpty(Checks& checks)
 {
@@ -313,6 +353,7 @@ int TestWarpOutput(int, char*[])
   checkGeometry(checks);
   checkArray(checks);
   checkErrors(checks);
+  checkTypesOfInputs(checks);
   checkEmpty(checks);
   return checks.Result();
 }

@@ -3,9 +3,10 @@
 import unittest
 
 import numpy as np
-from rt_testing import density_image, digest, main
+from rt_testing import density_image, digest, main, points_in
 
-from rectifiedtransport import vtkTransportSampler, vtkUniformSeedSource
+from rectifiedtransport import (vtkDensityEqualizingWarp, vtkTransportMap, vtkTransportQuality,
+                                vtkTransportSampler, vtkUniformSeedSource)
 
 
 class Caching(unittest.TestCase):
@@ -99,6 +100,81 @@ class Caching(unittest.TestCase):
         self.sampler.Update()
         moved = self.sampler.GetOutput().GetPointData().GetArray("Displacement")
         self.assertEqual(np.abs(moved.GetRange(-1)).max(), 0)
+
+
+class OtherFilters(unittest.TestCase):
+    """The filters that keep tables beside the sampler; each on the port of its density."""
+
+    KEPT = {
+        vtkTransportMap: [
+            lambda f: f.SetDirectionToDensityToUniform(),
+            lambda f: f.SetSampleDimensions(7, 90, 1),
+            lambda f: f.SetNumberOfSteps(16),
+            lambda f: f.SetIntegratorToAdaptive(),
+        ],
+        vtkDensityEqualizingWarp: [
+            lambda f: f.SetBlend(0.5),
+            lambda f: f.SetTableLookupToNearest(),
+            lambda f: f.SetInputData(0, points_in(f.GetInputDataObject(1, 0), seed=4)),
+            lambda f: f.SetInputData(0, density_sampler(f).GetOutput()),
+        ],
+        vtkTransportQuality: [
+            lambda f: f.SetBlockSize(3),
+            lambda f: f.SetInputData(0, points_in(f.GetInputDataObject(1, 0), seed=4)),
+        ],
+    }
+
+    def check(self, kind, port):
+        image = density_image((40, 30))
+        algorithm = kind()
+        if port == 1:
+            algorithm.SetInputData(0, points_in(image))
+        algorithm.SetInputData(port, image)
+
+        def run():
+            algorithm.Update()
+            return algorithm.GetTableBuildTime(), digest(algorithm.GetOutput())
+
+        built, before = run()
+        self.assertGreater(built, 0)
+        self.assertEqual(run(), (built, before))
+        for change in self.KEPT[kind]:
+            change(algorithm)
+            now, after = run()
+            self.assertEqual(now, built)
+            self.assertNotEqual(after, before)
+            before = after
+        # What a kept table gives is what a new one gives.
+        image.Modified()
+        rebuilt, after = run()
+        self.assertGreater(rebuilt, built)
+        self.assertEqual(after, before)
+        array = image.GetCellData().GetScalars()
+        array.SetValue(7, 100)
+        array.Modified()
+        last, after = run()
+        self.assertGreater(last, rebuilt)
+        self.assertNotEqual(after, before)
+        algorithm.SetInputData(port, density_image((30, 40), seed=1))
+        self.assertGreater(run()[0], last)
+
+    def test_map(self):
+        self.check(vtkTransportMap, 0)
+
+    def test_warp(self):
+        self.check(vtkDensityEqualizingWarp, 1)
+
+    def test_quality(self):
+        self.check(vtkTransportQuality, 1)
+
+
+def density_sampler(filter_of_two):
+    """Particles of the density of a filter's second input."""
+    sampler = vtkTransportSampler()
+    sampler.SetInputData(filter_of_two.GetInputDataObject(1, 0))
+    sampler.SetNumberOfParticles(100)
+    sampler.Update()
+    return sampler
 
 
 if __name__ == "__main__":

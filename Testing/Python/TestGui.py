@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's own window: both entries are chosen from the menus and applied, a picture is kept."""
+"""ParaView's own window: all entries are chosen from the menus and applied, pictures are kept."""
 import os
 import shutil
 import subprocess
@@ -20,6 +20,14 @@ SetActiveSource(photograph)
 
 WINDOW = "pqClientMainWindow/"
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
+# In the dialog that asks for the second input: the first source, and OK.
+DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
+           ("SelectInputDialog/pipelineView", "currentChanged", "/0/0|0"),
+           ("SelectInputDialog/buttonBox/1QPushButton0", "activate", ""))
+
+
+def choose(menu, name):
+    return "menubar/menu%s/Transport" % menu, "activate", name
 
 
 def events(path, *steps):
@@ -40,7 +48,7 @@ class Gui(unittest.TestCase):
             with open(os.path.join(settings, "ParaView%s.ini" % version), "w") as file:
                 file.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
 
-    def play(self, script, recording):
+    def play(self, script, recording, picture):
         """Starts ParaView, plays a recording, keeps a picture of the screen, ends ParaView."""
         log_path = os.path.join(self.home, "log")
         with open(log_path, "w") as log:
@@ -58,32 +66,58 @@ class Gui(unittest.TestCase):
                 if "is finished" in said or window.poll() is not None:
                     break
             time.sleep(2)  # the window draws what the last event changed
-            subprocess.run(["import", "-window", "root", os.path.join(OUTPUT, "gui.png")],
+            subprocess.run(["import", "-window", "root", os.path.join(OUTPUT, picture)],
                            check=True)
         finally:
             window.kill()
             window.wait()
         return said
 
-    def test_menus(self):
+    def state_after(self, picture, *steps):
+        """The state that ParaView saves after these steps, begun with a photograph."""
         script, recording, state = (os.path.join(self.home, name)
                                     for name in ("open.py", "play.xml", "state.pvsm"))
         with open(script, "w", encoding="utf-8") as file:
             file.write(OPEN % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
-        events(recording,
-               ("menubar/menuFilters/Transport", "activate", "TransportSampler"), APPLY,
-               ("menubar/menuSources/Transport", "activate", "UniformSeedSource"), APPLY,
-               ("menubar/menu_File", "activate", "actionFileSaveServerState"),
+        events(recording, *steps, ("menubar/menu_File", "activate", "actionFileSaveServerState"),
                ("FileSaveServerStateDialog", "filesSelected", state))
-        said = self.play(script, recording)
+        said = self.play(script, recording, picture)
         self.assertRegex(said, r"Success =\s+true")
-        saved = ElementTree.parse(state).getroot()
+        self.assertNotIn("ERR|", said)
+        return ElementTree.parse(state).getroot()
+
+    def test_menus(self):
+        saved = self.state_after("gui.png", choose("Filters", "TransportSampler"), APPLY,
+                                 choose("Sources", "UniformSeedSource"), APPLY)
         kinds = [proxy.get("type") for proxy in saved.iter("Proxy")]
         self.assertIn("UniformSeedSource", kinds)
         self.assertIn("TransportSampler", kinds)
         styles = [element.get("value") for prop in saved.iter("Property")
                   if prop.get("name") == "Representation" for element in prop.iter("Element")]
         self.assertEqual(styles.count("Point Gaussian"), 2)
+
+    def test_two_inputs(self):
+        saved = self.state_after("gui-two-inputs.png", choose("Filters", "TransportMap"), APPLY,
+                                 choose("Sources", "UniformSeedSource"), APPLY,
+                                 choose("Filters", "DensityEqualizingWarp"), *DENSITY, APPLY,
+                                 choose("Filters", "TransportQuality"), *DENSITY, APPLY)
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+
+        def input_of(kind, name):
+            for prop in found[kind].iter("Property"):
+                if prop.get("name") == name:
+                    return prop.find("Proxy").get("value")
+            return None
+
+        def identity(kind):
+            return found[kind].get("id")
+
+        photograph = input_of("TransportMap", "Input")
+        self.assertEqual(input_of("DensityEqualizingWarp", "Input"), identity("UniformSeedSource"))
+        self.assertEqual(input_of("DensityEqualizingWarp", "Density"), photograph)
+        self.assertEqual(input_of("TransportQuality", "Input"), identity("DensityEqualizingWarp"))
+        self.assertEqual(input_of("TransportQuality", "Density"), photograph)
+        self.assertIn("SpreadSheetView", found)
 
 
 if __name__ == "__main__":

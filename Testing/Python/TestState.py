@@ -9,8 +9,11 @@ from rt_testing import OUTPUT, SOURCE, digest, load_plugin, main, output_of
 simple = load_plugin()
 
 
+KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality")
+
+
 def pipeline():
-    """A photograph, seeds of its own, and a sampler with settings that are not the defaults."""
+    """A photograph, seeds of its own, and filters with settings that are not the defaults."""
     photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
                                                                 "ascent.png")])
     seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500,
@@ -18,21 +21,30 @@ def pipeline():
     sampler = simple.SampleDensity(registrationName="Sampler", Input=photograph, Seeds=seeds,
                                    InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4",
                                    NumberOfSteps=12)
-    return sampler
+    simple.TransportMap(registrationName="Map", Input=photograph, InvertDensity=1,
+                        Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
+                        Integrator="Adaptive", Tolerance=0.5)
+    simple.DensityEqualizingWarp(registrationName="Warp", Input=seeds, Density=photograph,
+                                 InvertDensity=1, Blend=0.25, NumberOfSteps=9)
+    simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
+                            InvertDensity=1, BlockSize=32)
+
+
+def digests():
+    """The hashes of the outputs of the pipeline's filters by their kinds."""
+    found = {source.GetXMLName(): source for source in simple.GetSources().values()}
+    return [kind + "=" + digest(output_of(found[kind])) for kind in KINDS]
 
 
 def in_a_process(script, path):
-    """Runs a saved script in a new pvpython; its sampler's hash is printed by what is added."""
+    """Runs a saved script in a new pvpython; what is added prints the hashes of its filters."""
     with open(path, "w", encoding="utf-8") as file:
         file.write("import sys; sys.path.insert(0, %r)\n" % os.path.dirname(__file__))
-        file.write("import rt_testing; rt_testing.load_plugin()\n" + script)
-        file.write("\nfrom paraview.simple import FindSource, GetSources\n"
-                   "found = [s for s in GetSources().values() if s.GetXMLName() == "
-                   "'TransportSampler']\n"
-                   "print('HASH', len(found), rt_testing.digest(rt_testing.output_of(found[0])))\n")
+        file.write("import TestState\n" + script)
+        file.write("\nprint('HASHES', *TestState.digests())\n")
     done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), path],
                           stdout=subprocess.PIPE, universal_newlines=True, check=True)
-    return [line for line in done.stdout.splitlines() if line.startswith("HASH")][0].split()[1:]
+    return [line for line in done.stdout.splitlines() if line.startswith("HASHES")][0].split()[1:]
 
 
 class State(unittest.TestCase):
@@ -40,7 +52,9 @@ class State(unittest.TestCase):
         simple.ResetSession()
 
     def test_state_file(self):
-        expected = digest(output_of(pipeline()))
+        pipeline()
+        expected = digests()
+        self.assertEqual(len(set(expected)), len(KINDS))
         path = os.path.join(OUTPUT, "state.pvsm")
         simple.SaveState(path)
         simple.ResetSession()
@@ -48,22 +62,34 @@ class State(unittest.TestCase):
         sampler = simple.FindSource("Sampler")
         self.assertEqual(sampler.Integrator, "RungeKutta4")
         self.assertEqual(sampler.NumberOfSteps, 12)
-        self.assertEqual(digest(output_of(sampler)), expected)
+        transport = simple.FindSource("Map")
+        self.assertEqual(transport.Direction, "DensityToUniform")
+        self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
+        self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
+        self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
+        self.assertEqual(digests(), expected)
 
     def test_python_state(self):
         from paraview import smstate
-        expected = digest(output_of(pipeline()))
+        pipeline()
+        expected = digests()
         script = smstate.get_state()
-        self.assertIn("SampleDensity(", script)
-        self.assertEqual(in_a_process(script, os.path.join(OUTPUT, "state.py")), ["1", expected])
+        self.assert_calls(script)
+        self.assertEqual(in_a_process(script, os.path.join(OUTPUT, "state.py")), expected)
 
     def test_trace(self):
         from paraview import smtrace
         smtrace.start_trace()
-        expected = digest(output_of(pipeline()))
+        pipeline()
+        expected = digests()
         script = smtrace.stop_trace()
-        self.assertIn("SampleDensity(", script)
-        self.assertEqual(in_a_process(script, os.path.join(OUTPUT, "trace.py")), ["1", expected])
+        self.assert_calls(script)
+        self.assertEqual(in_a_process(script, os.path.join(OUTPUT, "trace.py")), expected)
+
+    def assert_calls(self, script):
+        for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
+                     "TransportQuality("):
+            self.assertIn(call, script)
 
 
 if __name__ == "__main__":

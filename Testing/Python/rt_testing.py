@@ -79,13 +79,19 @@ def positions(polydata):
     return vtk_to_numpy(polydata.GetPoints().GetData()).copy()
 
 
-def digest(polydata):
-    """A hash of the output's points and point arrays, to the last bit."""
-    sha = hashlib.sha256(positions(polydata).tobytes())
-    data = polydata.GetPointData()
-    for i in range(data.GetNumberOfArrays()):
-        sha.update(data.GetArrayName(i).encode())
-        sha.update(vtk_to_numpy(data.GetArray(i)).tobytes())
+def digest(data):
+    """A hash of the arrays of points, cells or rows, and of the points or the bounds of an image,
+    to the last bit."""
+    sha = hashlib.sha256()
+    if data.IsA("vtkPointSet"):
+        sha.update(positions(data).tobytes())
+    elif data.IsA("vtkDataSet"):
+        sha.update(np.array(data.GetBounds()).tobytes())
+    for owner in (data.POINT, data.CELL, data.ROW):
+        attributes = data.GetAttributes(owner)
+        for i in range(attributes.GetNumberOfArrays() if attributes else 0):
+            sha.update(attributes.GetArrayName(i).encode())
+            sha.update(vtk_to_numpy(attributes.GetArray(i)).tobytes())
     return sha.hexdigest()
 
 

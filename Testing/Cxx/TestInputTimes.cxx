@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Filters of two inputs follow the time of either.
+#include "WarpTest.h"
+
+#include "vtkImageAlgorithm.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+#include "vtkTransportQuality.h"
+#include "vtkVariant.h"
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+void publish(vtkInformationVector* outputs, const std::vector<double>& times)
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  const double range[2] = { times.front(), times.back() };
+  output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+  output->Set(Pipeline::TIME_RANGE(), range, 2);
+}
+
+double askedTime(vtkInformationVector* outputs)
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  return output->Has(Pipeline::UPDATE_TIME_STEP()) ? output->Get(Pipeline::UPDATE_TIME_STEP())
+                                                   : 0.0;
+}
+
+// A density that is another one at every time.
+class TimedImage : public vtkImageAlgorithm
+{
+public:
+  static TimedImage* New();
+  vtkTypeMacro(TimedImage, vtkImageAlgorithm);
+  int Runs = 0;
+
+protected:
+  TimedImage() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    const int extent[6] = { 0, 8, 0, 6, 0, 0 };
+    outputs->GetInformationObject(0)->Set(Pipeline::WHOLE_EXTENT(), extent, 6);
+    publish(outputs, { 0.0, 1.0, 3.0 });
+    return 1;
+  }
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    ++this->Runs;
+    const double time = askedTime(outputs);
+    vtkImageData::GetData(outputs)->ShallowCopy(makeImage(
+      9, 7, 1, true, [=](vtkIdType i) { return bumpy(i + 5 * static_cast<vtkIdType>(time)); }));
+    return 1;
+  }
+};
+vtkStandardNewMacro(TimedImage);
+
+// A point that moves.
+class TimedPoints : public vtkPolyDataAlgorithm
+{
+public:
+  static TimedPoints* New();
+  vtkTypeMacro(TimedPoints, vtkPolyDataAlgorithm);
+
+protected:
+  TimedPoints() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    publish(outputs, { 0.5, 1.0 });
+    return 1;
+  }
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
+  {
+    const double time = askedTime(outputs);
+    vtkPolyData::GetData(outputs)->ShallowCopy(makePoints({ 3.0 + time, 2, 0, 4, 2, 0 }));
+    return 1;
+  }
+};
+vtkStandardNewMacro(TimedPoints);
+
+void expectTimes(
+  Checks& checks, vtkAlgorithm* filter, const std::vector<double>& expected, int line)
+{
+  filter->UpdateInformation();
+  vtkInformation* output = filter->GetOutputInformation(0);
+  std::vector<double> times(static_cast<std::size_t>(output->Length(Pipeline::TIME_STEPS())));
+  if (!times.empty())
+  {
+    output->Get(Pipeline::TIME_STEPS(), times.data());
+  }
+  checks.That(times == expected, "time steps", line);
+  const double* range = output->Get(Pipeline::TIME_RANGE());
+  checks.That(expected.empty()
+      ? range == nullptr
+      : range && range[0] == expected.front() && range[1] == expected.back(),
+    "time range", line);
+}
+
+// A density that changes under points that do not, and the reverse.
+void checkWarp(Checks& checks)
+{
+  vtkNew<TimedImage> images;
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  warp->SetInputData(makePoints({ 3, 2, 0 }));
+  warp->SetDensityConnection(images->GetOutputPort());
+  expectTimes(checks, warp, { 0.0, 1.0, 3.0 }, __LINE__);
+  std::vector<double> last;
+  for (const double time : { 0.0, 1.0, 3.0 })
+  {
+    warp->UpdateTimeStep(time);
+    const std::vector<double> found = displacements(warp);
+    CHECK(checks, !found.empty() && found != last);
+    last = found;
+    vtkInformation* information = warp->GetOutput()->GetInformation();
+    CHECK(checks, information->Get(vtkDataObject::DATA_TIME_STEP()) == time);
+  }
+  CHECK(checks, images->Runs == 3);
+
+  vtkNew<TimedPoints> points;
+  warp->SetInputConnection(points->GetOutputPort());
+  expectTimes(checks, warp, { 0.0, 0.5, 1.0, 3.0 }, __LINE__);
+
+  // The tables of a density that stays are kept, and the times of an input go with it.
+  warp->SetDensityData(makeImage(9, 7, 1, true, bumpy));
+  expectTimes(checks, warp, { 0.5, 1.0 }, __LINE__);
+  warp->UpdateTimeStep(0.5);
+  const vtkMTimeType built = warp->GetTableBuildTime();
+  last = displacements(warp);
+  warp->UpdateTimeStep(1.0);
+  CHECK(checks, displacements(warp) != last && warp->GetTableBuildTime() == built);
+  warp->SetInputData(makePoints({ 3, 2, 0 }));
+  expectTimes(checks, warp, {}, __LINE__);
+}
+
+void checkQuality(Checks& checks)
+{
+  vtkNew<TimedImage> images;
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(makePoints({ 3, 2, 0, 4, 2, 0 }));
+  quality->SetDensityConnection(images->GetOutputPort());
+  quality->SetBlockSize(2);
+  expectTimes(checks, quality, { 0.0, 1.0, 3.0 }, __LINE__);
+  double last = -1.0;
+  for (const double time : { 0.0, 1.0, 3.0 })
+  {
+    quality->UpdateTimeStep(time);
+    const double found = quality->GetOutput()->GetValueByName(0, "DensityError").ToDouble();
+    CHECK(checks, found != last);
+    last = found;
+  }
+}
+
+// Seeds that move sample a density that stays.
+void checkSampler(Checks& checks)
+{
+  vtkNew<TimedPoints> seeds;
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(makeImage(9, 7, 1, true, bumpy));
+  expectTimes(checks, sampler, {}, __LINE__);
+  sampler->SetSeedsConnection(seeds->GetOutputPort());
+  expectTimes(checks, sampler, { 0.5, 1.0 }, __LINE__);
+  sampler->UpdateTimeStep(0.5);
+  const std::vector<double> last = coordinates(sampler->GetOutput());
+  sampler->UpdateTimeStep(1.0);
+  CHECK(checks, coordinates(sampler->GetOutput()) != last);
+}
+
+} // namespace
+
+int TestInputTimes(int, char*[])
+{
+  Checks checks;
+  checkWarp(checks);
+  checkQuality(checks);
+  checkSampler(checks);
+  return checks.Result();
+}
