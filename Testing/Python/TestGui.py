@@ -119,6 +119,17 @@ class Gui(unittest.TestCase):
         self.assertEqual(input_of("TransportQuality", "Density"), photograph)
         self.assertIn("SpreadSheetView", found)
 
+    def test_cells_of_seeds(self):
+        """The domain is optional: nothing is asked, and all three outputs are shown."""
+        saved = self.state_after("gui-cells.png", choose("Sources", "UniformSeedSource"), APPLY,
+                                 choose("Filters", "EqualMassCells"), APPLY)
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        cells = found["EqualMassCells"].get("id")
+        shown = {element.get("output_port") for prop in saved.iter("Property")
+                 if prop.get("name") == "Input" for element in prop.findall("Proxy")
+                 if element.get("value") == cells}
+        self.assertEqual(shown, {"0", "1", "2"})
+
 
 if __name__ == "__main__":
     need_display()

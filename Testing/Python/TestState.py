@@ -9,7 +9,8 @@ from rt_testing import OUTPUT, SOURCE, digest, load_plugin, main, output_of
 simple = load_plugin()
 
 
-KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality")
+KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
+         "EqualMassCells")
 
 
 def pipeline():
@@ -28,6 +29,8 @@ def pipeline():
                                  InvertDensity=1, Blend=0.25, NumberOfSteps=9)
     simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
                             InvertDensity=1, BlockSize=32)
+    simple.EqualMassCells(registrationName="Cells", Input=seeds, Domain=photograph, Resolution=60,
+                          CostExponent=4, NumberOfSteps=20)
 
 
 def digests():
@@ -67,6 +70,8 @@ class State(unittest.TestCase):
         self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
         self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
         self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
+        cells = simple.FindSource("Cells")
+        self.assertEqual((cells.Resolution, cells.CostExponent, cells.NumberOfSteps), (60, 4, 20))
         self.assertEqual(digests(), expected)
 
     def test_python_state(self):
@@ -88,7 +93,7 @@ class State(unittest.TestCase):
 
     def assert_calls(self, script):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
-                     "TransportQuality("):
+                     "TransportQuality(", "EqualMassCells("):
             self.assertIn(call, script)
 
 
