@@ -52,13 +52,6 @@ def grid(bounds, columns, rows):
     return lines.GetOutput(), labels.GetOutput()
 
 
-def producer(data):
-    """A source that holds a data object."""
-    source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
-    return source
-
-
 def draw(path, parts, array, bounds, pixels):
     """Photograph, lines and labels on the left, and warped on the right."""
     x0, x1, y0, y1 = bounds
@@ -104,7 +97,7 @@ def main():
     data = example.fetch(image)
     bounds = example.pixel_bounds(data)
     surface = simple.ExtractSurface(Input=image)
-    parts = [surface, *map(producer, grid(bounds, arguments.columns, arguments.rows))]
+    parts = [surface, *map(example.producer, grid(bounds, arguments.columns, arguments.rows))]
     warped = [simple.DensityEqualizingWarp(Input=part, Density=image, Blend=arguments.blend,
                                            InvertDensity=1) for part in parts]
     if example.fetch(warped[0]).GetNumberOfPoints() == 0:
