@@ -118,16 +118,17 @@ def photograph(path):
 
 
 def seconds(proxy):
-    """How long a filter takes to come up to date."""
-    start = time.perf_counter()
+    """The processor's time that a filter needs to come up to date."""
+    start = time.process_time()
     proxy.UpdatePipeline()
-    return time.perf_counter() - start
+    return time.process_time() - start
 
 
 def result(proxy):
-    """What a filter makes, which must not be empty."""
-    data = example.fetch(proxy)
-    if not data or data.GetNumberOfPoints() == 0:
+    """What a filter makes, which must not be empty; not a copy."""
+    proxy.UpdatePipeline()
+    data = proxy.GetClientSideObject().GetOutputDataObject(0)
+    if data.GetNumberOfPoints() == 0:
         sys.exit(1)  # the filter has said why
     return data
 
@@ -136,7 +137,8 @@ def field(image, name):
     """A point array of an image as rows and columns; of vectors the components x and y."""
     width, height = image.GetDimensions()[:2]
     values = vtk_to_numpy(image.GetPointData().GetArray(name))
-    return values.reshape(height, width, *values.shape[1:])[..., :2]
+    return values.reshape(height, width) if values.ndim == 1 else values[:, :2].reshape(
+        height, width, 2)
 
 
 def displacement(transport, **options):
@@ -209,7 +211,7 @@ def drawn(draw, *arguments):
         return read_picture(path)
 
 
-def stamp(picture, words, left, low, size=18):
+def stamp(picture, words, left, low, size=16):
     """Writes black words into a picture, their lower left corner in a column and row."""
     style = vtkTextProperty()
     style.SetFontSize(size)
@@ -232,7 +234,7 @@ def montage(path, rows, width, gap=10, caption=26):
             left = gap + i * (width + gap)
             low = gap + height - caption - panel.shape[0]
             strip[low:low + panel.shape[0], left:left + width] = panel
-            stamp(strip, words, left, gap + height - caption + 4)
+            stamp(strip[:, :left + width], words, left, gap + height - caption + 4)
         strips.append(strip)
     widest = max(strip.shape[1] for strip in strips)
     strips = [np.pad(strip, ((0, 0), (0, widest - strip.shape[1]), (0, 0)), constant_values=255)
