@@ -116,7 +116,7 @@ def count_steps(photograph, arguments):
                                                      NumberOfSteps=steps) - exact)
         return apart.mean(), np.quantile(apart, 0.95)
 
-    shown = transport_map(image, arguments.samples)
+    shown = transport_map(image, arguments.step_samples)
     rows, pictures = [], [[], []]
     for steps in arguments.steps:
         errors = [error("RungeKutta4", steps), error("Multistep", steps),
@@ -142,9 +142,11 @@ def main():
     parser.add_argument("--size", type=figures.at_least(2), default=1024,
                         help="pixels along the sides of the photograph, lower part")
     parser.add_argument("--samples", type=figures.at_least(2), default=1024,
-                        help="samples of the map along each side")
+                        help="samples of the maps along each side, upper part")
+    parser.add_argument("--step-samples", type=figures.at_least(2), default=512,
+                        help="the same, lower part")
     parser.add_argument("--published", type=figures.at_least(2), default=256,
-                        help="the same, of the published scheme")
+                        help="the same, of the published scheme, upper part")
     parser.add_argument("--check", type=figures.at_least(2), default=150,
                         help="the same, for errors and times")
     parser.add_argument("--panel", type=figures.at_least(16), default=256,
