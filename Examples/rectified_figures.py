@@ -66,11 +66,11 @@ def image_of(values):
     return image
 
 
-def values_of(image):
+def values_of(image, plane=0):
     """The point scalars of an image as rows, columns and, where there are several, components."""
-    width, height = image.GetDimensions()[:2]
+    width, height, planes = image.GetDimensions()
     scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, *scalars.shape[1:])
+    return scalars.reshape(planes, height, width, *scalars.shape[1:])[plane]
 
 
 def resized(image, width, height):
@@ -181,9 +181,9 @@ def coloured_vectors(vectors, longest):
     return picture
 
 
-def grey(values, white=255):
-    """The picture of numbers from 0 (black) on."""
-    return np.repeat(np.clip(255 * values / white, 0, 255).astype(np.uint8)[..., None], 3, axis=2)
+def grey(values):
+    """The picture of greys of 8 bits."""
+    return np.repeat(values[..., None], 3, axis=2)
 
 
 def fitted(picture, width):
