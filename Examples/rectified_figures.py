@@ -124,6 +124,15 @@ def seconds(proxy):
     return time.process_time() - start
 
 
+def fastest(proxy, name, values):
+    """The least time of runs with a property at one value after another."""
+    times = []
+    for value in values:
+        setattr(proxy, name, value)
+        times.append(seconds(proxy))
+    return min(times)
+
+
 def result(proxy):
     """What a filter makes, which must not be empty; not a copy."""
     proxy.UpdatePipeline()
@@ -211,14 +220,15 @@ def drawn(draw, *arguments):
         return read_picture(path)
 
 
-def stamp(picture, words, left, low, size=16):
-    """Writes black words into a picture, their lower left corner in a column and row."""
+def stamp(picture, words, left, low, size=16, centred=False):
+    """Writes black words into a picture from a row up and from a column on, or around it."""
     style = vtkTextProperty()
     style.SetFontSize(size)
     style.SetColor(0, 0, 0)
     image, used = vtkImageData(), [0, 0]
     vtkTextRenderer.GetInstance().RenderString(style, words, image, used, 72)
     ink = values_of(image)[:, :, 3:] / 255
+    left -= int(centred) * used[0] // 2
     room = picture[low:low + ink.shape[0], left:left + ink.shape[1]]
     room[...] = (room * (1 - ink[:room.shape[0], :room.shape[1]])).round()
 

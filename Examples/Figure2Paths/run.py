@@ -71,7 +71,7 @@ def ends_of(transport, **options):
 
 
 def print_errors(density, particles, start):
-    transport = simple.SampleDensity(Input=line_image(density), SeedPattern="Lattice",
+    transport = simple.SampleDensity(line_image(density), SeedPattern="Lattice",
                                      NumberOfParticles=particles)
     runs = [("%s, N = %d" % run, {"Integrator": run[0], "NumberOfSteps": run[1]})
             for run in [("Multistep", n) for n in (8, 16, 32, 64, 128)] + [("RungeKutta4", 50)]]
@@ -84,17 +84,17 @@ def print_errors(density, particles, start):
     figures.table("%d particles against the inverse of the cumulative sum, in cells" % particles,
                   ["ours", "mean error", "99 % below", "largest", "paper"], rows)
 
-    one = simple.SampleDensity(Input=line_image(density), Seeds=seed_points(np.array([start])))
+    one = simple.SampleDensity(line_image(density), Seeds=seed_points(np.array([start])))
     end = ends_of(one)[1][0]
     figures.table("The particle of the purple curve, in cells",
-                  ["", "ours, N = 32", "exact", "paper"],
+                  ["curve", "ours, N = 32", "exact", "paper"],
                   [["start", "%.2f" % start, "%.2f" % start, "256"],
                    ["end", "%.2f" % end, "%.2f" % exact_ends(density, start), "drawn only"]])
 
 
 def paths_of(density, seeds, steps=128):
     """The paths of seeds: x and t, with rows for the seeds."""
-    paths = simple.SampleDensity(Input=line_image(density), Seeds=seed_points(seeds),
+    paths = simple.SampleDensity(line_image(density), Seeds=seed_points(seeds),
                                  OutputPaths=1, NumberOfSteps=steps)
     data = figures.result(paths)
     x = vtk_to_numpy(data.GetPoints().GetData())[:, 0].reshape(len(seeds), -1)
@@ -143,18 +143,19 @@ def draw(density, number, start, pixels):
     example.look_down(view, [cells / 2, (low + high) / 2], high - low, cells)
     picture = figures.drawn(example.save_picture, view)
 
-    zoom = pixels / ((1 + 2 * MARGIN) * cells)
+    zoom, size = pixels / ((1 + 2 * MARGIN) * cells), max(9, pixels // 60)
 
-    def write(words, across, up, down=0):
-        figures.stamp(picture, words, round(zoom * (across - low)), round(zoom * (up - low)) - down)
+    def write(words, across, up, lines):
+        figures.stamp(picture, words, round(zoom * (across - low)),
+                      round(zoom * (up - low) + 1.3 * size * lines), size, centred=True)
 
-    write("x = %g" % start, start, 0, 24)
-    write("0", 0, 0, 24)
-    write("%d" % cells, cells, 0, 24)
-    write("t = 0", -0.05 * cells, 0)
-    write("t = 1", -0.05 * cells, top)
-    write("l", left, top, 22)
-    write("r", right, top, 22)
+    write("x = %g" % start, start, 0, -1)
+    write("0", 0, 0, -1)
+    write("%d" % cells, cells, 0, -1)
+    write("t = 0", -MARGIN * cells / 2, 0, 0)
+    write("t = 1", -MARGIN * cells / 2, top, 0)
+    write("l", left, top, -1)
+    write("r", right, top, -1)
     return picture
 
 

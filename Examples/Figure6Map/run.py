@@ -45,7 +45,7 @@ def relative_errors(found, exact, where):
 
 def measure(name, image, invert, direction):
     """Rows of the tables of errors and of figures, and the pictures."""
-    transport = simple.TransportMap(Input=example.producer(image), InvertDensity=invert,
+    transport = simple.TransportMap(example.producer(image), InvertDensity=invert,
                                     Direction=direction)
     exact = maps(transport, Integrator="Adaptive", Tolerance=1e-4)
     density = figures.values_of(image).astype(float)
