@@ -66,7 +66,7 @@ def main():
         "DensityError of blocks of %d\u00b2 / dots in empty cells.\nVelocities of a dot: 4 N "
         "(RungeKutta4), N (Euler), N - 1 (Multistep)."
         % (arguments.particles, arguments.size, arguments.block), ["steps N", *INTEGRATORS],
-        [*rows, ["paper", "pictures; N = 50 chosen", "\"similar with more iterations\"", "-"]])
+        [*rows, ["paper", "pictures; N = 50 chosen", "similar with more steps", "-"]])
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "figure7-steps.png")
     figures.montage(path, pictures, arguments.panel)
