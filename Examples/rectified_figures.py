@@ -109,11 +109,15 @@ def grey_square(image, side):
     return image_of(values_of(resized(image, side, side)))
 
 
-def photograph(path):
-    """The data of the image in a file, which must be flat."""
+def photograph(path, flat=True):
+    """The data of the image in a file, a picture or, where it need not be flat, a volume."""
     image = example.fetch(example.open_image(path))
-    if image.GetDimensions()[2] > 1 or min(image.GetDimensions()[:2]) < 2:
-        sys.exit("%s has %d x %d x %d values; it must be a picture" % (path, *image.GetDimensions()))
+    dimensions = image.GetDimensions()
+    if min(dimensions[:2]) < 2 or (flat and dimensions[2] > 1):
+        sys.exit("%s has %d x %d x %d values; it must be a picture%s"
+                 % (path, *dimensions, "" if flat else " or a volume"))
+    if not image.GetPointData().GetScalars():
+        sys.exit("%s has no values at its points that are its active scalars" % path)
     return image
 
 
@@ -161,9 +165,9 @@ def lengths(vectors):
     return np.sqrt((vectors ** 2).sum(axis=-1))
 
 
-def quality(particles, density, block, invert=1):
-    """The row of Transport Quality by column."""
-    measure = simple.TransportQuality(Input=particles, Density=density, InvertDensity=invert,
+def quality(particles, density, block):
+    """The row of Transport Quality by column, for ink."""
+    measure = simple.TransportQuality(Input=particles, Density=density, InvertDensity=1,
                                       BlockSize=block)
     row = example.fetch(measure)
     simple.Delete(measure)
@@ -171,10 +175,10 @@ def quality(particles, density, block, invert=1):
             for i in range(row.GetNumberOfColumns())}
 
 
-def coloured(values, low, high, preset="Cool to Warm"):
-    """The picture of numbers in a colour map of ParaView's; NaN is black."""
+def coloured(values, low, high):
+    """The picture of numbers, from blue over grey to red; NaN is black."""
     colours = simple.GetColorTransferFunction("Picture")
-    colours.ApplyPreset(preset, True)
+    colours.ApplyPreset("Cool to Warm", True)
     colours.RescaleTransferFunction(low, high)
     colours.NanColor = [0, 0, 0]
     colours.UpdateVTKObjects()
@@ -228,7 +232,7 @@ def stamp(picture, words, left, low, size=16, centred=False):
     image, used = vtkImageData(), [0, 0]
     vtkTextRenderer.GetInstance().RenderString(style, words, image, used, 72)
     ink = values_of(image)[:, :, 3:] / 255
-    left -= int(centred) * used[0] // 2
+    left = max(0, left - int(centred) * used[0] // 2)
     room = picture[low:low + ink.shape[0], left:left + ink.shape[1]]
     room[...] = (room * (1 - ink[:room.shape[0], :room.shape[1]])).round()
 

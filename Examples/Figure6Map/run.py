@@ -17,11 +17,8 @@ PAPER = {"photograph": ("1.5 %", "14.6 %", "21.8 %"), "subject": ("2.6 %", "13.2
 
 def subject_of(path, side):
     """The middle slice of a volume, or a picture, as a density: bright is mass."""
-    image = example.fetch(example.open_image(path))
+    image = figures.photograph(path, flat=False)
     columns, rows, slices = image.GetDimensions()
-    if min(columns, rows) < 2:
-        sys.exit("%s has %d x %d x %d values; it must be a picture or a volume"
-                 % (path, columns, rows, slices))
     values = figures.values_of(image, slices // 2)
     room = max(columns, rows)  # around it, so that it is a square
     below, left = (room - rows) // 2, (room - columns) // 2
@@ -48,6 +45,7 @@ def measure(name, image, invert, direction):
     transport = simple.TransportMap(example.producer(image), InvertDensity=invert,
                                     Direction=direction)
     exact = maps(transport, Integrator="Adaptive", Tolerance=1e-4)
+    cost = figures.result(transport).GetFieldData().GetArray("TransportCost").GetValue(0)
     density = figures.values_of(image).astype(float)
     density = 255 - density if invert else density
     forward = direction == "UniformToDensity"
@@ -58,7 +56,6 @@ def measure(name, image, invert, direction):
         found = maps(transport, Integrator=integrator, NumberOfSteps=steps)
         errors.append(["%s, %s" % (name, direction), "%s, %d" % (integrator, steps),
                        *relative_errors(found, exact, where)])
-    cost = figures.result(transport).GetFieldData().GetArray("TransportCost").GetValue(0)
     divergence = exact[2][where]
     side = density.shape[0]
     simple.Delete(transport)
@@ -66,8 +63,8 @@ def measure(name, image, invert, direction):
            "%.2f to %.2f" % (divergence.min(), divergence.max()),
            "%.2f to %.2f" % tuple(np.quantile(divergence, (0.01, 0.99))),
            "%.6f" % (cost / side ** 2)]
-    longest = np.quantile(np.abs(exact[1][where]), 0.995)
-    steepest = np.abs(np.quantile(divergence, (0.01, 0.99))).max()
+    longest = np.quantile(np.abs(exact[1][where]), 0.995) or 1.0
+    steepest = np.abs(np.quantile(divergence, (0.01, 0.99))).max() or 1.0
     shown = [figures.coloured_vectors(exact[1], longest),
              figures.coloured(exact[2], -steepest, steepest)]
     for picture in shown:
@@ -109,7 +106,8 @@ def main():
         "\nThose of the paper are quoted: they are against the optimal map, of other pictures.",
         ["map", "steps", "T", "displacement", "divergence"], errors)
     figures.table("The maps. TransportCost / width\u00b2 is an upper bound on W2\u00b2.",
-                  ["map", "mean distance, cells", "divergence", "1 % to 99 %", "cost / width\u00b2"],
+                  ["map", "mean distance, cells", "divergence", "1 % to 99 %",
+                   "cost / width\u00b2"],
                   [*rows, ["paper", "pictures only", "-", "-", "-"]])
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "figure6-map.png")

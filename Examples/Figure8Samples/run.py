@@ -81,16 +81,16 @@ def main():
     example.load_plugin()
     photograph = figures.photograph(arguments.image)
 
-    def image_of(side):
+    def source_of(side):
         return example.producer(figures.grey_square(photograph, side))
 
     # No row shall pay for the machine's first use of the memory.
-    whole_time(image_of(max([arguments.size, *arguments.sizes])), 1)
-    rows, pictures = stipplings(image_of(arguments.size), arguments.size, arguments.samples,
+    whole_time(source_of(max([arguments.size, *arguments.sizes])), 1)
+    rows, pictures = stipplings(source_of(arguments.size), arguments.size, arguments.samples,
                                 arguments.repeats, arguments.panel)
     pictures = [pictures, []]
     for side in arguments.sizes:
-        row, picture = stipplings(image_of(side), side, [arguments.particles], arguments.repeats,
+        row, picture = stipplings(source_of(side), side, [arguments.particles], arguments.repeats,
                                   arguments.panel)
         rows += row
         pictures[1] += picture
@@ -99,8 +99,9 @@ def main():
                   ["ours", "first run, ms", "samples, ms", "us a sample", "DensityError",
                    "MeanSpacing"], [*rows, ["paper", "-", "-", "linear", "-", "-"]])
     figures.table("Tables and samples together, seconds",
-                  ["together", "ours, Multistep, N = 32, one thread", "paper, RK4, T = 50, 32 cores"],
-                  [[name_of(number, side), "%.3f" % whole_time(image_of(side), number), paper]
+                  ["together", "ours, Multistep, N = 32, one thread",
+                   "paper, RK4, T = 50, 32 cores"],
+                  [[name_of(number, side), "%.3f" % whole_time(source_of(side), number), paper]
                    for number, side, paper in PAPER])
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "figure8-samples.png")
