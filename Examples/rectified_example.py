@@ -2,7 +2,9 @@
 """What the examples share: where the plugin and the inputs are, and how a picture is framed."""
 import glob
 import os
+import runpy
 import sys
+import types
 
 from paraview import simple
 from vtkmodules.vtkImagingCore import vtkImageShrink3D
@@ -22,6 +24,11 @@ def load_plugin():
         simple.LoadPlugin(path, remote=False, ns=vars(simple))
     else:
         simple.LoadDistributedPlugin("RectifiedTransport", remote=False, ns=vars(simple))
+
+
+def script(name):
+    """What the run.py of an example defines."""
+    return types.SimpleNamespace(**runpy.run_path(os.path.join(HERE, name, "run.py")))
 
 
 def fetch(source):

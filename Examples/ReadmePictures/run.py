@@ -2,9 +2,7 @@
 """Draws the pictures of README.md and Documentation/."""
 import argparse
 import os
-import runpy
 import sys
-import types
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.dirname(HERE)
@@ -17,11 +15,6 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 PHOTOGRAPH = os.path.join(example.DATA, "raccoon.png")
 STRIP = [560, 420]  # the size of a picture of the photograph
-
-
-def script(name):
-    """What the run.py of another example defines."""
-    return types.SimpleNamespace(**runpy.run_path(os.path.join(EXAMPLES, name, "run.py")))
 
 
 def draw_density(path):
@@ -134,16 +127,16 @@ def main():
     folder = parser.parse_args().output
     os.makedirs(folder, exist_ok=True)
     example.load_plugin()
-    stipple = script("StippleImage")
+    stipple = example.script("StippleImage")
 
     def path(name):
         return os.path.join(folder, name + ".png")
 
     draw_density(path("density"))
     draw_particles(path("particles"), stipple)
-    draw_volume(path("volume"), script("SampleVolume"))
-    draw_cartogram(path("cartogram"), script("Cartogram"))
-    draw_cells(path("cells"), script("Figure5Cells"))
+    draw_volume(path("volume"), example.script("SampleVolume"))
+    draw_cartogram(path("cartogram"), example.script("Cartogram"))
+    draw_cells(path("cells"), example.script("Figure5Cells"))
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_map(path("map"))

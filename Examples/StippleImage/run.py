@@ -11,9 +11,9 @@ from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
-def stipple(image, number):
+def stipple(image, number, **options):
     """The dots of an image and the radius that gives them the photograph's amount of ink."""
-    dots = simple.SampleDensity(Input=image)
+    dots = simple.SampleDensity(Input=image, **options)
     dots.InvertDensity = 1  # dark ink is mass
     dots.NumberOfParticles = number
     result = example.fetch(dots)

@@ -18,14 +18,23 @@ from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 DATA = os.path.join(SOURCE, "Testing", "Data")
 SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Cartogram": ["--pixels", "480"],
-         "SampleVolume": ["--particles", "50000", "--pixels", "400"]}
+         "SampleVolume": ["--particles", "50000", "--pixels", "400"],
+         "Figure2Paths": ["--particles", "2000", "--paths", "24", "--pixels", "480"],
+         "Figure4Lookup": ["--resolutions", "16", "64", "--samples", "64", "--published", "48",
+                           "--check", "40", "--size", "128", "--step-samples", "64",
+                           "--steps", "5", "25", "--panel", "96"],
+         "Figure6Map": ["--size", "64", "--panel", "64"],
+         "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
+                          "--pictures", "2", "--panel", "128"],
+         "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
+                            "--particles", "1000", "--repeats", "2", "--panel", "128"]}
 
 
 def run(example, *arguments):
     """What an example prints with arguments, and its exit code; its pictures go to OUTPUT."""
     script = os.path.join(SOURCE, "Examples", example, "run.py")
     done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), script, "--output", OUTPUT,
-                           *SMALL[example], *arguments], stdout=subprocess.PIPE,
+                           *arguments, *SMALL[example]], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, universal_newlines=True)
     return done.stdout, done.returncode
 
@@ -48,7 +57,24 @@ def blurred(pixels, block=4):
     return pixels[:height, :width].reshape(shape).mean(axis=(1, 3))
 
 
+def tables(said):
+    """The tables that an example prints: rows of cells, under their headings."""
+    blocks = re.findall(r"^(?:  .*\n)+", said, re.MULTILINE)
+    return [[re.split("  +", line.strip()) for line in block.splitlines()[1:]] for block in blocks]
+
+
+def first(cell):
+    """The first number of a cell."""
+    return float(cell.split()[0])
+
+
 class Examples(unittest.TestCase):
+    def check_falls(self, numbers):
+        """Numbers become less from one to the next."""
+        numbers = [first(cell) for cell in numbers]
+        self.assertEqual(numbers, sorted(numbers, reverse=True))
+        self.assertLess(numbers[-1], numbers[0])
+
     def check_picture(self, name):
         reference = os.path.join(DATA, "Baseline", name)
         drawn = os.path.join(OUTPUT, name)
@@ -98,7 +124,7 @@ class Examples(unittest.TestCase):
         self.assertTrue(os.path.isfile(os.path.join(OUTPUT, "stipple-own.png")))
 
     def test_no_such_file(self):
-        for example in SMALL:
+        for example in set(SMALL) - {"Figure2Paths"}:  # which draws a density of its own
             said, code = run(example, "nowhere.png")
             self.assertNotEqual(code, 0)
             self.assertIn("nowhere.png", said)
@@ -122,6 +148,85 @@ class Examples(unittest.TestCase):
         said, code = run("SampleVolume")
         self.assertEqual(code, 0, said)
         self.check_picture("particles-brain-t1.png")
+
+    def test_not_a_picture(self):
+        said, code = run("Figure7Steps", os.path.join(DATA, "brain-t1.vti"))
+        self.assertNotEqual(code, 0)
+        self.assertIn("90 x 108 x 90 values; it must be a picture", said)
+
+    def test_not_a_number(self):
+        for example, option in ("Figure2Paths", "--cells"), ("Figure8Samples", "--sizes"):
+            said, code = run(example, option, "0")
+            self.assertNotEqual(code, 0)
+            self.assertIn("argument %s: 0 is not a whole number of at least" % option, said)
+
+    def test_figure_2(self):
+        said, code = run("Figure2Paths")
+        self.assertEqual(code, 0, said)
+        errors, curve = tables(said)
+        mean = {row[0]: row[1] for row in errors}
+        self.check_falls(mean["Multistep, N = %d" % n] for n in (8, 16, 32, 64, 128))
+        self.assertLess(first(mean["Multistep, N = 32"]), 0.05)
+        self.assertEqual(curve[0][1:], ["256.00", "256.00", "256"])
+        self.assertAlmostEqual(first(curve[1][1]), first(curve[1][2]), delta=0.1)
+        self.check_picture("figure2-paths.png")
+
+    def test_figure_4(self):
+        said, code = run("Figure4Lookup")
+        self.assertEqual(code, 0, said)
+        lookup, steps = tables(said)
+        coarse, fine, _ = lookup
+        self.assertGreater(first(coarse[1]), 90)
+        self.assertTrue(0 < first(fine[1]) < 90, fine)
+        for row in coarse, fine:
+            self.assertEqual(row[2:4], ["0", "0"])
+            self.assertTrue(0.05 < first(row[4]) < 0.5, row)
+        for column in 1, 2, 3:
+            self.check_falls(row[column] for row in steps[:-1])
+        for row in steps[:-1]:  # at as many velocities
+            self.assertLess(2 * first(row[3]), first(row[1]))
+        drawn = read(os.path.join(OUTPUT, "figure4-lookup.png"))[0]
+        black = (drawn[-120:-30] == 0).all(axis=2)  # in the upper row, where there is NaN
+        self.assertTrue(black[:, 12:104].all())
+        self.assertTrue(0 < black[:, 118:210].mean() < 0.9)
+
+    def test_figure_6(self):
+        said, code = run("Figure6Map")
+        self.assertEqual(code, 0, said)
+        errors, maps = tables(said)
+        found = {(row[0], row[1]): row[2:] for row in errors}
+        for row in maps[:-1]:
+            for column in range(3):
+                self.check_falls(found[row[0], "Multistep, %d" % n][column] for n in (32, 64))
+            self.assertLess(first(found[row[0], "Multistep, 64"][1]), 1)
+        for there, back in (maps[0], maps[1]), (maps[2], maps[3]):
+            self.assertAlmostEqual(first(there[4]) / first(back[4]), 1, delta=0.01)
+        self.assertEqual(found["subject, paper, against the optimum", "RK4, 50"][2], "125 %")
+        self.check_picture("figure6-map.png")
+
+    def test_figure_7(self):
+        said, code = run("Figure7Steps")
+        self.assertEqual(code, 0, said)
+        rows = tables(said)[0]
+        for column in 1, 2, 3:
+            self.check_falls(row[column] for row in rows[:3])
+            self.assertTrue(all(row[column].endswith("/ 0") for row in rows[:3]), rows)
+        for row in rows[:3]:
+            self.assertLess(5 * first(row[1]), first(row[2]))
+        self.assertLess(float(rows[3][1].split(" / ")[1]), float(rows[0][1].split(" / ")[1]))
+        drawn = read(os.path.join(OUTPUT, "figure7-steps.png"))[0]
+        self.assertTrue(50 < drawn.mean() < 205)
+
+    def test_figure_8(self):
+        said, code = run("Figure8Samples")
+        self.assertEqual(code, 0, said)
+        rows, whole = tables(said)
+        self.check_falls(row[4] for row in rows[:2])
+        for row in rows[:4]:
+            self.assertTrue(0.7 < first(row[5]) < 0.9, row)
+        self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
+        drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
+        self.assertTrue(50 < drawn.mean() < 205)
 
 
 if __name__ == "__main__":

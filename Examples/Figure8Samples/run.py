@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Remakes Figure 8 of the paper: numbers of samples and resolutions of the image."""
+import argparse
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+import rectified_example as example
+import rectified_figures as figures
+from paraview import simple
+
+BLOCKS = 32  # of DensityError along each side of the photograph
+# Table 1: samples, pixels along the sides, seconds on 32 cores (AMD Ryzen Threadripper 2990WX).
+PAPER = (8192, 1024, "0.042, 0.048"), (16384, 1024, "0.080"), (16384, 2048, "0.12")
+
+
+def thousands(number):
+    return "%dk" % round(number / 1024) if number >= 1024 else "%d" % number
+
+
+def name_of(number, side):
+    return "%s samples, %d\u00b2 pixels" % (thousands(number), side)
+
+
+def stipplings(image, side, numbers, repeats, panel):
+    """For numbers of samples of an image: a row of the table and a picture."""
+    stipple = example.script("StippleImage")
+    dots = simple.SampleDensity(image, InvertDensity=1, NumberOfParticles=1, Threading="Serial")
+    tables = figures.seconds(dots)  # and one sample
+    again = "RandomSeed", range(2, repeats + 2)
+    one = figures.fastest(dots, *again)
+    times = {}
+    for number in numbers:  # before any is shown: ParaView then asks the data for more
+        dots.NumberOfParticles = number
+        times[number] = figures.fastest(dots, *again) - one
+    rows, pictures = [], []
+    for number, flow in times.items():
+        dots.NumberOfParticles = number
+        mass = figures.result(dots).GetPointData().GetArray("Mass").GetValue(0)
+        found = figures.quality(dots, image, side // BLOCKS)
+        rows.append([name_of(number, side), "%.1f" % (1e3 * tables), "%.1f" % (1e3 * flow),
+                     "%.2f" % (1e6 * flow / number), "%.4f" % found["DensityError"],
+                     "%.3f" % found["MeanSpacing"]])
+        radius = math.sqrt(mass / 255 / math.pi)  # discs with the area of the ink
+        pictures.append((name_of(number, side), figures.drawn(
+            stipple.write_png, dots, [0, side, 0, side], radius, panel)))
+    simple.Delete(dots)
+    return rows, pictures
+
+
+def whole_time(image, number):
+    """The time of the tables and the samples of a filter that is new."""
+    dots = simple.SampleDensity(image, InvertDensity=1, NumberOfParticles=number,
+                                Threading="Serial")
+    time = figures.seconds(dots)
+    simple.Delete(dots)
+    return time
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("image", nargs="?", default=figures.RACCOON,
+                        help="a photograph in any format that ParaView reads")
+    parser.add_argument("--samples", type=figures.at_least(1), nargs="+",
+                        default=[2048, 8192, 32768, 131072], help="numbers of samples, first row")
+    parser.add_argument("--size", type=figures.at_least(BLOCKS), default=2048,
+                        help="pixels along the sides of the photograph, first row")
+    parser.add_argument("--sizes", type=figures.at_least(BLOCKS), nargs="+",
+                        default=[256, 512, 1024, 2048, 4096],
+                        help="pixels along the sides of the photograph, second row")
+    parser.add_argument("--particles", type=figures.at_least(1), default=32768,
+                        help="number of samples, second row")
+    parser.add_argument("--repeats", type=figures.at_least(1), default=5,
+                        help="runs of which the fastest counts")
+    parser.add_argument("--panel", type=figures.at_least(16), default=480,
+                        help="side of each of the pictures")
+    parser.add_argument("--output", default=".", help="folder of the picture")
+    arguments = parser.parse_args()
+
+    example.load_plugin()
+    photograph = figures.photograph(arguments.image)
+
+    def source_of(side):
+        return example.producer(figures.grey_square(photograph, side))
+
+    # No row shall pay for the machine's first use of the memory.
+    whole_time(source_of(max([arguments.size, *arguments.sizes])), 1)
+    rows, pictures = stipplings(source_of(arguments.size), arguments.size, arguments.samples,
+                                arguments.repeats, arguments.panel)
+    pictures = [pictures, []]
+    for side in arguments.sizes:
+        row, picture = stipplings(source_of(side), side, [arguments.particles], arguments.repeats,
+                                  arguments.panel)
+        rows += row
+        pictures[1] += picture
+    figures.table("Time of one thread: the first run, for tables and one sample, and what further "
+                  "samples add.\nQuality: DensityError over %d\u00b2 blocks." % BLOCKS,
+                  ["ours", "first run, ms", "samples, ms", "us a sample", "DensityError",
+                   "MeanSpacing"], [*rows, ["paper", "-", "-", "linear", "-", "-"]])
+    figures.table("Tables and samples together, seconds",
+                  ["together", "ours, Multistep, N = 32, one thread",
+                   "paper, RK4, T = 50, 32 cores"],
+                  [[name_of(number, side), "%.3f" % whole_time(source_of(side), number), paper]
+                   for number, side, paper in PAPER])
+    os.makedirs(arguments.output, exist_ok=True)
+    path = os.path.join(arguments.output, "figure8-samples.png")
+    figures.montage(path, pictures, arguments.panel)
+    print("\n" + path)
+
+
+if __name__ == "__main__":
+    main()
