@@ -3,11 +3,11 @@
 import argparse
 import os
 import sys
-import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
 import numpy as np
 import rectified_example as example
+import rectified_figures as figures
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -35,24 +35,16 @@ def make_sites(count, seed):
 
 
 def measure(name, cells, count):
-    """Prints the masses of the cells and the costs of the way to the sites."""
-    start = time.perf_counter()
-    cells.UpdatePipeline()
-    seconds = time.perf_counter() - start
-    labels, sites = (cells.GetClientSideObject().GetOutputDataObject(i) for i in (0, 1))
-    if labels.GetNumberOfCells() == 0:
-        sys.exit(1)  # the filter has said why
+    """Rows of what the cells of a set of sites are like, and what the way to the sites costs."""
+    time = figures.seconds(cells)
+    labels = figures.result(cells)
     found = np.bincount(vtk_to_numpy(labels.GetCellData().GetArray("SiteId")), minlength=count)
     costs = []
     for cells.NormExponent, cells.CostExponent in COSTS:
         cells.UpdatePipeline()
-        costs.append(labels.GetFieldData().GetArray("TransportCost").GetValue(0))
-    mass = vtk_to_numpy(sites.GetPointData().GetArray("CellMass"))
-    print("%-7s %6.2f s   pixels a cell: %d to %d   mass: deviation %.2g, largest %.2g" % (
-        name, seconds, found.min(), found.max(), mass.std() / mass.mean(),
-        abs(mass / mass.mean() - 1).max()))
-    print("        upper bounds: " + ", ".join(
-        "W_%g^%g %.4g" % (p, q, cost) for (p, q), cost in zip(COSTS, costs)))
+        costs.append("%.4g" % labels.GetFieldData().GetArray("TransportCost").GetValue(0))
+    return ([name, "%d to %d" % (found.min(), found.max()), "%.2g" % (found.std() / found.mean()),
+             "%.1f s" % time], [name, *costs])
 
 
 def draw(path, sets, pixels):
@@ -83,22 +75,27 @@ def draw(path, sets, pixels):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sites", type=int, default=1024, help="how many, in each of the two sets")
-    parser.add_argument("--resolution", type=int, default=1024, help="pixels of the square's side")
-    parser.add_argument("--seed", type=int, default=1, help="of the random sites")
-    parser.add_argument("--pixels", type=int, default=2040, help="width of the picture")
+    parser.add_argument("--sites", type=figures.at_least(1), default=1024, help="how many, in each of the two sets")
+    parser.add_argument("--resolution", type=figures.at_least(1), default=1024, help="pixels of the square's side")
+    parser.add_argument("--seed", type=figures.at_least(0), default=1, help="of the random sites")
+    parser.add_argument("--pixels", type=figures.at_least(64), default=2040, help="width of the picture")
     parser.add_argument("--output", default=".", help="folder of the picture")
     arguments = parser.parse_args()
 
     example.load_plugin()
     square = vtkImageData()
     square.SetDimensions(2, 2, 1)
-    sets = []
+    sets, masses, costs = [], [], []
     for name, sites in make_sites(arguments.sites, arguments.seed).items():
         sets.append(simple.EqualMassCells(Input=sites_at(sites), Domain=example.producer(square),
-                                          Resolution=arguments.resolution))
-        measure(name, sets[-1], arguments.sites)
-    print("The paper gives no figures here; its cells are \"of equal areas\", made in 3000 steps.")
+                                          Resolution=arguments.resolution, Threading="Serial"))
+        mass, cost = measure(name, sets[-1], arguments.sites)
+        masses.append(mass)
+        costs.append(cost)
+    figures.table("Pixels of a cell", ["sites", "least to most", "deviation", "time"],
+                  [*masses, ["paper", "\"equal areas\"", "-", "- (3000 steps)"]])
+    figures.table("Upper bounds of the costs", ["sites", *("W_%g^%g" % c for c in COSTS)],
+                  [*costs, ["paper", *("-" for _ in COSTS)]])
 
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "figure5-cells.png")

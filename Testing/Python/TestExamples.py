@@ -23,6 +23,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Figure4Lookup": ["--resolutions", "16", "64", "--samples", "64", "--published", "48",
                            "--check", "40", "--size", "128", "--step-samples", "64",
                            "--steps", "5", "25", "--panel", "96"],
+         "Figure5Cells": ["--sites", "64", "--resolution", "128", "--pixels", "480"],
          "Figure6Map": ["--size", "64", "--panel", "64"],
          "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
                           "--pictures", "2", "--panel", "128"],
@@ -124,7 +125,7 @@ class Examples(unittest.TestCase):
         self.assertTrue(os.path.isfile(os.path.join(OUTPUT, "stipple-own.png")))
 
     def test_no_such_file(self):
-        for example in set(SMALL) - {"Figure2Paths"}:  # which draws a density of its own
+        for example in set(SMALL) - {"Figure2Paths", "Figure5Cells"}:  # with input of their own
             said, code = run(example, "nowhere.png")
             self.assertNotEqual(code, 0)
             self.assertIn("nowhere.png", said)
@@ -189,6 +190,16 @@ class Examples(unittest.TestCase):
         black = (drawn[-120:-30] == 0).all(axis=2)  # in the upper row, where there is NaN
         self.assertTrue(black[:, 12:104].all())
         self.assertTrue(0 < black[:, 118:210].mean() < 0.9)
+
+    def test_figure_5(self):
+        said, code = run("Figure5Cells")
+        self.assertEqual(code, 0, said)
+        masses, costs = tables(said)
+        for row in masses[:-1]:
+            self.assertEqual(row[1:3], ["256 to 256", "0"])
+        for column in (1, 2, 3, 4):  # the corners are far from the disc
+            self.assertLess(first(costs[0][column]), first(costs[1][column]))
+        self.check_picture("figure5-cells.png")
 
     def test_figure_6(self):
         said, code = run("Figure6Map")
