@@ -40,9 +40,10 @@ public:
   // Throws Aborted.
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel);
 
-private:
+  // Whether the host wants to stop; kernels that take long may ask, on any thread.
   bool IsCancelled() const;
 
+private:
   vtkAlgorithm* Host;
   std::thread::id HostThread;
   double Begin = 0.0;
