@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace RectifiedTransport
@@ -249,18 +248,6 @@ TEST(SiteCells, FarBordersInAPlaneAreBalanced)
     labels[i] = i % 600 < 5 ? 0 : i % 600 < 10 ? 1 : 2;
   }
   expectBalanced<2>(sites, labels, "far borders");
-}
-
-// Ways between cells of few pixels are long; what was searched for one is not searched again.
-TEST(SiteCells, ManySmallCellsAreBalancedSoon)
-{
-  const GridSize<2> size{ 400, 400 };
-  const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 40000, 5));
-  Labels labels = flowToSites(sites);
-  const auto begin = std::chrono::steady_clock::now();
-  expectBalanced<2>(sites, labels, "small cells");
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(time.count(), 4.0);
 }
 
 // Squares of lengths may pass the range of numbers, ratios do not.
