@@ -62,6 +62,7 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
   vtkPoints* points = run.Input->GetPoints();
   if (!run.Labels.IsFor(points, run.Frame, run.Options))
   {
+    run.Labels.Release();
     run.Labels.Keep(
       points, run.Frame, run.Options, sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95));
   }
@@ -204,7 +205,7 @@ ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
 {
   constexpr double margin = 0.05; // on each side
   double bounds[6];
-  sites->GetBounds(bounds);
+  sites->GetPoints()->GetBounds(bounds); // a data set may count only points that cells use
   for (int a = 0; a < 3; ++a)
   {
     const double length = bounds[2 * a + 1] - bounds[2 * a];
@@ -272,6 +273,11 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   HostMonitor host(this);
+  if (!domain)
+  {
+    // Of such points there are no bounds.
+    visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
+  }
   const ImageFrame box = domain ? ImageFrame(domain) : this->FrameAround(input);
   if (box.HasOnePoint())
   {

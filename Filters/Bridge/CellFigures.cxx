@@ -19,6 +19,9 @@ namespace RectifiedTransport
 namespace
 {
 
+// How many pixels are summed before the host is asked.
+constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
+
 // What is summed over the pixels of a cell; lengths are from the site.
 struct CellSum
 {
@@ -45,21 +48,22 @@ double squaredLength(const double* d)
 // The largest component is taken out, so that no power of it passes the range of numbers.
 double costOf(const double* d, const CostNorm& norm)
 {
-  double length = 0.0;
-  if (norm.Norm == 2.0)
+  const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
+  double length = largest;
+  if (largest > 0.0 && !std::isinf(norm.Norm))
   {
-    length = std::sqrt(squaredLength(d));
-  }
-  else
-  {
-    const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
-    length = largest;
-    if (largest > 0.0 && !std::isinf(norm.Norm))
+    const double part[3] = { std::abs(d[0]) / largest, std::abs(d[1]) / largest,
+      std::abs(d[2]) / largest };
+    if (norm.Norm == 2.0)
+    {
+      length *= std::sqrt(squaredLength(part));
+    }
+    else
     {
       double sum = 0.0;
-      for (int r = 0; r < 3; ++r)
+      for (const double x : part)
       {
-        sum += std::pow(std::abs(d[r]) / largest, norm.Norm);
+        sum += std::pow(x, norm.Norm);
       }
       length *= std::pow(sum, 1.0 / norm.Norm);
     }
@@ -102,13 +106,18 @@ public:
       {
         CellSum* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
         const std::int64_t end = std::min(begin + chunk, last);
-        if (isSquare)
+        // With many sites there are few chunks, and long ones.
+        for (std::int64_t slice = begin; slice < end && !host.IsCancelled(); slice += sliceOfPixels)
         {
-          this->Sum(begin, end, sums, squaredLength);
-        }
-        else
-        {
-          this->Sum(begin, end, sums, [&norm](const double* d) { return costOf(d, norm); });
+          const std::int64_t sliceEnd = std::min(slice + sliceOfPixels, end);
+          if (isSquare)
+          {
+            this->Sum(slice, sliceEnd, sums, squaredLength);
+          }
+          else
+          {
+            this->Sum(slice, sliceEnd, sums, [&norm](const double* d) { return costOf(d, norm); });
+          }
         }
       }
     });
@@ -206,6 +215,10 @@ double writeCellFigures(vtkPointSet* sites, const SitePixels<D>& grid,
   {
     throw Failure("The cost of CostExponent " + std::to_string(norm.Exponent) +
       " passes the largest double; it must be so low that distances to its power are finite");
+  }
+  if (!std::isfinite(pixels * geometry.CellMeasure()))
+  {
+    throw Failure("The domain's length, area or volume passes the largest double; scale the sites");
   }
   // The sites in one pixel share its cell's mass, to the last bit.
   for (std::int64_t k = 0; k < grid.NumberOfPixels(); ++k)

@@ -33,6 +33,7 @@ public:
   Outlines(const ImageGeometry& geometry, const std::int64_t* labels)
     : Geometry(geometry)
     , Size(geometry.Size<D>())
+    , Mirrored(geometry.IsMirrored())
     , Labels(labels)
   {
     this->Points->SetNumberOfComponents(3);
@@ -166,6 +167,10 @@ private:
     }
     vtkIdType corners[D == 1 ? 1 : 2 * (D - 1)];
     const int count = this->FindCorners(cell, axis, corners);
+    if (this->Mirrored)
+    {
+      std::reverse(corners, corners + count);
+    }
     if (below != nobody)
     {
       this->Faces->InsertNextCell(count, corners);
@@ -233,6 +238,7 @@ private:
 
   const ImageGeometry& Geometry;
   const GridSize<D> Size;
+  const bool Mirrored;
   const std::int64_t* Labels;
   std::int64_t LayerPixels = 1;
   std::int64_t LowerPlane = 0;

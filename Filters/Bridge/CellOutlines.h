@@ -14,9 +14,9 @@ namespace RectifiedTransport
 {
 
 // Each cell's own closed border with its label in the cell array `SiteId`: vertices in 1D, lines in
-// 2D, quads in 3D, these seen from outside against the clock (where the image's axes are
-// right-handed). What is between two cells is there once for each; points are shared. Throws
-// Aborted.
+// 2D, quads in 3D, these seen from outside against the clock. Lines go around their cell as
+// the first of the image's axes turns to the second. What is between two cells is there once for
+// each; points are shared. Throws Aborted.
 template <int D>
 void outlineCells(const ImageGeometry& geometry, const std::int64_t* labels, HostMonitor& host,
   vtkPolyData* output);

@@ -42,9 +42,10 @@ public:
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel,
     std::int64_t units = std::int64_t{ 1 } << 18);
 
-private:
+  // Whether the host wants to stop; kernels that take long may ask, on any thread.
   bool IsCancelled() const;
 
+private:
   vtkAlgorithm* Host;
   std::thread::id HostThread;
   double Begin = 0.0;

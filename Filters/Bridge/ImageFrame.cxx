@@ -67,7 +67,7 @@ ImageFrame::ImageFrame(const double (&bounds)[6])
   for (std::size_t i = 0; i < 3; ++i)
   {
     const double length = bounds[2 * i + 1] - bounds[2 * i];
-    const bool isAxis = length > flat * longest;
+    const bool isAxis = length > 0.0 && length >= flat * longest; // infinite ones too
     this->Extent[2 * i + 1] = isAxis ? 1 : 0;
     this->Origin[i] = bounds[2 * i];
     this->Spacing[i] = isAxis ? length : 1.0;

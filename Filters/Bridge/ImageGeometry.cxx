@@ -134,6 +134,16 @@ std::int64_t ImageGeometry::NumberOfCells() const
   return cells;
 }
 
+bool ImageGeometry::IsMirrored() const
+{
+  double axes[3][3];
+  for (int r = 0; r < 3; ++r)
+  {
+    std::copy_n(this->Matrix[r], 3, axes[r]);
+  }
+  return this->AxisCount == 3 && vtkMath::Determinant3x3(axes) < 0.0;
+}
+
 double ImageGeometry::Diagonal() const
 {
   const Point<3> lengths = this->Lengths<3>();

@@ -29,6 +29,8 @@ public:
   double CellMeasure() const { return this->Measure; }
   // The physical length of the domain's diagonal, were its axes at right angles.
   double Diagonal() const;
+  // Whether the axes of a volume are left-handed.
+  bool IsMirrored() const;
   // How far beyond the border a point may lie and not be outside: by more than single precision
   // may miss it.
   double BorderTolerance() const { return 1e-6 * this->Diagonal(); }

@@ -121,9 +121,10 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
     spacing[a] = lengths[a] / static_cast<double>(size[a]);
   }
   withMemory(purpose, pixels * sizeof(std::int64_t), [&]() {
-    beginStage(1.0);
+    beginStage(0.99);
     require(balanceCells<D>(grid, spacing, labels, host.GetMonitor()));
-    shareCells<D>(grid, this->Coordinates.data(), spacing, labels);
+    beginStage(1.0);
+    require(shareCells<D>(grid, this->Coordinates.data(), spacing, labels, host.GetMonitor()));
   });
   return array;
 }

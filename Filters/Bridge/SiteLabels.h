@@ -33,6 +33,8 @@ class SiteLabels
 public:
   // Whether these are the labels of such sites on such a grid.
   bool IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const;
+  // What is outdated need not take memory while new labels are made.
+  void Release() { this->Labels = nullptr; }
   void Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
     vtkSmartPointer<SiteIdArray> labels);
   SiteIdArray* Array() const { return this->Labels; }

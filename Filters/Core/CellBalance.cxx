@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellBalance.h"
 
+#include "CellFlow.h"
 #include "Pacer.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
-#include <unordered_map>
 #include <vector>
 
 namespace RectifiedTransport
@@ -14,7 +15,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int mostRounds = 64;
+constexpr int mostRounds = 1000;
+// Rounds that may pass without fewer pixels in excess than ever before.
+constexpr int mostIdleRounds = 64;
 
 template <int Dimension>
 class Balance
@@ -29,10 +32,14 @@ public:
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
+    , Contacts(this->Cells)
   {
+    // Relative to the longest side: squares of lengths may pass the range of numbers.
+    const double longest = *std::max_element(spacing.begin(), spacing.end());
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      this->Weight[axis] = spacing[axis] * spacing[axis];
+      const double side = spacing[axis] / longest;
+      this->Weight[axis] = side * side;
       this->Stride[axis] = axis == 0 ? 1 : this->Stride[axis - 1] * this->Size[axis - 1];
     }
     this->Rows = this->Stride[Dimension - 1] * this->Size[Dimension - 1] / this->Size[0];
@@ -54,11 +61,28 @@ public:
     }
     this->SettleEmptyCells();
     this->SetTargets();
-    for (int round = 0; round < mostRounds && !this->IsBalanced(); ++round)
+    if constexpr (Dimension == 1)
     {
+      this->FillIntervals();
+      return true;
+    }
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
+    {
+      const std::int64_t excess = this->TotalExcess();
+      if (excess == 0)
+      {
+        break;
+      }
+      if (excess < least)
+      {
+        least = excess;
+        idle = 0;
+      }
       this->Pace.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
       this->Moved = 0;
-      if (!this->FindContacts() || !this->Plan() || !this->Move())
+      if (!this->FindContacts() || !this->Contacts.Plan(this->Excess, this->Count, this->Pace) ||
+        !this->Move())
       {
         return false;
       }
@@ -71,22 +95,6 @@ public:
   }
 
 private:
-  // Two cells that touch.
-  struct Contact
-  {
-    std::int64_t Low; // Low < High
-    std::int64_t High;
-    std::int64_t Faces = 0;
-    std::int64_t Flow = 0; // pixels to go from Low to High
-  };
-
-  struct Neighbour
-  {
-    std::int64_t Cell;
-    std::int64_t Contact;
-    int Sign; // of a flow to that cell
-  };
-
   struct Candidate
   {
     double Cost;
@@ -196,136 +204,30 @@ private:
     }
   }
 
-  bool IsBalanced() const
+  // On a line no other cells are nearer than intervals in the order of the sites.
+  void FillIntervals()
   {
-    return std::all_of(
-      this->Excess.begin(), this->Excess.end(), [](std::int64_t excess) { return excess == 0; });
+    std::int64_t* pixel = this->Owners;
+    for (std::int64_t cell = 0; cell < this->Cells; ++cell)
+    {
+      pixel = std::fill_n(pixel, this->Count[cell] - this->Excess[cell], cell);
+    }
   }
 
-  std::int64_t Key(std::int64_t low, std::int64_t high) const { return low * this->Cells + high; }
+  std::int64_t TotalExcess() const
+  {
+    return std::accumulate(this->Excess.begin(), this->Excess.end(), std::int64_t{ 0 },
+      [](
+        std::int64_t sum, std::int64_t excess) { return sum + std::max<std::int64_t>(excess, 0); });
+  }
 
   bool FindContacts()
   {
-    this->Contacts.clear();
-    this->ContactOf.clear();
-    if (!this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
-          const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
-          const auto next = static_cast<std::int64_t>(this->Contacts.size());
-          const auto [found, isNew] = this->ContactOf.try_emplace(this->Key(low, high), next);
-          if (isNew)
-          {
-            this->Contacts.push_back({ low, high });
-          }
-          ++this->Contacts[found->second].Faces;
-        }))
-    {
-      return false;
-    }
-    this->FirstNeighbour.assign(static_cast<std::size_t>(this->Cells) + 1, 0);
-    for (const Contact& contact : this->Contacts)
-    {
-      ++this->FirstNeighbour[contact.Low + 1];
-      ++this->FirstNeighbour[contact.High + 1];
-    }
-    std::partial_sum(
-      this->FirstNeighbour.begin(), this->FirstNeighbour.end(), this->FirstNeighbour.begin());
-    this->Neighbours.resize(2 * this->Contacts.size());
-    std::vector<std::int64_t> next(this->FirstNeighbour);
-    for (std::size_t i = 0; i < this->Contacts.size(); ++i)
-    {
-      const Contact& contact = this->Contacts[i];
-      const auto number = static_cast<std::int64_t>(i);
-      this->Neighbours[next[contact.Low]++] = { contact.High, number, 1 };
-      this->Neighbours[next[contact.High]++] = { contact.Low, number, -1 };
-    }
-    return true;
-  }
-
-  // How much more may flow: half of the pixels of a border, that it stays where it is.
-  std::int64_t Capacity(const Neighbour& to) const
-  {
-    const Contact& contact = this->Contacts[to.Contact];
-    return std::max<std::int64_t>(1, contact.Faces / 2) - to.Sign * contact.Flow;
-  }
-
-  // Sends what a cell has too many of to the nearest ones, from neighbour to neighbour, that have
-  // too few. What finds no way waits for the next round.
-  bool Plan()
-  {
-    std::vector<char> isCut(static_cast<std::size_t>(this->Cells), 0);
-    this->From.assign(static_cast<std::size_t>(this->Cells), nullptr);
-    this->Seen.assign(static_cast<std::size_t>(this->Cells), -1);
-    this->Searches = 0;
-    std::vector<std::int64_t> open(this->Excess);
-    for (std::int64_t cell = 0; cell < this->Cells; ++cell)
-    {
-      while (open[cell] > 0 && !isCut[cell])
-      {
-        const std::int64_t end = this->FindDeficit(cell, open, isCut);
-        if (this->Pace.ShouldStop())
-        {
-          return false;
-        }
-        if (end >= 0)
-        {
-          this->Send(cell, end, open);
-        }
-      }
-    }
-    return true;
-  }
-
-  // The nearest cell that has too few; -1 if there is none, and all that were seen are then cut.
-  std::int64_t FindDeficit(
-    std::int64_t start, const std::vector<std::int64_t>& open, std::vector<char>& isCut)
-  {
-    const std::int64_t search = this->Searches++;
-    this->Queue.assign(1, start);
-    this->Seen[start] = search;
-    for (std::size_t at = 0; at < this->Queue.size(); ++at)
-    {
-      const std::int64_t cell = this->Queue[at];
-      for (std::int64_t i = this->FirstNeighbour[cell]; i < this->FirstNeighbour[cell + 1]; ++i)
-      {
-        const Neighbour& to = this->Neighbours[i];
-        if (this->Seen[to.Cell] == search || isCut[to.Cell] || this->Capacity(to) <= 0)
-        {
-          continue;
-        }
-        this->Seen[to.Cell] = search;
-        this->From[to.Cell] = &to;
-        if (open[to.Cell] < 0)
-        {
-          return to.Cell;
-        }
-        this->Queue.push_back(to.Cell);
-      }
-    }
-    for (const std::int64_t cell : this->Queue)
-    {
-      isCut[cell] = 1;
-    }
-    return -1;
-  }
-
-  void Send(std::int64_t start, std::int64_t end, std::vector<std::int64_t>& open)
-  {
-    std::int64_t amount = std::min(open[start], -open[end]);
-    const auto before = [this](const Neighbour& step) {
-      const Contact& contact = this->Contacts[step.Contact];
-      return step.Sign > 0 ? contact.Low : contact.High;
-    };
-    for (std::int64_t cell = end; cell != start; cell = before(*this->From[cell]))
-    {
-      amount = std::min(amount, this->Capacity(*this->From[cell]));
-    }
-    for (std::int64_t cell = end; cell != start; cell = before(*this->From[cell]))
-    {
-      const Neighbour& step = *this->From[cell];
-      this->Contacts[step.Contact].Flow += step.Sign * amount;
-    }
-    open[start] -= amount;
-    open[end] += amount;
+    this->Contacts.Clear();
+    return this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
+      const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
+      ++this->Contacts[this->Contacts.Add(low, high)].Faces;
+    });
   }
 
   // How much further a pixel is, in squared distance, from the one than from the other.
@@ -350,8 +252,8 @@ private:
 
   bool Move()
   {
-    std::vector<std::int64_t> first(this->Contacts.size() + 1, 0);
-    for (std::size_t i = 0; i < this->Contacts.size(); ++i)
+    std::vector<std::int64_t> first(this->Contacts.Size() + 1, 0);
+    for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
     {
       first[i + 1] = first[i] + (this->Contacts[i].Flow != 0 ? this->Contacts[i].Faces : 0);
     }
@@ -365,7 +267,7 @@ private:
             std::swap(low, high);
             std::swap(pixel, other);
           }
-          const std::int64_t number = this->ContactOf.find(this->Key(low, high))->second;
+          const std::int64_t number = this->Contacts.Find(low, high);
           const std::int64_t flow = this->Contacts[number].Flow;
           if (flow != 0)
           {
@@ -377,14 +279,33 @@ private:
     {
       return false;
     }
-    for (std::size_t i = 0; i < this->Contacts.size(); ++i)
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
     {
-      const Contact& contact = this->Contacts[i];
-      if (contact.Flow != 0)
+      if (this->Pace.ShouldStop())
+      {
+        return false;
+      }
+      if (this->Contacts[i].Flow != 0)
       {
         std::sort(candidates.begin() + first[i], candidates.begin() + first[i + 1]);
-        this->MoveFirst(contact, candidates.data() + first[i], candidates.data() + first[i + 1]);
+        next[i] = first[i];
+        waiting.push_back(i);
       }
+    }
+    // A cell of one pixel must get another before it gives its own, so that some moves wait.
+    for (std::int64_t before = -1; before != this->Moved;)
+    {
+      before = this->Moved;
+      std::size_t kept = 0;
+      for (const std::size_t i : waiting)
+      {
+        if (this->MoveFirst(this->Contacts[i], candidates.data(), next[i], first[i + 1]))
+        {
+          waiting[kept++] = i;
+        }
+      }
+      waiting.resize(kept);
       if (this->Pace.ShouldStop())
       {
         return false;
@@ -394,26 +315,28 @@ private:
   }
 
   // A pixel with two faces to the other cell is there twice, and one between three cells may have
-  // moved already.
-  void MoveFirst(const Contact& contact, const Candidate* begin, const Candidate* end)
+  // moved already. True if a cell of one pixel has still to give it.
+  bool MoveFirst(
+    CellContact& contact, const Candidate* candidates, std::int64_t& next, std::int64_t end)
   {
-    const bool up = contact.Flow > 0;
-    const std::int64_t from = up ? contact.Low : contact.High;
-    const std::int64_t to = up ? contact.High : contact.Low;
-    std::int64_t left = up ? contact.Flow : -contact.Flow;
-    for (; begin != end && left > 0 && this->Count[from] > 1; ++begin)
+    const int sign = contact.Flow > 0 ? 1 : -1;
+    const std::int64_t from = sign > 0 ? contact.Low : contact.High;
+    const std::int64_t to = sign > 0 ? contact.High : contact.Low;
+    for (; next < end && contact.Flow != 0 && this->Count[from] > 1; ++next)
     {
-      if (this->Owners[begin->Pixel] == from)
+      std::int64_t& owner = this->Owners[candidates[next].Pixel];
+      if (owner == from)
       {
-        this->Owners[begin->Pixel] = to;
+        owner = to;
         --this->Count[from];
         ++this->Count[to];
         --this->Excess[from];
         ++this->Excess[to];
-        --left;
+        contact.Flow -= sign;
         ++this->Moved;
       }
     }
+    return next < end && contact.Flow != 0;
   }
 
   const SitePixels<Dimension>& Sites;
@@ -427,14 +350,7 @@ private:
   std::int64_t Stride[Dimension];
   std::int64_t Rows;
   std::int64_t Moved = 0;
-  std::vector<Contact> Contacts;
-  std::unordered_map<std::int64_t, std::int64_t> ContactOf;
-  std::vector<std::int64_t> FirstNeighbour;
-  std::vector<Neighbour> Neighbours;
-  std::vector<const Neighbour*> From;
-  std::vector<std::int64_t> Seen;
-  std::vector<std::int64_t> Queue;
-  std::int64_t Searches = 0;
+  CellFlow Contacts;
 };
 
 } // namespace

@@ -14,9 +14,9 @@ namespace RectifiedTransport
 
 // `owners` says of each pixel of the grid which of the pixels with sites it goes to. Moves pixels
 // on the borders to a neighbour, until each has its share of all pixels for every site in it: as
-// many as others or one more. Those move that add least to the sum of squared distances; `spacing`
-// are the lengths of a pixel's sides. There must be a pixel for each site. Returns false if the
-// monitor cancelled.
+// many as others or one more (in 1D: intervals in the order of the sites). Those move that add
+// least to the sum of squared distances; `spacing` are the lengths of a pixel's sides. There must
+// be a pixel for each site. Returns false if the monitor cancelled.
 template <int Dimension>
 bool balanceCells(const SitePixels<Dimension>& sites, const Point<Dimension>& spacing,
   std::int64_t* owners, const Monitor& monitor);

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_CellShares_h
 #define RectifiedTransport_CellShares_h
 
+#include "Executor.h"
 #include "SitePixels.h"
 
 #include <cstdint>
@@ -14,10 +15,10 @@ namespace RectifiedTransport
 // numbers of sites. A cell of several sites is cut into halves, and these again, until each has
 // a part, equal to the pixel: across the axis along which the sites differ most, or where they do
 // not differ the cell's longest one. `coordinates` are the sites', `spacing` the lengths of a
-// pixel's sides.
+// pixel's sides. Returns false if the monitor cancelled.
 template <int Dimension>
-void shareCells(const SitePixels<Dimension>& sites, const double* coordinates,
-  const Point<Dimension>& spacing, std::int64_t* owners);
+bool shareCells(const SitePixels<Dimension>& sites, const double* coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners, const Monitor& monitor);
 
 } // namespace RectifiedTransport
 

@@ -226,6 +226,46 @@ TEST(SiteCells, AnyCellsAreBalanced)
   expectAnythingIsBalanced<3>({ 12, 10, 9 }, 30);
 }
 
+// On a line one face is between two cells: they must not move by one pixel a round.
+TEST(SiteCells, FarBordersOnALineAreBalanced)
+{
+  const GridSize<1> size{ 10000 };
+  const auto sites = pixelsOf<1>(size, { { 10.5 }, { 20.5 }, { 9000.5 } });
+  Labels labels(10000, 1);
+  ASSERT_TRUE(balanceCells<1>(sites, { 1.0 }, labels.data(), {}));
+  EXPECT_TRUE(std::is_sorted(labels.begin(), labels.end()));
+  EXPECT_EQ(countLabels(labels, 3), (std::vector<std::int64_t>{ 3333, 3334, 3333 }));
+}
+
+// The nearest site is far from an equal share: borders move through many cells.
+TEST(SiteCells, FarBordersInAPlaneAreBalanced)
+{
+  const GridSize<2> size{ 600, 400 };
+  const auto sites = pixelsOf<2>(size, { { 20.5, 30.5 }, { 40.5, 370.5 }, { 580.5, 200.5 } });
+  Labels labels(240000);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    labels[i] = i % 600 < 5 ? 0 : i % 600 < 10 ? 1 : 2;
+  }
+  expectBalanced<2>(sites, labels, "far borders");
+}
+
+// Squares of lengths may pass the range of numbers, ratios do not.
+TEST(SiteCells, BalanceDoesNotDependOnTheUnit)
+{
+  const GridSize<2> size{ 40, 30 };
+  const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 20, 2));
+  const Labels flow = flowToSites(sites);
+  Labels usual = flow;
+  ASSERT_TRUE(balanceCells<2>(sites, { 1.0, 2.0 }, usual.data(), {}));
+  for (const double unit : { 0x1p-600, 0x1p600 })
+  {
+    Labels labels = flow;
+    ASSERT_TRUE(balanceCells<2>(sites, { unit, 2.0 * unit }, labels.data(), {}));
+    EXPECT_EQ(labels, usual) << unit;
+  }
+}
+
 // As many sites as pixels: each pixel is a cell.
 TEST(SiteCells, OnePixelForEachSite)
 {
@@ -280,7 +320,7 @@ template <int Dimension>
 Labels shared(const SitePixels<Dimension>& sites, const NotDeduced<Points<Dimension>>& places,
   Labels labels, const NotDeduced<Point<Dimension>>& spacing)
 {
-  shareCells<Dimension>(sites, places.data()->data(), spacing, labels.data());
+  EXPECT_TRUE(shareCells<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
   return labels;
 }
 
@@ -328,6 +368,27 @@ TEST(SiteCells, ManySitesInOnePixelHaveEqualParts)
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
   EXPECT_GE(*least, 26);
   EXPECT_LE(*most, 27);
+}
+
+// Many sites at one point: the host is asked, told, and need not wait long.
+TEST(SiteCells, SharingCanBeCancelled)
+{
+  const GridSize<2> size{ 1024, 1024 };
+  const Points<2> places(20000, Point<2>{ 4.5, 4.5 });
+  const auto sites = pixelsOf<2>(size, places);
+  const auto share = [&](const Monitor& monitor) {
+    Labels labels(cellCount<2>(size), 0);
+    return shareCells<2>(sites, places.data()->data(), { 1.0, 1.0 }, labels.data(), monitor);
+  };
+  int asked = 0;
+  EXPECT_FALSE(share({ {}, [&]() { return ++asked > 60; } }));
+  EXPECT_EQ(asked, 61);
+
+  std::vector<double> heard;
+  EXPECT_TRUE(share({ [&](double progress) { heard.push_back(progress); }, {} }));
+  EXPECT_GT(heard.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_LE(heard.back(), 1.0);
 }
 
 } // namespace

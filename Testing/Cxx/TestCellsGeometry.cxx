@@ -58,12 +58,18 @@ void checkTurned(Checks& checks)
   CHECK(checks, runCells(cells) == expected);
 }
 
-void checkVolume(Checks& checks)
+void checkVolume(Checks& checks, bool mirrored)
 {
   const std::array<double, 6> box = { 0.0, 2.0, 0.0, 1.0, -1.0, 0.0 };
   vtkNew<vtkEqualMassCells> cells;
   cells->SetInputData(makeSites(box, 16));
-  cells->SetDomainData(makeDomain(box));
+  auto domain = makeDomain(box);
+  if (mirrored)
+  {
+    domain->SetOrigin(2.0, 0.0, -1.0);
+    domain->SetSpacing(-2.0, 1.0, 1.0);
+  }
+  cells->SetDomainData(domain);
   cells->SetResolution(24);
   const std::vector<vtkIdType> labels = runCells(cells);
   CHECK(checks, labels.size() == 24u * 12 * 12);
@@ -118,6 +124,23 @@ void checkLine(Checks& checks)
   CHECK(checks, cells->GetOutlines()->GetNumberOfVerts() == 8);
   CHECK_NEAR(checks, siteValue(cells, "CellCentroid", 1, 1), 1.25, 1e-12);
   CHECK_NEAR(checks, siteValue(cells, "CellMass", 1), 2.5, 1e-12);
+}
+
+// Costs of lengths whose squares pass the range of numbers.
+void checkUnits(Checks& checks)
+{
+  vtkNew<vtkEqualMassCells> cells;
+  cells->SetCostExponent(1.0);
+  cells->SetResolution(100);
+  for (const double unit : { 1.0, 1e-170, 1e200 })
+  {
+    cells->SetInputData(makePoints({ 0, 0, 0, 2.0 * unit, 0, 0, 3.0 * unit, 0, 0 }));
+    Messages messages(cells);
+    CHECK_NEAR(checks, countLabels(runCells(cells), 3)[1], 33.5, 0.5);
+    CHECK(checks, messages.Errors.empty());
+    vtkDataArray* cost = cells->GetLabels()->GetFieldData()->GetArray("TransportCost");
+    CHECK_NEAR(checks, cost ? cost->GetComponent(0, 0) / unit : 0.0, 0.4477, 0.005);
+  }
 }
 
 // Without a domain it is the bounds of the sites, a tenth longer.
@@ -204,8 +227,10 @@ int TestCellsGeometry(int, char*[])
 {
   Checks checks;
   checkTurned(checks);
-  checkVolume(checks);
+  checkVolume(checks, false);
+  checkVolume(checks, true);
   checkLine(checks);
+  checkUnits(checks);
   checkOwnBounds(checks);
   checkOneSite(checks);
   checkDoubleSites(checks);

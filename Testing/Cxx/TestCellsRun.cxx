@@ -176,6 +176,10 @@ void checkErrors(Checks& checks)
   cells->SetCostExponent(300.0);
   expectError(checks, cells, { "CostExponent 300", "largest double" }, __LINE__);
   cells = fresh();
+  cells->SetDomainData(makeDomain({ 0.0, 1e155, 0.0, 1e155, 0.0, 0.0 }));
+  cells->SetCostExponent(1.0);
+  expectError(checks, cells, { "area", "largest double" }, __LINE__);
+  cells = fresh();
   cells->SetNumberOfSteps(0);
   expectError(checks, cells, { "NumberOfSteps is 0" }, __LINE__);
   cells = fresh();
@@ -188,6 +192,16 @@ void checkErrors(Checks& checks)
   cells->SetInputData(makePoints({ 0, 0, 0, nan, 1, 0, 1, 1, 0 }));
   cells->SetDomainData(makeDomain(square));
   expectError(checks, cells, { "input point set", "1 point", "index 1" }, __LINE__);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  cells = fresh();
+  cells->SetInputData(makePoints({ 0, 0, 0, 1, infinite, 0, 1, 1, 0 }));
+  expectError(checks, cells, { "input point set", "1 point", "index 1" }, __LINE__);
+  cells = fresh();
+  cells->SetInputData(makePoints({ nan, nan, nan }));
+  expectError(checks, cells, { "input point set", "1 point", "index 0" }, __LINE__);
+  cells = fresh();
+  cells->SetInputData(makePoints({ -1.5e308, 0, 0, 1.5e308, 1, 0, 1, 1, 0 }));
+  expectError(checks, cells, { "spacing is (inf" }, __LINE__);
   cells = fresh();
   cells->SetInputData(makePoints({ 2, 2, 2, 2, 2, 2 }));
   expectError(checks, cells, { "all at one point", "Domain" }, __LINE__);
