@@ -75,7 +75,7 @@ def main():
                         help="pixels along the sides of the photograph, second row")
     parser.add_argument("--particles", type=figures.at_least(1), default=32768,
                         help="number of samples, second row")
-    parser.add_argument("--repeats", type=figures.at_least(1), default=5,
+    parser.add_argument("--repeats", type=figures.at_least(1), default=9,
                         help="runs of which the fastest counts")
     parser.add_argument("--panel", type=figures.at_least(16), default=480,
                         help="side of each of the pictures")
