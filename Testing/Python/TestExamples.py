@@ -232,9 +232,9 @@ class Examples(unittest.TestCase):
         said, code = run("Figure8Samples")
         self.assertEqual(code, 0, said)
         rows, whole = tables(said)
-        self.check_falls(row[4] for row in rows[:2])
+        self.check_falls(row[5] for row in rows[:2])
         for row in rows[:4]:
-            self.assertTrue(0.7 < first(row[5]) < 0.9, row)
+            self.assertTrue(0.7 < first(row[6]) < 0.9, row)
         self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
         drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
         self.assertTrue(50 < drawn.mean() < 205)
