@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -48,6 +49,38 @@ void requireComponent(const std::string& name, int component, int count)
   throw Failure(message.str());
 }
 
+// Not meant to be hard to forge. Four lanes, so that multiplications need not wait for each other.
+std::uint64_t mixBytes(const unsigned char* bytes, std::int64_t count)
+{
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
+  const auto mix = [](std::uint64_t state, std::uint64_t word) {
+    state = (state ^ word) * odd;
+    return state ^ (state >> 32);
+  };
+  constexpr std::int64_t lanes = 4;
+  std::uint64_t words[lanes];
+  std::uint64_t state[lanes] = { 1, 2, 3, 4 };
+  std::int64_t at = 0;
+  for (; at + std::int64_t{ sizeof(words) } <= count; at += sizeof(words))
+  {
+    std::memcpy(words, bytes + at, sizeof(words));
+    for (std::int64_t lane = 0; lane < lanes; ++lane)
+    {
+      state[lane] = mix(state[lane], words[lane]);
+    }
+  }
+  std::uint64_t mixed = static_cast<std::uint64_t>(count);
+  for (const std::uint64_t lane : state)
+  {
+    mixed = mix(mixed, lane);
+  }
+  for (; at < count; ++at)
+  {
+    mixed = mix(mixed, bytes[at]);
+  }
+  return mixed;
+}
+
 } // namespace
 
 DensityImage::DensityImage(
@@ -75,17 +108,53 @@ DensityImage::DensityImage(
   const auto time = [](vtkObject* object) {
     return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
   };
-  // The image's own time, not that of all its arrays: who writes into an array often says so to
-  // the image alone.
-  this->Key = { time(array), static_cast<std::uint64_t>(image->vtkObject::GetMTime()),
-    time(image->GetPointGhostArray()), time(image->GetCellGhostArray()),
+  // The image's own time, not that of all its arrays.
+  this->Time = static_cast<std::uint64_t>(image->vtkObject::GetMTime());
+  this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
+  const double measure = this->Place.CellMeasure();
+  std::uint64_t measureBits = 0;
+  std::memcpy(&measureBits, &measure, sizeof(measure));
+  this->Key = { time(array), time(image->GetPointGhostArray()), time(image->GetCellGhostArray()),
     static_cast<std::uint64_t>(onPoints), static_cast<std::uint64_t>(this->Place.Dimension()), 0, 0,
-    0, static_cast<std::uint64_t>(rules.Component + 1), rules.Invert, rules.ClampNegative };
+    0, static_cast<std::uint64_t>(rules.Component + 1), rules.Invert, rules.ClampNegative,
+    measureBits };
   const GridSize<3> size = this->Place.Size<3>();
-  std::copy(size.begin(), size.end(), this->Key.begin() + 6);
+  std::copy(size.begin(), size.end(), this->Key.begin() + 5);
 }
 
 DensityImage::~DensityImage() = default;
+
+std::uint64_t DensityImage::Fingerprint(const Executor& executor, HostMonitor& host) const
+{
+  constexpr std::int64_t chunk = std::int64_t{ 1 } << 16;
+  std::vector<std::uint64_t> parts;
+  for (const vtkSmartPointer<vtkDataArray>& source : this->Sources)
+  {
+    if (!source)
+    {
+      continue;
+    }
+    if (!source->HasStandardMemoryLayout())
+    {
+      return 0;
+    }
+    const auto* bytes = static_cast<const unsigned char*>(source->GetVoidPointer(0));
+    const std::int64_t count =
+      std::int64_t{ source->GetNumberOfValues() } * source->GetDataTypeSize();
+    const std::size_t before = parts.size();
+    parts.resize(before + static_cast<std::size_t>((count + chunk - 1) / chunk));
+    std::uint64_t* part = parts.data() + before;
+    host.Run(executor, count, chunk, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t begin = first; begin < last; begin += chunk)
+      {
+        part[begin / chunk] = mixBytes(bytes + begin, std::min(chunk, last - begin));
+      }
+    });
+  }
+  const std::uint64_t mixed = mixBytes(reinterpret_cast<const unsigned char*>(parts.data()),
+    static_cast<std::int64_t>(parts.size() * sizeof(std::uint64_t)));
+  return mixed == 0 ? 1 : mixed;
+}
 
 void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
 {

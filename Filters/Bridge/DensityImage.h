@@ -36,7 +36,7 @@ struct DensityRules
 class DensityImage
 {
 public:
-  // What makes two densities the same one.
+  // What makes two densities the same one, the time of the image aside.
   using Identity = std::array<std::uint64_t, 12>;
 
   // Throws Failure where the array cannot be a density whatever its values. `array` belongs to the
@@ -48,6 +48,13 @@ public:
 
   const ImageGeometry& Geometry() const { return this->Place; }
   const Identity& GetIdentity() const { return this->Key; }
+  // When the image itself last changed. Who writes into an array often says so to the image alone;
+  // but hosts also make the image anew around the same array at every run, as ParaView does.
+  std::uint64_t ImageTime() const { return this->Time; }
+  // A number that follows from the bits of the array's values and of the ghost arrays; 0 if they
+  // are not in one piece.
+  // Throws Aborted.
+  std::uint64_t Fingerprint(const Executor& executor, HostMonitor& host) const;
   // Whether its values are those of points.
   bool IsOnPoints() const { return this->OnPoints; }
 
@@ -73,6 +80,8 @@ private:
   DensityRules Rules;
   std::string Name;
   Identity Key;
+  std::uint64_t Time;
+  std::array<vtkSmartPointer<vtkDataArray>, 3> Sources; // all that is read; some may be null
   double White = 0.0;
 
   // Cells without mass: those whose flags meet the mask.

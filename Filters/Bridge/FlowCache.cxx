@@ -45,7 +45,8 @@ std::string describeTables(const GridSize<D>& size)
 
 bool FlowCache::IsOutdated(const DensityImage& density) const
 {
-  return std::holds_alternative<std::monostate>(this->Kept) || this->Key != density.GetIdentity();
+  return !this->HasFlow() || this->Key != density.GetIdentity() ||
+    this->ImageTime != density.ImageTime();
 }
 
 void FlowCache::Update(
@@ -55,7 +56,17 @@ void FlowCache::Update(
   {
     return;
   }
+  constexpr double partOfFingerprint = 0.05;
   constexpr double partOfPreparation = 0.1;
+  host.BeginStage(host.Reached() + partOfFingerprint * (progress - host.Reached()));
+  const std::uint64_t fingerprint = density.Fingerprint(executor, host);
+  if (this->HasFlow() && this->Key == density.GetIdentity() && fingerprint != 0 &&
+    fingerprint == this->Fingerprint)
+  {
+    this->ImageTime = density.ImageTime();
+    return;
+  }
+  this->Fingerprint = fingerprint;
   host.BeginStage(host.Reached() + partOfPreparation * (progress - host.Reached()));
   density.Prepare(executor, host);
   host.BeginStage(progress);
@@ -113,6 +124,7 @@ void FlowCache::Build(DensityImage& density, const Executor& executor, HostMonit
     }
   });
   this->Key = density.GetIdentity();
+  this->ImageTime = density.ImageTime();
   this->Built.Modified();
 }
 

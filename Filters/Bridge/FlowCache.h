@@ -18,10 +18,11 @@ class HostMonitor;
 class FlowCache
 {
 public:
-  // Whether Update would build tables.
+  // Whether Update has to look closer, and most likely builds tables.
   bool IsOutdated(const DensityImage& density) const;
 
-  // Builds the tables if the density is another one; progress then reaches `progress`. Throws
+  // Builds the tables if the density is another one, down to its values where only its image is
+  // another; progress then reaches `progress`. Throws
   // Failure and Aborted; the next update then builds.
   void Update(DensityImage& density, const Executor& executor, HostMonitor& host, double progress);
 
@@ -38,6 +39,7 @@ public:
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
 private:
+  bool HasFlow() const { return !std::holds_alternative<std::monostate>(this->Kept); }
   template <int D>
   RectifiedFlow<D> BuildFlow(
     DensityImage& density, const Executor& executor, const Monitor& monitor);
@@ -46,6 +48,8 @@ private:
 
   std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;
   DensityImage::Identity Key{};
+  std::uint64_t ImageTime = 0;
+  std::uint64_t Fingerprint = 0; // of the values; 0 if there is none
   double Mass = 0.0;
   vtkTimeStamp Built;
 };

@@ -23,7 +23,7 @@ void runOnPhotograph(benchmark::State& state, Filter* filter)
   filter->SetThreadingToSerial();
   for (auto _ : state)
   {
-    image->Modified();
+    image->GetPointData()->GetScalars()->Modified();
     filter->Update();
   }
 }

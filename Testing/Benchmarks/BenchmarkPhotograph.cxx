@@ -78,7 +78,7 @@ void filter(benchmark::State& state)
   sampler->SetThreadingToSerial();
   for (auto _ : state)
   {
-    image->Modified();
+    image->GetPointData()->GetScalars()->Modified();
     sampler->Update();
   }
   vtkPolyData* output = sampler->GetOutput();

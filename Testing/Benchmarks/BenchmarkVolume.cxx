@@ -136,7 +136,7 @@ void filter(benchmark::State& state)
   sampler->Update();
   for (auto _ : state)
   {
-    image->Modified();
+    image->GetCellData()->GetScalars()->Modified();
     sampler->Update();
   }
   vtkPolyData* output = sampler->GetOutput();

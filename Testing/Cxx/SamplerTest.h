@@ -135,6 +135,14 @@ inline double bumpy(vtkIdType i)
   return static_cast<double>(1 + (i * 37 + i * i % 11) % 23);
 }
 
+// Marks the array of a density as changed, so that tables are built anew.
+inline void changeDensity(vtkDataObject* data)
+{
+  auto* image = vtkImageData::SafeDownCast(data);
+  vtkDataArray* onPoints = image->GetPointData()->GetScalars();
+  (onPoints ? onPoints : image->GetCellData()->GetScalars())->Modified();
+}
+
 inline vtkDataArray* pointArray(vtkPolyData* data, const char* name)
 {
   return data->GetPointData()->GetArray(name);

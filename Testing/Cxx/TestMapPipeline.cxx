@@ -193,7 +193,7 @@ void checkCache(Checks& checks)
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
   CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
-  image->Modified();
+  changeDensity(image);
   map->Update();
   CHECK(checks, map->GetTableBuildTime() > built);
   CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
@@ -211,7 +211,7 @@ void checkThreads(Checks& checks)
       map->SetDirection(direction);
       const auto run = [&](int threading) {
         map->SetThreading(threading);
-        image->Modified(); // the tables, too
+        changeDensity(image); // the tables, too
         map->Update();
         Values all = mapValues(map->GetOutput(), "Displacement");
         for (const char* name : { "Divergence", "JacobianDeterminant" })
@@ -253,7 +253,7 @@ void checkAbort(Checks& checks)
   for (const double from : { 0.001, 0.5, 0.97 })
   {
     checkAbort(
-      checks, map, from, [&]() { image->Modified(); },
+      checks, map, from, [&]() { changeDensity(image); },
       [&]() {
         return map->GetOutput()->GetNumberOfPoints() == 0 &&
           map->GetOutput()->GetCellData()->GetNumberOfArrays() == 0;
@@ -261,7 +261,7 @@ void checkAbort(Checks& checks)
       __LINE__);
   }
   ProgressTest progress(map);
-  image->Modified();
+  changeDensity(image);
   map->Update();
   CHECK(checks, mapValues(map->GetOutput(), "Divergence").size() == 119u * 109 * 99);
   CHECK(checks, progress.Heard.size() > 10);

@@ -28,7 +28,7 @@ void checkProgress(Checks& checks, vtkTransportSampler* sampler)
 void checkAbort(Checks& checks, vtkTransportSampler* sampler, double from, int line)
 {
   checkAbort(
-    checks, sampler, from, [&]() { sampler->GetInputDataObject(0, 0)->Modified(); },
+    checks, sampler, from, [&]() { changeDensity(sampler->GetInputDataObject(0, 0)); },
     [&]() {
       return sampler->GetOutput() && sampler->GetOutput()->GetNumberOfPoints() == 0 &&
         sampler->GetOutput()->GetNumberOfCells() == 0 &&
@@ -67,7 +67,7 @@ int TestSamplerAbort(int, char*[])
   CHECK(checks, messages.Errors.empty());
 
   sampler->SetNumberOfParticles(20000);
-  image->Modified();
+  changeDensity(image);
   checkProgress(checks, sampler);
   CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 20000);
   CHECK(checks, fieldValue(sampler->GetOutput(), "TotalMass") > 0.0);

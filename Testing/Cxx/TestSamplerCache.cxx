@@ -96,6 +96,18 @@ int TestSamplerCache(int, char*[])
   values->SetValue(4, 50.0);
   image->Modified(); // says so to the image alone
   test.Expect(true, "the image", __LINE__);
+  image->Modified();
+  test.Expect(false, "the image, but none of its values", __LINE__);
+  const double mass = fieldValue(s->GetOutput(), "TotalMass");
+  image->SetSpacing(2.0, 1.0, 1.0);
+  test.Expect(true, "the spacing", __LINE__);
+  CHECK_NEAR(checks, fieldValue(s->GetOutput(), "TotalMass"), 2.0 * mass, 1e-9 * mass);
+  vtkNew<vtkImageData> around; // as ParaView makes one at every run
+  around->ShallowCopy(image);
+  s->SetInputData(around);
+  test.Expect(false, "another image around the same array", __LINE__);
+  s->SetInputData(image);
+  test.Expect(false, "and the first again", __LINE__);
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   ghosts->SetNumberOfTuples(image->GetNumberOfCells());
@@ -105,6 +117,9 @@ int TestSamplerCache(int, char*[])
   ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
   ghosts->Modified();
   test.Expect(true, "the ghost array", __LINE__);
+  ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
+  image->Modified();
+  test.Expect(true, "the ghost array, said to the image alone", __LINE__);
   vtkNew<vtkDoubleArray> other;
   other->SetName("Other");
   other->SetNumberOfTuples(image->GetNumberOfCells());
@@ -123,7 +138,8 @@ int TestSamplerCache(int, char*[])
   // Kept tables give what new ones give.
   s->SetSeedsConnection(nullptr);
   const std::vector<double> kept = sampleCoordinates(s);
-  s->GetInputDataObject(0, 0)->Modified();
+  image = vtkImageData::SafeDownCast(s->GetInputDataObject(0, 0));
+  image->GetCellData()->GetArray("Density")->Modified();
   CHECK(checks, sampleCoordinates(s) == kept);
   return checks.Result();
 }

@@ -21,7 +21,7 @@ struct Result
 
 Result sampleWith(vtkTransportSampler* sampler, vtkImageData* image)
 {
-  image->Modified(); // the tables, too
+  changeDensity(image); // the tables, too
   Result result;
   result.Points = sampleCoordinates(sampler);
   result.Mass = fieldValue(sampler->GetOutput(), "TotalMass");

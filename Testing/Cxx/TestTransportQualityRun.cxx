@@ -43,7 +43,7 @@ void checkCache(Checks& checks)
   expect(false, "BlockSize", __LINE__);
   quality->InvertDensityOn();
   expect(true, "InvertDensity", __LINE__);
-  image->Modified();
+  changeDensity(image);
   expect(true, "the image", __LINE__);
 }
 
@@ -90,7 +90,7 @@ void checkThreads(Checks& checks, int depth)
     for (const int threads : { 1, 2, 3 })
     {
       vtkSMPTools::Initialize(threads);
-      image->Modified();
+      changeDensity(image);
       checks.That(row(quality) == one, "same bits", __LINE__,
         std::string(backend) + ", " + std::to_string(threads) + " threads");
     }
@@ -126,7 +126,7 @@ void checkAbort(Checks& checks)
   }
   checkLateAbort(checks);
   ProgressTest test(quality);
-  image->Modified();
+  changeDensity(image);
   quality->SetInputData(makePoints(randomCoordinates(bounds, 50000)));
   CHECK(checks, row(quality).size() == 8);
   CHECK(checks, test.Heard.size() > 5);

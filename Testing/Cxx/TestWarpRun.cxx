@@ -31,7 +31,7 @@ void checkCache(Checks& checks)
   expect(false, "NumberOfSteps", __LINE__);
   warp->InvertDensityOn();
   expect(true, "InvertDensity", __LINE__);
-  image->Modified();
+  changeDensity(image);
   expect(true, "the image", __LINE__);
 }
 
@@ -59,7 +59,7 @@ void checkThreads(Checks& checks, int depth)
       for (const int threads : { 1, 2, 3 })
       {
         vtkSMPTools::Initialize(threads);
-        image->Modified();
+        changeDensity(image);
         checks.That(warpCoordinates(warp) == serial && displacements(warp) == moved, "same bits",
           __LINE__, std::string(backend) + ", " + std::to_string(threads) + " threads");
       }
@@ -90,7 +90,7 @@ void checkAbort(Checks& checks)
       __LINE__);
   }
   ProgressTest test(warp);
-  image->Modified();
+  changeDensity(image);
   warp->SetInputData(makePoints(randomCoordinates(bounds, 100000)));
   warp->Update();
   CHECK(checks, warp->GetOutput()->GetNumberOfPoints() == 100000);

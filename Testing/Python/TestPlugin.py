@@ -64,6 +64,18 @@ class Plugin(unittest.TestCase):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(), Density=photograph)
         self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
 
+    def test_tables_are_kept_behind_a_reader(self):
+        """ParaView makes the image anew around the reader's array each time that it updates."""
+        photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
+                                                                    "ascent.png")])
+        sampler = simple.SampleDensity(Input=photograph, NumberOfParticles=50)
+        output_of(sampler)
+        built = sampler.GetClientSideObject().GetTableBuildTime()
+        first = output_of(sampler).GetPoint(7)
+        sampler.RandomSeed = 2
+        self.assertNotEqual(output_of(sampler).GetPoint(7), first)
+        self.assertEqual(sampler.GetClientSideObject().GetTableBuildTime(), built)
+
     def test_only_images_are_accepted(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
         sphere = simple.Sphere()
