@@ -2,7 +2,9 @@
 """Draws the pictures of README.md and Documentation/."""
 import argparse
 import os
+import shutil
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.dirname(HERE)
@@ -37,11 +39,12 @@ def draw_particles(path, stipple):
     stipple.write_png(path, dots, [-0.5, 1023.5, -0.5, 767.5], radius, STRIP[0])
 
 
-def draw_volume(path, volume):
-    folder = os.path.dirname(path)
-    sys.argv[1:] = ["--particles", "100000", "--pixels", str(STRIP[1]), "--output", folder]
-    volume.main()
-    os.replace(os.path.join(folder, "particles-brain-t1.png"), path)
+def draw_example(path, name, picture, *arguments):
+    """A picture of another example, which is drawn apart: its own may lie beside this one."""
+    with tempfile.TemporaryDirectory() as folder:
+        sys.argv[1:] = [*arguments, "--output", folder]
+        example.script(name).main()
+        shutil.move(os.path.join(folder, picture), path)
 
 
 def draw_row(path, parts, size, radius, pixels, stipple):
@@ -55,20 +58,6 @@ def draw_row(path, parts, size, radius, pixels, stipple):
     row = simple.AppendGeometry(Input=moved)
     width = (len(parts) - 1) * step + size[0]
     stipple.write_png(path, row, [0, width, 0, size[1]], radius, pixels)
-
-
-def draw_cartogram(path, cartogram):
-    folder = os.path.dirname(path)
-    sys.argv[1:] = ["--pixels", "720", "--output", folder]
-    cartogram.main()
-    os.replace(os.path.join(folder, "cartogram-raccoon.png"), path)
-
-
-def draw_cells(path, cells):
-    folder = os.path.dirname(path)
-    sys.argv[1:] = ["--sites", "256", "--resolution", "512", "--pixels", "1020", "--output", folder]
-    cells.main()
-    os.replace(os.path.join(folder, "figure5-cells.png"), path)
 
 
 def draw_patterns(path, stipple):
@@ -134,9 +123,11 @@ def main():
 
     draw_density(path("density"))
     draw_particles(path("particles"), stipple)
-    draw_volume(path("volume"), example.script("SampleVolume"))
-    draw_cartogram(path("cartogram"), example.script("Cartogram"))
-    draw_cells(path("cells"), example.script("Figure5Cells"))
+    draw_example(path("volume"), "SampleVolume", "particles-brain-t1.png", "--particles", "100000",
+                 "--pixels", str(STRIP[1]))
+    draw_example(path("cartogram"), "Cartogram", "cartogram-raccoon.png", "--pixels", "720")
+    draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
+                 "--resolution", "512", "--pixels", "1020")
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_map(path("map"))
