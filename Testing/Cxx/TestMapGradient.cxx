@@ -10,7 +10,7 @@ namespace
 {
 
 // `axes` are those of the image: outside of its plane nothing is known of the gradient.
-void checkGradient(Checks& checks, vtkImageData* image, const std::vector<int>& axes)
+void checkGradient(Checks& checks, vtkImageData* image, const std::vector<int>& axes, int line)
 {
   const bool cells = image->GetCellData()->GetScalars() != nullptr;
   for (const int direction : { 0, 1 })
@@ -46,7 +46,7 @@ void checkGradient(Checks& checks, vtkImageData* image, const std::vector<int>& 
       worst = std::max({ worst, std::abs(divergences[i] - divergence),
         std::abs(determinants[i] - vtkMath::Determinant3x3(jacobian)) });
     }
-    CHECK_NEAR(checks, worst, 0.0, 1e-10);
+    checks.Near(worst, 0.0, 1e-10, "the gradient's divergence and determinant", line);
   }
 }
 
@@ -62,11 +62,18 @@ void checkAgainstFilter(Checks& checks)
     };
     const int n = 12 + more;
     const int m = 9 + more;
-    checkGradient(checks, place(makeImage(n, m, 7 + more, cells, bumpy)), { 0, 1, 2 });
-    checkGradient(checks, place(makeImage(n, m, 1, cells, bumpy)), { 0, 1 });
-    checkGradient(checks, place(makeImage(n, 1, m, cells, bumpy)), { 0, 2 });
-    checkGradient(checks, place(makeImage(1, n, m, cells, bumpy)), { 1, 2 });
-    checkGradient(checks, place(makeImage(n, 1, 1, cells, bumpy)), { 0 });
+#ifndef RECTIFIEDTRANSPORT_VTK_HAS_FLAT_GRADIENTS
+    if (cells)
+    {
+      checkGradient(checks, place(makeImage(n, m, 7 + more, cells, bumpy)), { 0, 1, 2 }, __LINE__);
+      continue;
+    }
+#endif
+    checkGradient(checks, place(makeImage(n, m, 7 + more, cells, bumpy)), { 0, 1, 2 }, __LINE__);
+    checkGradient(checks, place(makeImage(n, m, 1, cells, bumpy)), { 0, 1 }, __LINE__);
+    checkGradient(checks, place(makeImage(n, 1, m, cells, bumpy)), { 0, 2 }, __LINE__);
+    checkGradient(checks, place(makeImage(1, n, m, cells, bumpy)), { 1, 2 }, __LINE__);
+    checkGradient(checks, place(makeImage(n, 1, 1, cells, bumpy)), { 0 }, __LINE__);
   }
   const double c = std::cos(0.7);
   const double s = std::sin(0.7);
@@ -77,7 +84,7 @@ void checkAgainstFilter(Checks& checks)
     auto image = makeImage(10, 9, 7, false, bumpy);
     image->SetSpacing(0.5, 2.0, 1.25);
     image->SetDirectionMatrix(matrix);
-    checkGradient(checks, image, { 0, 1, 2 });
+    checkGradient(checks, image, { 0, 1, 2 }, __LINE__);
   }
 }
 
