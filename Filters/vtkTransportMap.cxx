@@ -5,6 +5,7 @@
 #include "Bridge/Failure.h"
 #include "Bridge/FieldValue.h"
 #include "Bridge/FlowCache.h"
+#include "Bridge/GridText.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
 #include "Bridge/MapField.h"
@@ -92,14 +93,9 @@ template <int D>
 MapResult makeMap(const MapRun& run, vtkImageData* input, vtkDataSetAttributes* output)
 {
   const GridSize<D> lattice = latticeOf<D>(run.Values, input);
-  std::string purpose = "a map of ";
-  double samples = 1.0;
-  for (int a = 0; a < D; ++a)
-  {
-    purpose += (a == 0 ? "" : " x ") + std::to_string(lattice[a]);
-    samples *= static_cast<double>(lattice[a]);
-  }
-  purpose += " samples (see SampleDimensions)";
+  const std::string purpose =
+    "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)";
+  const double samples = numberOfCells<D>(lattice);
   const MapStages stages = planStages(run, samples);
   MapField<D> field(run.Density.Geometry(), lattice, purpose);
 

@@ -3,6 +3,7 @@
 
 #include "../Core/TableView.h"
 #include "Failure.h"
+#include "GridText.h"
 #include "HostMonitor.h"
 #include "Memory.h"
 
@@ -33,12 +34,7 @@ double tableBytes(const GridSize<D>& size)
 template <int D>
 std::string describeTables(const GridSize<D>& size)
 {
-  std::string text = "the tables of a density of ";
-  for (int a = 0; a < D; ++a)
-  {
-    text += (a == 0 ? "" : " x ") + std::to_string(size[a]);
-  }
-  return text + " cells";
+  return "the tables of a density of " + describeSize<D>(size) + " cells";
 }
 
 } // namespace

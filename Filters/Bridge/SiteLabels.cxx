@@ -5,6 +5,7 @@
 #include "../Core/CellShares.h"
 #include "../Core/RectifiedFlow.h"
 #include "Failure.h"
+#include "GridText.h"
 #include "Memory.h"
 #include "SeedInput.h"
 
@@ -17,21 +18,6 @@
 
 namespace RectifiedTransport
 {
-
-namespace
-{
-
-std::string describeGrid(const std::int64_t* size, int dimension)
-{
-  std::string text;
-  for (int a = 0; a < dimension; ++a)
-  {
-    text += (a == 0 ? "" : " x ") + std::to_string(size[a]);
-  }
-  return text;
-}
-
-} // namespace
 
 bool SiteLabels::IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const
 {
@@ -58,8 +44,8 @@ SiteGrid<D>::SiteGrid(
   const GridSize<D> size = geometry.Size<D>();
   if (static_cast<double>(count) > numberOfCells<D>(size))
   {
-    throw Failure("The input has " + std::to_string(count) + " sites for " +
-      describeGrid(size.data(), D) + " pixels; raise Resolution until there is a pixel for each");
+    throw Failure("The input has " + std::to_string(count) + " sites for " + describeSize<D>(size) +
+      " pixels; raise Resolution until there is a pixel for each");
   }
   const std::string purpose = "the " + std::to_string(count) + " sites";
   const double bytes = static_cast<double>(count) * (D + 3 + 4) * sizeof(double);
@@ -80,7 +66,7 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
   const SitePixels<D>& grid = *this->Grid;
   const GridSize<D> size = grid.Size();
   const double pixels = numberOfCells<D>(size);
-  const std::string purpose = "labels of " + describeGrid(size.data(), D) + " pixels";
+  const std::string purpose = "labels of " + describeSize<D>(size) + " pixels";
   constexpr double recordBytes = (D == 1 ? 2.5 : 4.0) * sizeof(double);
   requireMemory(purpose, pixels * (sizeof(std::int64_t) + recordBytes));
   auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
