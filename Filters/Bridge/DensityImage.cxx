@@ -127,7 +127,12 @@ DensityImage::~DensityImage() = default;
 std::uint64_t DensityImage::Fingerprint(const Executor& executor, HostMonitor& host) const
 {
   constexpr std::int64_t chunk = std::int64_t{ 1 } << 16;
-  std::vector<std::uint64_t> parts;
+  struct Piece
+  {
+    const unsigned char* Bytes;
+    std::int64_t Count;
+  };
+  std::vector<Piece> pieces;
   for (const vtkSmartPointer<vtkDataArray>& source : this->Sources)
   {
     if (!source)
@@ -141,16 +146,21 @@ std::uint64_t DensityImage::Fingerprint(const Executor& executor, HostMonitor& h
     const auto* bytes = static_cast<const unsigned char*>(source->GetVoidPointer(0));
     const std::int64_t count =
       std::int64_t{ source->GetNumberOfValues() } * source->GetDataTypeSize();
-    const std::size_t before = parts.size();
-    parts.resize(before + static_cast<std::size_t>((count + chunk - 1) / chunk));
-    std::uint64_t* part = parts.data() + before;
-    host.Run(executor, count, chunk, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t begin = first; begin < last; begin += chunk)
-      {
-        part[begin / chunk] = mixBytes(bytes + begin, std::min(chunk, last - begin));
-      }
-    });
+    for (std::int64_t begin = 0; begin < count; begin += chunk)
+    {
+      pieces.push_back({ bytes + begin, std::min(chunk, count - begin) });
+    }
   }
+  // All arrays are one stage, so that progress does not begin again with each.
+  std::vector<std::uint64_t> parts(pieces.size());
+  const auto all = static_cast<std::int64_t>(pieces.size()) * chunk;
+  host.Run(executor, all, chunk, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first / chunk; i < last / chunk; ++i)
+    {
+      const Piece& piece = pieces[static_cast<std::size_t>(i)];
+      parts[static_cast<std::size_t>(i)] = mixBytes(piece.Bytes, piece.Count);
+    }
+  });
   const std::uint64_t mixed = mixBytes(reinterpret_cast<const unsigned char*>(parts.data()),
     static_cast<std::int64_t>(parts.size() * sizeof(std::uint64_t)));
   return mixed == 0 ? 1 : mixed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables are built when the density changes, and only then.
-#include "SamplerTest.h"
+#include "ProgressTest.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkUniformSeedSource.h"
@@ -119,7 +119,11 @@ int TestSamplerCache(int, char*[])
   test.Expect(true, "the ghost array", __LINE__);
   ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
   image->Modified();
-  test.Expect(true, "the ghost array, said to the image alone", __LINE__);
+  {
+    const ProgressTest progress(s);
+    test.Expect(true, "the ghost array, said to the image alone", __LINE__);
+    CHECK(checks, std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
+  }
   vtkNew<vtkDoubleArray> other;
   other->SetName("Other");
   other->SetNumberOfTuples(image->GetNumberOfCells());
