@@ -52,6 +52,31 @@ need()
     $missing < /dev/null
 }
 
+# Unpacks the meshes of libcgal-demo (24 MB), without the packages that it depends on, into
+# build-meshes/, for the tests and examples that take real shapes.
+need_meshes()
+{
+  local folder="$root/build-meshes"
+  if [ -f "$folder/complete" ]; then
+    return 0
+  fi
+  say "Fetching meshes (libcgal-demo)"
+  rm -rf "$folder"
+  mkdir -p "$folder" && chmod 777 "$folder"
+  (
+    cd "$folder"
+    # Without package lists there is nothing to download from.
+    apt-get download libcgal-demo || {
+      as_root apt-get -o DPkg::Lock::Timeout=300 update -q
+      apt-get download libcgal-demo
+    }
+    dpkg --fsys-tarfile libcgal-demo_*.deb | tar -xO --wildcards '*/data.tar.gz' |
+      tar -xz --strip-components=2 data/meshes
+    rm libcgal-demo_*.deb
+    touch complete
+  )
+}
+
 # configure_and_build FOLDER CMAKE-ARGUMENT...
 configure_and_build()
 {

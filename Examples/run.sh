@@ -10,6 +10,7 @@ if [ $# -gt 0 ]; then
 fi
 
 need $packages_build $packages_render
+need_meshes
 build_release
 
 output="$root/Examples/output"

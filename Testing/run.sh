@@ -76,6 +76,7 @@ run_vtk91()
 failed=""
 skipped=""
 need $packages_build $packages_render $packages_test
+need_meshes
 if [ $long = 0 ]; then
   skipped="$skipped|long"
 fi
