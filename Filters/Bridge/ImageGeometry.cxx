@@ -122,6 +122,16 @@ ImageGeometry::ImageGeometry(vtkImageData* image, bool onPoints)
       }
     }
   }
+
+  if (this->AxisCount == 1)
+  {
+    vtkMath::Perpendiculars(axes[0], this->Normal[1], this->Normal[2], 0.0);
+  }
+  else if (this->AxisCount == 2)
+  {
+    vtkMath::Cross(axes[0], axes[1], this->Normal[2]);
+    vtkMath::Normalize(this->Normal[2]);
+  }
 }
 
 std::int64_t ImageGeometry::NumberOfCells() const

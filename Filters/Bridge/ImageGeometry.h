@@ -5,6 +5,7 @@
 #define RectifiedTransport_ImageGeometry_h
 
 #include "../Core/Density.h"
+#include "../Core/Splat.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -87,6 +88,25 @@ public:
     }
   }
 
+  // ToIndex, and how far a point may be beyond the border or off the line or plane of the image, as
+  // the core reads it.
+  template <int D>
+  SplatMap<D> ToIndexMap() const
+  {
+    SplatMap<D> map;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double unit = a < D ? this->Spacing[a] : 1.0;
+      map.Origin[a] = this->Corner[a];
+      map.Tolerance[a] = this->BorderTolerance() / unit;
+      for (int r = 0; r < 3; ++r)
+      {
+        map.Matrix[a][r] = (a < D ? this->Inverse[a][r] : this->Normal[a][r]) / unit;
+      }
+    }
+    return map;
+  }
+
   // The physical vector of a difference of indices.
   template <int D>
   void VectorToPhysical(const double* index, double* v) const
@@ -124,6 +144,7 @@ private:
   double Corner[3] = { 0.0, 0.0, 0.0 };
   double Spacing[3] = { 0.0, 0.0, 0.0 };
   double Inverse[3][3] = {}; // physical offset to physical length along each axis
+  double Normal[3][3] = {};  // from the axes' number on: unit vectors across the axes
   double Measure = 0.0;
 };
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mass of points of physical space, spread over the cells of an image.
+#ifndef RectifiedTransport_MassSplat_h
+#define RectifiedTransport_MassSplat_h
+
+#include "../Core/Executor.h"
+#include "../Core/Splat.h"
+#include "ImageGeometry.h"
+
+#include <cstdint>
+
+class vtkDataArray;
+class vtkDoubleArray;
+
+namespace RectifiedTransport
+{
+
+class HostMonitor;
+
+// Where the mass goes, and how.
+struct SplatTarget
+{
+  const ImageGeometry& Geometry;
+  SplatOptions Options;
+  bool DivideByVolume; // densities, else masses
+};
+
+// Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
+// component and a tuple for each, as the work of the current stage. Points have 3 finite
+// coordinates each. Returns how many of them are outside of the domain (see SplatReport). Throws
+// Failure where memory is short, and Aborted.
+std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
+  const SplatTarget& target, const Executor& executor, HostMonitor& host, vtkDoubleArray* cells);
+
+// The same of an array of points and one mass for each; without masses they have `massEach`.
+// Points of a type other than double and float are copied.
+std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
+  const SplatTarget& target, const Executor& executor, HostMonitor& host, vtkDoubleArray* cells);
+
+} // namespace RectifiedTransport
+
+#endif
