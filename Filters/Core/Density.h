@@ -17,6 +17,15 @@ using GridSize = std::array<std::int64_t, Dimension>;
 template <int Dimension>
 using Point = std::array<double, Dimension>;
 
+// The place of a point in its cell, of unit sides.
+template <int Dimension>
+Point<Dimension> cellCentre()
+{
+  Point<Dimension> centre;
+  centre.fill(0.5);
+  return centre;
+}
+
 // Not an integer: what a user asks for may be more than fits into one.
 template <int Dimension>
 double numberOfCells(const GridSize<Dimension>& size)

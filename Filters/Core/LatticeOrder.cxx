@@ -79,7 +79,7 @@ void LatticeOrder<Dimension>::Fill(
       {
         const std::int64_t cell = block.Low[axis] + place[axis];
         *index = *index * this->Lattice[axis] + cell;
-        points[axis] = latticeCentre(cell, this->Lattice[axis], this->Size[axis]);
+        points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
       }
       ++index;
       points += Dimension;

@@ -86,8 +86,9 @@ struct RectifiedFlow<Dimension>::Internals
   FlowReport Advect(const double* points, std::int64_t count, const std::vector<double>& times,
     double* positions, bool backward, const FlowOptions& options, const Executor& executor,
     const Monitor& monitor) const;
-  FlowReport AdvectLattice(const GridSize<Dimension>& lattice, double* positions, bool backward,
-    const FlowOptions& options, const Executor& executor, const Monitor& monitor) const;
+  FlowReport AdvectLattice(const GridSize<Dimension>& lattice, const Point<Dimension>& place,
+    double* positions, bool backward, const FlowOptions& options, const Executor& executor,
+    const Monitor& monitor) const;
 
   GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
@@ -119,11 +120,19 @@ FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Internals::AdvectLattice(const GridSize<Dimension>& lattice,
-  double* positions, bool backward, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+  const Point<Dimension>& place, double* positions, bool backward, const FlowOptions& options,
+  const Executor& executor, const Monitor& monitor) const
 {
   check<Dimension>(lattice, "a lattice");
-  const LatticeOrder<Dimension> order(lattice, this->Size);
+  for (const double coordinate : place)
+  {
+    if (!(coordinate >= 0.0 && coordinate <= 1.0))
+    {
+      throw std::invalid_argument("a place in a lattice's cells has the coordinate " +
+        std::to_string(coordinate) + ", it must be from 0 to 1");
+    }
+  }
+  const LatticeOrder<Dimension> order(lattice, this->Size, place);
   AdvectionRun<Dimension> run(
     this->Tables.View(), {}, positions, backward, options, order.Count(), monitor);
   run.Advect(order, order.Count(), executor);
@@ -242,10 +251,10 @@ FlowReport RectifiedFlow<Dimension>::Backward(const double* points, std::int64_t
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  double* positions, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+  double* positions, const FlowOptions& options, const Executor& executor, const Monitor& monitor,
+  const Point<Dimension>& place) const
 {
-  return this->Data->AdvectLattice(lattice, positions, false, options, executor, monitor);
+  return this->Data->AdvectLattice(lattice, place, positions, false, options, executor, monitor);
 }
 
 template <int Dimension>
@@ -253,7 +262,8 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
   double* positions, const FlowOptions& options, const Executor& executor,
   const Monitor& monitor) const
 {
-  return this->Data->AdvectLattice(lattice, positions, true, options, executor, monitor);
+  return this->Data->AdvectLattice(
+    lattice, cellCentre<Dimension>(), positions, true, options, executor, monitor);
 }
 
 template <int Dimension>

@@ -81,9 +81,10 @@ public:
 
   // The same for the centres of a grid of cells that fill the box, axis 0 fastest; cells along an
   // axis: 1 to 2^30. It needs neither an array of points nor a sort. Positions hold as many points.
+  // Forwards also for the points at another `place` in the cells, in [0,1].
   FlowReport ForwardLattice(const GridSize<Dimension>& lattice, double* positions,
     const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+    const Monitor& monitor = {}, const Point<Dimension>& place = cellCentre<Dimension>()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, double* positions,
     const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
     const Monitor& monitor = {}) const;

@@ -2,6 +2,7 @@
 #include "Seeds.h"
 
 #include "BlueNoise.h"
+#include "LowDiscrepancy.h"
 #include "ReproducibleMath.h"
 #include "SeedPace.h"
 
@@ -232,23 +233,16 @@ void generateRandom(
   }
 }
 
-// The fractions of i / phi^k, phi the root of phi^(Dimension + 1) = phi + 1, in 64-bit fixed point:
-// i may be large without loss.
 template <int Dimension>
 void generateLowDiscrepancy(
   std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
 {
-  constexpr std::uint64_t steps[3][3] = {
-    { 0x9E3779B97F4A7C16u, 0, 0 },
-    { 0xC13FA9A902A6328Fu, 0x91E10DA5C79E7B1Du, 0 },
-    { 0xD1B54A32D192ED04u, 0xABC98388FB8FAC03u, 0x8CB92BA72F3D8DD7u },
-  };
   for (int a = 0; a < Dimension; ++a)
   {
     std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a));
     for (std::int64_t i = 0; i < count; ++i)
     {
-      fraction += steps[Dimension - 1][a];
+      fraction += lowDiscrepancyStep<Dimension>(a);
       unitPoints[i * Dimension + a] = unitReal(fraction);
       pace.Add(1);
     }
