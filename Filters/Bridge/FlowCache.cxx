@@ -41,8 +41,7 @@ std::string describeTables(const GridSize<D>& size)
 
 bool FlowCache::IsOutdated(const DensityImage& density) const
 {
-  return !this->HasFlow() || this->Key != density.GetIdentity() ||
-    this->ImageTime != density.ImageTime();
+  return !this->HasFlow() || !this->Stamp.IsOf(density);
 }
 
 void FlowCache::Update(
@@ -55,26 +54,30 @@ void FlowCache::Update(
   constexpr double partOfFingerprint = 0.05;
   constexpr double partOfPreparation = 0.1;
   host.BeginStage(host.Reached() + partOfFingerprint * (progress - host.Reached()));
-  const std::uint64_t fingerprint = density.Fingerprint(executor, host);
-  if (this->HasFlow() && this->Key == density.GetIdentity() && fingerprint != 0 &&
-    fingerprint == this->Fingerprint)
+  DensityStamp stamp = this->Stamp;
+  const bool isSame = stamp.Renew(density, executor, host);
+  if (isSame && this->HasFlow())
   {
-    this->ImageTime = density.ImageTime();
+    this->Stamp = stamp;
     return;
   }
-  this->Fingerprint = fingerprint;
+  this->Stamp = DensityStamp(); // until the tables are whole
   host.BeginStage(host.Reached() + partOfPreparation * (progress - host.Reached()));
   density.Prepare(executor, host);
   host.BeginStage(progress);
   switch (density.Geometry().Dimension())
   {
     case 1:
-      return this->Build<1>(density, executor, host);
+      this->Build<1>(density, executor, host);
+      break;
     case 2:
-      return this->Build<2>(density, executor, host);
+      this->Build<2>(density, executor, host);
+      break;
     default:
-      return this->Build<3>(density, executor, host);
+      this->Build<3>(density, executor, host);
   }
+  this->Stamp = stamp;
+  this->Built.Modified();
 }
 
 // Old and new tables side by side would double the peak.
@@ -119,9 +122,6 @@ void FlowCache::Build(DensityImage& density, const Executor& executor, HostMonit
       density.Explain(invalid.Summary());
     }
   });
-  this->Key = density.GetIdentity();
-  this->ImageTime = density.ImageTime();
-  this->Built.Modified();
 }
 
 } // namespace RectifiedTransport

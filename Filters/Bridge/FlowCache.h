@@ -5,6 +5,7 @@
 
 #include "../Core/RectifiedFlow.h"
 #include "DensityImage.h"
+#include "DensityStamp.h"
 
 #include "vtkTimeStamp.h"
 
@@ -25,6 +26,9 @@ public:
   // another; progress then reaches `progress`. Throws
   // Failure and Aborted; the next update then builds.
   void Update(DensityImage& density, const Executor& executor, HostMonitor& host, double progress);
+
+  // Gives the tables' memory back; the next update builds.
+  void Release() { this->Kept = std::monostate(); }
 
   template <int D>
   const RectifiedFlow<D>& Flow() const
@@ -47,9 +51,7 @@ private:
   void Build(DensityImage& density, const Executor& executor, HostMonitor& host);
 
   std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;
-  DensityImage::Identity Key{};
-  std::uint64_t ImageTime = 0;
-  std::uint64_t Fingerprint = 0; // of the values; 0 if there is none
+  DensityStamp Stamp;
   double Mass = 0.0;
   vtkTimeStamp Built;
 };

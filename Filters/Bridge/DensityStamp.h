@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which density something was made from, to know whether it has changed since.
+#ifndef RectifiedTransport_DensityStamp_h
+#define RectifiedTransport_DensityStamp_h
+
+#include "DensityImage.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Executor;
+class HostMonitor;
+
+class DensityStamp
+{
+public:
+  // Whether it is plainly the same density. Else Renew tells.
+  bool IsOf(const DensityImage& density) const;
+
+  // Whether it may be the same density, in another image.
+  bool IsLike(const DensityImage& density) const { return this->Key == density.GetIdentity(); }
+
+  // Takes the stamp of a density, as the work of the host's current stage. Returns whether it is
+  // the one that was stamped before, down to its values where only its image is another. Throws
+  // Aborted, and is then of no density.
+  bool Renew(const DensityImage& density, const Executor& executor, HostMonitor& host);
+
+private:
+  DensityImage::Identity Key{};
+  std::uint64_t ImageTime = 0;
+  std::uint64_t Fingerprint = 0; // of the values; 0 if there is none
+};
+
+} // namespace RectifiedTransport
+
+#endif
