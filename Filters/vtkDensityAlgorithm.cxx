@@ -150,6 +150,28 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
 }
 
 //------------------------------------------------------------------------------
+bool vtkDensityAlgorithm::IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex)
+{
+  int association =
+    this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
+  vtkImageData* image = vtkImageData::GetData(inputInformation);
+  if (image && image->GetNumberOfPoints() > 0)
+  {
+    this->FindDensityArray(image, arrayIndex, association);
+  }
+  if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
+  {
+    const auto hasScalars = [inputInformation](int owner) {
+      return vtkDataObject::GetActiveFieldInformation(
+               inputInformation, owner, vtkDataSetAttributes::SCALARS) != nullptr;
+    };
+    return hasScalars(vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
+      !hasScalars(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  }
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+}
+
+//------------------------------------------------------------------------------
 void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -102,6 +102,12 @@ protected:
   vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
 
   /**
+   * Whether the density belongs to the points, as far as the information of an input tells before
+   * the data.
+   */
+  bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex = 0);
+
+  /**
    * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr
    * if the image has no points. Throws what RequestData may throw.
    */

@@ -155,27 +155,6 @@ int vtkTransportMap::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-bool vtkTransportMap::IsDensityOnPoints(vtkInformation* inputInformation)
-{
-  int association = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_ASSOCIATION());
-  vtkImageData* image = vtkImageData::GetData(inputInformation);
-  if (image && image->GetNumberOfPoints() > 0)
-  {
-    this->FindDensityArray(image, 0, association);
-  }
-  if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
-  {
-    const auto hasScalars = [inputInformation](int owner) {
-      return vtkDataObject::GetActiveFieldInformation(
-               inputInformation, owner, vtkDataSetAttributes::SCALARS) != nullptr;
-    };
-    return hasScalars(vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
-      !hasScalars(vtkDataObject::FIELD_ASSOCIATION_CELLS);
-  }
-  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-}
-
-//------------------------------------------------------------------------------
 int vtkTransportMap::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

@@ -112,8 +112,6 @@ protected:
   int SampleDimensions[3];
 
 private:
-  bool IsDensityOnPoints(vtkInformation* inputInformation);
-
   vtkTransportMap(const vtkTransportMap&) = delete;
   void operator=(const vtkTransportMap&) = delete;
 };

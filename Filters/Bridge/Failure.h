@@ -4,6 +4,7 @@
 #define RectifiedTransport_Failure_h
 
 #include <stdexcept>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -19,6 +20,20 @@ public:
 class Aborted
 {
 };
+
+// Runs a function whose failures concern one of several things, and say which.
+template <class Function>
+void nameFailures(const std::string& name, Function&& function)
+{
+  try
+  {
+    function();
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name + ": " + failure.what());
+  }
+}
 
 } // namespace RectifiedTransport
 

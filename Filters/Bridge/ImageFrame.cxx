@@ -74,6 +74,46 @@ ImageFrame::ImageFrame(const double (&bounds)[6])
   }
 }
 
+ImageFrame::Side ImageFrame::GetSide(std::size_t axis, bool onPoints) const
+{
+  double inverse[9];
+  vtkMatrix3x3::Invert(this->Direction.data(), inverse);
+  const double* row = inverse + 3 * axis;
+  const int first = this->Extent[2 * axis];
+  const bool isAxis = first != this->Extent[2 * axis + 1];
+  const double index = isAxis && onPoints ? first - 0.5 : first;
+  Side side;
+  side.Low = row[0] * this->Origin[0] + row[1] * this->Origin[1] + row[2] * this->Origin[2] +
+    this->Spacing[axis] * index;
+  side.Spacing = this->Spacing[axis];
+  side.Cells = this->Values(onPoints)[axis];
+  side.IsAxis = isAxis;
+  return side;
+}
+
+ImageFrame ImageFrame::WithSides(const std::array<Side, 3>& sides, bool onPoints) const
+{
+  ImageFrame frame = *this;
+  double place[3];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Side& side = sides[i];
+    frame.Spacing[i] = side.Spacing;
+    frame.Extent[2 * i] = 0;
+    frame.Extent[2 * i + 1] = !side.IsAxis ? 0 : onPoints ? side.Cells - 1 : side.Cells;
+    place[i] = side.IsAxis && onPoints ? side.Low + 0.5 * side.Spacing : side.Low;
+  }
+  vtkMatrix3x3::MultiplyPoint(this->Direction.data(), place, frame.Origin.data());
+  return frame;
+}
+
+bool ImageFrame::HasDirectionOf(const ImageFrame& other) const
+{
+  constexpr double rounding = 1e-9;
+  return std::equal(this->Direction.begin(), this->Direction.end(), other.Direction.begin(),
+    [](double a, double b) { return std::abs(a - b) <= rounding; });
+}
+
 bool ImageFrame::operator==(const ImageFrame& other) const
 {
   return this->Extent == other.Extent && this->Origin == other.Origin &&

@@ -5,6 +5,7 @@
 #define RectifiedTransport_ImageFrame_h
 
 #include <array>
+#include <cstddef>
 
 class vtkImageData;
 class vtkInformation;
@@ -24,6 +25,21 @@ public:
   // is flat (a billionth of its longest side is rounding).
   explicit ImageFrame(const double (&bounds)[6]);
 
+  // The part of the domain of the cells (or dual cells of the points) along an axis. Places are
+  // measured from the origin of space along the frame's own directions. Without an axis there, Low
+  // is the place of the one point.
+  struct Side
+  {
+    double Low; // where the first cell begins; the highest end if Spacing is negative
+    double Spacing;
+    int Cells;
+    bool IsAxis;
+  };
+  Side GetSide(std::size_t axis, bool onPoints) const;
+
+  // The frame that has these sides in the directions of another, and whose extent begins at 0.
+  ImageFrame WithSides(const std::array<Side, 3>& sides, bool onPoints) const;
+
   bool operator==(const ImageFrame& other) const;
 
   void CopyTo(vtkImageData* image) const;
@@ -41,6 +57,9 @@ public:
   // The frame with `resolution` cells along the longest axis of the domain that the cells cover,
   // and as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
   ImageFrame WithResolution(int resolution, const char* property) const;
+
+  // To the billionth.
+  bool HasDirectionOf(const ImageFrame& other) const;
 
   // Of the numbers alone, which differ wherever WithValues changes anything.
   bool HasExtentOf(const ImageFrame& other) const { return this->Extent == other.Extent; }

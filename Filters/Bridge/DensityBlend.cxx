@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DensityBlend.h"
+
+#include "../Core/WeightedMean.h"
+#include "CommonFrame.h"
+#include "Failure.h"
+#include "FieldValue.h"
+#include "FlowCache.h"
+#include "HostMonitor.h"
+#include "MassSplat.h"
+#include "Memory.h"
+#include "ParticleCells.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double partOfMean = 0.2; // of the progress that is left when the maps are there
+constexpr double partOfParticles = 0.4;
+
+ImageFrame frameOf(const std::vector<BlendInput>& inputs, const int dimensions[3])
+{
+  std::vector<FramePart> parts;
+  for (const BlendInput& input : inputs)
+  {
+    parts.push_back({ ImageFrame(input.Image), input.Density->IsOnPoints(), input.Name });
+  }
+  return commonFrame(parts, dimensions);
+}
+
+std::array<std::int64_t, 3> gridOf(const ImageGeometry& geometry)
+{
+  std::array<std::int64_t, 3> grid{ 1, 1, 1 };
+  const GridSize<3> size = geometry.Size<3>();
+  std::copy_n(size.begin(), geometry.Dimension(), grid.begin());
+  return grid;
+}
+
+void requireMemoryFor(const PivotSettings& pivot, std::size_t inputs)
+{
+  const double particles = numberOfParticles(pivot);
+  // Positions for each input and between them, masses and vertices.
+  const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
+  std::ostringstream purpose;
+  purpose.precision(20);
+  purpose << particles << " particles (see ParticlesPerCell and Dimensions)";
+  requireMemory(purpose.str(), each * particles);
+}
+
+// What new maps cost beside what follows from them, in nanoseconds a particle, as measured.
+double partOfMaps(std::size_t newMaps, int dimension, const FlowOptions& flow)
+{
+  const double evaluations =
+    flow.NumberOfSteps * (flow.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+  const double maps = static_cast<double>(newMaps) * evaluations * (dimension == 3 ? 60.0 : 15.0);
+  return maps / (maps + 60.0);
+}
+
+} // namespace
+
+std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+  FlowCache& tables, const Executor& executor, HostMonitor& host, const BlendOutput& output)
+{
+  const bool onPoints = inputs.front().Density->IsOnPoints();
+  frameOf(inputs, settings.Dimensions).CopyTo(output.Density);
+  const ImageGeometry geometry(output.Density, onPoints);
+  const PivotSettings pivot{ gridOf(geometry), settings.ParticlesPerCell, settings.Flow };
+  requireMemoryFor(pivot, inputs.size());
+
+  const std::size_t newMaps = this->MatchMaps(inputs, pivot);
+  const double maps = partOfMaps(newMaps, geometry.Dimension(), settings.Flow);
+  const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, executor, host, maps);
+
+  host.BeginStage(maps + partOfMean * (1.0 - maps));
+  const auto points = this->MeanPositions(inputs, executor, host);
+  const std::int64_t count = points->GetNumberOfTuples();
+  const double mass = this->TotalMass(inputs, settings.Mode);
+  const double massEach = mass / static_cast<double>(count);
+  host.BeginStage(maps + partOfParticles * (1.0 - maps));
+  this->WriteParticles(inputs, points, massEach, executor, host, output.Particles);
+  addFieldValue(output.Particles, "TotalMass", mass);
+
+  host.BeginStage(1.0);
+  auto density = newArray<vtkDoubleArray>("Density", 1, geometry.NumberOfCells());
+  splatPoints(points->GetPointer(0), count, massEach, { geometry, settings.Splat, true }, executor,
+    host, density);
+  vtkDataSetAttributes* attributes = output.Density->GetPointData();
+  if (!onPoints)
+  {
+    attributes = output.Density->GetCellData();
+  }
+  attributes->SetScalars(density);
+  addFieldValue(output.Density, "TotalMass", mass);
+  return moved;
+}
+
+// Each input takes the map of its density, wherever that was in the list before. Returns how many
+// may have to be made.
+std::size_t DensityBlend::MatchMaps(
+  const std::vector<BlendInput>& inputs, const PivotSettings& settings)
+{
+  const std::vector<PivotMap> before = std::exchange(this->Maps, {});
+  std::size_t outdated = 0;
+  for (const BlendInput& input : inputs)
+  {
+    const DensityImage& density = *input.Density;
+    auto match = std::find_if(before.begin(), before.end(),
+      [&](const PivotMap& map) { return !map.IsOutdated(density, settings); });
+    if (match == before.end())
+    {
+      ++outdated;
+      match = std::find_if(before.begin(), before.end(),
+        [&](const PivotMap& map) { return map.IsCandidate(density); });
+    }
+    this->Maps.push_back(match == before.end() ? PivotMap() : *match);
+  }
+  return outdated;
+}
+
+std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
+  const PivotSettings& settings, FlowCache& tables, const Executor& executor, HostMonitor& host,
+  double progress)
+{
+  std::int64_t moved = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    // One density may be several inputs.
+    const auto made = std::find_if(this->Maps.begin(), this->Maps.begin() + i,
+      [&](const PivotMap& map) { return !map.IsOutdated(*inputs[i].Density, settings); });
+    if (made != this->Maps.begin() + i)
+    {
+      this->Maps[i] = *made;
+    }
+    const double end = progress * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
+    nameFailures(inputs[i].Name, [&]() {
+      moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, executor, host, end);
+    });
+  }
+  // They take as much memory as the particles, and a small part of the time to be built.
+  tables.Release();
+  return moved;
+}
+
+vtkSmartPointer<vtkDoubleArray> DensityBlend::MeanPositions(
+  const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host) const
+{
+  std::vector<WeightedPositions> parts;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    parts.push_back({ this->Maps[i].Positions()->GetPointer(0), inputs[i].Weight });
+  }
+  const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
+  auto mean = newArray<vtkDoubleArray>("Points", 3, count);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  double* out = mean->GetPointer(0);
+  host.Run(executor, count, grain, [&](std::int64_t first, std::int64_t last) {
+    writeWeightedMean(parts, 3 * first, 3 * last, out);
+  });
+  return mean;
+}
+
+double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const
+{
+  if (mode == MassMode::Source || mode == MassMode::Normalize)
+  {
+    return mode == MassMode::Source ? this->Maps.front().TotalMass() : 1.0;
+  }
+  double sum = 0.0;
+  double product = 1.0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    sum += inputs[i].Weight * this->Maps[i].TotalMass();
+    product *= std::pow(this->Maps[i].TotalMass(), inputs[i].Weight);
+  }
+  return mode == MassMode::Linear ? sum : product;
+}
+
+void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, vtkDoubleArray* positions,
+  double massEach, const Executor& executor, HostMonitor& host, vtkPolyData* output)
+{
+  const std::int64_t count = positions->GetNumberOfTuples();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetData(positions);
+  output->SetPoints(points);
+  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
+  {
+    this->Vertices = newParticleCells(count, 1, executor, host);
+  }
+  output->SetVerts(this->Vertices);
+
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    if (!inputs[i].PositionName.empty())
+    {
+      // One map may serve several inputs: the values are the same, the names are not.
+      vtkNew<vtkDoubleArray> named;
+      named->ShallowCopy(this->Maps[i].Positions());
+      named->SetName(inputs[i].PositionName.c_str());
+      output->GetPointData()->AddArray(named);
+    }
+  }
+  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  double* mass = masses->GetPointer(0);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  host.Run(executor, count, grain,
+    [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
+  output->GetPointData()->AddArray(masses);
+}
+
+} // namespace RectifiedTransport

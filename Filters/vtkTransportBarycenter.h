@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransportBarycenter
+ * @brief   the weighted mean of several densities, by transport
+ *
+ * The (linearized) barycenters of Section 5.3 of the paper named in vtkTransportBlend: every
+ * particle of the unit box goes to its place in each density, and is at the weighted mean of these
+ * places.
+ *
+ * Inputs: vtkImageData, by repeated connections to port 0 or as the blocks of a composite data set
+ * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order; at least one. The one
+ * density array (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are
+ * those of vtkTransportBlend.
+ *
+ * The maps are kept: a change of the weights only takes means and splats, so that 25 barycenters of
+ * 4 densities cost 4 maps and 25 splats. Weights 1, 0, 0 ... give the first density, up to what the
+ * kernel and the number of particles resolve.
+ *
+ * @sa vtkTransportBlend vtkTransportInterpolator vtkMassSplatter
+ */
+#ifndef vtkTransportBarycenter_h
+#define vtkTransportBarycenter_h
+
+#include "vtkTransportBlend.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBarycenter : public vtkTransportBlend
+{
+public:
+  static vtkTransportBarycenter* New();
+  vtkTypeMacro(vtkTransportBarycenter, vtkTransportBlend);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The weights of the inputs, in their order: one for each, none negative, with a sum above 0, by
+   * which they are divided. Without any (default) all inputs weigh the same. SetWeight makes the
+   * list as long as it needs to be, with 0 for what has not been given.
+   */
+  void SetNumberOfWeights(int count);
+  int GetNumberOfWeights();
+  void SetWeight(int index, double weight);
+  double GetWeight(int index);
+  ///@}
+
+protected:
+  vtkTransportBarycenter();
+  ~vtkTransportBarycenter() override;
+
+  void ComputeWeights(int numberOfInputs, double* weights) override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  struct vtkWeights;
+  std::unique_ptr<vtkWeights> Weights;
+
+  vtkTransportBarycenter(const vtkTransportBarycenter&) = delete;
+  void operator=(const vtkTransportBarycenter&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif

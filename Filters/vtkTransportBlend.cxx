@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportBlend.h"
+
+#include "Bridge/CommonFrame.h"
+#include "Bridge/DensityBlend.h"
+#include "Bridge/DensityImage.h"
+#include "Bridge/Failure.h"
+#include "Bridge/FlowCache.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/PropertyCheck.h"
+#include "Bridge/SplatSettings.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+
+namespace
+{
+using namespace RectifiedTransport;
+
+const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
+
+// Particles between the inputs never leave the box of all: what a kernel has beyond it stays.
+SplatSettings splatSettings(int kernel, double radius)
+{
+  return { kernel, radius, static_cast<int>(SplatBoundary::Renormalize) };
+}
+
+struct GivenInput
+{
+  vtkDataObject* Data;
+  int Port;
+};
+
+// The blocks of composite inputs are inputs of their own.
+std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int numberOfPorts)
+{
+  std::vector<GivenInput> inputs;
+  for (int port = 0; port < numberOfPorts; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], i);
+      if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+      {
+        const auto blocks =
+          vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+        for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
+        {
+          inputs.push_back({ blocks->GetCurrentDataObject(), port });
+        }
+        continue;
+      }
+      inputs.push_back({ data, port });
+    }
+  }
+  return inputs;
+}
+} // namespace
+
+struct vtkTransportBlend::vtkInternals
+{
+  DensityBlend Blend;
+};
+
+//------------------------------------------------------------------------------
+vtkTransportBlend::vtkTransportBlend()
+  : Dimensions{ 0, 0, 0 }
+  , ParticlesPerCell(1)
+  , MassMode(MASS_LINEAR)
+  , Kernel(CLOUD_IN_CELL)
+  , Radius(1.0)
+  , Internals(new vtkInternals)
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportBlend::~vtkTransportBlend() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportBlend::GetMassModeAsString()
+{
+  return choiceText(MassModeTexts, this->MassMode);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportBlend::GetKernelAsString()
+{
+  return splatSettings(this->Kernel, this->Radius).KernelText();
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkTransportBlend::GetDensity()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTransportBlend::GetParticles()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportBlend::GetInputName(int)
+{
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportBlend::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkImageData" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
+{
+  requireThat(
+    this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
+  requireChoice("MassMode", this->MassMode, MassModeTexts);
+  return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
+    this->ParticlesPerCell, static_cast<RectifiedTransport::MassMode>(this->MassMode),
+    this->GetFlowOptions(), splatSettings(this->Kernel, this->Radius).Options() };
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportBlend::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  std::vector<FramePart> parts;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      parts.push_back({ ImageFrame(input), this->IsDensityOnPoints(input, port), "" });
+      if (parts.back().Frame.IsEmpty())
+      {
+        return 1; // such as a composite data set, which says nothing of its blocks
+      }
+    }
+  }
+  if (parts.empty())
+  {
+    return 1;
+  }
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  output->Remove(vtkDataObject::POINT_DATA_VECTOR());
+  output->Remove(vtkDataObject::CELL_DATA_VECTOR());
+  vtkDataObject::SetActiveAttributeInfo(output,
+    parts.front().OnPoints ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+                           : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
+  try
+  {
+    commonFrame(parts, this->Dimensions).Publish(output);
+  }
+  catch (const Failure&)
+  {
+    return 1; // RequestData says it, once
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportBlend::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const BlendSettings settings = this->GetBlendSettings();
+  const std::unique_ptr<Executor> executor(this->NewExecutor());
+
+  // All is in the first piece, whatever pieces a consumer asks for.
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    if (outputVector->GetInformationObject(port)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+    {
+      return 1;
+    }
+  }
+  const std::vector<GivenInput> allGiven = gatherInputs(inputVector, this->GetNumberOfInputPorts());
+  std::vector<BlendInput> inputs;
+  for (const GivenInput& given : allGiven)
+  {
+    const char* name = this->GetInputName(static_cast<int>(inputs.size()));
+    inputs.emplace_back();
+    BlendInput& input = inputs.back();
+    input.Name = name
+      ? name
+      : "Input " + std::to_string(inputs.size()) + " of " + std::to_string(allGiven.size());
+    input.PositionName = name ? std::string(name) + "Position" : "";
+    input.Image = vtkImageData::SafeDownCast(given.Data);
+    nameFailures(
+      input.Name, [&]() { input.Density.reset(this->NewDensity(given.Data, given.Port)); });
+    if (!input.Density)
+    {
+      return 1;
+    }
+  }
+  if (inputs.empty())
+  {
+    return 1;
+  }
+  std::vector<double> weights(inputs.size());
+  this->ComputeWeights(static_cast<int>(inputs.size()), weights.data());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    inputs[i].Weight = weights[i];
+  }
+
+  HostMonitor host(this);
+  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
+    vtkPolyData::GetData(outputVector, 1) };
+  const std::int64_t moved =
+    this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), *executor, host, output);
+  // Which array it is, is not always known before the data.
+  ImageFrame(output.Density).Publish(outputVector->GetInformationObject(0));
+  if (moved > 0)
+  {
+    vtkWarningMacro(<< moved
+                    << " particles in empty cells moved to the nearest cell with mass (more "
+                       "NumberOfSteps may spare them that)");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportBlend::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
+     << this->Dimensions[2] << "\n";
+  os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
+  os << indent << "MassMode: " << this->GetMassModeAsString() << "\n";
+  os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+}
+VTK_ABI_NAMESPACE_END

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransportBlend
+ * @brief   what the filters that lie between several densities share
+ *
+ * Follows Sections 3.4, 5.2 and 5.3 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
+ * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: particles
+ * that are uniform in the unit box, the pivot, are moved to each density independently; between
+ * the densities every particle is at the weighted mean of its positions, in physical space. Their
+ * mass is spread on an image (see vtkMassSplatter).
+ *
+ * The inputs are vtkImageData (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
+ * axes of more than one point along the same directions. The outputs are
+ * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), on
+ * points or cells as in the first input, and field data `TotalMass`;
+ * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data
+ *   `TotalMass`.
+ *
+ * The grid of the output does not depend on the weights: it covers the smallest box that holds all
+ * domains, at the finest spacing along each axis (numbers of cells are rounded up, and the box
+ * grown at its upper end), unless Dimensions says otherwise. Inputs of one geometry have exactly
+ * that.
+ *
+ * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once; the maps
+ * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
+ * weights costs O(particles + cells). Memory: 24 bytes a particle for each input and 48 for the
+ * output, 8 bytes a cell, and while a map is made the tables of one density (see
+ * vtkTransportAlgorithm).
+ *
+ * The outputs are in one piece: of several pieces that are asked for, the first has all of it.
+ *
+ * @warning The pivot makes this a linearized transport: what lies between resembles the
+ * displacement interpolation and the barycenters of optimal transport, but is not them.
+ *
+ * @sa vtkTransportInterpolator vtkTransportBarycenter vtkTransportAlgorithm
+ */
+#ifndef vtkTransportBlend_h
+#define vtkTransportBlend_h
+
+#include "vtkTransportAlgorithm.h"
+
+namespace RectifiedTransport
+{
+struct BlendSettings;
+}
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+class vtkPolyData;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBlend : public vtkTransportAlgorithm
+{
+public:
+  vtkTypeMacro(vtkTransportBlend, vtkTransportAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What MassMode may be.
+   */
+  enum MassModeType
+  {
+    MASS_LINEAR = 0,
+    MASS_GEOMETRIC = 1,
+    MASS_SOURCE = 2,
+    MASS_NORMALIZE = 3
+  };
+
+  /**
+   * What Kernel may be.
+   */
+  enum KernelType
+  {
+    CLOUD_IN_CELL = 0,
+    NEAREST_CELL = 1,
+    TRIANGULAR_SHAPED_CLOUD = 2,
+    GAUSSIAN = 3
+  };
+
+  ///@{
+  /**
+   * How many values the output has along x, y and z of the image, on the smallest box that holds
+   * all domains; 0 (default) is as many as the finest spacing asks for. At least 0 each; along an
+   * axis of one point 0 or 1; for point data 0 or at least 2 along the others.
+   */
+  vtkSetVector3Macro(Dimensions, int);
+  vtkGetVector3Macro(Dimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many particles there are in each cell of the output's grid, laid over the unit box: at
+   * least 1, default 1. They are the centres of a finer grid where the number is a power of the
+   * dimension (4, 9 ... in 2D, 8, 27 ... in 3D), else a fixed set of low discrepancy.
+   */
+  vtkSetMacro(ParticlesPerCell, int);
+  vtkGetMacro(ParticlesPerCell, int);
+  ///@}
+
+  ///@{
+  /**
+   * The total mass of the output, where the inputs have the masses M_i and the weights w_i: Linear
+   * (default) sum of w_i M_i, Geometric product of M_i^w_i, Source M_0, Normalize 1.
+   */
+  vtkSetMacro(MassMode, int);
+  vtkGetMacro(MassMode, int);
+  void SetMassModeToLinear() { this->SetMassMode(MASS_LINEAR); }
+  void SetMassModeToGeometric() { this->SetMassMode(MASS_GEOMETRIC); }
+  void SetMassModeToSource() { this->SetMassMode(MASS_SOURCE); }
+  void SetMassModeToNormalize() { this->SetMassMode(MASS_NORMALIZE); }
+  const char* GetMassModeAsString();
+  ///@}
+
+  ///@{
+  /**
+   * How a particle's mass is spread over the cells about it, as in vtkMassSplatter: CloudInCell
+   * (default; linear, 2 cells along each axis), NearestCell, TriangularShapedCloud (quadratic, 3)
+   * or Gaussian (Radius).
+   */
+  vtkSetMacro(Kernel, int);
+  vtkGetMacro(Kernel, int);
+  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
+  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
+  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
+  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
+  const char* GetKernelAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The standard deviation of the Gaussian kernel, in cells of the output, above 0; the kernel is
+   * cut at 3 of them. Default 1.
+   */
+  vtkSetMacro(Radius, double);
+  vtkGetMacro(Radius, double);
+  ///@}
+
+  /**
+   * The image between the densities, port 0.
+   */
+  vtkImageData* GetDensity();
+
+  /**
+   * The particles, port 1.
+   */
+  vtkPolyData* GetParticles();
+
+protected:
+  vtkTransportBlend();
+  ~vtkTransportBlend() override;
+
+  /**
+   * Writes the weights of the inputs, which are at least 0 and sum to 1. Throws what RequestData
+   * may throw.
+   */
+  virtual void ComputeWeights(int numberOfInputs, double* weights) = 0;
+
+  /**
+   * What an input is called in messages and, with "Position" after it, in the particles' arrays;
+   * nullptr for its number and no array.
+   */
+  virtual const char* GetInputName(int input);
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Dimensions[3];
+  int ParticlesPerCell;
+  int MassMode;
+  int Kernel;
+  double Radius;
+
+private:
+  RectifiedTransport::BlendSettings GetBlendSettings();
+
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+
+  vtkTransportBlend(const vtkTransportBlend&) = delete;
+  void operator=(const vtkTransportBlend&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif

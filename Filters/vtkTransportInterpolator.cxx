@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportInterpolator.h"
+
+#include "Bridge/PropertyCheck.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportInterpolator);
+
+namespace
+{
+using RectifiedTransport::requireThat;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkTransportInterpolator::vtkTransportInterpolator()
+  : Parameter(0.5)
+  , PublishTime(false)
+  , NumberOfTimeSteps(11)
+  , RunParameter(0.5)
+{
+  this->SetNumberOfInputPorts(2);
+  vtkTransportInterpolator::SetInputArrayToProcess(
+    1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
+}
+
+//------------------------------------------------------------------------------
+vtkTransportInterpolator::~vtkTransportInterpolator() = default;
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::SetTargetConnection(vtkAlgorithmOutput* target)
+{
+  this->SetInputConnection(1, target);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::SetTargetData(vtkDataObject* target)
+{
+  this->SetInputData(1, target);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::SetInputArrayToProcess(
+  int idx, int port, int connection, int fieldAssociation, const char* name)
+{
+  // It is looked up in the target itself. What ParaView copies for port 1 begins with input array
+  // 0, and is cut short where that belongs to another port.
+  const bool isTarget = port == 1 || idx == 1;
+  this->Superclass::SetInputArrayToProcess(
+    isTarget ? 1 : idx, isTarget ? 0 : port, connection, fieldAssociation, name);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportInterpolator::GetInputName(int input)
+{
+  return input == 0 ? "Source" : "Target";
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkTransportInterpolator::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(Pipeline::REQUEST_UPDATE_TIME()))
+  {
+    this->KeepTimeFromInputs(inputVector);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::KeepTimeFromInputs(vtkInformationVector** inputVector)
+{
+  if (!this->PublishTime)
+  {
+    return;
+  }
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* input = inputVector[port]->GetInformationObject(0);
+    if (!input)
+    {
+      continue;
+    }
+    // Without a request a source that others share would keep the time that they asked for last.
+    if (input->Has(Pipeline::TIME_STEPS()) && input->Length(Pipeline::TIME_STEPS()) > 0)
+    {
+      input->Set(Pipeline::UPDATE_TIME_STEP(), input->Get(Pipeline::TIME_STEPS(), 0));
+    }
+    else if (input->Has(Pipeline::TIME_RANGE()))
+    {
+      input->Set(Pipeline::UPDATE_TIME_STEP(), input->Get(Pipeline::TIME_RANGE(), 0));
+    }
+    else
+    {
+      input->Remove(Pipeline::UPDATE_TIME_STEP());
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportInterpolator::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (this->PublishTime && this->NumberOfTimeSteps >= 2)
+  {
+    std::vector<double> steps;
+    for (int i = 0; i < this->NumberOfTimeSteps; ++i)
+    {
+      steps.push_back(i / (this->NumberOfTimeSteps - 1.0));
+    }
+    const double range[2] = { 0.0, 1.0 };
+    for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* output = outputVector->GetInformationObject(i);
+      output->Set(Pipeline::TIME_STEPS(), steps.data(), this->NumberOfTimeSteps);
+      output->Set(Pipeline::TIME_RANGE(), range, 2);
+    }
+  }
+  return this->Superclass::RequestInformation(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportInterpolator::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->KeepTimeFromInputs(inputVector);
+  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportInterpolator::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireThat(
+    this->Parameter >= 0.0 && this->Parameter <= 1.0, "Parameter", this->Parameter, "from 0 to 1");
+  requireThat(
+    this->NumberOfTimeSteps >= 2, "NumberOfTimeSteps", this->NumberOfTimeSteps, "at least 2");
+  this->RunParameter = this->Parameter;
+  if (!this->PublishTime)
+  {
+    return this->Superclass::RequestData(request, inputVector, outputVector);
+  }
+  const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
+  vtkInformation* asked = outputVector->GetInformationObject(port);
+  if (asked->Has(Pipeline::UPDATE_TIME_STEP()))
+  {
+    this->RunParameter = std::clamp(asked->Get(Pipeline::UPDATE_TIME_STEP()), 0.0, 1.0);
+  }
+  const int result = this->Superclass::RequestData(request, inputVector, outputVector);
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkDataObject::GetData(outputVector, i)
+      ->GetInformation()
+      ->Set(vtkDataObject::DATA_TIME_STEP(), this->RunParameter);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::ComputeWeights(int, double* weights)
+{
+  weights[0] = 1.0 - this->RunParameter;
+  weights[1] = this->RunParameter;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportInterpolator::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Parameter: " << this->Parameter << "\n";
+  os << indent << "PublishTime: " << (this->PublishTime ? "On" : "Off") << "\n";
+  os << indent << "NumberOfTimeSteps: " << this->NumberOfTimeSteps << "\n";
+}
+VTK_ABI_NAMESPACE_END
