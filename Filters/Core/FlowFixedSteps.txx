@@ -54,6 +54,69 @@ struct MultistepLanes
   }
 };
 
+// Where the density is as large as anywhere in a particle's whole box, and the box is not clipped,
+// its mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities
+// with empty cells are most often shapes, of which this is nearly all.
+template <int Dimension>
+struct PlateauLanes
+{
+  alignas(64) LaneVectors<Dimension> End; // x(1)
+  alignas(64) Lanes Done;                 // 1 from where it is known, else 0
+  int Left;                               // lanes that are not done
+
+  explicit PlateauLanes(int count)
+    : Left(count)
+  {
+    std::memset(this->End, 0, sizeof(this->End));
+    std::memset(this->Done, 0, sizeof(this->Done));
+  }
+
+  // After an evaluation of the velocity in `field`, of particles that are at x then.
+  RT_INLINE void Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
+    const LaneVectors<Dimension>& x, int count, Lanes& found)
+  {
+    constexpr double rounding = 1e-9;
+    alignas(64) Lanes mass; // the largest that the box could hold
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      mass[i] = job.Tables.Largest;
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double from = field.From[axis][i];
+        const double to = field.To[axis][i];
+        mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
+      }
+    }
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // that holds 1 / mass by now
+      found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
+      this->Done[i] += found[i];
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double centre = half + (x[axis][i] - half) * field.InverseTime[i];
+        this->End[axis][i] = found[i] > 0.0 ? centre : this->End[axis][i];
+      }
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      this->Left -= found[i] > 0.0 ? 1 : 0;
+    }
+  }
+};
+
 template <int Dimension>
 StepWeights stepWeights(const FlowJob<Dimension>& job, std::int64_t step, std::int64_t steps)
 {
@@ -83,7 +146,10 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
 
   const std::int64_t steps = job.Steps << refinement;
-  for (std::int64_t step = 0; step + 1 < steps; ++step)
+  const bool hasPlateaus = job.Tables.Occupied && !job.Nearest;
+  PlateauLanes<Dimension> plateau(count);
+  std::int64_t step = 0;
+  for (; step + 1 < steps && plateau.Left > 0; ++step)
   {
     if (shouldStop<Dimension>(job, step))
     {
@@ -105,7 +171,8 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      lanes.Trouble[i] = larger(lanes.Trouble[i], lanes.Field.Void[i]);
+      const double trouble = plateau.Done[i] > 0.0 ? 0.0 : lanes.Field.Void[i];
+      lanes.Trouble[i] = larger(lanes.Trouble[i], trouble);
     }
     if (writer.IsDense())
     {
@@ -117,6 +184,20 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       for (int i = 0; i < count; ++i)
       {
         writer.WriteHermite(i, before[i], lanes.Time[i], lanes.Trial, v0, lanes.Position, newest);
+      }
+    }
+    if (hasPlateaus)
+    {
+      alignas(64) Lanes found;
+      plateau.Find(job, lanes.Field, lanes.Position, count, found);
+      for (int i = 0; writer.IsDense() && i < count; ++i)
+      {
+        if (found[i] > 0.0)
+        {
+          writer.WriteUntil(i, 1.0, [&](double s, int axis) {
+            return s * plateau.End[axis][i] + (1.0 - s) * (0.5 * job.Tables.Size[axis]);
+          });
+        }
       }
     }
     lanes.Rotate();
@@ -138,7 +219,8 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       const double lambda = lanes.Span[i] * last.Length;
       const double known =
         c[1] * (*lanes.V[0])[axis][i] + c[2] * (*lanes.V[1])[axis][i] - c[0] * half;
-      lanes.Trial[axis][i] = (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
+      const double end = (lanes.Position[axis][i] + lambda * known) / (1.0 - lambda * c[0]);
+      lanes.Trial[axis][i] = plateau.Done[i] > 0.0 ? plateau.End[axis][i] : end;
       final[axis][i] = lanes.Trial[axis][i] - half;
     }
   }
@@ -154,7 +236,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   {
     writer.WriteEnd(lanes.Trial);
   }
-  return (steps - 1) * count;
+  return step * count;
 }
 
 // Whether a lane's box is the whole domain; x then lies on a straight path from its seed.

@@ -112,6 +112,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& de
   // Moments of very large values overflow, those of very small ones lose bits: a power of two
   // brings both back without changing a bit of what is computed.
   constexpr double extreme = 1e200;
+  this->Tables.Largest = found.Maximum;
   if (found.Maximum > extreme || found.Maximum < 1.0 / extreme)
   {
     const int exponent = std::max(-1000, std::min(1000, -std::ilogb(found.Maximum)));
@@ -121,6 +122,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& de
       return;
     }
     this->Found = found;
+    this->Tables.Largest = std::ldexp(found.Maximum, exponent);
   }
 
   TableView<Dimension>& tables = this->Tables;

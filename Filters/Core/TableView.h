@@ -35,6 +35,7 @@ struct TableView
   double Size[Dimension];
   double Centroid[Dimension];
   double VoidMass; // a box with no more than this is taken to be empty
+  double Largest;  // value of a cell
 
   // One bit a cell, rows padded to whole words; null if every cell has mass.
   const std::uint64_t* Occupied;
