@@ -18,7 +18,18 @@ Show(photograph, GetActiveViewOrCreate('RenderView'))
 SetActiveSource(photograph)
 """
 
+# A second image for Morph Densities, small enough to be quick.
+OPEN_TWO = OPEN + """
+half = ExtractSubset(registrationName='Half', Input=photograph,
+                     VOI=[0, 255, 0, 255, 0, 0])
+half.UpdatePipeline()
+SetActiveSource(half)
+"""
+
 WINDOW = "pqClientMainWindow/"
+PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
+         "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
+PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
 # In the dialog that asks for the second input: the first source, and OK.
 DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
@@ -73,12 +84,12 @@ class Gui(unittest.TestCase):
             window.wait()
         return said
 
-    def state_after(self, picture, *steps):
+    def state_after(self, picture, *steps, script_text=OPEN):
         """The state that ParaView saves after these steps, begun with a photograph."""
         script, recording, state = (os.path.join(self.home, name)
                                     for name in ("open.py", "play.xml", "state.pvsm"))
         with open(script, "w", encoding="utf-8") as file:
-            file.write(OPEN % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
+            file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
         events(recording, *steps, ("menubar/menu_File", "activate", "actionFileSaveServerState"),
                ("FileSaveServerStateDialog", "filesSelected", state))
         said = self.play(script, recording, picture)
@@ -129,6 +140,25 @@ class Gui(unittest.TestCase):
                  if prop.get("name") == "Input" for element in prop.findall("Proxy")
                  if element.get("value") == cells}
         self.assertEqual(shown, {"0", "1", "2"})
+
+    def test_morph_plays(self):
+        """With PublishTime the play button runs over the filter's steps, to the last one."""
+        target = ("SelectInputDialog/buttonFrame/Target", *DENSITY[0][1:])
+        saved = self.state_after(
+            "gui-morph.png", choose("Filters", "TransportInterpolator"), target, *DENSITY[1:],
+            (PANEL + "PublishTime/CheckBox", "set_boolean", "true"), APPLY, PLAY,
+            script_text=OPEN_TWO)
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+
+        def values(kind, name):
+            for prop in found[kind].iter("Property"):
+                if prop.get("name") == name:
+                    return [float(element.get("value")) for element in prop.findall("Element")]
+            return None
+
+        self.assertEqual(values("TransportInterpolator", "PublishTime"), [1])
+        self.assertEqual(values("TimeKeeper", "TimestepValues"), [i / 10 for i in range(11)])
+        self.assertEqual(values("TimeKeeper", "Time"), [1])
 
 
 if __name__ == "__main__":
