@@ -22,8 +22,15 @@ SetActiveSource(photograph)
 OPEN_TWO = OPEN + """
 half = ExtractSubset(registrationName='Half', Input=photograph,
                      VOI=[0, 255, 0, 255, 0, 0])
-half.UpdatePipeline()
+Show(half)
+ResetCamera()
 SetActiveSource(half)
+"""
+# The same two, selected together.
+OPEN_BOTH = OPEN_TWO + """
+from paraview import servermanager
+selected = servermanager.ProxyManager().GetSelectionModel('ActiveSources')
+selected.Select(photograph.SMProxy, 2)
 """
 
 WINDOW = "pqClientMainWindow/"
@@ -159,6 +166,25 @@ class Gui(unittest.TestCase):
         self.assertEqual(values("TransportInterpolator", "PublishTime"), [1])
         self.assertEqual(values("TimeKeeper", "TimestepValues"), [i / 10 for i in range(11)])
         self.assertEqual(values("TimeKeeper", "Time"), [1])
+
+    def test_barycenter_of_selected(self):
+        """Images that are selected together are its inputs; weights are typed into the panel."""
+        weights = PANEL + "Weights/ScalarValueList/"
+        add = (weights + "Add", "activate", "")
+
+        def typed(row, number):
+            editor = weights + "Table/qt_scrollarea_viewport/1QExpandingLineEdit0"
+            return ((weights + "Table", "edit", "%d.0" % row),
+                    (editor, "set_string", str(number)), (editor, "key", "16777220"))
+
+        saved = self.state_after(
+            "gui-barycenter.png", choose("Filters", "TransportBarycenter"), APPLY,
+            add, *typed(0, 3), add, *typed(1, 1), APPLY, script_text=OPEN_BOTH)
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        given = {prop.get("name"): prop for prop in found["TransportBarycenter"].iter("Property")}
+        self.assertEqual(len(given["Input"].findall("Proxy")), 2)
+        self.assertEqual([element.get("value") for element in given["Weights"].findall("Element")],
+                         ["3", "1"])
 
 
 if __name__ == "__main__":
