@@ -78,8 +78,33 @@ struct Counters
   std::atomic<std::int64_t> Evaluations{ 0 };
 };
 
-// Advects particles, at most rangeBlocks * BlockSize: all of them once, then those in trouble again
-// with ever more steps, twice as many each time.
+// Particles in trouble, to be redone.
+template <int Dimension>
+struct Leftovers
+{
+  std::vector<std::int64_t> Index; // in the output
+  std::vector<double> Seeds;
+};
+
+// Puts a particle that ends in an empty cell, where no smaller steps have helped, on the nearest
+// mass.
+template <int Dimension>
+void moveToMass(const FlowJob<Dimension>& job, std::int64_t particle, Counters& counters)
+{
+  const std::int64_t last = (particle + 1) * job.TimeCount - 1;
+  const bool atEnd = !job.Times || job.Times[job.TimeCount - 1] >= 1.0;
+  double* position = job.Output + last * Dimension;
+  Point<Dimension> point;
+  std::copy_n(position, Dimension, point.begin());
+  if (atEnd && !hasMass<Dimension>(job.Tables, point))
+  {
+    point = nearestMass<Dimension>(job.Tables, point);
+    std::copy_n(point.begin(), Dimension, position);
+    ++counters.MovedToMass;
+  }
+}
+
+// Advects particles, at most rangeBlocks * BlockSize.
 template <int Dimension>
 class RangeAdvection
 {
@@ -94,28 +119,46 @@ public:
   {
   }
 
+  // All of them once. Those in trouble are left over.
+  template <class Source>
+  void RunOnce(Source& source, std::int64_t first, int count, Leftovers<Dimension>& leftovers)
+  {
+    const int left = this->RunFirst(source, first, count);
+    leftovers.Index.assign(this->Index, this->Index + left);
+    leftovers.Seeds.assign(this->Seeds, this->Seeds + left * Dimension);
+  }
+
+  // All of them once, then those in trouble again with ever more steps, twice as many each time.
   template <class Source>
   void Run(Source& source, std::int64_t first, int count)
   {
-    // The output may be the array of the seeds, so these are kept until all is done.
-    source.Fill(first, count, this->Index, this->Seeds);
-    int left = this->Pass(count, this->First);
-    if (this->Job.Backward || this->Job.Nearest)
-    {
-      return;
-    }
-    this->Count.Redone += left;
+    int left = this->RunFirst(source, first, count);
     for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
     {
       left = this->Pass(left, refinement);
     }
     for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
     {
-      this->MoveToMass(this->Index[i]);
+      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
     }
   }
 
 private:
+  // Returns how many are to be redone.
+  template <class Source>
+  int RunFirst(Source& source, std::int64_t first, int count)
+  {
+    // The output may be the array of the seeds, so these are kept until all is done.
+    source.Fill(first, count, this->Index, this->Seeds);
+    const int left = this->Pass(count, this->First);
+    if (this->Job.Backward || this->Job.Nearest)
+    {
+      return 0;
+    }
+    this->Count.Redone += left;
+    return left;
+  }
+
   // Advects the first `count` particles and moves those in trouble to the front.
   int Pass(int count, int refinement)
   {
@@ -140,21 +183,6 @@ private:
     return left;
   }
 
-  void MoveToMass(std::int64_t particle)
-  {
-    const std::int64_t last = (particle + 1) * this->Job.TimeCount - 1;
-    const bool atEnd = !this->Job.Times || this->Job.Times[this->Job.TimeCount - 1] >= 1.0;
-    double* position = this->Job.Output + last * Dimension;
-    Point<Dimension> point;
-    std::copy_n(position, Dimension, point.begin());
-    if (atEnd && !hasMass<Dimension>(this->Job.Tables, point))
-    {
-      point = nearestMass<Dimension>(this->Job.Tables, point);
-      std::copy_n(point.begin(), Dimension, position);
-      ++this->Count.MovedToMass;
-    }
-  }
-
   const FlowJob<Dimension>& Job;
   const int First;
   Counters& Count;
@@ -162,6 +190,80 @@ private:
   const AdvectBlock<Dimension> Advect;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
+};
+
+// Advects the leftovers of many ranges together: a block costs nearly the same with few particles
+// as with all, and most ranges leave few.
+template <int Dimension>
+class LeftoverAdvection
+{
+public:
+  LeftoverAdvection(const FlowJob<Dimension>& job, Counters& counters, Pacer& pacer)
+    : Job(job)
+    , Count(counters)
+    , Pace(pacer)
+    , Advect(flowKernels().Advect<Dimension>())
+  {
+  }
+
+  // With ever more steps, twice as many each time, from `refinement` on.
+  void Run(
+    const std::vector<Leftovers<Dimension>>& ranges, int refinement, const Executor& executor)
+  {
+    for (const Leftovers<Dimension>& range : ranges)
+    {
+      this->Index.insert(this->Index.end(), range.Index.begin(), range.Index.end());
+      this->Seeds.insert(this->Seeds.end(), range.Seeds.begin(), range.Seeds.end());
+    }
+    this->Troubled.resize(this->Index.size());
+    for (; !this->Index.empty() && refinement <= refinements; ++refinement)
+    {
+      this->Pass(refinement, executor);
+    }
+    const auto left = static_cast<std::int64_t>(this->Index.size());
+    executor.For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !this->Pace.ShouldStop(); ++i)
+      {
+        moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
+      }
+    });
+  }
+
+private:
+  void Pass(int refinement, const Executor& executor)
+  {
+    const auto count = static_cast<std::int64_t>(this->Index.size());
+    executor.For(count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
+      if (this->Pace.ShouldStop())
+      {
+        return;
+      }
+      bool troubled[BlockSize] = {};
+      this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
+        this->Index.data() + first, static_cast<int>(last - first), refinement, troubled);
+      std::copy(troubled, troubled + (last - first), this->Troubled.data() + first);
+    });
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < this->Index.size(); ++i)
+    {
+      if (this->Troubled[i])
+      {
+        this->Index[left] = this->Index[i];
+        std::copy_n(
+          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + left * Dimension);
+        ++left;
+      }
+    }
+    this->Index.resize(left);
+  }
+
+  const FlowJob<Dimension>& Job;
+  Counters& Count;
+  Pacer& Pace;
+  const AdvectBlock<Dimension> Advect;
+  std::vector<std::int64_t> Index;
+  std::vector<double> Seeds;
+  std::vector<unsigned char> Troubled;
 };
 
 // The samples of a lattice for one range, whose ends stay in memory of the range's own.
@@ -275,25 +377,38 @@ public:
   template <class Source>
   bool Advect(const Source& source, std::int64_t count, const Executor& executor)
   {
-    return this->Run(count, executor, [&](std::int64_t first, int length) {
-      RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
-      range.Run(source, first, length);
-    });
+    std::vector<Leftovers<Dimension>> leftovers;
+    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
+      leftovers.clear();
+      leftovers.resize(static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
+        range.RunOnce(source, begin + first, static_cast<int>(last - first),
+          leftovers[static_cast<std::size_t>(first / this->Grain)]);
+      });
+      LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
+        .Run(leftovers, this->First + 1, executor);
+    };
+    return this->Run(count, executor, runSlice);
   }
 
   // Advects the samples of a lattice and writes the cell that each comes to.
   bool AdvectToCells(
     const LatticeOrder<Dimension>& lattice, std::int64_t* cells, const Executor& executor)
   {
-    return this->Run(lattice.Count(), executor, [&](std::int64_t first, int length) {
-      RangeCells<Dimension> ends(lattice, this->Job);
-      RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
-      range.Run(ends, first, length);
-      if (!this->Pace.ShouldStop())
-      {
-        this->Count.MovedToMass += ends.Write(length, cells);
-      }
-    });
+    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        const int length = static_cast<int>(last - first);
+        RangeCells<Dimension> ends(lattice, this->Job);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
+        range.Run(ends, begin + first, length);
+        if (!this->Pace.ShouldStop())
+        {
+          this->Count.MovedToMass += ends.Write(length, cells);
+        }
+      });
+    };
+    return this->Run(lattice.Count(), executor, runSlice);
   }
 
   FlowReport Report() const
@@ -307,16 +422,14 @@ public:
   }
 
 private:
-  template <class RunRange>
-  bool Run(std::int64_t count, const Executor& executor, const RunRange& runRange)
+  template <class RunSlice>
+  bool Run(std::int64_t count, const Executor& executor, const RunSlice& runSlice)
   {
     for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t slice =
         std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
-      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        runRange(begin + first, static_cast<int>(last - first));
-      });
+      runSlice(begin, slice);
       begin += slice;
       if (!this->Pace.EndSlice(slice))
       {

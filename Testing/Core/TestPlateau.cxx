@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact finish of particles whose whole box is at the density's largest value.
+#include "TestFlow.h"
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int D>
+using Dim = std::integral_constant<int, D>;
+
+template <class Dimension>
+class Plateau : public testing::Test
+{
+};
+using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+TYPED_TEST_SUITE(Plateau, Dimensions);
+
+// Ones in half of each axis, about the middle.
+template <int Dimension>
+TestDensity<Dimension> block(std::int64_t side)
+{
+  GridSize<Dimension> size;
+  size.fill(side);
+  return sampleDensity<Dimension>(size, [](const Point<Dimension>& p) {
+    for (const double coordinate : p)
+    {
+      if (coordinate < 0.25 || coordinate > 0.75)
+      {
+        return 0.0;
+      }
+    }
+    return 1.0;
+  });
+}
+
+// Nearly all particles are inside of it before the last of the 31 evaluations.
+TYPED_TEST(Plateau, EndsEarly)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> shape = block<D>(32);
+  GridSize<D> lattice; // of many blocks of neighbours
+  lattice.fill(D == 1 ? 4096 : 32);
+  std::vector<double> positions(static_cast<std::size_t>(cellCount<D>(lattice)) * D);
+  const RectifiedFlow<D> flow(shape.Source());
+  const FlowReport report = flow.ForwardLattice(lattice, positions.data());
+  EXPECT_LT(report.Evaluations, 30 * cellCount<D>(lattice));
+}
+
+// The map onto a box of ones is the scaling of the domain onto it, along each axis; what is left is
+// the integrator's error before the plateau, a part of a cell.
+TYPED_TEST(Plateau, IsTheScaling)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> shape = block<D>(32);
+  const RectifiedFlow<D> flow(shape.Source());
+  FlowOptions options;
+  options.NumberOfSteps = 64;
+  GridSize<D> lattice;
+  lattice.fill(16);
+  std::vector<double> positions(static_cast<std::size_t>(cellCount<D>(lattice)) * D);
+  flow.ForwardLattice(lattice, positions.data(), options);
+  for (std::int64_t i = 0; i < cellCount<D>(lattice); ++i)
+  {
+    const GridSize<D> cell = cellAt<D>(i, lattice);
+    for (int axis = 0; axis < D; ++axis)
+    {
+      const double expected = 8.0 + static_cast<double>(cell[axis]) + 0.5;
+      EXPECT_NEAR(positions[static_cast<std::size_t>(i * D + axis)], expected, 0.02);
+    }
+  }
+}
+
+// On the way from where it is known the path is straight, and its end is the same without a path.
+TYPED_TEST(Plateau, PathsAgree)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> shape = block<D>(32);
+  const RectifiedFlow<D> flow(shape.Source());
+  const Points<D> seeds = randomPoints<D>(shape.Size, 300);
+  const std::vector<double> times{ 0.98, 0.99, 1.0 };
+  std::vector<double> paths(seeds.size() * times.size() * D);
+  Points<D> ends(seeds.size());
+  const auto count = static_cast<std::int64_t>(seeds.size());
+  flow.ForwardAt(seeds.data()->data(), count, times, paths.data());
+  flow.Forward(seeds.data()->data(), count, ends.data()->data());
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      const double* x = paths.data() + i * times.size() * D + axis;
+      EXPECT_EQ(x[2 * D], ends[i][axis]);
+      if (std::abs(ends[i][axis] - 16.0) < 6.0)
+      {
+        EXPECT_NEAR(x[D], 0.5 * (x[0] + x[2 * D]), 0.001);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace RectifiedTransport
