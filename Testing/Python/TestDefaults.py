@@ -30,7 +30,8 @@ def header_comment(class_name, name):
     found = re.search(pattern % name, header, re.DOTALL)
     if found:
         return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
-    return header_comment(re.search(r'#include "(vtk\w*Algorithm)\.h"', header).group(1), name)
+    base = re.search(r'#include "(vtk(?:\w*Algorithm|TransportBlend))\.h"', header).group(1)
+    return header_comment(base, name)
 
 
 def page_rows(proxy):
