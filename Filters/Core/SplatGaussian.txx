@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Gaussian, which reaches many cells: one particle is weighed at a time. Included by
+// SplatKernels.txx.
+
+// exp(x) from basic operations alone: the library's may differ in the last bit from one processor
+// to the next.
+inline double exponential(double x)
+{
+  int halvings = 0;
+  for (; absolute(x) > 0.5; ++halvings)
+  {
+    x *= 0.5;
+  }
+  double sum = 1.0;
+  for (int term = 13; term > 0; --term)
+  {
+    sum = 1.0 + sum * x / term;
+  }
+  for (; halvings > 0; --halvings)
+  {
+    sum *= sum;
+  }
+  return sum;
+}
+
+RT_INLINE std::int32_t ceiling(double x)
+{
+  const std::int32_t truncated = static_cast<std::int32_t>(x);
+  return truncated + (truncated < x ? 1 : 0);
+}
+
+// A coordinate's own cell and the first one that the Gaussian reaches.
+struct GaussianPlace
+{
+  RT_INLINE GaussianPlace(double x, std::int32_t size, double cut)
+  {
+    const std::int32_t own = smaller(static_cast<std::int32_t>(x), size - 1);
+    this->Offset = x - own - 0.5;
+    this->FirstOffset = ceiling(this->Offset - cut);
+    this->First = own + this->FirstOffset;
+  }
+
+  double Offset; // from the centre of its own cell
+  std::int32_t FirstOffset;
+  std::int32_t First;
+};
+
+// The weights of one axis.
+template <int Dimension, class Real>
+RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double x, double* weight)
+{
+  const GaussianPlace place(x, job.Size[a], job.Cut);
+  const int width = job.Width;
+  // exp(-(k - offset)^2 / 2 sigma^2), up to a factor, by powers of one exponential.
+  const double up = exponential(place.Offset * job.PerVariance);
+  const double down = 1.0 / up;
+  double power = 1.0;
+  for (int k = 0; k - place.FirstOffset < width; ++k)
+  {
+    weight[k - place.FirstOffset] = power * job.AtOffset[k];
+    power *= up;
+  }
+  power = down;
+  for (int k = 1; k <= -place.FirstOffset; ++k)
+  {
+    weight[-k - place.FirstOffset] = power * job.AtOffset[k];
+    power *= down;
+  }
+  double sum = 0.0;
+  double moment = 0.0;
+  double second = 0.0;
+  for (int k = 0; k < width; ++k)
+  {
+    const double distance = place.FirstOffset + k - place.Offset;
+    weight[k] = distance <= job.Cut ? weight[k] : 0.0;
+    sum += weight[k];
+    moment += weight[k] * distance;
+    second += weight[k] * distance * distance;
+  }
+  // The linear function of the distance for which the sum is 1 and the moment 0.
+  const double determinant = sum * second - moment * moment;
+  const double constant = second / determinant;
+  const double slope = -moment / determinant;
+  for (int k = 0; k < width; ++k)
+  {
+    weight[k] *= constant + slope * (place.FirstOffset + k - place.Offset);
+  }
+  if (place.First < 0 || place.First + width > job.Size[a])
+  {
+    keepInside(place.First, width, job.Kept[a], job.Size[a], job.Renormalize, weight);
+  }
+}
+
+template <int Dimension, class Real>
+RT_INLINE void findGaussian(
+  const SplatJob<Dimension, Real>& job, const Block<Dimension>& block, SplatCells* cells)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    const std::int32_t last = job.Size[a] - job.Kept[a];
+    for (int i = 0; i < block.Count; ++i)
+    {
+      const GaussianPlace place(block.X[a][i], job.Size[a], job.Cut);
+      cells[a][i] = smaller(larger(place.First, 0), last);
+    }
+  }
+}
+
+template <int Dimension, class Real>
+RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
+  const SplatCells* first, int i, const CellBox<Dimension>* box, double* scratch)
+{
+  int begin[3] = { 0, 0, 0 };
+  int end[3] = { 1, 1, 1 };
+  std::int64_t start = 0;
+  const double* weight[3] = { scratch, scratch, scratch };
+  for (int a = 0; a < Dimension; ++a)
+  {
+    const std::int32_t cell = first[a][i];
+    start += cell * job.Stride[a];
+    begin[a] = box ? larger(box->Low[a] - cell, 0) : 0;
+    end[a] = box ? smaller(box->High[a] - cell, job.Kept[a]) : job.Kept[a];
+    if (begin[a] >= end[a])
+    {
+      return;
+    }
+    weight[a] = scratch + a * job.Width;
+  }
+  for (int a = 0; a < Dimension; ++a)
+  {
+    weighGaussian(job, a, block.X[a][i], scratch + a * job.Width);
+  }
+  for (int k = begin[2]; k < end[2]; ++k)
+  {
+    const double slice = Dimension > 2 ? block.Mass[i] * weight[2][k] : block.Mass[i];
+    for (int j = begin[1]; j < end[1]; ++j)
+    {
+      const double row = Dimension > 1 ? slice * weight[1][j] : slice;
+      const std::int64_t offset = (Dimension > 1 ? j * job.Stride[Dimension > 1 ? 1 : 0] : 0) +
+        (Dimension > 2 ? k * job.Stride[Dimension - 1] : 0);
+      double* __restrict to = job.Cells + start + offset;
+      const double* __restrict along = weight[0];
+#pragma omp simd
+      for (int l = begin[0]; l < end[0]; ++l)
+      {
+        to[l] += row * along[l];
+      }
+    }
+  }
+}
+
+template <int Dimension, class Real>
+struct GaussianSplat
+{
+  static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
+    const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch)
+  {
+    Block<Dimension> block;
+    SplatCells cells[Dimension];
+    std::int64_t outside = 0;
+    for (std::int64_t begin = 0; begin < count; begin += splatBlock)
+    {
+      block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
+      readBlock(job, first, index, begin, block);
+      outside += placeBlock(job, block);
+      findGaussian(job, block, cells);
+      for (int i = 0; i < block.Count; ++i)
+      {
+        addGaussian(job, block, cells, i, box, scratch);
+      }
+    }
+    return outside;
+  }
+
+  static std::int64_t Find(
+    const SplatJob<Dimension, Real>& job, std::int64_t first, int count, SplatCells* cells)
+  {
+    Block<Dimension> block;
+    block.Count = count;
+    readBlock(job, first, nullptr, 0, block);
+    const std::int64_t outside = placeBlock(job, block);
+    findGaussian(job, block, cells);
+    return outside;
+  }
+};

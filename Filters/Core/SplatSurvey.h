@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the chunks of a range of particles are in the grid, and how to cut it into slabs of equal
+// work.
+#ifndef RectifiedTransport_SplatSurvey_h
+#define RectifiedTransport_SplatSurvey_h
+
+#include "Executor.h"
+#include "SplatKernels.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+constexpr std::int64_t splatChunk = 4096; // particles
+
+template <int Dimension, class Real>
+class SplatSurvey
+{
+public:
+  // Planes [Low, High) across the last axis.
+  struct Planes
+  {
+    std::int32_t Low;
+    std::int32_t High;
+  };
+
+  SplatSurvey() = default;
+  explicit SplatSurvey(const SplatJob<Dimension, Real>& job)
+    : Job(&job)
+  {
+  }
+
+  // Looks at the chunks of particles [first, first + count), or if `samples` > 0 at no more than
+  // that many of them, spread evenly. Returns the mean number of cells in the box around a chunk.
+  double Look(
+    std::int64_t first, std::int64_t count, std::int64_t samples, const Executor& executor);
+
+  std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
+  // The planes that a chunk may reach.
+  Planes Chunk(std::int64_t chunk) const { return this->Chunks[static_cast<std::size_t>(chunk)]; }
+
+  // Cuts the grid into at most `wanted` slabs, once all chunks have been looked at. Returns how
+  // many of them a chunk reaches in the mean.
+  double CutSlabs(std::int64_t wanted);
+
+  std::int64_t NumberOfSlabs() const { return static_cast<std::int64_t>(this->Cuts.size()) - 1; }
+  CellBox<Dimension> Slab(std::int64_t slab) const;
+
+private:
+  CellBox<Dimension> BoxOf(std::int64_t first, std::int64_t count) const;
+
+  const SplatJob<Dimension, Real>* Job = nullptr;
+  std::vector<Planes> Chunks;
+  std::vector<double> Cells; // in the boxes around chunks
+  std::vector<double> Work;  // of every plane
+  std::vector<std::int32_t> Cuts;
+};
+
+} // namespace RectifiedTransport
+
+#endif
