@@ -54,13 +54,12 @@ vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const Grid
   requireMemory("a density of " + grid, count * sizeof(double));
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
   host.BeginStage(1.0);
-  const CoverageReport report =
-    withMemory("the surface's " + std::to_string(surface.NumberOfTriangles) +
-        " triangles in the layers of " + grid,
-      static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
-        return coverSolid(
-          surface, cells, supersampling, density->GetPointer(0), executor, host.GetMonitor());
-      });
+  const CoverageReport report = withMemory("the surface's " +
+      std::to_string(surface.NumberOfTriangles) + " triangles in the layers of " + grid,
+    static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
+      return coverSolid(
+        surface, cells, supersampling, density->GetPointer(0), executor, host.GetMonitor());
+    });
   if (report.Cancelled)
   {
     throw Aborted();

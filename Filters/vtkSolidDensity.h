@@ -19,10 +19,10 @@
  * whose polygons do not agree gets the orientation that most of its area has.
  *
  * Polygons are cut into triangles and points of equal coordinates merged first; points that are
- * nearly equal are not. Every edge must then be one of exactly two triangles: else an error says how
- * many open edges (of one triangle) and non-manifold edges (of more than two) there are. Polygons
- * that vtkTriangleFilter cannot cut, coordinates that are not finite, points without polygons and
- * surfaces that are not orientable are errors, too; no points give an empty output.
+ * nearly equal are not. Every edge must then be one of exactly two triangles: else an error says
+ * how many open edges (of one triangle) and non-manifold edges (of more than two) there are.
+ * Polygons that vtkTriangleFilter cannot cut, coordinates that are not finite, points without
+ * polygons and surfaces that are not orientable are errors, too; no points give an empty output.
  *
  * Cost: O(cells + triangles * rows of lines that they cross + crossings of lines), and linear in
  * the points and triangles before that. Memory: 8 bytes a cell; while it runs up to about 64 bytes

@@ -145,9 +145,8 @@ ClosedSurface::ClosedSurface(
 {
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
   const double begin = host.Reached();
-  const auto stage = [&host, begin, end](double part) {
-    host.BeginStage(begin + part * (end - begin));
-  };
+  const auto stage = [&host, begin, end](
+                       double part) { host.BeginStage(begin + part * (end - begin)); };
   withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
     this->Points = LargeBuffer<double>(3 * this->NumberOfPoints);
     double* copy = this->Points.data();

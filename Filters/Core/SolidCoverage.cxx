@@ -240,13 +240,13 @@ private:
     const Index lines = this->Cells[1] * this->LinesPerCell;
     Index* first = scratch.First.data();
     std::fill_n(first, lines + 1, Index{ 0 });
-    this->ForSegments(layer, [this, first](const PlanePoint&, const PlanePoint&, Index from,
-                               Index end, Index row) {
-      for (Index j = from; j < end; ++j)
-      {
-        ++first[this->LineOf(j, row)];
-      }
-    });
+    this->ForSegments(
+      layer, [this, first](const PlanePoint&, const PlanePoint&, Index from, Index end, Index row) {
+        for (Index j = from; j < end; ++j)
+        {
+          ++first[this->LineOf(j, row)];
+        }
+      });
     // From counts to the ends of the lines; filled from there, they become beginnings.
     for (Index line = 1; line <= lines; ++line)
     {
@@ -257,18 +257,23 @@ private:
       return false;
     }
     Crossing* crossings = scratch.Crossings.data();
-    this->ForSegments(layer, [this, first, crossings](const PlanePoint& in, const PlanePoint& out,
-                               Index from, Index end, Index row) {
-      const int side = in.Y < out.Y ? 1 : -1;
-      const double slope = (out.X - in.X) / (out.Y - in.Y);
-      for (Index j = from; j < end; ++j)
-      {
-        const double x = in.X + slope * (static_cast<double>(j) + 0.5 - in.Y);
-        const double within =
-          std::max(std::min(in.X, out.X), std::min(x, std::max(in.X, out.X)));
-        crossings[--first[this->LineOf(j, row)]] = { within, side };
-      }
-    });
+    this->ForSegments(layer,
+      [this, first, crossings](
+        const PlanePoint& in, const PlanePoint& out, Index from, Index end, Index row) {
+        // From the lower end, so that triangles that lie on each other have the same crossings.
+        const bool up = in.Y < out.Y;
+        const PlanePoint& low = up ? in : out;
+        const PlanePoint& high = up ? out : in;
+        const double slope = (high.X - low.X) / (high.Y - low.Y);
+        const double least = std::min(low.X, high.X);
+        const double most = std::max(low.X, high.X);
+        for (Index j = from; j < end; ++j)
+        {
+          const double x = low.X + slope * (static_cast<double>(j) + 0.5 - low.Y);
+          crossings[--first[this->LineOf(j, row)]] = { std::max(least, std::min(x, most)),
+            up ? 1 : -1 };
+        }
+      });
     return true;
   }
 
@@ -366,8 +371,8 @@ private:
   // Adds the parts of a line that are inside of the solid.
   void CoverLine(Crossing* crossings, Index count, double* parts, int* whole)
   {
-    std::sort(crossings, crossings + count,
-      [](const Crossing& a, const Crossing& b) { return a.X < b.X; });
+    std::sort(
+      crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.X < b.X; });
     Index winding = 0;
     double entry = 0.0;
     for (Index i = 0; i < count; ++i)

@@ -36,10 +36,10 @@ struct CoverageReport
 // Each cell is crossed by supersampling^2 lines along axis 0, through the centres of as many equal
 // squares. What a line covers of the cell is exact, so that only the other two axes are sampled.
 // A surface that passes through lines and rows of lines exactly is no special case: the plane of a
-// row cuts the surface in closed polygons, whose corners are on the triangles' edges, at places that
-// both triangles of an edge compute from the same numbers in the same order. Such a polygon crosses
-// every line of the row as often one way as the other, if a corner on the line counts as below it,
-// whatever rounding did to the corners.
+// row cuts the surface in closed polygons, whose corners are on the triangles' edges, at places
+// that both triangles of an edge compute from the same numbers in the same order. Such a polygon
+// crosses every line of the row as often one way as the other, if a corner on the line counts as
+// below it, whatever rounding did to the corners.
 //
 // O(cells + triangles x rows of lines that they cross + crossings of lines). Memory: 8 bytes for
 // each layer of cells that a triangle has a part in, and a layer's crossings, 16 bytes each, for

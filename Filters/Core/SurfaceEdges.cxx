@@ -6,8 +6,7 @@
 namespace RectifiedTransport
 {
 
-SurfaceEdges::SurfaceEdges(
-  const std::int64_t* triangles, std::int64_t count, std::int64_t points)
+SurfaceEdges::SurfaceEdges(const std::int64_t* triangles, std::int64_t count, std::int64_t points)
   : Triangles(triangles)
   , First(points + 2)
   , Sides(3 * count)

@@ -7,8 +7,8 @@
 namespace RectifiedTransport
 {
 
-SurfaceOrientation::SurfaceOrientation(const double* points, std::int64_t* triangles,
-  std::int64_t count, const SurfaceEdges& edges)
+SurfaceOrientation::SurfaceOrientation(
+  const double* points, std::int64_t* triangles, std::int64_t count, const SurfaceEdges& edges)
   : Points(points)
   , Triangles(triangles)
   , Count(count)

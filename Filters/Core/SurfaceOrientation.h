@@ -19,8 +19,8 @@ class SurfaceOrientation
 public:
   // Of a surface whose edges have two sides each. `points` holds three coordinates each. Throws
   // std::bad_alloc.
-  SurfaceOrientation(const double* points, std::int64_t* triangles, std::int64_t count,
-    const SurfaceEdges& edges);
+  SurfaceOrientation(
+    const double* points, std::int64_t* triangles, std::int64_t count, const SurfaceEdges& edges);
 
   // Visits about as many triangles as asked for, and turns those of the components that are done.
   // Returns how many were visited, 0 once all are.
@@ -38,7 +38,7 @@ private:
   std::int64_t* Triangles;
   std::int64_t Count;
   const SurfaceEdges& Edges;
-  LargeBuffer<signed char> Turns; // 0 not visited, 1 as the component's first triangle, -1 not
+  LargeBuffer<signed char> Turns;  // 0 not visited, 1 as the component's first triangle, -1 not
   LargeBuffer<std::int64_t> Queue; // the triangles of a component after those of the others
   std::int64_t QueueBegin = 0;
   std::int64_t QueueNext = 0;
