@@ -130,13 +130,18 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // The bounds are not known before the data; those of what is left of the last run are as good a
-  // guess as any, and the data say what is right.
+  // How many cells there are depends on the bounds, and image filters that follow would read past
+  // the end of an image that is smaller than announced: the surface has to be there first.
+  int port = 0;
+  if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port))
+  {
+    producer->Update(port);
+  }
   std::array<double, 6> bounds{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   if (surface && surface->GetNumberOfPoints() > 0)
   {
-    surface->GetBounds(bounds.data());
+    bounds = polygonBounds(surface);
   }
   ImageFrame frame;
   try
@@ -173,7 +178,7 @@ int vtkSolidDensity::RequestData(
   }
   HostMonitor host(this);
   ClosedSurface surface(input, *executor, host, 0.4);
-  const SolidGrid grid(surface.Bounds(), this->Resolution, this->Padding);
+  const SolidGrid grid(polygonBounds(input), this->Resolution, this->Padding);
   const TriangleSurface triangles = surface.InCells(grid, *executor, host, 0.5);
   const vtkSmartPointer<vtkDoubleArray> density =
     cover(triangles, grid.Cells(), this->Supersampling, *executor, host);
@@ -182,7 +187,7 @@ int vtkSolidDensity::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   const ImageFrame frame = grid.Frame(onPoints);
   frame.CopyTo(output);
-  frame.Publish(outputVector->GetInformationObject(0)); // it is not known before the data
+  frame.Publish(outputVector->GetInformationObject(0)); // it may have changed with time
   vtkDataSetAttributes* data = output->GetPointData();
   if (!onPoints)
   {

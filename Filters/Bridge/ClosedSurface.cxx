@@ -13,6 +13,7 @@
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
 #include "vtkDataArrayRange.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
@@ -139,6 +140,35 @@ struct CopyIds
 
 } // namespace
 
+std::array<double, 6> polygonBounds(vtkPolyData* surface)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 6> bounds{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  vtkNew<vtkIdList> ids;
+  for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
+  {
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      cells->GetCellAtId(cell, ids);
+      for (vtkIdType i = 0; ids->GetNumberOfIds() > 2 && i < ids->GetNumberOfIds(); ++i)
+      {
+        if (ids->GetId(i) < 0 || ids->GetId(i) >= surface->GetNumberOfPoints())
+        {
+          continue; // RequestData says it
+        }
+        double point[3];
+        surface->GetPoint(ids->GetId(i), point);
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          bounds[2 * a] = std::min(bounds[2 * a], point[a]);
+          bounds[2 * a + 1] = std::max(bounds[2 * a + 1], point[a]);
+        }
+      }
+    }
+  }
+  return bounds;
+}
+
 ClosedSurface::ClosedSurface(
   vtkPolyData* input, const Executor& executor, HostMonitor& host, double end)
   : NumberOfPoints(input->GetNumberOfPoints())
@@ -229,7 +259,7 @@ void ClosedSurface::RequireClosed(const Executor& executor, HostMonitor& host, d
   host.BeginStage(begin + 0.5 * (end - begin));
   host.Run(inOrder, this->Count, Grain,
     [&edges](std::int64_t first, std::int64_t last) { edges.Sort(first, last); });
-  host.BeginStage(begin + 0.8 * (end - begin));
+  host.BeginStage(end);
   host.Run(executor, this->NumberOfPoints, Grain,
     [&edges](std::int64_t first, std::int64_t last) { edges.Pair(first, last); });
   if (edges.Open() > 0 || edges.NonManifold() > 0)
@@ -241,25 +271,6 @@ void ClosedSurface::RequireClosed(const Executor& executor, HostMonitor& host, d
             << "; every edge must be one of exactly two triangles";
     throw Failure(message.str());
   }
-  host.BeginStage(end);
-  this->MeasureBounds(host);
-}
-
-void ClosedSurface::MeasureBounds(HostMonitor& host)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  this->Box = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
-  host.Run(SerialExecutor(), 3 * this->Count, Grain, [this](std::int64_t first, std::int64_t last) {
-    for (std::int64_t corner = first; corner < last; ++corner)
-    {
-      const double* point = this->Points.data() + 3 * this->Triangles.data()[corner];
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        this->Box[2 * a] = std::min(this->Box[2 * a], point[a]);
-        this->Box[2 * a + 1] = std::max(this->Box[2 * a + 1], point[a]);
-      }
-    }
-  });
 }
 
 TriangleSurface ClosedSurface::InCells(

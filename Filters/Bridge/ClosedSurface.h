@@ -20,6 +20,10 @@ namespace RectifiedTransport
 
 class SolidGrid;
 
+// The bounds of the points that polygons and strips use; NaN counts for nothing. The first is above
+// the second if there are none.
+std::array<double, 6> polygonBounds(vtkPolyData* surface);
+
 class ClosedSurface
 {
 public:
@@ -29,9 +33,6 @@ public:
   // and Aborted.
   ClosedSurface(vtkPolyData* input, const Executor& executor, HostMonitor& host, double end);
 
-  std::int64_t NumberOfTriangles() const { return this->Count; }
-  const std::array<double, 6>& Bounds() const { return this->Box; }
-
   // Gives the points in cells of a grid, and the triangles of each component one orientation, as
   // stages up to the progress `end`. Throws Failure where there is no orientation, and Aborted.
   TriangleSurface InCells(
@@ -40,7 +41,6 @@ public:
 private:
   void ReadTriangles(vtkCellArray* triangles, const Executor& executor, HostMonitor& host);
   void MergePoints(HostMonitor& host, double end);
-  void MeasureBounds(HostMonitor& host);
   void RequireClosed(const Executor& executor, HostMonitor& host, double end);
   void Orient(HostMonitor& host);
 
@@ -48,7 +48,6 @@ private:
   LargeBuffer<std::int64_t> Triangles;
   std::int64_t NumberOfPoints;
   std::int64_t Count = 0; // of triangles
-  std::array<double, 6> Box;
   std::unique_ptr<SurfaceEdges> Edges;
 };
 
