@@ -171,6 +171,8 @@ int vtkSolidDensity::RequestData(
   const std::unique_ptr<Executor> executor = this->GetFlowSettings().MakeExecutor();
   SolidGrid({ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }, this->Resolution, this->Padding); // their ranges
 
+  vtkImageData* output = vtkImageData::GetData(outputVector, 0);
+  output->Initialize(); // the executive leaves the scalars of the last run
   vtkPolyData* input = surfaceOf(inputVector[0]);
   if (!input || input->GetNumberOfPoints() == 0)
   {
@@ -184,7 +186,6 @@ int vtkSolidDensity::RequestData(
     cover(triangles, grid.Cells(), this->Supersampling, *executor, host);
 
   const bool onPoints = this->Association == POINTS;
-  vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   const ImageFrame frame = grid.Frame(onPoints);
   frame.CopyTo(output);
   frame.Publish(outputVector->GetInformationObject(0)); // it may have changed with time
