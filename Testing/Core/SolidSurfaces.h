@@ -23,7 +23,8 @@ struct Mesh
 
   TriangleSurface Surface() const
   {
-    return { this->Points.data()->data(), this->Triangles.data()->data(),
+    return { this->Points.empty() ? nullptr : this->Points[0].data(),
+      this->Triangles.empty() ? nullptr : this->Triangles[0].data(),
       static_cast<std::int64_t>(this->Triangles.size()) };
   }
 

@@ -161,6 +161,48 @@ TEST(SolidCoverage, NoLeaksOnLattices)
   }
 }
 
+// Edges that pass lines within the last bits: both triangles must see them on the same side.
+TEST(SolidCoverage, NoLeaksAlongEdges)
+{
+  const GridSize<3> cells{ 4, 4, 4 };
+  std::mt19937_64 random(13);
+  for (int run = 0; run < 20000; ++run)
+  {
+    const Point<3> a = randomPoint(random, 0.1, 3.9, 0.0);
+    const Point<3> line = randomPoint(random, 1.0, 2.0, 1.0);
+    const double t = randomPoint(random, 1.1, 1.6, 0.0)[0];
+    Point<3> b;
+    for (int i = 0; i < 3; ++i)
+    {
+      b[i] = a[i] + t * (line[i] + 0.5 - a[i]);
+    }
+    const Mesh mesh =
+      makeTetrahedron(a, b, randomPoint(random, 0.1, 3.9, 0.0), randomPoint(random, 0.1, 3.9, 0.0));
+    coverClosed(mesh, cells, 1);
+  }
+}
+
+// Parts of a cell that add up to all of it do not pass it.
+TEST(SolidCoverage, SlabsOfOneCell)
+{
+  std::mt19937_64 random(17);
+  for (int run = 0; run < 200; ++run)
+  {
+    std::vector<double> cuts{ 0.0, 1.0 };
+    for (int i = 0; i < 9; ++i)
+    {
+      cuts.push_back(randomPoint(random, 0.0, 1.0, 0.0)[0]);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    Mesh slabs;
+    for (std::size_t i = 1; i < cuts.size(); ++i)
+    {
+      slabs.Add(makeBox({ cuts[i - 1], 0, 0 }, { cuts[i], 1, 1 }));
+    }
+    EXPECT_NEAR(coverClosed(slabs, { 1, 1, 1 }, 1 + run % 3)[0], 1.0, 1e-14);
+  }
+}
+
 // Flat triangles and needles, rotated at random.
 TEST(SolidCoverage, NoLeaksOfRotatedNeedles)
 {

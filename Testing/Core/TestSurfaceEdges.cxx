@@ -65,7 +65,7 @@ std::unique_ptr<SurfaceEdges> edgesOf(const Mesh& mesh)
 {
   const auto count = static_cast<std::int64_t>(mesh.Triangles.size());
   const auto points = static_cast<std::int64_t>(mesh.Points.size());
-  auto edges = std::make_unique<SurfaceEdges>(mesh.Triangles.data()->data(), count, points);
+  auto edges = std::make_unique<SurfaceEdges>(mesh.Surface().Triangles, count, points);
   edges->Count(0, count / 2);
   edges->Count(count / 2, count);
   edges->Sort(0, count / 2);

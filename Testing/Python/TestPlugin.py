@@ -127,6 +127,7 @@ class Plugin(unittest.TestCase):
     def test_solid_is_a_density(self):
         """Points are active for Contour and volume rendering, and a density for other filters."""
         solid = simple.SolidDensity(Input=simple.Sphere(), Resolution=24)
+        solid.UpdatePipeline()
         particles = simple.SampleDensity(Input=solid, NumberOfParticles=300)
         self.assertEqual(output_of(particles).GetNumberOfPoints(), 300)
         self.assertEqual(list(particles.DensityArray), ["POINTS", "Density"])
