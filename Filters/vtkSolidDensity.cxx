@@ -169,7 +169,7 @@ int vtkSolidDensity::RequestData(
     "Supersampling", this->Supersampling, "from 1 to 16");
   requireChoice("Association", this->Association, AssociationTexts);
   const std::unique_ptr<Executor> executor = this->GetFlowSettings().MakeExecutor();
-  SolidGrid({ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 }, this->Resolution, this->Padding); // their ranges
+  SolidGrid::RequireRanges(this->Resolution, this->Padding);
 
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   output->Initialize(); // the executive leaves the scalars of the last run

@@ -12,13 +12,18 @@
 namespace RectifiedTransport
 {
 
-SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
+void SolidGrid::RequireRanges(int resolution, double padding)
 {
   constexpr int most = 1 << 30; // cells an axis, as in the core
   requireThat(
     resolution >= 1 && resolution <= most, "Resolution", resolution, "from 1 to 1073741824");
   requireThat(padding >= 0.0 && std::isfinite(padding), "Padding", padding,
     "0 or a positive number, a share of the longest side");
+}
+
+SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
+{
+  SolidGrid::RequireRanges(resolution, padding);
   double longest = 0.0;
   double farthest = 0.0;
   for (std::size_t a = 0; a < 3; ++a)

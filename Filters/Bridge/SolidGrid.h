@@ -14,6 +14,9 @@ namespace RectifiedTransport
 class SolidGrid
 {
 public:
+  // Throws Failure for what is out of range whatever the surface.
+  static void RequireRanges(int resolution, double padding);
+
   // `resolution` cells along the longest side of the bounds grown by `padding` of the longest side
   // on each side; along the others as many as cover them, about the centre. Throws Failure, which
   // names the property that asks for what is not possible.

@@ -128,12 +128,12 @@ class Plugin(unittest.TestCase):
         """Points are active for Contour and volume rendering, and a density for other filters."""
         solid = simple.SolidDensity(Input=simple.Sphere(), Resolution=24)
         solid.UpdatePipeline()
-        particles = simple.SampleDensity(Input=solid, NumberOfParticles=300)
-        self.assertEqual(output_of(particles).GetNumberOfPoints(), 300)
-        self.assertEqual(list(particles.DensityArray), ["POINTS", "Density"])
         contour = simple.Contour(Input=solid, Isosurfaces=[0.5])
         self.assertEqual(list(contour.ContourBy), ["POINTS", "Density"])
         self.assertGreater(output_of(contour).GetNumberOfCells(), 500)
+        particles = simple.SampleDensity(Input=solid, NumberOfParticles=300)
+        self.assertEqual(output_of(particles).GetNumberOfPoints(), 300)
+        self.assertEqual(list(particles.DensityArray), ["POINTS", "Density"])
         solid.Association = "Cells"
         self.assertEqual(output_of(solid).GetNumberOfCells(), 24**3)
         self.assertEqual(solid.GetProperty("Threading").GetPanelVisibility(), "advanced")
