@@ -25,8 +25,9 @@
  * polygons and surfaces that are not orientable are errors, too; no points give an empty output.
  *
  * Cost: O(cells + triangles * rows of lines that they cross + crossings of lines), and linear in
- * the points and triangles before that. Memory: 8 bytes a cell; while it runs up to about 64 bytes
- * a point, 72 a triangle and 8 more for each layer of cells that a triangle has a part in.
+ * the points and triangles before that. Memory: 8 bytes a cell; while it runs up to 64 bytes a
+ * point, 72 a triangle (81 where polygons do not agree) and 8 more for each layer of cells that a
+ * triangle has a part in.
  *
  * \code{.cpp}
  * vtkNew<vtkSolidDensity> solid;

@@ -9,19 +9,19 @@
 #include "SolidGrid.h"
 
 #include "vtkArrayDispatch.h"
+#include "vtkBoundingBox.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
 #include "vtkDataArrayRange.h"
-#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -30,6 +30,9 @@ namespace
 {
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+// Of work that reads memory at random, or sorts a little.
+constexpr std::int64_t Slow = std::int64_t{ 1 } << 16;
+constexpr std::int64_t Slower = std::int64_t{ 1 } << 14;
 
 // What comes of cells of these sizes: a triangle for each point beyond the second.
 std::int64_t countTriangles(vtkCellArray* cells)
@@ -138,33 +141,42 @@ struct CopyIds
   }
 };
 
+struct MarkUsed
+{
+  template <class ArrayT>
+  void operator()(ArrayT* ids, std::vector<unsigned char>& used) const
+  {
+    const auto count = static_cast<std::int64_t>(used.size());
+    for (const auto id : vtk::DataArrayValueRange<1>(ids))
+    {
+      const auto point = static_cast<std::int64_t>(id);
+      if (point >= 0 && point < count) // RequestData says it
+      {
+        used[static_cast<std::size_t>(point)] = 1;
+      }
+    }
+  }
+};
+
 } // namespace
 
 std::array<double, 6> polygonBounds(vtkPolyData* surface)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 6> bounds{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
-  vtkNew<vtkIdList> ids;
+  std::array<double, 6> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  std::vector<unsigned char> used(static_cast<std::size_t>(surface->GetNumberOfPoints()), 0);
   for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
   {
-    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
+    const MarkUsed mark;
+    vtkDataArray* ids = cells->GetConnectivityArray();
+    if (!Dispatch::Execute(ids, mark, used))
     {
-      cells->GetCellAtId(cell, ids);
-      for (vtkIdType i = 0; ids->GetNumberOfIds() > 2 && i < ids->GetNumberOfIds(); ++i)
-      {
-        if (ids->GetId(i) < 0 || ids->GetId(i) >= surface->GetNumberOfPoints())
-        {
-          continue; // RequestData says it
-        }
-        double point[3];
-        surface->GetPoint(ids->GetId(i), point);
-        for (std::size_t a = 0; a < 3; ++a)
-        {
-          bounds[2 * a] = std::min(bounds[2 * a], point[a]);
-          bounds[2 * a + 1] = std::max(bounds[2 * a + 1], point[a]);
-        }
-      }
+      mark(ids, used);
     }
+  }
+  if (std::find(used.begin(), used.end(), 1) != used.end())
+  {
+    vtkBoundingBox::ComputeBounds(surface->GetPoints(), used.data(), bounds.data());
   }
   return bounds;
 }
@@ -222,8 +234,9 @@ void ClosedSurface::MergePoints(HostMonitor& host, double end)
   EqualPoints equal(this->Points.data(), this->NumberOfPoints);
   const double begin = host.Reached();
   host.BeginStage(0.5 * (begin + end));
-  host.Run(inOrder, this->NumberOfPoints, Grain,
-    [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); });
+  host.Run(
+    inOrder, this->NumberOfPoints, Grain,
+    [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); }, Slow);
   std::int64_t kept = 0;
   host.BeginStage(end);
   host.Run(inOrder, this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
@@ -254,14 +267,17 @@ void ClosedSurface::RequireClosed(const Executor& executor, HostMonitor& host, d
     std::make_unique<SurfaceEdges>(this->Triangles.data(), this->Count, this->NumberOfPoints);
   SurfaceEdges& edges = *this->Edges;
   host.BeginStage(begin + 0.2 * (end - begin));
-  host.Run(inOrder, this->Count, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Count(first, last); });
+  host.Run(
+    inOrder, this->Count, Grain,
+    [&edges](std::int64_t first, std::int64_t last) { edges.Count(first, last); }, Slow);
   host.BeginStage(begin + 0.5 * (end - begin));
-  host.Run(inOrder, this->Count, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Sort(first, last); });
+  host.Run(
+    inOrder, this->Count, Grain,
+    [&edges](std::int64_t first, std::int64_t last) { edges.Sort(first, last); }, Slow);
   host.BeginStage(end);
-  host.Run(executor, this->NumberOfPoints, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Pair(first, last); });
+  host.Run(
+    executor, this->NumberOfPoints, Grain,
+    [&edges](std::int64_t first, std::int64_t last) { edges.Pair(first, last); }, Slower);
   if (edges.Open() > 0 || edges.NonManifold() > 0)
   {
     std::ostringstream message;
@@ -305,8 +321,10 @@ void ClosedSurface::Orient(HostMonitor& host)
 {
   SurfaceOrientation orientation(
     this->Points.data(), this->Triangles.data(), this->Count, *this->Edges);
-  host.Run(SerialExecutor(), this->Count, Grain,
-    [&orientation](std::int64_t first, std::int64_t last) { orientation.Visit(last - first); });
+  host.Run(
+    SerialExecutor(), this->Count, Grain,
+    [&orientation](std::int64_t first, std::int64_t last) { orientation.Visit(last - first); },
+    Slow);
   orientation.Visit(1); // turns the last component
   if (!orientation.IsOrientable())
   {

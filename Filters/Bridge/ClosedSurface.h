@@ -20,8 +20,8 @@ namespace RectifiedTransport
 
 class SolidGrid;
 
-// The bounds of the points that polygons and strips use; NaN counts for nothing. The first is above
-// the second if there are none.
+// The bounds of the points that polygons and strips use; the first is above the second if there are
+// none.
 std::array<double, 6> polygonBounds(vtkPolyData* surface);
 
 class ClosedSurface

@@ -28,7 +28,8 @@ SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double
   double farthest = 0.0;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    longest = std::max(longest, bounds[2 * a + 1] - bounds[2 * a]);
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    longest = std::isfinite(length) ? std::max(longest, length) : HUGE_VAL;
     farthest = std::max({ farthest, std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1]) });
   }
   const double grown = longest * (1.0 + 2.0 * padding);
