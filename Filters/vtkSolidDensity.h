@@ -79,8 +79,8 @@ public:
 
   ///@{
   /**
-   * The square root of the number of lines through a cell, 1 to 16, because the crossings of a layer
-   * of cells are held in memory. Default 2.
+   * The square root of the number of lines through a cell, 1 to 16, because the crossings of a
+   * layer of cells are held in memory. Default 2.
    */
   vtkSetMacro(Supersampling, int);
   vtkGetMacro(Supersampling, int);
