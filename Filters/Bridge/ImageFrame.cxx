@@ -56,6 +56,14 @@ ImageFrame::ImageFrame(vtkInformation* information)
   get(vtkDataObject::DIRECTION(), this->Direction);
 }
 
+ImageFrame::ImageFrame(const std::array<int, 3>& points, const std::array<double, 3>& origin,
+  const std::array<double, 3>& spacing)
+  : Extent{ 0, points[0] - 1, 0, points[1] - 1, 0, points[2] - 1 }
+  , Origin(origin)
+  , Spacing(spacing)
+{
+}
+
 ImageFrame::ImageFrame(const double (&bounds)[6])
 {
   constexpr double flat = 1e-9;

@@ -21,6 +21,10 @@ public:
   // What a pipeline has published; it has no points where it has published no extent.
   explicit ImageFrame(vtkInformation* information);
 
+  // Points along the coordinate axes.
+  ImageFrame(const std::array<int, 3>& points, const std::array<double, 3>& origin,
+    const std::array<double, 3>& spacing);
+
   // A box along the coordinate axes, {x0, x1, y0, y1, z0, z1}: one cell, and no axis where the box
   // is flat (a billionth of its longest side is rounding).
   explicit ImageFrame(const double (&bounds)[6]);

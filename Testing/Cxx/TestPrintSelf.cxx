@@ -4,6 +4,7 @@
 
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"
+#include "vtkSolidDensity.h"
 #include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
 #include "vtkUniformSeedSource.h"
@@ -95,6 +96,21 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, cells,
     { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Integrator: Adaptive",
       "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "Threading: VTK" });
+
+  vtkNew<vtkSolidDensity> solid;
+  expectLines(checks, solid,
+    { "Resolution: 64", "Supersampling: 2", "Padding: 0.05", "Association: Points",
+      "Threading: Auto" });
+  solid->SetResolution(77);
+  solid->SetSupersampling(5);
+  solid->SetPadding(0.5);
+  solid->SetAssociationToCells();
+  solid->SetThreadingToSerial();
+  expectLines(checks, solid,
+    { "Resolution: 77", "Supersampling: 5", "Padding: 0.5", "Association: Cells",
+      "Threading: Serial" });
+  solid->SetAssociation(9);
+  CHECK(checks, solid->GetAssociationAsString() == std::string("Unknown"));
 
   vtkNew<vtkTransportQuality> quality;
   expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });

@@ -92,6 +92,17 @@ class Errors(unittest.TestCase):
         quality.BlockSize = 3
         self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
 
+    def test_solid(self):
+        solid = simple.SolidDensity(Input=simple.Plane(XResolution=3))
+        heard = Listener(solid.GetClientSideObject())
+        self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
+        self.assertIn("8 open edges and 0 non-manifold edges", heard.errors[0])
+        solid.Input = simple.Box()  # its sides have points of their own, which are merged
+        self.assertEqual(output_of(solid).GetDimensions(), (64, 64, 64))
+        solid.Supersampling = 17
+        self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
+        self.assertIn("Supersampling is 17; it must be from 1 to 16", heard.errors[-2])
+
     def test_warp_outside_warns(self):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),
                                             Density=producer(simple, density_image()))

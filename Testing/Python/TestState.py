@@ -10,7 +10,7 @@ simple = load_plugin()
 
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
-         "EqualMassCells")
+         "EqualMassCells", "SolidDensity")
 
 
 def pipeline():
@@ -31,6 +31,8 @@ def pipeline():
                             InvertDensity=1, BlockSize=32)
     simple.EqualMassCells(registrationName="Cells", Input=seeds, Domain=photograph, Resolution=60,
                           CostExponent=4, NumberOfSteps=20)
+    simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
+                        Supersampling=3, Padding=0.25, Association="Cells", Threading="Serial")
 
 
 def digests():
@@ -72,6 +74,9 @@ class State(unittest.TestCase):
         self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
         cells = simple.FindSource("Cells")
         self.assertEqual((cells.Resolution, cells.CostExponent, cells.NumberOfSteps), (60, 4, 20))
+        solid = simple.FindSource("Solid")
+        self.assertEqual((solid.Resolution, solid.Supersampling, solid.Padding, solid.Association,
+                          solid.Threading), (20, 3, 0.25, "Cells", "Serial"))
         self.assertEqual(digests(), expected)
 
     def test_python_state(self):
@@ -93,7 +98,7 @@ class State(unittest.TestCase):
 
     def assert_calls(self, script):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
-                     "TransportQuality(", "EqualMassCells("):
+                     "TransportQuality(", "EqualMassCells(", "SolidDensity("):
             self.assertIn(call, script)
 
 
