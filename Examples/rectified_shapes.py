@@ -41,8 +41,8 @@ SHAPES = {"armadillo": ("armadillo.off", "-x", "+y"),
           "rotor": ("rotor.off", "+y", "+z"),
           "spot": ("spot.vtp", "-z", "+y"),
           "triceratops": ("triceratops.off", "+x", "+y")}
-COLOURS = np.array([[25, 70, 140], [200, 80, 20], [20, 120, 70], [120, 40, 120]], float)
-WHOLE = (0.06, 0.94, 0.06, 0.94)  # the box of a shape that is alone
+COLOURS = np.array([[25, 75, 160], [190, 35, 65], [15, 125, 90], [215, 130, 15]], float)
+MARGIN = 0.06  # around silhouettes, of the side of the image
 FINE = 4  # points along the sides of a pixel that its covered part is counted with
 
 
@@ -51,36 +51,47 @@ def read_off(path):
     with open(path, encoding="utf-8", errors="replace") as file:
         lines = [line for line in re.sub("#.*", "", file.read()).splitlines() if line.strip()]
     words = " ".join(lines[:2]).split()
-    if words[0] not in ("OFF", "COFF", "NOFF", "CNOFF"):  # colours and normals come after x, y, z
-        sys.exit("%s starts with %s; it must be text that starts with OFF" % (path, words[0]))
-    points, faces = int(words[1]), int(words[2])
-    lines = lines[1 if len(lines[0].split()) > 1 else 2:]
-    coordinates = np.array([line.split()[:3] for line in lines[:points]], float)
-    corners = [np.array(line.split(), int) for line in lines[points:points + faces]]
-    corners = [corner[1:1 + corner[0]] for corner in corners]
+    try:
+        if words[0] not in ("OFF", "COFF", "NOFF", "CNOFF"):  # normals and colours follow x, y, z
+            raise ValueError
+        points, faces = int(words[1]), int(words[2])
+        lines = lines[1 if len(lines[0].split()) > 1 else 2:]
+        coordinates = np.array([line.split()[:3] for line in lines[:points]], float)
+        corners = [line.split() for line in lines[points:points + faces]]
+        corners = [np.array(corner[1:1 + int(corner[0])], np.int64) for corner in corners]
+        if coordinates.shape != (points, 3) or not 0 < faces == len(corners):
+            raise ValueError
+        ids = np.concatenate(corners)
+        if ids.min() < 0 or ids.max() >= points:
+            raise ValueError
+    except (IndexError, ValueError):
+        sys.exit(path + " holds no polygons of the Object File Format as text")
 
     mesh = vtkPolyData()
     mesh.SetPoints(vtkPoints())
     mesh.GetPoints().SetData(numpy_to_vtk(coordinates, deep=1))
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(np.cumsum([0, *map(len, corners)]), deep=1),
-                  numpy_to_vtkIdTypeArray(np.concatenate(corners), deep=1))
+                  numpy_to_vtkIdTypeArray(ids, deep=1))
     mesh.SetPolys(cells)
     return mesh
 
 
 def read_mesh(name):
     """The mesh of a shape that is named above, or of a file, and its axes right and up."""
-    file, right, up = SHAPES.get(name, (name, "+x", "+y"))
-    path = file
+    path, right, up = SHAPES.get(name, (name, "+x", "+y"))
     if name in SHAPES:
-        path = os.path.join(example.DATA if file == "spot.vtp" else MESHES, file)
+        path = os.path.join(example.DATA if name == "spot" else MESHES, path)
     if not os.path.isfile(path):
-        sys.exit("There is no file %s%s" % (path, "; \"bash Examples/run.sh\" fetches it"
-                                            if name in SHAPES else ""))
+        sys.exit("There is no file %s; %s" % (path, "bash Examples/run.sh fetches it"
+                                              if name in SHAPES else
+                                              "the shapes with names are " + ", ".join(SHAPES)))
     if path.endswith(".off"):
         return read_off(path), right, up
-    mesh = example.fetch(simple.OpenDataFile(path))
+    try:
+        mesh = example.fetch(simple.OpenDataFile(path))
+    except RuntimeError:
+        sys.exit("ParaView has no reader for " + path)
     if not mesh or not mesh.IsA("vtkPolyData") or mesh.GetNumberOfPolys() == 0:
         sys.exit(path + " holds no surface that ParaView can read")
     return mesh, right, up
@@ -110,27 +121,27 @@ def posed(name):
     return moved(mesh, pose)
 
 
-def silhouette(parts, size):
-    """The image of size x size pixels of 0 to 1 that shapes cover, each in a box x0, x1, y0, y1 of
-    the unit square, as large as it fits in."""
+def silhouette(names, size):
+    """The image of size x size pixels of 0 to 1 that a shape covers, or two of them, left+right."""
     fine = vtkImageData()
     fine.SetDimensions(FINE * size, FINE * size, 1)
     fine.SetSpacing(1 / FINE, 1 / FINE, 1)
     fine.SetOrigin(0.5 / FINE, 0.5 / FINE, 0)
-    covered = np.zeros((FINE * size, FINE * size), np.uint8)
-    for name, box in parts:
+    covered = np.zeros(fine.GetNumberOfPoints(), bool)
+    names = names.split("+")
+    width = (1 - MARGIN) / len(names)
+    for i, name in enumerate(names):
         mesh = posed(name)
         low, high = np.array(mesh.GetBounds()).reshape(3, 2)[:2].T
-        corner, end = size * np.array(box).reshape(2, 2).T
+        zoom = min((width - MARGIN, 1 - 2 * MARGIN) / (high - low))
         place = vtkTransform()
-        place.Translate(*(corner + end) / 2, 0)
-        place.Scale(*[min((end - corner) / (high - low))] * 2, 0)
+        place.Scale(size, size, 0)
+        place.Translate((1 + (2 * i + 1 - len(names)) * width) / 2, 0.5, 0)
+        place.Scale(zoom, zoom, 1)
         place.Translate(*-(low + high) / 2, 0)
         probe = figures.apply(vtkProbeFilter(), fine, SourceData=moved(mesh, place))
-        covered |= vtk_to_numpy(probe.GetPointData().GetArray("vtkValidPointMask")).reshape(
-            covered.shape).astype(np.uint8)
-    parts = covered.reshape(size, FINE, size, FINE).mean(axis=(1, 3))
-    return figures.image_of(parts)
+        covered |= vtk_to_numpy(probe.GetPointData().GetArray("vtkValidPointMask")) > 0
+    return figures.image_of(covered.reshape(size, FINE, size, FINE).mean(axis=(1, 3)))
 
 
 def inked(image, colour):
@@ -163,6 +174,13 @@ class Watch:
         return now - before
 
 
+def pairs(parser, names):
+    """Names two by two."""
+    if len(names) == 0 or len(names) % 2:
+        parser.error("%d shapes are given; it must be two, or more pairs" % len(names))
+    return list(zip(names[::2], names[1::2]))
+
+
 def surface(density):
     """Where a density is half of that of a solid, with its gradients as normals."""
     return simple.Contour(Input=density, ContourBy=["POINTS", "Density"], Isosurfaces=[0.5],
@@ -170,7 +188,7 @@ def surface(density):
 
 
 def lit(mesh, colour, pixels):
-    """The picture of a surface from the right and above; the unit box fills it."""
+    """The picture of a surface in the unit box around the origin, from the right and above."""
     view = example.picture_view([pixels, pixels], [1, 1, 1])
     shown = simple.Show(mesh, view, "GeometryRepresentation")
     shown.ColorArrayName = [None, ""]
@@ -180,7 +198,7 @@ def lit(mesh, colour, pixels):
     view.CameraFocalPoint = [0, 0, 0]
     view.CameraPosition = [1.3, 0.9, 2.6]
     view.CameraViewUp = [0, 1, 0]
-    view.CameraParallelScale = 0.62
+    view.CameraParallelScale = 0.6
     picture = figures.drawn(example.save_picture, view)
     simple.Delete(view)
     return picture

@@ -14,7 +14,7 @@ from paraview import simple
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "knot", "armadillo"],
+    parser.add_argument("shapes", nargs="*", default=["spot", "knot", "elephant"],
                         help="three closed surfaces, top, left and right: names of "
                         "rectified_shapes.py or files")
     parser.add_argument("--resolution", type=figures.at_least(8), default=96,
@@ -28,34 +28,33 @@ def main():
         parser.error("%d shapes are given; it must be three" % len(arguments.shapes))
 
     example.load_plugin()
-    watch = shapes.Watch()
     solids = [simple.SolidDensity(Input=example.producer(shapes.posed(name)),
                                   Resolution=arguments.resolution) for name in arguments.shapes]
+    watch = shapes.Watch()
     for solid in solids:
         figures.result(solid)
     voxels = watch.lap()
-    middle = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
-    contour = shapes.surface(middle)
+    mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
+    contour = shapes.surface(mean)
     step, last = arguments.panel, arguments.rows - 1
     picture = np.full((arguments.rows * step, arguments.rows * step, 3), 255, np.uint8)
     times = []
     for row in range(arguments.rows):
         for column in range(row + 1):
-            middle.Weights = [(last - row) / last, (row - column) / last, column / last]
+            mean.Weights = [(last - row) / last, (row - column) / last, column / last]
             watch.lap()
-            density = figures.result(middle)
-            figures.result(contour)
+            density = figures.result(mean)
+            contour.UpdatePipeline()
             times.append(watch.lap())
             left, low = round((last - row) / 2 * step) + column * step, (last - row) * step
             picture[low:low + step, left:left + step] = shapes.lit(
-                contour, shapes.mixed(middle.Weights), step)
-    figures.table("Seconds; a grid of %d x %d x %d values and as many particles"
-                  % density.GetDimensions(),
+                contour, shapes.mixed(mean.Weights), step)
+    figures.table("%d x %d x %d cells with as many particles: seconds" % density.GetDimensions(),
                   ["stage", "clock", "all processors", "paper, 256\u00b3, 32 cores"],
                   [[what, *("%.2f" % seconds for seconds in time), paper] for what, time, paper in
                    (("three solids", voxels, "-"),
-                    ("three maps, and the first surface", times[0], "1394"),
-                    ("another surface", np.mean(times[1:], axis=0), "about 4"))])
+                    ("three maps, the first barycenter and surface", times[0], "1394"),
+                    ("another barycenter and surface", np.mean(times[1:], axis=0), "4"))])
     print("\nAt most %.2f GiB of memory" % shapes.peak_memory())
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "barycenters-3d.png")

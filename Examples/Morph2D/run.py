@@ -11,15 +11,13 @@ import rectified_figures as figures
 import rectified_shapes as shapes
 from paraview import simple
 
-WHOLE = shapes.WHOLE
-LEFT, RIGHT = (0.04, 0.48, 0.1, 0.9), (0.52, 0.96, 0.1, 0.9)
-PAIRS = (("one piece into two", [("bunny", WHOLE)], [("camel", LEFT), ("dinosaur", RIGHT)]),
-         ("holes into others", [("knot", WHOLE)], [("coupling", WHOLE)]),
-         ("a piece into one with holes", [("bull", WHOLE)], [("rings", WHOLE)]))
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("shapes", nargs="*", default=["bunny", "camel+dinosaur", "knot",
+                                                      "coupling", "bull", "rings"],
+                        help="pairs of shapes, a morph each: names of rectified_shapes.py or files "
+                        "of surfaces, or two joined by + to be side by side")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
                         help="pixels along the sides of the images, with one particle each")
     parser.add_argument("--frames", type=figures.at_least(2), default=7, help="pictures of a morph")
@@ -27,12 +25,12 @@ def main():
                         help="side of each of the pictures")
     parser.add_argument("--output", default=".", help="folder of the picture")
     arguments = parser.parse_args()
+    pairs = shapes.pairs(parser, arguments.shapes)
 
     example.load_plugin()
     rows, pictures = [], []
-    for name, source, target in PAIRS:
-        images = [example.producer(shapes.silhouette(parts, arguments.size))
-                  for parts in (source, target)]
+    for pair in pairs:
+        images = [example.producer(shapes.silhouette(name, arguments.size)) for name in pair]
         morph = simple.MorphDensities(Input=images[0], Target=images[1],
                                       Parameter=0, Kernel="Gaussian")
         watch, line, times = shapes.Watch(), [], []
@@ -42,7 +40,7 @@ def main():
             times.append(watch.lap())
             line.append(("t = %.2f" % t, shapes.inked(image, shapes.mixed([1 - t, t]))))
             watch.lap()
-        rows.append([name, *("%.3f / %.3f" % tuple(time) for time in
+        rows.append(["%s to %s" % pair, *("%.3f / %.3f" % tuple(time) for time in
                              (times[0], np.mean(times[1:], axis=0), np.sum(times, axis=0)))])
         pictures.append(line)
     figures.table("%d\u00b2 pixels and as many particles: seconds of the clock / of all processors"

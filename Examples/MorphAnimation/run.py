@@ -47,7 +47,8 @@ def flat_view(sources, size, pixels):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("shapes", nargs="*", default=["camel", "dinosaur"],
-                        help="two shapes: names of rectified_shapes.py or files of surfaces")
+                        help="two shapes: names of rectified_shapes.py or files of surfaces, or two "
+                        "joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
                         help="pixels along the sides of the images, with one particle each")
     parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
@@ -64,8 +65,7 @@ def main():
         parser.error("--seconds is %g; it must be more than 0" % arguments.seconds)
 
     example.load_plugin()
-    images = [shapes.silhouette([(name, shapes.WHOLE)], arguments.size)
-              for name in arguments.shapes]
+    images = [shapes.silhouette(name, arguments.size) for name in arguments.shapes]
     for image in images:
         image.GetPointData().GetScalars().SetName("Density")
     morph = simple.MorphDensities(Input=example.producer(images[0]),
@@ -90,7 +90,6 @@ def main():
     film[0].save(path + ".gif", save_all=True, append_images=film[1:], loop=0,
                  duration=round(1000 * arguments.seconds / (arguments.frames - 1)))
     chosen = np.linspace(0, arguments.frames - 1, arguments.pictures).round().astype(int)
-    middle = frames[0].shape[1] // 2
     figures.montage(path + ".png",
                     [[("%s, t = %.2f" % (words, morph.TimestepValues[i]), frames[i][:, part])
                       for i in chosen]
