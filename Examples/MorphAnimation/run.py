@@ -46,11 +46,11 @@ def flat_view(sources, size, pixels):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["camel", "dinosaur"],
+    parser.add_argument("shapes", nargs="*", default=["spot", "elephant"],
                         help="two shapes: names of rectified_shapes.py or files of surfaces, or two "
                         "joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images, with one particle each")
+                        help="pixels along the sides of the images, with four particles each")
     parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
     parser.add_argument("--seconds", type=float, default=2, help="that it takes, one way")
     parser.add_argument("--pictures", type=figures.at_least(2), default=5,
@@ -70,7 +70,7 @@ def main():
         image.GetPointData().GetScalars().SetName("Density")
     morph = simple.MorphDensities(Input=example.producer(images[0]),
                                   Target=example.producer(images[1]), Kernel="Gaussian",
-                                  PublishTime=1, NumberOfTimeSteps=arguments.frames)
+                                  ParticlesPerCell=4, PublishTime=1, NumberOfTimeSteps=arguments.frames)
     figures.result(morph)
     frames = []
     with tempfile.TemporaryDirectory() as folder:
@@ -93,8 +93,8 @@ def main():
     figures.montage(path + ".png",
                     [[("%s, t = %.2f" % (words, morph.TimestepValues[i]), frames[i][:, part])
                       for i in chosen]
-                     for words, part in (("Morph Densities", slice(None, arguments.panel)),
-                                         ("cross-fade", slice(-arguments.panel, None)))],
+                     for words, part in (("morph", slice(None, arguments.panel)),
+                                         ("fade", slice(-arguments.panel, None)))],
                     arguments.panel)
     print("%d frames: %s.gif\n%d of them: %s.png" % (len(frames), path, len(chosen), path))
 
