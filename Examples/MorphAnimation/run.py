@@ -47,8 +47,8 @@ def flat_view(sources, size, pixels):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("shapes", nargs="*", default=["spot", "elephant"],
-                        help="two shapes: names of rectified_shapes.py or files of surfaces, or two "
-                        "joined by +")
+                        help="two shapes: names of rectified_shapes.py or files of surfaces, or "
+                        "two joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
                         help="pixels along the sides of the images, with four particles each")
     parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
@@ -70,7 +70,8 @@ def main():
         image.GetPointData().GetScalars().SetName("Density")
     morph = simple.MorphDensities(Input=example.producer(images[0]),
                                   Target=example.producer(images[1]), Kernel="Gaussian",
-                                  ParticlesPerCell=4, PublishTime=1, NumberOfTimeSteps=arguments.frames)
+                                  ParticlesPerCell=4, PublishTime=1,
+                                  NumberOfTimeSteps=arguments.frames)
     figures.result(morph)
     frames = []
     with tempfile.TemporaryDirectory() as folder:
