@@ -137,6 +137,12 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
   const PivotSettings& settings, FlowCache& tables, const Executor& executor, HostMonitor& host,
   double progress)
 {
+  // They take as much memory as the particles, and a small part of the time to be built.
+  struct Releaser
+  {
+    FlowCache& Tables;
+    ~Releaser() { this->Tables.Release(); }
+  } const releaser{ tables };
   std::int64_t moved = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
@@ -152,8 +158,6 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
       moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, executor, host, end);
     });
   }
-  // They take as much memory as the particles, and a small part of the time to be built.
-  tables.Release();
   return moved;
 }
 
