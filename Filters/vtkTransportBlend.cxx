@@ -222,12 +222,10 @@ int vtkTransportBlend::RequestData(
   // Images keep the scalars of their points from run to run.
   output.Density->GetPointData()->Initialize();
 
-  // All is in the first piece, whatever pieces a consumer of either output asks for.
-  const auto isFirst = [outputVector](int port) {
-    return outputVector->GetInformationObject(port)->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
-  };
+  // All is in the first piece, whatever pieces a consumer asks for. The executive takes both
+  // outputs for the piece that one of them is asked for.
   const int asked = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
-  if (!isFirst(asked))
+  if (outputVector->GetInformationObject(asked)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
   {
     return 1;
   }
@@ -266,10 +264,6 @@ int vtkTransportBlend::RequestData(
     this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), *executor, host, output);
   // Which array it is, is not always known before the data.
   ImageFrame(output.Density).Publish(outputVector->GetInformationObject(0));
-  if (!isFirst(1 - asked))
-  {
-    vtkDataObject::GetData(outputVector, 1 - asked)->Initialize();
-  }
   if (moved > 0)
   {
     vtkWarningMacro(<< moved
