@@ -62,6 +62,10 @@ public:
   // and as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
   ImageFrame WithResolution(int resolution, const char* property) const;
 
+  // Whether the direction matrix has one, without which there is no GetSide. An axis of one point
+  // need not have a direction of its own.
+  bool HasInverse() const;
+
   // To the billionth.
   bool HasDirectionOf(const ImageFrame& other) const;
 
