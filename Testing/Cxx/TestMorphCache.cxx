@@ -198,6 +198,22 @@ void checkPlaces(Checks& checks)
   EXPECT_MAPS(test, false, false);
 }
 
+// One density as both inputs has one map.
+void checkOneDensity(Checks& checks)
+{
+  auto image = makeDensity({ 30, 20, 1 }, true, bumpy);
+  auto morph = makeMorph(image, image);
+  CHECK(checks, builds(morph));
+  CHECK(
+    checks, sameMemory(positionsOf(morph, "SourcePosition"), positionsOf(morph, "TargetPosition")));
+  auto copy = anew(image);
+  morph->SetTargetData(copy);
+  CHECK(checks, !builds(morph));
+  setValue(image, 5.0);
+  auto fresh = makeMorph(image, copy);
+  CHECK(checks, runDensity(morph) == runDensity(fresh));
+}
+
 // Neither an error nor an abort leaves a map that is not of its density.
 void checkFailures(Checks& checks)
 {
@@ -281,6 +297,7 @@ int TestMorphCache(int, char*[])
   checkProperties(checks);
   checkInputs(checks);
   checkPlaces(checks);
+  checkOneDensity(checks);
   checkFailures(checks);
   checkBarycenter(checks);
   return checks.Result();

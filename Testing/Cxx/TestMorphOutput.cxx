@@ -4,8 +4,7 @@
 #include "BlendTest.h"
 
 #include "vtkStringArray.h"
-
-#include <random>
+#include "vtkUnsignedCharArray.h"
 
 namespace
 {
@@ -326,6 +325,29 @@ void checkChoice(Checks& checks)
   CHECK(checks, runDensity(same) == expected);
 }
 
+// Blanked cells have no mass, and what comes out is not blanked.
+void checkGhosts(Checks& checks)
+{
+  auto source = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 1.0; });
+  vtkUnsignedCharArray* flags = source->AllocateCellGhostArray();
+  for (vtkIdType i = 0; i < 120; ++i)
+  {
+    flags->SetValue(i, i % 12 < 6 ? 0 : vtkDataSetAttributes::HIDDENCELL);
+  }
+  auto target = makeDensity({ 12, 10, 1 }, true, bumpy);
+  auto morph = makeMorph(source, target, 0.0);
+  morph->Update();
+  CHECK_NEAR(checks, mapField(morph->GetDensity(), "TotalMass"), 60.0, 1e-12);
+  CHECK(checks, morph->GetDensity()->GetCellGhostArray() == nullptr);
+  const Values places = particlePlaces(morph);
+  double right = 0.0;
+  for (std::size_t i = 0; i < places.size(); i += 3)
+  {
+    right = std::max(right, places[i]);
+  }
+  CHECK_NEAR(checks, right, 6.0, 0.51);
+}
+
 } // namespace
 
 int TestMorphOutput(int, char*[])
@@ -338,5 +360,6 @@ int TestMorphOutput(int, char*[])
   checkReverse(checks);
   checkArrays(checks);
   checkChoice(checks);
+  checkGhosts(checks);
   return checks.Result();
 }
