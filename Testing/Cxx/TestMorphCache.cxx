@@ -245,6 +245,23 @@ void checkFailures(Checks& checks)
     test.Morph->SetParameter(0.5 - 0.1 * from);
     EXPECT_MAPS(test, false, false);
   }
+
+  // Of new settings for the same densities.
+  for (const double from : { 0.0, 0.2, 0.5 })
+  {
+    test.Morph->SetNumberOfSteps(test.Morph->GetNumberOfSteps() / 2);
+    {
+      ProgressTest abort(test.Morph);
+      abort.AbortFrom = from;
+      test.Morph->Update();
+      CHECK(checks, test.Morph->GetAbortExecute() != 0 && isEmpty(test.Morph));
+      test.Morph->SetAbortExecute(0);
+    }
+    test.Morph->Modified();
+    test.Remember();
+    test.Morph->SetParameter(0.2 + 0.1 * from);
+    EXPECT_MAPS(test, false, false);
+  }
   CHECK(checks, messages.Errors.size() == 1);
 }
 

@@ -6,6 +6,8 @@
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <set>
+
 namespace
 {
 
@@ -184,6 +186,31 @@ void checkPlaces(Checks& checks)
     1e-9);
 }
 
+// The flow to a uniform density leaves the particles of the pivot where they are: as many in each
+// cell of the output, none twice.
+void checkPivot(Checks& checks)
+{
+  auto uniform = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 2.0; });
+  auto morph = makeMorph(uniform, makeDensity({ 8, 9, 1 }, true, bumpy), 0.0);
+  morph->SetDimensions(12, 10, 0);
+  for (int perCell = 1; perCell <= 9; ++perCell)
+  {
+    morph->SetParticlesPerCell(perCell);
+    morph->Update();
+    const Values places = particleValues(morph, "SourcePosition");
+    std::vector<int> counts(120, 0);
+    std::set<std::pair<double, double>> different;
+    for (std::size_t i = 0; i < places.size(); i += 3)
+    {
+      ++counts.at(
+        static_cast<std::size_t>(places[i]) + 12 * static_cast<std::size_t>(places[i + 1]));
+      different.insert({ places[i], places[i + 1] });
+    }
+    CHECK(checks, std::count(counts.begin(), counts.end(), perCell) == 120);
+    CHECK(checks, different.size() == 120u * static_cast<std::size_t>(perCell));
+  }
+}
+
 // A copy elsewhere: the pivot is the unit box, so that all particles go the same way.
 void checkTranslation(Checks& checks)
 {
@@ -356,6 +383,7 @@ int TestMorphOutput(int, char*[])
   checkEnds(checks);
   checkMass(checks);
   checkPlaces(checks);
+  checkPivot(checks);
   checkTranslation(checks);
   checkReverse(checks);
   checkArrays(checks);
