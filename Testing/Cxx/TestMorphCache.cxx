@@ -198,6 +198,22 @@ void checkPlaces(Checks& checks)
   EXPECT_MAPS(test, false, false);
 }
 
+// One density as both inputs has one map.
+void checkOneDensity(Checks& checks)
+{
+  auto image = makeDensity({ 30, 20, 1 }, true, bumpy);
+  auto morph = makeMorph(image, image);
+  CHECK(checks, builds(morph));
+  CHECK(
+    checks, sameMemory(positionsOf(morph, "SourcePosition"), positionsOf(morph, "TargetPosition")));
+  auto copy = anew(image);
+  morph->SetTargetData(copy);
+  CHECK(checks, !builds(morph));
+  setValue(image, 5.0);
+  auto fresh = makeMorph(image, copy);
+  CHECK(checks, runDensity(morph) == runDensity(fresh));
+}
+
 // Neither an error nor an abort leaves a map that is not of its density.
 void checkFailures(Checks& checks)
 {
@@ -227,6 +243,23 @@ void checkFailures(Checks& checks)
     test.Morph->Modified();
     test.Remember();
     test.Morph->SetParameter(0.5 - 0.1 * from);
+    EXPECT_MAPS(test, false, false);
+  }
+
+  // Of new settings for the same densities.
+  for (const double from : { 0.0, 0.2, 0.5 })
+  {
+    test.Morph->SetNumberOfSteps(test.Morph->GetNumberOfSteps() / 2);
+    {
+      ProgressTest abort(test.Morph);
+      abort.AbortFrom = from;
+      test.Morph->Update();
+      CHECK(checks, test.Morph->GetAbortExecute() != 0 && isEmpty(test.Morph));
+      test.Morph->SetAbortExecute(0);
+    }
+    test.Morph->Modified();
+    test.Remember();
+    test.Morph->SetParameter(0.2 + 0.1 * from);
     EXPECT_MAPS(test, false, false);
   }
   CHECK(checks, messages.Errors.size() == 1);
@@ -281,6 +314,7 @@ int TestMorphCache(int, char*[])
   checkProperties(checks);
   checkInputs(checks);
   checkPlaces(checks);
+  checkOneDensity(checks);
   checkFailures(checks);
   checkBarycenter(checks);
   return checks.Result();

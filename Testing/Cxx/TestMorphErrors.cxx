@@ -62,9 +62,14 @@ void checkProperties(Checks& checks)
   test.Expect("Parameter is nan; it must be from 0 to 1", __LINE__);
   morph->SetParameter(0.5);
   morph->SetNumberOfTimeSteps(1);
-  test.Expect("NumberOfTimeSteps is 1; it must be at least 2", __LINE__);
+  test.Expect("NumberOfTimeSteps is 1; it must be from 2 to 1000000", __LINE__);
   morph->PublishTimeOn();
-  test.Expect("NumberOfTimeSteps is 1; it must be at least 2", __LINE__);
+  test.Expect("NumberOfTimeSteps is 1; it must be from 2 to 1000000", __LINE__);
+  // It is a list that is published before anything is said.
+  morph->SetNumberOfTimeSteps(std::numeric_limits<int>::max());
+  test.Expect("NumberOfTimeSteps is 2147483647; it must be from 2 to 1000000", __LINE__);
+  morph->SetNumberOfTimeSteps(1000000);
+  test.ExpectNone(30, __LINE__);
   morph->PublishTimeOff();
   morph->SetNumberOfTimeSteps(2);
   morph->SetParticlesPerCell(0);

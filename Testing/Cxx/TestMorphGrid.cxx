@@ -117,10 +117,16 @@ void checkPoints(Checks& checks)
 // Rounding must not add a layer of cells.
 void checkRounding(Checks& checks)
 {
-  const Box source = { { 10, 1, 1 }, { 0.1, 1.0, 1.0 }, { 0.7, 0.0, 0.0 } };
-  const Box target = { { 20, 1, 1 }, { 0.1, 1.0, 1.0 }, { 0.1 + 0.2, 0.0, 0.0 } };
-  expectGrid(checks, makeMorph(makeBox(source, true), makeBox(target, true)),
-    { { 20, 1, 1 }, { 0.1, 1.0, 1.0 }, { 0.3, 0.0, 0.0 } }, true, __LINE__);
+  for (const double low : { 0.0, 0.1, 0.7 })
+  {
+    for (int shift = 1; shift <= 8; ++shift)
+    {
+      const Box source = { { 10, 1, 1 }, { 0.7, 1.0, 1.0 }, { low, 0.0, 0.0 } };
+      const Box target = { { 10, 1, 1 }, { 0.7, 1.0, 1.0 }, { low + 0.7 * shift, 0.0, 0.0 } };
+      expectGrid(checks, makeMorph(makeBox(source, true), makeBox(target, true)),
+        { { 10 + shift, 1, 1 }, { 0.7, 1.0, 1.0 }, { low, 0.0, 0.0 } }, true, __LINE__);
+    }
+  }
   const Box third = { { 3, 1, 1 }, { 1.0 / 3.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 } };
   const Box seventh = { { 7, 1, 1 }, { 1.0 / 7.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 } };
   expectGrid(

@@ -4,8 +4,9 @@
 #include "BlendTest.h"
 
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
-#include <random>
+#include <set>
 
 namespace
 {
@@ -185,6 +186,31 @@ void checkPlaces(Checks& checks)
     1e-9);
 }
 
+// The flow to a uniform density leaves the particles of the pivot where they are: as many in each
+// cell of the output, none twice.
+void checkPivot(Checks& checks)
+{
+  auto uniform = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 2.0; });
+  auto morph = makeMorph(uniform, makeDensity({ 8, 9, 1 }, true, bumpy), 0.0);
+  morph->SetDimensions(12, 10, 0);
+  for (int perCell = 1; perCell <= 9; ++perCell)
+  {
+    morph->SetParticlesPerCell(perCell);
+    morph->Update();
+    const Values places = particleValues(morph, "SourcePosition");
+    std::vector<int> counts(120, 0);
+    std::set<std::pair<double, double>> different;
+    for (std::size_t i = 0; i < places.size(); i += 3)
+    {
+      ++counts.at(
+        static_cast<std::size_t>(places[i]) + 12 * static_cast<std::size_t>(places[i + 1]));
+      different.insert({ places[i], places[i + 1] });
+    }
+    CHECK(checks, std::count(counts.begin(), counts.end(), perCell) == 120);
+    CHECK(checks, different.size() == 120u * static_cast<std::size_t>(perCell));
+  }
+}
+
 // A copy elsewhere: the pivot is the unit box, so that all particles go the same way.
 void checkTranslation(Checks& checks)
 {
@@ -326,6 +352,29 @@ void checkChoice(Checks& checks)
   CHECK(checks, runDensity(same) == expected);
 }
 
+// Blanked cells have no mass, and what comes out is not blanked.
+void checkGhosts(Checks& checks)
+{
+  auto source = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 1.0; });
+  vtkUnsignedCharArray* flags = source->AllocateCellGhostArray();
+  for (vtkIdType i = 0; i < 120; ++i)
+  {
+    flags->SetValue(i, i % 12 < 6 ? 0 : vtkDataSetAttributes::HIDDENCELL);
+  }
+  auto target = makeDensity({ 12, 10, 1 }, true, bumpy);
+  auto morph = makeMorph(source, target, 0.0);
+  morph->Update();
+  CHECK_NEAR(checks, mapField(morph->GetDensity(), "TotalMass"), 60.0, 1e-12);
+  CHECK(checks, morph->GetDensity()->GetCellGhostArray() == nullptr);
+  const Values places = particlePlaces(morph);
+  double right = 0.0;
+  for (std::size_t i = 0; i < places.size(); i += 3)
+  {
+    right = std::max(right, places[i]);
+  }
+  CHECK_NEAR(checks, right, 6.0, 0.51);
+}
+
 } // namespace
 
 int TestMorphOutput(int, char*[])
@@ -334,9 +383,11 @@ int TestMorphOutput(int, char*[])
   checkEnds(checks);
   checkMass(checks);
   checkPlaces(checks);
+  checkPivot(checks);
   checkTranslation(checks);
   checkReverse(checks);
   checkArrays(checks);
   checkChoice(checks);
+  checkGhosts(checks);
   return checks.Result();
 }

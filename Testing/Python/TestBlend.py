@@ -133,6 +133,10 @@ class Morph(Blend):
         np.testing.assert_array_equal(run(morph), morph_of(alone[0], self.images[1]))
         morph.DensityArray = ["CELLS", "Density"]
         np.testing.assert_array_equal(run(morph), morph_of(*self.images[:2]))
+        # One name, on cells of the one and on points of the other.
+        add_array(self.images[1], "A", 1.0 + np.arange(143.0)[::-1] ** 2, cells=False)
+        morph.DensityArray, morph.TargetArray = ["CELLS", "A"], ["POINTS", "A"]
+        np.testing.assert_array_equal(run(morph), morph_of(*alone))
         morph.TargetArray = ["CELLS", "Missing"]
         heard = Listener(morph.GetClientSideObject())
         self.assertEqual(output_of(morph).GetNumberOfPoints(), 0)

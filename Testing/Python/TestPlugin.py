@@ -26,6 +26,10 @@ class Plugin(unittest.TestCase):
                 self.assertEqual(
                     hints.FindNestedElementByName("RepresentationType").GetAttribute("type"),
                     "Point Gaussian")
+            if proxy.class_name in ("vtkTransportInterpolator", "vtkTransportBarycenter"):
+                representation = hints.FindNestedElementByName("RepresentationType")
+                self.assertEqual(representation.GetAttribute("type"), "Point Gaussian")
+                self.assertEqual(representation.GetAttribute("port"), "1")
 
     def test_every_proxy_and_property_is_documented(self):
         for proxy in proxies():

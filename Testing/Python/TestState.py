@@ -10,7 +10,7 @@ simple = load_plugin()
 
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
-         "EqualMassCells", "SolidDensity")
+         "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter")
 
 
 def pipeline():
@@ -33,6 +33,13 @@ def pipeline():
                           CostExponent=4, NumberOfSteps=20)
     simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
                         Supersampling=3, Padding=0.25, Association="Cells", Threading="Serial")
+    parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
+             for first in (100, 200, 300)]
+    simple.MorphDensities(registrationName="Morph", Input=parts[0], Target=parts[1], Parameter=0.25,
+                          MassMode="Geometric", Kernel="Gaussian", Radius=2, ParticlesPerCell=2,
+                          Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7)
+    simple.DensityBarycenter(registrationName="Barycenter", Input=parts, Weights=[1, 0.5, 2],
+                             MassMode="Normalize", InvertDensity=1)
 
 
 def digests():
@@ -77,6 +84,14 @@ class State(unittest.TestCase):
         solid = simple.FindSource("Solid")
         self.assertEqual((solid.Resolution, solid.Supersampling, solid.Padding, solid.Association,
                           solid.Threading), (20, 3, 0.25, "Cells", "Serial"))
+        morph = simple.FindSource("Morph")
+        self.assertEqual((morph.Parameter, morph.MassMode, morph.Kernel, morph.Radius),
+                         (0.25, "Geometric", "Gaussian", 2))
+        self.assertEqual((morph.ParticlesPerCell, list(morph.Dimensions)), (2, [30, 0, 0]))
+        self.assertEqual((morph.PublishTime, morph.NumberOfTimeSteps), (1, 7))
+        barycenter = simple.FindSource("Barycenter")
+        self.assertEqual(list(barycenter.Weights), [1, 0.5, 2])
+        self.assertEqual(len(barycenter.Input), 3)
         self.assertEqual(digests(), expected)
 
     def test_python_state(self):
@@ -98,7 +113,8 @@ class State(unittest.TestCase):
 
     def assert_calls(self, script):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
-                     "TransportQuality(", "EqualMassCells(", "SolidDensity("):
+                     "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
+                     "DensityBarycenter("):
             self.assertIn(call, script)
 
 
