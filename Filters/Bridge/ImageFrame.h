@@ -58,6 +58,9 @@ public:
   // and as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
   ImageFrame WithResolution(int resolution, const char* property) const;
 
+  // The frame that has a point at the centre of each of the cells, counted from 0.
+  ImageFrame AtCellCentres() const;
+
   // To the billionth.
   bool HasDirectionOf(const ImageFrame& other) const;
 
