@@ -211,6 +211,27 @@ ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char
   return frame;
 }
 
+ImageFrame ImageFrame::AtCellCentres() const
+{
+  ImageFrame frame = *this;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
+    if (cells <= 0)
+    {
+      continue;
+    }
+    const double centre = this->Extent[2 * i] + 0.5;
+    for (std::size_t r = 0; r < 3; ++r)
+    {
+      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * centre;
+    }
+    frame.Extent[2 * i] = 0;
+    frame.Extent[2 * i + 1] = cells - 1;
+  }
+  return frame;
+}
+
 ImageFrame ImageFrame::WithResolution(int resolution, const char* property) const
 {
   requireThat(resolution >= 1 && resolution <= most, property, resolution, "from 1 to 1073741824");

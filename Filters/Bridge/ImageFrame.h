@@ -62,6 +62,9 @@ public:
   // and as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
   ImageFrame WithResolution(int resolution, const char* property) const;
 
+  // The frame that has a point at the centre of each of the cells, counted from 0.
+  ImageFrame AtCellCentres() const;
+
   // Whether the direction matrix has one, without which there is no GetSide. An axis of one point
   // need not have a direction of its own.
   bool HasInverse() const;

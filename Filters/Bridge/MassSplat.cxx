@@ -8,6 +8,8 @@
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDoubleArray.h"
 
+#include <vector>
+
 namespace RectifiedTransport
 {
 
@@ -81,6 +83,27 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
   }
   return splatAll<double>(
     { whole->GetPointer(0), count, masses, massEach }, target, executor, host, cells);
+}
+
+double splatMassIn(
+  vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor, HostMonitor& host)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const vtkIdType count = cells->GetNumberOfTuples();
+  const double* values = cells->GetPointer(0);
+  std::vector<double> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0.0);
+  host.Run(executor, count, grain, [&sums, values](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      sums[static_cast<std::size_t>(i / grain)] += values[i];
+    }
+  });
+  double sum = 0.0;
+  for (const double part : sums)
+  {
+    sum += part;
+  }
+  return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
 }
 
 } // namespace RectifiedTransport

@@ -37,6 +37,10 @@ std::int64_t splatPoints(const double* points, std::int64_t count, double massEa
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, const Executor& executor, HostMonitor& host, vtkDoubleArray* cells);
 
+// The mass of all cells that have been written, as the work of the current stage. Throws Aborted.
+double splatMassIn(
+  vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor, HostMonitor& host);
+
 } // namespace RectifiedTransport
 
 #endif

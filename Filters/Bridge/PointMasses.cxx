@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointMasses.h"
+
+#include "Failure.h"
+#include "HostMonitor.h"
+#include "Memory.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr int withoutMass =
+  vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+
+std::string listArrays(vtkPointSet* points)
+{
+  std::string list;
+  vtkPointData* data = points->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = data->GetArray(i))
+    {
+      const char* name = array->GetName();
+      list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
+    }
+  }
+  return list.empty() ? "no point arrays" : list + " (point)";
+}
+
+// What a range of points has, in the order of their indices.
+struct RangeOfMasses
+{
+  double Sum = 0.0;
+  std::int64_t NotFinite = 0;
+  std::int64_t First = -1;
+};
+
+// Copies values, or 1 each, but nothing of ghosts.
+class ReadMasses
+{
+public:
+  ReadMasses(const unsigned char* ghosts, double* masses, std::int64_t count)
+    : Ghosts(ghosts)
+    , Masses(masses)
+    , Ranges(static_cast<std::size_t>((count + grain - 1) / grain))
+    , Count(count)
+  {
+  }
+
+  template <class ArrayT>
+  void operator()(ArrayT* array, const Executor& executor, HostMonitor& host)
+  {
+    host.Run(executor, this->Count, grain, [this, array](std::int64_t first, std::int64_t last) {
+      const auto values = vtk::DataArrayValueRange<1>(array, first, last);
+      auto value = values.begin();
+      this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
+    });
+  }
+
+  void ReadOnes(const Executor& executor, HostMonitor& host)
+  {
+    host.Run(executor, this->Count, grain, [this](std::int64_t first, std::int64_t last) {
+      this->Read(first, last, []() { return 1.0; });
+    });
+  }
+
+  RangeOfMasses All() const
+  {
+    RangeOfMasses all;
+    for (const RangeOfMasses& range : this->Ranges)
+    {
+      all.Sum += range.Sum;
+      all.First = all.NotFinite == 0 ? range.First : all.First;
+      all.NotFinite += range.NotFinite;
+    }
+    return all;
+  }
+
+private:
+  // Ranges may hold several times the grain.
+  template <class Next>
+  void Read(std::int64_t first, std::int64_t last, const Next& next)
+  {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      RangeOfMasses& range = this->Ranges[static_cast<std::size_t>(i / grain)];
+      const double value = next();
+      const bool isGhost = this->Ghosts && (this->Ghosts[i] & withoutMass) != 0;
+      if (!isGhost && !std::isfinite(value))
+      {
+        range.First = range.NotFinite++ == 0 ? i : range.First;
+      }
+      this->Masses[i] = isGhost ? 0.0 : value;
+      range.Sum += this->Masses[i];
+    }
+  }
+
+  const unsigned char* Ghosts;
+  double* Masses;
+  std::vector<RangeOfMasses> Ranges;
+  std::int64_t Count;
+};
+
+} // namespace
+
+vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
+{
+  vtkAbstractArray* found =
+    name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found && (name.empty() || name == "None"))
+  {
+    return nullptr;
+  }
+  const std::string text = "The mass array '" + name + "'";
+  if (!found)
+  {
+    throw Failure("The input has no mass array '" + name + "'; it has " + listArrays(points));
+  }
+  vtkDataArray* array = vtkDataArray::SafeDownCast(found);
+  if (!array)
+  {
+    throw Failure(text + " is not numeric; the input has " + listArrays(points));
+  }
+  const int components = array->GetNumberOfComponents();
+  if (components != 1)
+  {
+    throw Failure(text + " has " + std::to_string(components) + " components; it must have 1");
+  }
+  if (array->GetNumberOfTuples() != points->GetNumberOfPoints())
+  {
+    throw Failure(text + " has " + std::to_string(array->GetNumberOfTuples()) +
+      " values, but there are " + std::to_string(points->GetNumberOfPoints()) +
+      " points; there must be one for each");
+  }
+  return array;
+}
+
+PointMasses::PointMasses(
+  vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host)
+{
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkUnsignedCharArray* ghosts = points->GetPointGhostArray();
+  if (!array && !ghosts)
+  {
+    this->Sum = static_cast<double>(count);
+    return;
+  }
+  this->Array = newArray<vtkDoubleArray>("Mass", 1, count);
+  ReadMasses read(ghosts ? ghosts->GetPointer(0) : nullptr, this->Array->GetPointer(0), count);
+  using Dispatch = vtkArrayDispatch::Dispatch;
+  if (!array)
+  {
+    read.ReadOnes(executor, host);
+  }
+  else if (!Dispatch::Execute(array, read, executor, host))
+  {
+    read(array, executor, host);
+  }
+  const RangeOfMasses all = read.All();
+  this->Sum = all.Sum;
+  const char* name = array ? array->GetName() : nullptr;
+  std::ostringstream message;
+  message << "The mass array '" << (name ? name : "") << "' ";
+  if (all.NotFinite > 0)
+  {
+    message << "has " << all.NotFinite
+            << (all.NotFinite == 1 ? " value that is" : " values that are")
+            << " NaN or infinite, the first at index " << all.First
+            << "; all masses must be finite";
+    throw Failure(message.str());
+  }
+  if (!std::isfinite(all.Sum))
+  {
+    message << "sums to " << all.Sum << "; the sum must be a double";
+    throw Failure(message.str());
+  }
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The masses of the points of an input, checked and in double precision.
+#ifndef RectifiedTransport_PointMasses_h
+#define RectifiedTransport_PointMasses_h
+
+#include "../Core/Executor.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkDataArray;
+class vtkPointSet;
+
+namespace RectifiedTransport
+{
+
+class HostMonitor;
+
+// The array of masses of that name; nullptr for no name, and for "None", which is no array's.
+// Throws Failure if it is missing, not numeric or has several components.
+vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
+
+class PointMasses
+{
+public:
+  PointMasses() = default;
+  // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
+  // Ghosts have no mass. Throws Failure for values that are not finite, and Aborted.
+  PointMasses(
+    vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host);
+
+  // One a point; nullptr for 1 each.
+  const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
+  double Total() const { return this->Sum; }
+
+private:
+  vtkSmartPointer<vtkDoubleArray> Array;
+  double Sum = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMassSplatter.h"
+
+#include "Bridge/Failure.h"
+#include "Bridge/FieldValue.h"
+#include "Bridge/FlowSettings.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/ImageFrame.h"
+#include "Bridge/MassSplat.h"
+#include "Bridge/Memory.h"
+#include "Bridge/PointInput.h"
+#include "Bridge/PointMasses.h"
+#include "Bridge/PropertyCheck.h"
+#include "Bridge/SplatSettings.h"
+
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkMassSplatter);
+
+namespace
+{
+using namespace RectifiedTransport;
+
+const char* const AssociationTexts[] = { "Points", "Cells" };
+
+// The integration's settings hold who runs the loops.
+FlowSettings threadingSettings(int threading)
+{
+  return { 0, 1, 1.0, 0, threading };
+}
+
+void requireDimensions(const int dimensions[3])
+{
+  if (*std::min_element(dimensions, dimensions + 3) < 1)
+  {
+    throw Failure("Dimensions is " + std::to_string(dimensions[0]) + " " +
+      std::to_string(dimensions[1]) + " " + std::to_string(dimensions[2]) +
+      "; it must be at least 1 along every axis");
+  }
+}
+
+vtkImageData* referenceOf(vtkInformationVector* port)
+{
+  vtkDataObject* data = vtkDataObject::GetData(port);
+  vtkImageData* image = vtkImageData::SafeDownCast(data);
+  if (data && !image)
+  {
+    throw Failure(std::string("The Reference has a block of type ") + data->GetClassName() +
+      "; it must be a vtkImageData");
+  }
+  return image;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkMassSplatter::vtkMassSplatter()
+  : Dimensions{ 128, 128, 128 }
+  , Association(POINTS)
+  , Kernel(CLOUD_IN_CELL)
+  , Radius(1.0)
+  , Boundary(RENORMALIZE)
+  , DivideByVolume(true)
+  , Threading(0)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(1);
+  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
+}
+
+//------------------------------------------------------------------------------
+vtkMassSplatter::~vtkMassSplatter() = default;
+
+//------------------------------------------------------------------------------
+SplatSettings vtkMassSplatter::GetSplatSettings()
+{
+  return { this->Kernel, this->Radius, this->Boundary };
+}
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetAssociationAsString()
+{
+  return choiceText(AssociationTexts, this->Association);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetKernelAsString()
+{
+  return this->GetSplatSettings().KernelText();
+}
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetBoundaryAsString()
+{
+  return this->GetSplatSettings().BoundaryText();
+}
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetThreadingAsString()
+{
+  return threadingSettings(this->Threading).ThreadingText();
+}
+
+//------------------------------------------------------------------------------
+void vtkMassSplatter::SetReferenceConnection(vtkAlgorithmOutput* reference)
+{
+  this->SetInputConnection(1, reference);
+}
+
+//------------------------------------------------------------------------------
+void vtkMassSplatter::SetReferenceData(vtkDataObject* reference)
+{
+  this->SetInputData(1, reference);
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkMassSplatter::GetOutput()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkMassSplatter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+ImageFrame vtkMassSplatter::CellsAround(vtkPointSet* points)
+{
+  double bounds[6];
+  points->GetPoints()->GetBounds(bounds); // a data set may count only points that cells use
+  const ImageFrame box(bounds);
+  const std::array<int, 3> most = box.Values(true);
+  int dimensions[3];
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    dimensions[a] = most[a] > 1 ? this->Dimensions[a] : 1;
+  }
+  return box.WithValues(dimensions, false, "Dimensions");
+}
+
+//------------------------------------------------------------------------------
+int vtkMassSplatter::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  ImageFrame frame;
+  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
+  {
+    frame = ImageFrame(inputVector[1]->GetInformationObject(0));
+  }
+  else if (vtkPointSet* points = vtkPointSet::GetData(inputVector[0]))
+  {
+    // The bounds are not known before the data; what is left of the last run is as good a guess as
+    // any, and the data say what is right.
+    try
+    {
+      requireDimensions(this->Dimensions);
+      const ImageFrame cells = points->GetNumberOfPoints() > 0 ? this->CellsAround(points) : frame;
+      frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
+    }
+    catch (const Failure&)
+    {
+      frame = ImageFrame(); // RequestData says it, once
+    }
+  }
+  frame.Publish(outputVector->GetInformationObject(0));
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* vtkMassSplatter::FindMasses(vtkPointSet* points)
+{
+  vtkInformation* choice = this->GetInputArrayInformation(0);
+  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    throw Failure("The field association of the mass array is " + std::to_string(association) +
+      "; it must be 0 (points)");
+  }
+  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
+  return findMasses(points, name ? name : "");
+}
+
+//------------------------------------------------------------------------------
+int vtkMassSplatter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireDimensions(this->Dimensions);
+  requireChoice("Association", this->Association, AssociationTexts);
+  const SplatOptions options = this->GetSplatSettings().Options();
+  const std::unique_ptr<Executor> executor = threadingSettings(this->Threading).MakeExecutor();
+
+  // All is in the first piece, whatever pieces a consumer asks for.
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  if (information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
+  vtkPointSet* input = pointSetOf(inputVector[0]);
+  vtkImageData* reference = referenceOf(inputVector[1]);
+  const vtkIdType count = input ? input->GetNumberOfPoints() : 0;
+  if (!input || (reference ? reference->GetNumberOfPoints() == 0 : count == 0))
+  {
+    return 1;
+  }
+
+  HostMonitor host(this);
+  PointMasses masses;
+  if (count > 0)
+  {
+    vtkDataArray* array = this->FindMasses(input);
+    host.BeginStage(0.1);
+    visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
+    host.BeginStage(0.2);
+    masses = PointMasses(input, array, *executor, host);
+  }
+  const bool onPoints = this->Association == POINTS;
+  const ImageFrame cells = reference ? ImageFrame(reference) : this->CellsAround(input);
+  if (cells.HasOnePoint())
+  {
+    throw Failure(reference
+        ? "The Reference has one point along every axis; it needs at least one axis of two points "
+          "or more"
+        : "The input's points are all at one place, about which there is no box; connect an image "
+          "as the Reference, or points that differ");
+  }
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  cells.CopyTo(output);
+  const ImageGeometry geometry(output, reference && onPoints);
+  const ImageFrame frame = onPoints && !reference ? cells.AtCellCentres() : cells;
+  frame.CopyTo(output);
+  frame.Publish(information); // without a Reference it is not known before the data
+
+  const auto density = newArray<vtkDoubleArray>("Density", 1, geometry.NumberOfCells());
+  const SplatTarget target{ geometry, options, this->DivideByVolume != 0 };
+  const double* noPoints = nullptr;
+  host.BeginStage(0.95);
+  const std::int64_t outside = count > 0
+    ? splatPoints(
+        input->GetPoints()->GetData(), masses.Values(), 1.0, target, *executor, host, density)
+    : splatPoints(noPoints, 0, 1.0, target, *executor, host, density);
+  host.BeginStage(1.0);
+  const double total = options.Boundary == SplatBoundary::Renormalize
+    ? masses.Total()
+    : splatMassIn(density, target, *executor, host);
+  vtkDataSetAttributes* owner =
+    onPoints ? static_cast<vtkDataSetAttributes*>(output->GetPointData()) : output->GetCellData();
+  owner->SetScalars(density);
+  addFieldValue(output, "TotalMass", total);
+  if (outside > 0)
+  {
+    vtkWarningMacro(<< outside << " of " << count << " points are outside the domain; their mass "
+                    << (options.Boundary == SplatBoundary::Renormalize
+                           ? "went to the nearest points of its border"
+                           : "was left out"));
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkMassSplatter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
+     << this->Dimensions[2] << "\n";
+  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  this->GetSplatSettings().Print(os, indent);
+  os << indent << "DivideByVolume: " << (this->DivideByVolume ? "On" : "Off") << "\n";
+  os << indent << "Threading: " << this->GetThreadingAsString() << "\n";
+}
+VTK_ABI_NAMESPACE_END

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkMassSplatter
+ * @brief   spread the mass of points over the cells of an image: a density
+ *
+ * Every point adds its mass to the cells around it, by a kernel that is a product of one kernel for
+ * each axis (Hockney and Eastwood, "Computer Simulation Using Particles", 1988, Section 5-3). What
+ * comes out is the inverse of a sampling: the density of the particles of vtkTransportSampler, or
+ * of any others.
+ *
+ * Input 0 is the points, any vtkPointSet; they weigh by the point array that
+ * `SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)` chooses, of one
+ * component and any numeric type; without a name, or with "None" where there is no such array, each
+ * has the mass 1. Masses may be negative. Points that vtkGhostType marks as duplicates or hidden
+ * have none. Input 1 is optional: the Reference, a vtkImageData of which only the geometry counts,
+ * in 1D, 2D or 3D, with any origin, spacing, direction and extent. Without it the bounds of the
+ * points are cut into `Dimensions` cells; an axis along which they are flat is no axis.
+ *
+ * Output: a vtkImageData with the array `Density` (double, active scalars): mass per length, area
+ * or volume, or with `DivideByVolume` off mass; and beside the points' field data `TotalMass`, the
+ * mass that the image holds: that of all points, or with `Boundary` Drop what is inside. With a
+ * Reference the image has its geometry, and the values are of its cells or of its points, whose
+ * domain reaches half a spacing beyond its bounds. Without, the same values belong to the cells, or
+ * to points at the cells' centres. Along an axis of one value these have no axis: the values stay
+ * per volume of the cells.
+ *
+ * The values times the cells' measure sum to the points' mass, and the centroid is theirs, both to
+ * rounding; for the centroid NearestCell and kernels that reach past the border are exceptions.
+ *
+ * Points outside of the domain (by more than a millionth of its diagonal; with a flat image, those
+ * off its plane too) are moved to the nearest point of the border, or with `Boundary` Drop left out
+ * whole; a warning counts them. No points give an image without mass if there is a Reference, else
+ * an empty one. NaN or infinite coordinates and masses, and points that are all in one place
+ * without a Reference, are errors.
+ *
+ * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell; for points in no order up
+ * to 6 more a point, 16 million at a time. The result is the same to the last bit for every number
+ * of threads: the shares of a cell are added in the order of the points.
+ *
+ * \code{.cpp}
+ * vtkNew<vtkMassSplatter> splatter;
+ * splatter->SetInputData(particles); // a vtkPolyData
+ * splatter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mass");
+ * splatter->SetDimensions(64, 64, 64);
+ * splatter->Update();
+ * vtkImageData* density = splatter->GetOutput();
+ * \endcode
+ *
+ * @sa vtkTransportSampler vtkTransportInterpolator
+ */
+#ifndef vtkMassSplatter_h
+#define vtkMassSplatter_h
+
+#include "vtkGuardedAlgorithm.h"
+
+namespace RectifiedTransport
+{
+class ImageFrame;
+struct SplatSettings;
+} // namespace RectifiedTransport
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithmOutput;
+class vtkDataArray;
+class vtkImageData;
+class vtkPointSet;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkGuardedAlgorithm
+{
+public:
+  static vtkMassSplatter* New();
+  vtkTypeMacro(vtkMassSplatter, vtkGuardedAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Association may be.
+   */
+  enum AssociationType
+  {
+    POINTS = 0,
+    CELLS = 1
+  };
+
+  /**
+   * What Kernel may be.
+   */
+  enum KernelType
+  {
+    CLOUD_IN_CELL = 0,
+    NEAREST_CELL = 1,
+    TRIANGULAR_SHAPED_CLOUD = 2,
+    GAUSSIAN = 3
+  };
+
+  /**
+   * What Boundary may be.
+   */
+  enum BoundaryType
+  {
+    RENORMALIZE = 0,
+    DROP = 1
+  };
+
+  ///@{
+  /**
+   * How many values the output has along x, y and z without a Reference, at least 1 each. Along an
+   * axis on which the points are flat there is one. Default 128 128 128.
+   */
+  vtkSetVector3Macro(Dimensions, int);
+  vtkGetVector3Macro(Dimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the values are those of Points (default), ready for contours and volume rendering, or
+   * of Cells.
+   */
+  vtkSetMacro(Association, int);
+  vtkGetMacro(Association, int);
+  void SetAssociationToPoints() { this->SetAssociation(POINTS); }
+  void SetAssociationToCells() { this->SetAssociation(CELLS); }
+  const char* GetAssociationAsString();
+  ///@}
+
+  ///@{
+  /**
+   * How a point's mass is spread: linearly over 2 cells an axis (CloudInCell, default), into the
+   * cell that holds the point (NearestCell; on a face, the upper one), quadratically over 3 cells
+   * an axis (TriangularShapedCloud), or as a Gaussian of the given Radius.
+   */
+  vtkSetMacro(Kernel, int);
+  vtkGetMacro(Kernel, int);
+  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
+  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
+  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
+  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
+  const char* GetKernelAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
+   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
+   * cell it is the CloudInCell. Default 1.
+   */
+  vtkSetMacro(Radius, double);
+  vtkGetMacro(Radius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Where the part of a kernel goes that is beyond the border: back to its cells inside, axis by
+   * axis (Renormalize, default), or nowhere (Drop).
+   */
+  vtkSetMacro(Boundary, int);
+  vtkGetMacro(Boundary, int);
+  void SetBoundaryToRenormalize() { this->SetBoundary(RENORMALIZE); }
+  void SetBoundaryToDrop() { this->SetBoundary(DROP); }
+  const char* GetBoundaryAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Whether the values are densities, or else the masses of the cells. On by default.
+   */
+  vtkSetMacro(DivideByVolume, vtkTypeBool);
+  vtkGetMacro(DivideByVolume, vtkTypeBool);
+  vtkBooleanMacro(DivideByVolume, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Who runs the parallel loops, a value of vtkTransportAlgorithm::ThreadingType: Auto (default),
+   * VTK, OpenMP or Serial. It changes the time, never the result.
+   */
+  vtkSetMacro(Threading, int);
+  vtkGetMacro(Threading, int);
+  void SetThreadingToAuto() { this->SetThreading(0); }
+  void SetThreadingToVTK() { this->SetThreading(1); }
+  void SetThreadingToOpenMP() { this->SetThreading(2); }
+  void SetThreadingToSerial() { this->SetThreading(3); }
+  const char* GetThreadingAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Give the image whose geometry the output takes (input 1, optional) as the output of another
+   * filter, or as data.
+   */
+  void SetReferenceConnection(vtkAlgorithmOutput* reference);
+  void SetReferenceData(vtkDataObject* reference);
+  ///@}
+
+  /**
+   * The density.
+   */
+  vtkImageData* GetOutput();
+
+protected:
+  vtkMassSplatter();
+  ~vtkMassSplatter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  int Dimensions[3];
+  int Association;
+  int Kernel;
+  double Radius;
+  int Boundary;
+  vtkTypeBool DivideByVolume;
+  int Threading;
+
+private:
+  RectifiedTransport::SplatSettings GetSplatSettings();
+  RectifiedTransport::ImageFrame CellsAround(vtkPointSet* points);
+  vtkDataArray* FindMasses(vtkPointSet* points);
+
+  vtkMassSplatter(const vtkMassSplatter&) = delete;
+  void operator=(const vtkMassSplatter&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif
