@@ -172,7 +172,6 @@ int vtkSolidDensity::RequestData(
   SolidGrid::RequireRanges(this->Resolution, this->Padding);
 
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
-  output->Initialize(); // the executive leaves the scalars of the last run
   vtkPolyData* input = surfaceOf(inputVector[0]);
   if (!input || input->GetNumberOfPoints() == 0)
   {

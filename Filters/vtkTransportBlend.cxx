@@ -17,10 +17,8 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <string>
@@ -214,18 +212,13 @@ int vtkTransportBlend::RequestInformation(
 int vtkTransportBlend::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const BlendSettings settings = this->GetBlendSettings();
   const std::unique_ptr<Executor> executor(this->NewExecutor());
   const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1) };
-  // Images keep the scalars of their points from run to run.
-  output.Density->GetPointData()->Initialize();
 
-  // All is in the first piece, whatever pieces a consumer asks for. The executive takes both
-  // outputs for the piece that one of them is asked for.
-  const int asked = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
-  if (outputVector->GetInformationObject(asked)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0)
+  // All is in the first piece, whatever pieces a consumer asks for.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }
