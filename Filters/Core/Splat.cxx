@@ -199,12 +199,13 @@ private:
       {
         const CellBox<Dimension> box = this->Survey.Slab(slab);
         std::int64_t outside = 0;
-        for (std::int64_t chunk = 0; chunk < this->Survey.NumberOfChunks(); ++chunk)
+        for (std::int64_t chunk = 0;
+             chunk < this->Survey.NumberOfChunks() && !this->Pace.IsCancelled(); ++chunk)
         {
           const typename SplatSurvey<Dimension, Real>::Planes planes = this->Survey.Chunk(chunk);
           const std::int32_t low = box.Low[Dimension - 1];
           const std::int32_t high = box.High[Dimension - 1];
-          if (planes.Low >= high || planes.High <= low || this->Pace.ShouldStop())
+          if (planes.Low >= high || planes.High <= low)
           {
             continue;
           }

@@ -144,8 +144,15 @@ struct Splatted
   std::int64_t Outside = 0;
 };
 
+// A grid's size, of which no template argument is deduced: std::array counts in another type.
+template <int D>
+struct SizeOf
+{
+  using Type = GridSize<D>;
+};
+
 template <int D, class Real>
-Splatted splat(const SplatParticles<D, Real>& particles, const GridSize<D>& size,
+Splatted splat(const SplatParticles<D, Real>& particles, const typename SizeOf<D>::Type& size,
   const SplatOptions& options, const Executor& executor = SerialExecutor())
 {
   // What was in memory does not count.
