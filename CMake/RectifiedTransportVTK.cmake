@@ -15,11 +15,11 @@ if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()
 
-set(vtk_components CommonCore CommonDataModel CommonExecutionModel)
+set(vtk_components CommonCore CommonDataModel CommonExecutionModel FiltersCore)
 set(vtk_optional WrappingPythonCore WrappingTools)
 if (RectifiedTransport_BUILD_TESTING)
   list(APPEND vtk_components
-    FiltersCore FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
+    FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
 endif ()
 if (RectifiedTransport_BUILD_EXAMPLES)
   list(APPEND vtk_components IOImage)

@@ -238,7 +238,7 @@ def stamp(picture, words, left, low, size=16, centred=False):
 
 
 def montage(path, rows, width, gap=10, caption=26):
-    """Writes rows of pictures, each at a width and with its words above, as a PNG."""
+    """Writes rows of pictures, each at a width and with its words, if any, above, as a PNG."""
     strips = []
     for row in rows:
         panels = [(words, fitted(picture, width)) for words, picture in row]
@@ -248,7 +248,8 @@ def montage(path, rows, width, gap=10, caption=26):
             left = gap + i * (width + gap)
             low = gap + height - caption - panel.shape[0]
             strip[low:low + panel.shape[0], left:left + width] = panel
-            stamp(strip[:, :left + width], words, left, gap + height - caption + 4)
+            if words:
+                stamp(strip[:, :left + width], words, left, gap + height - caption + 4)
         strips.append(strip)
     widest = max(strip.shape[1] for strip in strips)
     strips = [np.pad(strip, ((0, 0), (0, widest - strip.shape[1]), (0, 0)), constant_values=255)

@@ -22,7 +22,6 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <cmath>
 #include <string>
@@ -246,7 +245,7 @@ int vtkEqualMassCells::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkEqualMassCells::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(
     this->NormExponent >= 1.0, "NormExponent", this->NormExponent, "at least 1, or infinite");
@@ -258,13 +257,9 @@ int vtkEqualMassCells::RequestData(
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* labelInformation = outputVector->GetInformationObject(0);
-  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
-    if (outputVector->GetInformationObject(port)->Get(
-          vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
-    {
-      return 1;
-    }
+    return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
   vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);

@@ -3,13 +3,16 @@
 
 #include "Bridge/GuardedRun.h"
 
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -56,6 +59,17 @@ void publishTimes(
     }
   }
 }
+// The executive leaves the scalars that the points of an image had in the last run.
+void dropOldScalars(vtkInformationVector* outputVector)
+{
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    if (vtkImageData* image = vtkImageData::GetData(outputVector, i))
+    {
+      image->GetPointData()->Initialize();
+    }
+  }
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -89,6 +103,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
+    dropOldScalars(outputVector);
     return RectifiedTransport::runGuarded(
       this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
   }
@@ -137,6 +152,14 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
     vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int asked = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
+  return outputVector->GetInformationObject(asked)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0;
 }
 
 //------------------------------------------------------------------------------

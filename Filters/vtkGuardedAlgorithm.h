@@ -72,6 +72,12 @@ protected:
   static void RequestWhole(vtkInformationVector* port);
 
   /**
+   * Whether a consumer asks for a piece after the first, which has all that there is. The executive
+   * marks all outputs with the piece that one of them is asked for.
+   */
+  static bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
+
+  /**
    * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
    * outputs.
    */

@@ -21,7 +21,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <string>
@@ -209,7 +208,7 @@ vtkDataArray* vtkMassSplatter::FindMasses(vtkPointSet* points)
 
 //------------------------------------------------------------------------------
 int vtkMassSplatter::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
   requireChoice("Association", this->Association, AssociationTexts);
@@ -224,7 +223,7 @@ int vtkMassSplatter::RequestData(
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* information = outputVector->GetInformationObject(0);
-  if (information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }

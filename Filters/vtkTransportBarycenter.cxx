@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
@@ -33,9 +34,14 @@ vtkTransportBarycenter::~vtkTransportBarycenter() = default;
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetNumberOfWeights(int count)
 {
+  if (count < 0)
+  {
+    vtkErrorMacro(<< "The number of weights is " << count << "; it must be at least 0");
+    return;
+  }
   if (count != this->GetNumberOfWeights())
   {
-    this->Weights->List.resize(static_cast<std::size_t>(std::max(count, 0)));
+    this->Weights->List.resize(static_cast<std::size_t>(count));
     this->Modified();
   }
 }
@@ -93,8 +99,8 @@ void vtkTransportBarycenter::ComputeWeights(int numberOfInputs, double* weights)
   std::ostringstream message;
   if (list.size() != static_cast<std::size_t>(numberOfInputs))
   {
-    message << "There are " << list.size() << " Weights for " << numberOfInputs
-            << " inputs; there must be one for each, or none for equal weights";
+    message << "The number of Weights is " << list.size() << " and that of inputs "
+            << numberOfInputs << "; there must be one for each, or none for equal weights";
     throw RectifiedTransport::Failure(message.str());
   }
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -106,21 +112,17 @@ void vtkTransportBarycenter::ComputeWeights(int numberOfInputs, double* weights)
       throw RectifiedTransport::Failure(message.str());
     }
   }
-  // By the largest first, so that the sum is finite.
   const double largest = *std::max_element(list.begin(), list.end());
   if (largest == 0.0)
   {
     throw RectifiedTransport::Failure("All Weights are 0; at least one must be above 0");
   }
-  double sum = 0.0;
-  for (const double weight : list)
-  {
-    sum += weight / largest;
-  }
-  for (std::size_t i = 0; i < list.size(); ++i)
-  {
-    weights[i] = list[i] / largest / sum;
-  }
+  // Those whose sum is 1 stay as they are; by the largest first only where the sum is not finite.
+  const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
+  std::transform(list.begin(), list.end(), weights,
+    [=](double weight) { return fits ? weight : weight / largest; });
+  const double sum = std::accumulate(weights, weights + numberOfInputs, 0.0);
+  std::for_each(weights, weights + numberOfInputs, [=](double& weight) { weight /= sum; });
 }
 
 //------------------------------------------------------------------------------

@@ -10,7 +10,8 @@
  * Inputs: vtkImageData, by repeated connections to port 0 or as the blocks of a composite data set
  * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order; at least one. The one
  * density array (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are
- * those of vtkTransportBlend.
+ * those of vtkTransportBlend; their extent is published before the data unless blocks of an input
+ * are not there yet.
  *
  * The maps are kept: a change of the weights only takes means and splats, so that 25 barycenters of
  * 4 densities cost 4 maps and 25 splats. Weights 1, 0, 0 ... give the first density, up to what the

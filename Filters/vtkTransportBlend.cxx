@@ -19,8 +19,8 @@
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -44,6 +44,22 @@ struct GivenInput
   int Port;
 };
 
+// The blocks of composite data that are there; other data is a block by itself.
+void gatherBlocks(vtkDataObject* data, std::vector<vtkDataObject*>& blocks)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    blocks.push_back(data);
+    return;
+  }
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    blocks.push_back(leaves->GetCurrentDataObject());
+  }
+}
+
 // The blocks of composite inputs are inputs of their own.
 std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int numberOfPorts)
 {
@@ -52,18 +68,12 @@ std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int num
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], i);
-      if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+      std::vector<vtkDataObject*> blocks;
+      gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocks);
+      for (vtkDataObject* block : blocks)
       {
-        const auto blocks =
-          vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-        for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
-        {
-          inputs.push_back({ blocks->GetCurrentDataObject(), port });
-        }
-        continue;
+        inputs.push_back({ block, port });
       }
-      inputs.push_back({ data, port });
     }
   }
   return inputs;
@@ -148,11 +158,32 @@ int vtkTransportBlend::RequestInformation(
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
-      parts.push_back({ ImageFrame(input), this->IsDensityOnPoints(input, port), "" });
-      if (parts.back().Frame.IsEmpty())
+      vtkDataObject* data = vtkDataObject::GetData(input);
+      if (vtkCompositeDataSet::SafeDownCast(data))
       {
-        return 1; // such as a composite data set, which says nothing of its blocks
+        // It says nothing of its blocks, unless they are there already.
+        std::vector<vtkDataObject*> blocks;
+        gatherBlocks(data, blocks);
+        for (vtkDataObject* block : blocks)
+        {
+          if (auto* image = vtkImageData::SafeDownCast(block))
+          {
+            int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+            this->FindDensityArray(image, port, association);
+            const bool onPoints = association != vtkDataObject::FIELD_ASSOCIATION_CELLS;
+            parts.push_back({ ImageFrame(image), onPoints, "" });
+          }
+        }
+        continue;
       }
+      parts.push_back({ ImageFrame(input), this->IsDensityOnPoints(input, port), "" });
+    }
+  }
+  for (const FramePart& part : parts)
+  {
+    if (part.Frame.IsEmpty())
+    {
+      return 1;
     }
   }
   if (parts.empty())
@@ -179,19 +210,17 @@ int vtkTransportBlend::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkTransportBlend::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const BlendSettings settings = this->GetBlendSettings();
   const std::unique_ptr<Executor> executor(this->NewExecutor());
+  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
+    vtkPolyData::GetData(outputVector, 1) };
 
   // All is in the first piece, whatever pieces a consumer asks for.
-  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
-    if (outputVector->GetInformationObject(port)->Get(
-          vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
-    {
-      return 1;
-    }
+    return 1;
   }
   const std::vector<GivenInput> allGiven = gatherInputs(inputVector, this->GetNumberOfInputPorts());
   std::vector<BlendInput> inputs;
@@ -224,8 +253,6 @@ int vtkTransportBlend::RequestData(
   }
 
   HostMonitor host(this);
-  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1) };
   const std::int64_t moved =
     this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), *executor, host, output);
   // Which array it is, is not always known before the data.

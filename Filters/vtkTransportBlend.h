@@ -79,8 +79,8 @@ public:
   ///@{
   /**
    * How many values the output has along x, y and z of the image, on the smallest box that holds
-   * all domains; 0 (default) is as many as the finest spacing asks for. At least 0 each; along an
-   * axis of one point 0 or 1; for point data 0 or at least 2 along the others.
+   * all domains; 0 is as many as the finest spacing asks for. At least 0 each; along an axis of one
+   * point 0 or 1; for point data 0 or at least 2 along the others. Default 0 0 0.
    */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
@@ -113,8 +113,8 @@ public:
   ///@{
   /**
    * How a particle's mass is spread over the cells about it, as in vtkMassSplatter: CloudInCell
-   * (default; linear, 2 cells along each axis), NearestCell, TriangularShapedCloud (quadratic, 3)
-   * or Gaussian (Radius).
+   * (default) linearly over 2 cells along each axis, NearestCell over one, TriangularShapedCloud
+   * quadratically over 3, Gaussian as Radius says.
    */
   vtkSetMacro(Kernel, int);
   vtkGetMacro(Kernel, int);

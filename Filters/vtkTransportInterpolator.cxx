@@ -19,6 +19,14 @@ namespace
 {
 using RectifiedTransport::requireThat;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+// Of what a host lists and shows; a list of them is published before anything is checked.
+constexpr int mostTimeSteps = 1000000;
+
+bool isNumberOfTimeSteps(int count)
+{
+  return count >= 2 && count <= mostTimeSteps;
+}
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -117,7 +125,7 @@ void vtkTransportInterpolator::KeepTimeFromInputs(vtkInformationVector** inputVe
 int vtkTransportInterpolator::RequestInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (this->PublishTime && this->NumberOfTimeSteps >= 2)
+  if (this->PublishTime && isNumberOfTimeSteps(this->NumberOfTimeSteps))
   {
     std::vector<double> steps;
     for (int i = 0; i < this->NumberOfTimeSteps; ++i)
@@ -149,8 +157,8 @@ int vtkTransportInterpolator::RequestData(
 {
   requireThat(
     this->Parameter >= 0.0 && this->Parameter <= 1.0, "Parameter", this->Parameter, "from 0 to 1");
-  requireThat(
-    this->NumberOfTimeSteps >= 2, "NumberOfTimeSteps", this->NumberOfTimeSteps, "at least 2");
+  requireThat(isNumberOfTimeSteps(this->NumberOfTimeSteps), "NumberOfTimeSteps",
+    this->NumberOfTimeSteps, "from 2 to 1000000");
   this->RunParameter = this->Parameter;
   if (!this->PublishTime)
   {

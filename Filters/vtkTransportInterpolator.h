@@ -78,7 +78,7 @@ public:
 
   ///@{
   /**
-   * How many time steps PublishTime publishes, both ends included: at least 2, default 11.
+   * How many time steps PublishTime publishes, both ends included: 2 to 1000000, default 11.
    */
   vtkSetMacro(NumberOfTimeSteps, int);
   vtkGetMacro(NumberOfTimeSteps, int);

@@ -18,7 +18,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <memory>
 #include <string>
@@ -187,7 +186,7 @@ int vtkTransportMap::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkTransportMap::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
   const FlowOptions options = this->GetFlowOptions();
@@ -195,7 +194,7 @@ int vtkTransportMap::RequestData(
 
   // All samples are in the first piece, whatever pieces a consumer asks for.
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -15,7 +15,6 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <memory>
@@ -95,12 +94,11 @@ int vtkTransportQuality::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportQuality::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
   // The row is in the first piece, whatever pieces a consumer asks for.
-  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -20,7 +20,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 #include <memory>
@@ -287,7 +286,7 @@ int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportSampler::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
   const bool usesGrid =
@@ -303,8 +302,7 @@ int vtkTransportSampler::RequestData(
   const std::unique_ptr<Executor> executor(this->NewExecutor());
 
   // All particles are in the first piece, whatever pieces a consumer asks for.
-  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  if (outputInformation->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -72,6 +72,12 @@ void requireAlike(const FramePart& first, const FramePart& other)
                "makes it so)";
     throw Failure(message.str());
   }
+  if (!first.Frame.HasInverse())
+  {
+    message << first.Name << " has a direction matrix without an inverse, and its geometry is not "
+            << "that of " << other.Name << "; give axes of one point a direction of their own";
+    throw Failure(message.str());
+  }
   const double longest = std::max(longestOf(a), longestOf(b));
   for (std::size_t i = 0; i < 3; ++i)
   {
@@ -140,10 +146,14 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
 ImageFrame commonFrame(const std::vector<FramePart>& parts, const int dimensions[3])
 {
   const FramePart& first = parts.front();
-  std::vector<Sides> all;
+  std::vector<Sides> all{ sidesOf(first) };
   bool same = true;
   for (const FramePart& part : parts)
   {
+    if (part.Frame == first.Frame && part.OnPoints == first.OnPoints)
+    {
+      continue;
+    }
     requireAlike(first, part);
     all.push_back(sidesOf(part));
     same = same && isSame(all.front(), all.back());

@@ -15,6 +15,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -63,6 +64,22 @@ void requireMemoryFor(const PivotSettings& pivot, std::size_t inputs)
   requireMemory(purpose.str(), each * particles);
 }
 
+// An array of values that are not initialised.
+void renew(
+  vtkSmartPointer<vtkDoubleArray>& array, const char* name, int components, std::int64_t tuples)
+{
+  const bool isMine = array && array->GetReferenceCount() == 1;
+  if (!isMine || array->GetNumberOfTuples() != tuples)
+  {
+    array = nullptr;
+    array = newArray<vtkDoubleArray>(name, components, tuples);
+    return;
+  }
+  array->GetInformation()->Clear();
+  array->SetName(name);
+  array->Modified();
+}
+
 // What new maps cost beside what follows from them, in nanoseconds a particle, as measured.
 double partOfMaps(std::size_t newMaps, int dimension, const FlowOptions& flow)
 {
@@ -84,28 +101,32 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   requireMemoryFor(pivot, inputs.size());
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot);
+  if (newMaps > 0)
+  {
+    this->Means = this->Masses = this->Density = nullptr; // the tables take their place
+  }
   const double maps = partOfMaps(newMaps, geometry.Dimension(), settings.Flow);
   const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, executor, host, maps);
 
   host.BeginStage(maps + partOfMean * (1.0 - maps));
-  const auto points = this->MeanPositions(inputs, executor, host);
-  const std::int64_t count = points->GetNumberOfTuples();
+  this->TakeMeans(inputs, executor, host);
+  const std::int64_t count = this->Means->GetNumberOfTuples();
   const double mass = this->TotalMass(inputs, settings.Mode);
   const double massEach = mass / static_cast<double>(count);
   host.BeginStage(maps + partOfParticles * (1.0 - maps));
-  this->WriteParticles(inputs, points, massEach, executor, host, output.Particles);
+  this->WriteParticles(inputs, massEach, executor, host, output.Particles);
   addFieldValue(output.Particles, "TotalMass", mass);
 
   host.BeginStage(1.0);
-  auto density = newArray<vtkDoubleArray>("Density", 1, geometry.NumberOfCells());
-  splatPoints(points->GetPointer(0), count, massEach, { geometry, settings.Splat, true }, executor,
-    host, density);
+  renew(this->Density, "Density", 1, geometry.NumberOfCells());
+  splatPoints(this->Means->GetPointer(0), count, massEach, { geometry, settings.Splat, true },
+    executor, host, this->Density);
   vtkDataSetAttributes* attributes = output.Density->GetPointData();
   if (!onPoints)
   {
     attributes = output.Density->GetCellData();
   }
-  attributes->SetScalars(density);
+  attributes->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
   return moved;
 }
@@ -137,6 +158,12 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
   const PivotSettings& settings, FlowCache& tables, const Executor& executor, HostMonitor& host,
   double progress)
 {
+  // They take as much memory as the particles, and a small part of the time to be built.
+  struct Releaser
+  {
+    FlowCache& Tables;
+    ~Releaser() { this->Tables.Release(); }
+  } const releaser{ tables };
   std::int64_t moved = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
@@ -152,13 +179,11 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
       moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, executor, host, end);
     });
   }
-  // They take as much memory as the particles, and a small part of the time to be built.
-  tables.Release();
   return moved;
 }
 
-vtkSmartPointer<vtkDoubleArray> DensityBlend::MeanPositions(
-  const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host) const
+void DensityBlend::TakeMeans(
+  const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host)
 {
   std::vector<WeightedPositions> parts;
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -166,13 +191,12 @@ vtkSmartPointer<vtkDoubleArray> DensityBlend::MeanPositions(
     parts.push_back({ this->Maps[i].Positions()->GetPointer(0), inputs[i].Weight });
   }
   const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
-  auto mean = newArray<vtkDoubleArray>("Points", 3, count);
+  renew(this->Means, "Points", 3, count);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  double* out = mean->GetPointer(0);
+  double* means = this->Means->GetPointer(0);
   host.Run(executor, count, grain, [&](std::int64_t first, std::int64_t last) {
-    writeWeightedMean(parts, 3 * first, 3 * last, out);
+    writeWeightedMean(parts, 3 * first, 3 * last, means);
   });
-  return mean;
 }
 
 double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const
@@ -191,13 +215,13 @@ double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode m
   return mode == MassMode::Linear ? sum : product;
 }
 
-void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, vtkDoubleArray* positions,
-  double massEach, const Executor& executor, HostMonitor& host, vtkPolyData* output)
+void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
+  const Executor& executor, HostMonitor& host, vtkPolyData* output)
 {
-  const std::int64_t count = positions->GetNumberOfTuples();
+  const std::int64_t count = this->Means->GetNumberOfTuples();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetData(positions);
+  points->SetData(this->Means);
   output->SetPoints(points);
   if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
   {
@@ -216,12 +240,12 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, vtkDoub
       output->GetPointData()->AddArray(named);
     }
   }
-  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
-  double* mass = masses->GetPointer(0);
+  renew(this->Masses, "Mass", 1, count);
+  double* mass = this->Masses->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
   host.Run(executor, count, grain,
     [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
-  output->GetPointData()->AddArray(masses);
+  output->GetPointData()->AddArray(this->Masses);
 }
 
 } // namespace RectifiedTransport

@@ -65,14 +65,19 @@ private:
   std::size_t MatchMaps(const std::vector<BlendInput>& inputs, const PivotSettings& settings);
   std::int64_t UpdateMaps(const std::vector<BlendInput>& inputs, const PivotSettings& settings,
     FlowCache& tables, const Executor& executor, HostMonitor& host, double progress);
-  vtkSmartPointer<vtkDoubleArray> MeanPositions(
-    const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host) const;
+  void TakeMeans(
+    const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
-  void WriteParticles(const std::vector<BlendInput>& inputs, vtkDoubleArray* points, double mass,
+  void WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
     const Executor& executor, HostMonitor& host, vtkPolyData* output);
 
   std::vector<PivotMap> Maps;
   vtkSmartPointer<vtkCellArray> Vertices; // the same for as many particles
+  // Of the last output, written again where nobody else holds them: new memory is cleared by the
+  // system, which takes as long as all else that is done when the maps are there.
+  vtkSmartPointer<vtkDoubleArray> Means;
+  vtkSmartPointer<vtkDoubleArray> Masses;
+  vtkSmartPointer<vtkDoubleArray> Density;
 };
 
 } // namespace RectifiedTransport

@@ -56,6 +56,14 @@ ImageFrame::ImageFrame(vtkInformation* information)
   get(vtkDataObject::DIRECTION(), this->Direction);
 }
 
+ImageFrame::ImageFrame(const std::array<int, 3>& points, const std::array<double, 3>& origin,
+  const std::array<double, 3>& spacing)
+  : Extent{ 0, points[0] - 1, 0, points[1] - 1, 0, points[2] - 1 }
+  , Origin(origin)
+  , Spacing(spacing)
+{
+}
+
 ImageFrame::ImageFrame(const double (&bounds)[6])
 {
   constexpr double flat = 1e-9;
@@ -76,7 +84,7 @@ ImageFrame::ImageFrame(const double (&bounds)[6])
 
 ImageFrame::Side ImageFrame::GetSide(std::size_t axis, bool onPoints) const
 {
-  double inverse[9];
+  double inverse[9] = {}; // so it stays where there is none
   vtkMatrix3x3::Invert(this->Direction.data(), inverse);
   const double* row = inverse + 3 * axis;
   const int first = this->Extent[2 * axis];
@@ -112,6 +120,12 @@ bool ImageFrame::HasDirectionOf(const ImageFrame& other) const
   constexpr double rounding = 1e-9;
   return std::equal(this->Direction.begin(), this->Direction.end(), other.Direction.begin(),
     [](double a, double b) { return std::abs(a - b) <= rounding; });
+}
+
+bool ImageFrame::HasInverse() const
+{
+  constexpr double flat = 1e-12;
+  return std::abs(vtkMatrix3x3::Determinant(this->Direction.data())) > flat;
 }
 
 bool ImageFrame::operator==(const ImageFrame& other) const

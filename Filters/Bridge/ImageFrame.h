@@ -21,6 +21,10 @@ public:
   // What a pipeline has published; it has no points where it has published no extent.
   explicit ImageFrame(vtkInformation* information);
 
+  // Points along the coordinate axes.
+  ImageFrame(const std::array<int, 3>& points, const std::array<double, 3>& origin,
+    const std::array<double, 3>& spacing);
+
   // A box along the coordinate axes, {x0, x1, y0, y1, z0, z1}: one cell, and no axis where the box
   // is flat (a billionth of its longest side is rounding).
   explicit ImageFrame(const double (&bounds)[6]);
@@ -60,6 +64,10 @@ public:
 
   // The frame that has a point at the centre of each of the cells, counted from 0.
   ImageFrame AtCellCentres() const;
+
+  // Whether the direction matrix has one, without which there is no GetSide. An axis of one point
+  // need not have a direction of its own.
+  bool HasInverse() const;
 
   // To the billionth.
   bool HasDirectionOf(const ImageFrame& other) const;

@@ -134,6 +134,24 @@ ImageGeometry::ImageGeometry(vtkImageData* image, bool onPoints)
   }
 }
 
+bool ImageGeometry::operator==(const ImageGeometry& other) const
+{
+  if (this->AxisCount != other.AxisCount)
+  {
+    return false;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    if (this->Axis[i] != other.Axis[i] || this->Cells[i] != other.Cells[i] ||
+      this->Fixed[i] != other.Fixed[i] ||
+      !std::equal(this->Matrix[i], this->Matrix[i] + 4, other.Matrix[i]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::int64_t ImageGeometry::NumberOfCells() const
 {
   std::int64_t cells = 1;

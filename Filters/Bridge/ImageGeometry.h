@@ -24,6 +24,9 @@ public:
   // Throws Failure if there is no axis, or if the cells have no measure.
   ImageGeometry(vtkImageData* image, bool onPoints);
 
+  // Whether index space has the same size, and the same place in physical space.
+  bool operator==(const ImageGeometry& other) const;
+
   int Dimension() const { return this->AxisCount; }
   std::int64_t NumberOfCells() const;
   // The length, area or volume of a cell.

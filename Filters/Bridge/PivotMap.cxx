@@ -39,7 +39,13 @@ void toPhysical(const ImageGeometry& geometry, const double* positions, std::int
 
 bool PivotMap::IsOutdated(const DensityImage& density, const PivotSettings& settings) const
 {
-  return !this->Kept || !(this->Settings == settings) || !this->Stamp.IsOf(density);
+  return !this->Kept || !(this->Settings == settings) || !this->Stamp.IsOf(density) ||
+    !(this->Place == density.Geometry());
+}
+
+bool PivotMap::IsCandidate(const DensityImage& density) const
+{
+  return this->Stamp.IsLike(density) && this->Place == density.Geometry();
 }
 
 std::int64_t PivotMap::Update(DensityImage& density, const PivotSettings& settings,
@@ -52,13 +58,15 @@ std::int64_t PivotMap::Update(DensityImage& density, const PivotSettings& settin
   constexpr double partOfFingerprint = 0.01;
   host.BeginStage(host.Reached() + partOfFingerprint * (progress - host.Reached()));
   DensityStamp stamp = this->Stamp;
-  if (stamp.Renew(density, executor, host) && this->Kept && this->Settings == settings)
+  const bool isSame = stamp.Renew(density, executor, host) && this->Place == density.Geometry();
+  if (isSame && this->Kept && this->Settings == settings)
   {
     this->Stamp = stamp;
     return 0;
   }
   this->Kept = nullptr; // until the particles have arrived
   this->Settings = settings;
+  this->Place = density.Geometry();
   const int dimension = density.Geometry().Dimension();
   const std::int64_t moved = dimension == 1
     ? this->Move<1>(density, tables, executor, host, progress)

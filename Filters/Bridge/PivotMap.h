@@ -38,8 +38,9 @@ public:
   // Whether Update has to look closer, and most likely moves all particles.
   bool IsOutdated(const DensityImage& density, const PivotSettings& settings) const;
 
-  // Whether it was made from this density, its image aside, so that Update may find it the same.
-  bool IsCandidate(const DensityImage& density) const { return this->Stamp.IsLike(density); }
+  // Whether it was made from this density in this place, its image aside, so that Update may find
+  // it the same.
+  bool IsCandidate(const DensityImage& density) const;
 
   // Moves the particles if the density or the settings are others; progress then reaches
   // `progress`. The tables are built in `tables`. Throws Failure and Aborted; the next update then
@@ -59,6 +60,7 @@ private:
     HostMonitor& host, double progress);
 
   DensityStamp Stamp;
+  ImageGeometry Place; // the stamp is of the values alone, the positions are physical
   PivotSettings Settings{};
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;

@@ -186,7 +186,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
         writer.WriteHermite(i, before[i], lanes.Time[i], lanes.Trial, v0, lanes.Position, newest);
       }
     }
-    if (hasPlateaus)
+    if (hasPlateaus && 3 * step >= steps) // before, boxes are wide
     {
       alignas(64) Lanes found;
       plateau.Find(job, lanes.Field, lanes.Position, count, found);

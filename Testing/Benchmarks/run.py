@@ -173,6 +173,11 @@ def filters(r):
           f"as many particles: {milliseconds(r.median('Filters/particles'))}. "
           f"Cells of 1024 sites: {milliseconds(r.median('Filters/cells/512'))} at 512², "
           f"{milliseconds(r.median('Filters/cells/1024'))} at 1024².")
+    sides = ", ".join(f"{milliseconds(r.median(f'Solid/50000/{side}'))} at {side}"
+                      for side in (64, 128, 256))
+    print(f"The density of a solid of 50,000 triangles: {sides}; at 128 of 200,000: "
+          f"{milliseconds(r.median('Solid/200000/128'))}, of 800,000: "
+          f"{milliseconds(r.median('Solid/800000/128'))}.")
 
 
 def run(arguments, names):

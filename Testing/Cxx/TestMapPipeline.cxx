@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How vtkTransportMap lives in a pipeline: what it publishes and keeps, pieces, progress, abort,
 // threads.
+#include "InformationTest.h"
 #include "MapTest.h"
 #include "ProgressTest.h"
 
@@ -13,35 +14,9 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <array>
 
 namespace
 {
-
-// What is published before the data is what the data then is.
-void checkInformation(Checks& checks, vtkTransportMap* map, int line)
-{
-  map->UpdateInformation();
-  vtkInformation* information = map->GetOutputInformation(0);
-  std::array<int, 6> extent{};
-  std::array<double, 3> origin{};
-  std::array<double, 3> spacing{};
-  std::array<double, 9> direction{};
-  information->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
-  information->Get(vtkDataObject::ORIGIN(), origin.data());
-  information->Get(vtkDataObject::SPACING(), spacing.data());
-  information->Get(vtkDataObject::DIRECTION(), direction.data());
-  map->Update();
-  vtkImageData* output = map->GetOutput();
-  const auto same = [&](const auto& published, const auto* values, const char* what) {
-    checks.That(std::equal(published.begin(), published.end(), values), what, line);
-  };
-  checks.That(output->GetNumberOfPoints() > 0, "not empty", line);
-  same(extent, output->GetExtent(), "extent");
-  same(origin, output->GetOrigin(), "origin");
-  same(spacing, output->GetSpacing(), "spacing");
-  same(direction, output->GetDirectionMatrix()->GetData(), "direction");
-}
 
 void checkInformation(Checks& checks)
 {

@@ -5,6 +5,9 @@
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
+#include "vtkSolidDensity.h"
+#include "vtkTransportBarycenter.h"
+#include "vtkTransportInterpolator.h"
 #include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
 #include "vtkUniformSeedSource.h"
@@ -113,6 +116,47 @@ int TestPrintSelf(int, char*[])
       "Boundary: Drop", "DivideByVolume: Off", "Threading: Serial" });
   splatter->SetAssociation(-1);
   CHECK(checks, splatter->GetAssociationAsString() == std::string("Unknown"));
+
+  vtkNew<vtkSolidDensity> solid;
+  expectLines(checks, solid,
+    { "Resolution: 64", "Supersampling: 2", "Padding: 0.05", "Association: Points",
+      "Threading: Auto" });
+  solid->SetResolution(77);
+  solid->SetSupersampling(5);
+  solid->SetPadding(0.5);
+  solid->SetAssociationToCells();
+  solid->SetThreadingToSerial();
+  expectLines(checks, solid,
+    { "Resolution: 77", "Supersampling: 5", "Padding: 0.5", "Association: Cells",
+      "Threading: Serial" });
+  solid->SetAssociation(9);
+  CHECK(checks, solid->GetAssociationAsString() == std::string("Unknown"));
+
+  vtkNew<vtkTransportInterpolator> morph;
+  expectLines(checks, morph,
+    { "Dimensions: 0 0 0", "ParticlesPerCell: 1", "MassMode: Linear", "Kernel: CloudInCell",
+      "Radius: 1", "Parameter: 0.5", "PublishTime: Off", "NumberOfTimeSteps: 11",
+      "NumberOfSteps: 32", "Component: -1" });
+  morph->SetDimensions(7, 8, 9);
+  morph->SetParticlesPerCell(5);
+  morph->SetMassModeToNormalize();
+  morph->SetKernelToGaussian();
+  morph->SetRadius(2.5);
+  morph->SetParameter(0.125);
+  morph->PublishTimeOn();
+  morph->SetNumberOfTimeSteps(31);
+  expectLines(checks, morph,
+    { "Dimensions: 7 8 9", "ParticlesPerCell: 5", "MassMode: Normalize", "Kernel: Gaussian",
+      "Radius: 2.5", "Parameter: 0.125", "PublishTime: On", "NumberOfTimeSteps: 31" });
+  morph->SetMassMode(4);
+  morph->SetKernel(-1);
+  CHECK(checks, morph->GetMassModeAsString() == std::string("Unknown"));
+  CHECK(checks, morph->GetKernelAsString() == std::string("Unknown"));
+
+  vtkNew<vtkTransportBarycenter> barycenter;
+  expectLines(checks, barycenter, { "Weights: equal", "ParticlesPerCell: 1", "MassMode: Linear" });
+  barycenter->SetWeight(1, 0.5);
+  expectLines(checks, barycenter, { "Weights: 0 0.5" });
 
   vtkNew<vtkTransportQuality> quality;
   expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });

@@ -30,7 +30,7 @@ def header_comment(class_name, name):
     found = re.search(pattern % name, header, re.DOTALL)
     if found:
         return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
-    base = re.search(r'#include "(vtk(?:\w*Algorithm|TransportBlend))\.h"', header).group(1)
+    base = re.search(r'#include "(vtkTransportBlend|vtk\w*Algorithm)\.h"', header).group(1)
     return header_comment(base, name)
 
 
@@ -89,6 +89,19 @@ class Defaults(unittest.TestCase):
             self.assertEqual(default, prop.shown_default)
             if prop.texts:
                 self.assertEqual(values.split(", "), list(prop.texts.values()))
+
+    def test_lists_are_empty(self):
+        lists = [(proxy, prop) for proxy in proxies() for prop in proxy.properties.values()
+                 if prop.is_list]
+        self.assertTrue(lists)
+        for proxy, prop in lists:
+            with self.subTest(proxy=proxy.label, property=prop.name):
+                self.assertEqual(prop.element.get("number_of_elements"), "0")
+                self.assertIsNone(prop.default)
+                count = prop.element.get("set_number_command")
+                self.assertEqual(getattr(instance(proxy), "G" + count[1:])(), 0)
+                self.assertTrue(prop.documentation.endswith("Default: none."), prop.documentation)
+                self.assertEqual(page_rows(proxy)[prop.name][0], "none")
 
     def test_page_has_nothing_else(self):
         for proxy in proxies():

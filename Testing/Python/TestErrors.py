@@ -83,6 +83,33 @@ class Errors(unittest.TestCase):
         warp.Blend = -0.5
         self.check(warp, "Blend", "-0.5", "from 0 to 1")
 
+    def test_blends(self):
+        """Of which input it is; both outputs are then empty."""
+        good = producer(simple, density_image((4, 2)))
+        bad = producer(simple, density_image((4, 2), values=np.array([1, 1, 1, -1, 1, 1, 1, 1.0])))
+        flat = producer(simple, density_image((4, 2, 3)))
+        for proxy, message in (
+                (simple.MorphDensities(Input=good, Target=bad), "Target: The density array"),
+                (simple.MorphDensities(Input=bad, Target=good), "Source: The density array"),
+                (simple.MorphDensities(Input=good, Target=flat), "Source has the axes x and y, "),
+                (simple.MorphDensities(Input=good, Target=good, Parameter=2), "Parameter is 2; "),
+                (simple.MorphDensities(Input=good, Target=good, ParticlesPerCell=0),
+                 "ParticlesPerCell is 0; it must be at least 1"),
+                (simple.DensityBarycenter(Input=[good, bad, good]), "Input 2 of 3: The density"),
+                (simple.DensityBarycenter(Input=[good, flat]), "Input 2 of 2 has the axes"),
+                (simple.DensityBarycenter(Input=[good, good], Weights=[1, 2, 3]),
+                 "The number of Weights is 3"),
+                (simple.DensityBarycenter(Input=[good, good], Weights=[1, -1]),
+                 "Weight 1 of the Weights is -1; weights must be finite and at least 0"),
+                (simple.DensityBarycenter(Input=[good, good], Weights=[0, 0]),
+                 "All Weights are 0")):
+            with self.subTest(message=message):
+                heard = Listener(proxy.GetClientSideObject())
+                self.assertEqual(output_of(proxy).GetNumberOfPoints(), 0)
+                particles = proxy.GetClientSideObject().GetOutputDataObject(1)
+                self.assertEqual(particles.GetNumberOfPoints(), 0)
+                self.assertIn(message, heard.errors[0])
+
     def test_quality(self):
         image = producer(simple, density_image())
         quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=0)
@@ -91,6 +118,37 @@ class Errors(unittest.TestCase):
         self.assertIn("BlockSize is 0; it must be at least 1", heard.errors[0])
         quality.BlockSize = 3
         self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
+
+    def test_solid(self):
+        solid = simple.SolidDensity(Input=simple.Plane(XResolution=3))
+        heard = Listener(solid.GetClientSideObject())
+        self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
+        self.assertIn("8 open edges and 0 non-manifold edges", heard.errors[0])
+        solid.Input = simple.Box()  # its sides have points of their own, which are merged
+        self.assertEqual(output_of(solid).GetDimensions(), (64, 64, 64))
+        solid.Supersampling = 17
+        self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
+        self.assertIn("Supersampling is 17; it must be from 1 to 16", heard.errors[-2])
+
+    def test_splat(self):
+        splat = simple.SplatMass(Input=simple.Plane(), Radius=0)
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
+        self.assertIn("Radius is 0; it must be above 0 and at most 10000 cells", heard.errors[0])
+        splat.Radius = 1
+        splat.MassArray = ["POINTS", "Weight"]
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
+        self.assertIn("no mass array 'Weight'", heard.errors[0])
+        splat.MassArray = ["POINTS", "None"]
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 128 * 128)
+
+    def test_splat_outside_warns(self):
+        splat = simple.SplatMass(Input=simple.Plane(),
+                                 Reference=producer(simple, density_image()))
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 13 * 11)
+        self.assertIn("2 of 4 points are outside", heard.warnings[0])
 
     def test_warp_outside_warns(self):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),

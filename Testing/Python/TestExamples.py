@@ -11,8 +11,12 @@ import sys
 import unittest
 
 import numpy as np
+from PIL import Image
 from rt_testing import OUTPUT, SOURCE, main, need_display
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource
+from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
@@ -28,7 +32,18 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
                           "--pictures", "2", "--panel", "128"],
          "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
-                            "--particles", "1000", "--repeats", "2", "--panel", "128"]}
+                            "--particles", "1000", "--repeats", "2", "--panel", "128"],
+         "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
+         "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
+         "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
+                            "--panel", "96"],
+         "Barycenters2D": ["--size", "64", "--rows", "3", "--panel", "96"],
+         "Barycenters3D": ["--resolution", "32", "--rows", "3", "--panel", "120"]}
+SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "Barycenters3D": 3}
+need_meshes = unittest.skipUnless(
+    os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
+    "needs the meshes that Testing/run.sh fetches")
+OWN = {"Figure2Paths", "Figure5Cells"}  # examples that make their input
 
 
 def run(example, *arguments):
@@ -125,8 +140,8 @@ class Examples(unittest.TestCase):
         self.assertTrue(os.path.isfile(os.path.join(OUTPUT, "stipple-own.png")))
 
     def test_no_such_file(self):
-        for example in set(SMALL) - {"Figure2Paths", "Figure5Cells"}:  # with input of their own
-            said, code = run(example, "nowhere.png")
+        for example in set(SMALL) - OWN:
+            said, code = run(example, *["nowhere.png"] * SHAPES.get(example, 1))
             self.assertNotEqual(code, 0)
             self.assertIn("nowhere.png", said)
 
@@ -238,6 +253,100 @@ class Examples(unittest.TestCase):
         self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
         drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
         self.assertTrue(50 < drawn.mean() < 205)
+
+    @need_meshes
+    def test_morph_2d(self):
+        said, code = run("Morph2D")
+        self.assertEqual(code, 0, said)
+        times = tables(said)[0]
+        self.assertEqual([row[0] for row in times],
+                         ["bunny to camel+dinosaur", "knot to coupling", "bull to rings"])
+        self.check_picture("morph-2d.png")
+
+    def test_morph_of_a_shape_into_itself(self):
+        """All of its frames are alike but for the colour."""
+        said, code = run("Morph2D", "spot", "spot")
+        self.assertEqual(code, 0, said)
+        drawn = 255 - read(os.path.join(OUTPUT, "morph-2d.png"))[0].mean(axis=2)
+        frames = [drawn[10:106, left:left + 96] for left in (10, 116, 222)]
+        self.assertTrue(0.1 < (frames[0] > 0.5 * frames[0].max()).mean() < 0.4)
+        for frame in frames[1:]:
+            np.testing.assert_allclose(frame / frame.max(), frames[0] / frames[0].max(), atol=0.02)
+
+    @need_meshes
+    def test_morph_3d(self):
+        said, code = run("Morph3D")
+        self.assertEqual(code, 0, said)
+        for times in tables(said):
+            stages = [row[0] for row in times]
+            maps, step = stages.index("two maps, step t = 0"), stages.index("step t = 0.50")
+            self.assertGreater(first(times[maps][2]), 2 * first(times[step][2]))
+        self.assertEqual(len(tables(said)), 2)
+        self.check_picture("morph-3d.png")
+
+    def test_morph_of_an_own_surface(self):
+        """A cube of separate triangles to itself stays a cube."""
+        source = vtkCubeSource()
+        triangles = vtkTriangleFilter()
+        triangles.SetInputConnection(source.GetOutputPort())
+        writer = vtkSTLWriter()
+        writer.SetInputConnection(triangles.GetOutputPort())
+        writer.SetFileName(os.path.join(OUTPUT, "own.stl"))
+        writer.Write()
+        said, code = run("Morph3D", *[os.path.join(OUTPUT, "own.stl")] * 2)
+        self.assertEqual(code, 0, said)
+        drawn = read(os.path.join(OUTPUT, "morph-3d.png"))[0]
+        inked = [(drawn[10:130, left:left + 120] < 250).any(axis=2).mean() for left in
+                 (10, 140, 270)]
+        self.assertGreater(inked[0], 0.3)
+        np.testing.assert_allclose(inked, inked[0], rtol=0.02)
+
+    def test_not_a_surface(self):
+        for name, text in (("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+                           ("binary.off", "OFF BINARY\n3 1 0\n"), ("broken.stl", "solid\n")):
+            path = os.path.join(OUTPUT, name)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            said, code = run("Morph3D", path, "spot")
+            self.assertNotEqual(code, 0)
+            self.assertIn(path + " holds no ", said)
+        said, code = run("Barycenters3D", "spot", "brain", "knot")
+        self.assertNotEqual(code, 0)
+        self.assertIn("the shapes with names are armadillo, bear", said)
+
+    def test_number_of_shapes(self):
+        for example, number in SHAPES.items():
+            said, code = run(example, "spot")
+            self.assertNotEqual(code, 0)
+            self.assertIn("1 shapes are given; it must be", said)
+
+    @need_meshes
+    def test_morph_animation(self):
+        """The cross-fade's middle is the mean of its ends; the morph's is not, for mass moves."""
+        said, code = run("MorphAnimation")
+        self.assertEqual(code, 0, said)
+        film = Image.open(os.path.join(OUTPUT, "morph-animation.gif"))
+        self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
+        drawn = read(os.path.join(OUTPUT, "morph-animation.png"))[0]
+        for low, fades in (10, True), (142, False):
+            start, middle, end = (drawn[low:low + 96, left:left + 96] for left in (10, 116, 222))
+            difference = np.abs(middle - (start + end) / 2)
+            self.assertEqual((difference > 12).mean() < 0.01, fades)
+        self.check_picture("morph-animation.png")
+
+    @need_meshes
+    def test_barycenters_2d(self):
+        said, code = run("Barycenters2D")
+        self.assertEqual(code, 0, said)
+        self.check_picture("barycenters-2d.png")
+
+    @need_meshes
+    def test_barycenters_3d(self):
+        said, code = run("Barycenters3D")
+        self.assertEqual(code, 0, said)
+        times = tables(said)[0]
+        self.assertGreater(first(times[1][2]), 2 * first(times[2][2]))
+        self.check_picture("barycenters-3d.png")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,10 @@ class Plugin(unittest.TestCase):
                 self.assertEqual(
                     hints.FindNestedElementByName("RepresentationType").GetAttribute("type"),
                     "Point Gaussian")
+            if proxy.class_name in ("vtkTransportInterpolator", "vtkTransportBarycenter"):
+                representation = hints.FindNestedElementByName("RepresentationType")
+                self.assertEqual(representation.GetAttribute("type"), "Point Gaussian")
+                self.assertEqual(representation.GetAttribute("port"), "1")
 
     def test_every_proxy_and_property_is_documented(self):
         for proxy in proxies():
@@ -123,6 +127,28 @@ class Plugin(unittest.TestCase):
             self.assertTrue(accepted.IsInDomains())
             accepted.SetUncheckedInputConnection(0, wrong.SMProxy, 0)
             self.assertFalse(accepted.IsInDomains())
+
+    def test_solid_is_a_density(self):
+        """Points are active for Contour and volume rendering, and a density for other filters."""
+        solid = simple.SolidDensity(Input=simple.Sphere(), Resolution=24)
+        solid.UpdatePipeline()
+        contour = simple.Contour(Input=solid, Isosurfaces=[0.5])
+        self.assertEqual(list(contour.ContourBy), ["POINTS", "Density"])
+        self.assertGreater(output_of(contour).GetNumberOfCells(), 500)
+        particles = simple.SampleDensity(Input=solid, NumberOfParticles=300)
+        self.assertEqual(output_of(particles).GetNumberOfPoints(), 300)
+        self.assertEqual(list(particles.DensityArray), ["POINTS", "Density"])
+        solid.Association = "Cells"
+        self.assertEqual(output_of(solid).GetNumberOfCells(), 24**3)
+        self.assertEqual(solid.GetProperty("Threading").GetPanelVisibility(), "advanced")
+
+    def test_solids_are_of_surfaces(self):
+        image = producer(simple, density_image())
+        solid = simple.SolidDensity(Input=simple.Sphere())
+        accepted = solid.SMProxy.GetProperty("Input")
+        self.assertTrue(accepted.IsInDomains())
+        accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
+        self.assertFalse(accepted.IsInDomains())
 
 
 if __name__ == "__main__":

@@ -10,7 +10,8 @@ simple = load_plugin()
 
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
-         "EqualMassCells")
+         "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
+         "MassSplatter")
 
 
 def pipeline():
@@ -29,8 +30,20 @@ def pipeline():
                                  InvertDensity=1, Blend=0.25, NumberOfSteps=9)
     simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
                             InvertDensity=1, BlockSize=32)
+    simple.SplatMass(registrationName="Splat", Input=sampler, Dimensions=[30, 20, 1],
+                     MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
+                     Boundary="Drop", Association="Cells")
     simple.EqualMassCells(registrationName="Cells", Input=seeds, Domain=photograph, Resolution=60,
                           CostExponent=4, NumberOfSteps=20)
+    simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
+                        Supersampling=3, Padding=0.25, Association="Cells", Threading="Serial")
+    parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
+             for first in (100, 200, 300)]
+    simple.MorphDensities(registrationName="Morph", Input=parts[0], Target=parts[1], Parameter=0.25,
+                          MassMode="Geometric", Kernel="Gaussian", Radius=2, ParticlesPerCell=2,
+                          Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7)
+    simple.DensityBarycenter(registrationName="Barycenter", Input=parts, Weights=[1, 0.5, 2],
+                             MassMode="Normalize", InvertDensity=1)
 
 
 def digests():
@@ -70,8 +83,22 @@ class State(unittest.TestCase):
         self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
         self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
         self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
+        splat = simple.FindSource("Splat")
+        self.assertEqual((splat.Radius, splat.Boundary, list(splat.MassArray)),
+                         (1.5, "Drop", ["POINTS", "Mass"]))
         cells = simple.FindSource("Cells")
         self.assertEqual((cells.Resolution, cells.CostExponent, cells.NumberOfSteps), (60, 4, 20))
+        solid = simple.FindSource("Solid")
+        self.assertEqual((solid.Resolution, solid.Supersampling, solid.Padding, solid.Association,
+                          solid.Threading), (20, 3, 0.25, "Cells", "Serial"))
+        morph = simple.FindSource("Morph")
+        self.assertEqual((morph.Parameter, morph.MassMode, morph.Kernel, morph.Radius),
+                         (0.25, "Geometric", "Gaussian", 2))
+        self.assertEqual((morph.ParticlesPerCell, list(morph.Dimensions)), (2, [30, 0, 0]))
+        self.assertEqual((morph.PublishTime, morph.NumberOfTimeSteps), (1, 7))
+        barycenter = simple.FindSource("Barycenter")
+        self.assertEqual(list(barycenter.Weights), [1, 0.5, 2])
+        self.assertEqual(len(barycenter.Input), 3)
         self.assertEqual(digests(), expected)
 
     def test_python_state(self):
@@ -93,7 +120,9 @@ class State(unittest.TestCase):
 
     def assert_calls(self, script):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
-                     "TransportQuality(", "EqualMassCells("):
+                     "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
+                     "DensityBarycenter(",
+                     "SplatMass("):
             self.assertIn(call, script)
 
 

@@ -18,8 +18,9 @@ SETTINGS += [("Auto", {}), ("Auto", {"VTK_SMP_BACKEND_IN_USE": "STDThread"})]
 
 
 def hashes(threading):
-    """One hash for all patterns in 2D and in 3D, with each integrator once."""
-    from rectifiedtransport import vtkTransportSampler
+    """The hashes of all patterns in 2D and in 3D and of morphs with all kernels, with each
+    integrator once."""
+    from rectifiedtransport import vtkTransportInterpolator, vtkTransportSampler
     from vtkmodules.vtkCommonCore import vtkSMPTools
     if os.environ.get("VTK_SMP_MAX_THREADS"):
         vtkSMPTools.Initialize(int(os.environ["VTK_SMP_MAX_THREADS"]))
@@ -34,6 +35,17 @@ def hashes(threading):
             getattr(sampler, "SetThreadingTo" + threading)()
             sampler.Update()
             lines.append(digest(sampler.GetOutput()))
+    for shape in ((90, 70), (20, 15, 10)):
+        for kernel in range(4):
+            morph = vtkTransportInterpolator()
+            morph.SetInputData(density_image(shape))
+            morph.SetTargetData(density_image(shape, seed=1))
+            morph.SetKernel(kernel)
+            morph.SetParticlesPerCell(kernel + 1)
+            morph.SetIntegrator(kernel)
+            getattr(morph, "SetThreadingTo" + threading)()
+            morph.Update()
+            lines += [digest(morph.GetDensity()), digest(morph.GetParticles())]
     return " ".join(lines)
 
 
@@ -46,7 +58,7 @@ def in_a_process(threading, environment):
 class Threads(unittest.TestCase):
     def test_same_bits(self):
         first = in_a_process(*SETTINGS[0])
-        self.assertEqual(len(first.split()), 10)
+        self.assertEqual(len(set(first.split())), 26)
         for threading, environment in SETTINGS[1:]:
             with self.subTest(threading=threading, **environment):
                 self.assertEqual(in_a_process(threading, environment), first)

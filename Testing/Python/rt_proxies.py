@@ -24,9 +24,16 @@ class Property:
 
     @property
     def is_value(self):
-        """Whether it is numbers with one setter, not an input or an array's choice."""
-        return self.element.tag in ("IntVectorProperty", "DoubleVectorProperty",
-                                    "IdTypeVectorProperty")
+        """Whether it is numbers with one setter, not an input, an array's choice, a list or what
+        is only read."""
+        return (self.element.tag in ("IntVectorProperty", "DoubleVectorProperty",
+                                     "IdTypeVectorProperty")
+                and not self.is_list and not self.element.get("information_only"))
+
+    @property
+    def is_list(self):
+        """Whether it is as many numbers as one likes, set one by one."""
+        return self.element.get("repeat_command") == "1"
 
     @property
     def shown_default(self):

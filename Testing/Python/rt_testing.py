@@ -60,6 +60,14 @@ def points_in(image, number=50, seed=3):
     return data
 
 
+def closed_surface():
+    """A sphere: a vtkPolyData of triangles without an open edge."""
+    from vtkmodules.vtkFiltersSources import vtkSphereSource
+    source = vtkSphereSource()
+    source.Update()
+    return source.GetOutput()
+
+
 def feed(algorithm):
     """Gives small data to the inputs that an algorithm requires."""
     for port in range(algorithm.GetNumberOfInputPorts()):
@@ -67,7 +75,9 @@ def feed(algorithm):
         if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
             image = density_image((4, 3))
             kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
-            algorithm.SetInputData(port, image if kind == "vtkImageData" else points_in(image))
+            algorithm.SetInputData(port, image if kind == "vtkImageData" else
+                                   closed_surface() if kind == "vtkPolyData" else
+                                   points_in(image))
 
 
 def size_of(data):

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Remakes Figure 12 of the paper: barycenters of the silhouettes of four real shapes."""
+import argparse
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+import numpy as np
+import rectified_example as example
+import rectified_figures as figures
+import rectified_shapes as shapes
+from paraview import simple
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("shapes", nargs="*", default=["bunny", "coupling", "spot+bear", "knot"],
+                        help="four shapes, top left, top right, bottom left, bottom right: names "
+                        "of rectified_shapes.py or files of surfaces, or two joined by +")
+    parser.add_argument("--size", type=figures.at_least(8), default=256,
+                        help="pixels along the sides of the images, with one particle each")
+    parser.add_argument("--rows", type=figures.at_least(2), default=5,
+                        help="rows and columns of pictures")
+    parser.add_argument("--panel", type=figures.at_least(16), default=256,
+                        help="side of each of the pictures")
+    parser.add_argument("--output", default=".", help="folder of the picture")
+    arguments = parser.parse_args()
+    if len(arguments.shapes) != 4:
+        parser.error("%d shapes are given; it must be four" % len(arguments.shapes))
+
+    example.load_plugin()
+    images = [example.producer(shapes.silhouette(name, arguments.size))
+              for name in arguments.shapes]
+    mean = simple.DensityBarycenter(Input=images, Kernel="Gaussian")
+    watch, pictures, times = shapes.Watch(), [], []
+    for down in np.linspace(0, 1, arguments.rows):
+        line = []
+        for right in np.linspace(0, 1, arguments.rows):
+            mean.Weights = np.outer([1 - down, down], [1 - right, right]).ravel().tolist()
+            watch.lap()
+            image = figures.result(mean)
+            times.append(watch.lap())
+            line.append(("", shapes.inked(image, shapes.mixed(mean.Weights))))
+        pictures.append(line)
+    figures.table("%d\u00b2 pixels and as many particles" % arguments.size,
+                  ["seconds", "clock", "all processors"],
+                  [[what, *("%.3f" % seconds for seconds in time)] for what, time in
+                   (("four maps, and the first barycenter", times[0]),
+                    ("another barycenter", np.mean(times[1:], axis=0)),
+                    ("all %d barycenters" % len(times), np.sum(times, axis=0)))])
+    os.makedirs(arguments.output, exist_ok=True)
+    path = os.path.join(arguments.output, "barycenters-2d.png")
+    figures.montage(path, pictures, arguments.panel, caption=0)
+    print("\n" + path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plays a morph as ParaView's play button does, beside a cross-fade of the same two images."""
+import argparse
+import os
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+import numpy as np
+import rectified_example as example
+import rectified_figures as figures
+import rectified_shapes as shapes
+from paraview import simple
+from PIL import Image
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+
+def time_series(folder, images):
+    """A reader of images as time steps 0, 1 ..."""
+    files = []
+    for image in images:
+        files.append(os.path.join(folder, "step-%d.vti" % len(files)))
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(files[-1])
+        writer.SetInputData(image)
+        writer.Write()
+    return simple.XMLImageDataReader(FileName=files)
+
+
+def flat_view(sources, size, pixels):
+    """A view of images side by side, white where they are 0 and dark where they are 1."""
+    view = example.picture_view([round(2.05 * pixels), pixels], [1, 1, 1])
+    for column, source in enumerate(sources):
+        place = simple.Transform(Input=source, Transform="Transform")
+        place.Transform.Translate = [1.05 * size * column, 0, 0]
+        shown = simple.Show(place, view, "StructuredGridRepresentation")
+        shown.Ambient, shown.Diffuse = 1, 0
+        simple.ColorBy(shown, ("POINTS", "Density"))
+        shown.SetScalarBarVisibility(view, False)
+    colours = simple.GetColorTransferFunction("Density")
+    colours.RGBPoints = [0, 1, 1, 1, 1, 0.1, 0.27, 0.55]
+    colours.ColorSpace = "RGB"
+    example.look_down(view, [1.025 * size, size / 2], size, 10 * size)
+    return view
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("shapes", nargs="*", default=["spot", "elephant"],
+                        help="two shapes: names of rectified_shapes.py or files of surfaces, or "
+                        "two joined by +")
+    parser.add_argument("--size", type=figures.at_least(8), default=256,
+                        help="pixels along the sides of the images, with four particles each")
+    parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
+    parser.add_argument("--seconds", type=float, default=2, help="that it takes, one way")
+    parser.add_argument("--pictures", type=figures.at_least(2), default=5,
+                        help="how many frames the strip shows")
+    parser.add_argument("--panel", type=figures.at_least(16), default=320,
+                        help="side of each of the pictures")
+    parser.add_argument("--output", default=".", help="folder of the animation and the strip")
+    arguments = parser.parse_args()
+    if len(arguments.shapes) != 2:
+        parser.error("%d shapes are given; it must be two" % len(arguments.shapes))
+    if arguments.seconds <= 0:
+        parser.error("--seconds is %g; it must be more than 0" % arguments.seconds)
+
+    example.load_plugin()
+    images = [shapes.silhouette(name, arguments.size) for name in arguments.shapes]
+    for image in images:
+        image.GetPointData().GetScalars().SetName("Density")
+    morph = simple.MorphDensities(Input=example.producer(images[0]),
+                                  Target=example.producer(images[1]), Kernel="Gaussian",
+                                  ParticlesPerCell=4, PublishTime=1,
+                                  NumberOfTimeSteps=arguments.frames)
+    figures.result(morph)
+    frames = []
+    with tempfile.TemporaryDirectory() as folder:
+        fade = simple.TemporalInterpolator(Input=time_series(folder, images),
+                                           DiscreteTimeStepInterval=1 / (arguments.frames - 1))
+        view = flat_view([morph, fade], arguments.size, arguments.panel)
+        scene = simple.GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        scene.PlayMode = "Snap To TimeSteps"
+        for moment in morph.TimestepValues:
+            scene.AnimationTime = moment
+            frames.append(figures.drawn(example.save_picture, view))
+
+    os.makedirs(arguments.output, exist_ok=True)
+    path = os.path.join(arguments.output, "morph-animation")
+    film = [Image.fromarray(frame[::-1]) for frame in frames + frames[-2:0:-1]]
+    film[0].save(path + ".gif", save_all=True, append_images=film[1:], loop=0,
+                 duration=round(1000 * arguments.seconds / (arguments.frames - 1)))
+    chosen = np.linspace(0, arguments.frames - 1, arguments.pictures).round().astype(int)
+    figures.montage(path + ".png",
+                    [[("%s, t = %.2f" % (words, morph.TimestepValues[i]), frames[i][:, part])
+                      for i in chosen]
+                     for words, part in (("morph", slice(None, arguments.panel)),
+                                         ("fade", slice(-arguments.panel, None)))],
+                    arguments.panel)
+    print("%d frames: %s.gif\n%d of them: %s.png" % (len(frames), path, len(chosen), path))
+
+
+if __name__ == "__main__":
+    main()

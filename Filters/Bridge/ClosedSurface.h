@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The polygons of a vtkPolyData as a closed surface of triangles.
+#ifndef RectifiedTransport_ClosedSurface_h
+#define RectifiedTransport_ClosedSurface_h
+
+#include "../Core/LargeBuffer.h"
+#include "../Core/SolidCoverage.h"
+#include "../Core/SurfaceEdges.h"
+#include "HostMonitor.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+class vtkCellArray;
+class vtkPolyData;
+
+namespace RectifiedTransport
+{
+
+class SolidGrid;
+
+// The bounds of the points that polygons and strips use; the first is above the second if there are
+// none.
+std::array<double, 6> polygonBounds(vtkPolyData* surface);
+
+class ClosedSurface
+{
+public:
+  // Cuts polygons and strips into triangles and merges points of equal coordinates, as stages of
+  // the run up to the progress `end`; lines and vertices do not count. Throws Failure where the
+  // input has no polygons, coordinates that are not finite, or edges that have not two triangles,
+  // and Aborted.
+  ClosedSurface(vtkPolyData* input, const Executor& executor, HostMonitor& host, double end);
+
+  // Gives the points in cells of a grid, and the triangles of each component one orientation, as
+  // stages up to the progress `end`. Throws Failure where there is no orientation, and Aborted.
+  TriangleSurface InCells(
+    const SolidGrid& grid, const Executor& executor, HostMonitor& host, double end);
+
+private:
+  void ReadTriangles(vtkCellArray* triangles, const Executor& executor, HostMonitor& host);
+  void MergePoints(HostMonitor& host, double end);
+  void RequireClosed(const Executor& executor, HostMonitor& host, double end);
+  void Orient(HostMonitor& host);
+
+  LargeBuffer<double> Points;
+  LargeBuffer<std::int64_t> Triangles;
+  std::int64_t NumberOfPoints;
+  std::int64_t Count = 0; // of triangles
+  std::unique_ptr<SurfaceEdges> Edges;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSolidDensity.h"
+
+#include "Bridge/ClosedSurface.h"
+#include "Bridge/Failure.h"
+#include "Bridge/FlowSettings.h"
+#include "Bridge/GridText.h"
+#include "Bridge/HostMonitor.h"
+#include "Bridge/Memory.h"
+#include "Bridge/PropertyCheck.h"
+#include "Bridge/SolidGrid.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkSolidDensity);
+
+namespace
+{
+using namespace RectifiedTransport;
+
+const char* const AssociationTexts[] = { "Points", "Cells" };
+constexpr int MaximumSupersampling = 16;
+
+vtkPolyData* surfaceOf(vtkInformationVector* port)
+{
+  vtkDataObject* data = vtkDataObject::GetData(port);
+  vtkPolyData* surface = vtkPolyData::SafeDownCast(data);
+  if (data && !surface)
+  {
+    throw Failure(std::string("The input has a block of type ") + data->GetClassName() +
+      "; it must be a vtkPolyData, as Extract Surface makes one of it");
+  }
+  return surface;
+}
+
+vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
+  int supersampling, const Executor& executor, HostMonitor& host)
+{
+  const std::string grid = describeSize<3>(cells) + " cells (see Resolution)";
+  const double count = numberOfCells<3>(cells);
+  requireMemory("a density of " + grid, count * sizeof(double));
+  auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
+  host.BeginStage(1.0);
+  const CoverageReport report = withMemory("the surface's " +
+      std::to_string(surface.NumberOfTriangles) + " triangles in the layers of " + grid,
+    static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
+      return coverSolid(
+        surface, cells, supersampling, density->GetPointer(0), executor, host.GetMonitor());
+    });
+  if (report.Cancelled)
+  {
+    throw Aborted();
+  }
+  if (report.OpenLines > 0)
+  {
+    throw Failure("The input surface leaves " + std::to_string(report.OpenLines) +
+      " lines open; it must be closed");
+  }
+  return density;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSolidDensity::vtkSolidDensity()
+  : Resolution(64)
+  , Supersampling(2)
+  , Padding(0.05)
+  , Association(POINTS)
+  , Threading(0)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+vtkSolidDensity::~vtkSolidDensity() = default;
+
+//------------------------------------------------------------------------------
+FlowSettings vtkSolidDensity::GetFlowSettings()
+{
+  return { 0, 1, 1.0, 0, this->Threading };
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSolidDensity::GetAssociationAsString()
+{
+  return choiceText(AssociationTexts, this->Association);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSolidDensity::GetThreadingAsString()
+{
+  return this->GetFlowSettings().ThreadingText();
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkSolidDensity::GetOutput()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkSolidDensity::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSolidDensity::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // How many cells there are depends on the bounds, and image filters that follow would read past
+  // the end of an image that is smaller than announced: the surface has to be there first.
+  int port = 0;
+  if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port))
+  {
+    producer->Update(port);
+  }
+  std::array<double, 6> bounds{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
+  if (surface && surface->GetNumberOfPoints() > 0)
+  {
+    bounds = polygonBounds(surface);
+  }
+  ImageFrame frame;
+  try
+  {
+    frame = SolidGrid(bounds, this->Resolution, this->Padding).Frame(this->Association == POINTS);
+  }
+  catch (const Failure&)
+  {
+    // RequestData says it, once.
+  }
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  frame.Publish(output);
+  vtkDataObject::SetActiveAttributeInfo(output,
+    this->Association == POINTS ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+                                : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSolidDensity::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
+    "Supersampling", this->Supersampling, "from 1 to 16");
+  requireChoice("Association", this->Association, AssociationTexts);
+  const std::unique_ptr<Executor> executor = this->GetFlowSettings().MakeExecutor();
+  SolidGrid::RequireRanges(this->Resolution, this->Padding);
+
+  vtkImageData* output = vtkImageData::GetData(outputVector, 0);
+  vtkPolyData* input = surfaceOf(inputVector[0]);
+  if (!input || input->GetNumberOfPoints() == 0)
+  {
+    return 1;
+  }
+  HostMonitor host(this);
+  ClosedSurface surface(input, *executor, host, 0.4);
+  const SolidGrid grid(polygonBounds(input), this->Resolution, this->Padding);
+  const TriangleSurface triangles = surface.InCells(grid, *executor, host, 0.5);
+  const vtkSmartPointer<vtkDoubleArray> density =
+    cover(triangles, grid.Cells(), this->Supersampling, *executor, host);
+
+  const bool onPoints = this->Association == POINTS;
+  const ImageFrame frame = grid.Frame(onPoints);
+  frame.CopyTo(output);
+  frame.Publish(outputVector->GetInformationObject(0)); // it may have changed with time
+  vtkDataSetAttributes* data = output->GetPointData();
+  if (!onPoints)
+  {
+    data = output->GetCellData();
+  }
+  data->SetScalars(density);
+  output->GetFieldData()->PassData(input->GetFieldData());
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSolidDensity::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "Supersampling: " << this->Supersampling << "\n";
+  os << indent << "Padding: " << this->Padding << "\n";
+  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  os << indent << "Threading: " << this->GetThreadingAsString() << "\n";
+}
+VTK_ABI_NAMESPACE_END

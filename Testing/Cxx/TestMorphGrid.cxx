@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The grid of what lies between densities of different sizes, spacings and boxes: the smallest box
+// of all at the finest spacing, published before the data, the same at every Parameter.
+#include "BlendTest.h"
+#include "InformationTest.h"
+
+#include "vtkImageShrink3D.h"
+#include "vtkPointDataToCellData.h"
+#include "vtkRTAnalyticSource.h"
+
+namespace
+{
+
+using Triple = std::array<double, 3>;
+
+struct Box
+{
+  Counts Values;
+  Triple Spacing;
+  Triple Origin;
+};
+
+vtkSmartPointer<vtkImageData> makeBox(const Box& box, bool cells)
+{
+  auto image = makeDensity(box.Values, cells, bumpy);
+  image->SetSpacing(box.Spacing.data());
+  image->SetOrigin(box.Origin.data());
+  return image;
+}
+
+void expectGrid(Checks& checks, vtkTransportBlend* blend, const Box& box, bool cells, int line)
+{
+  for (const double parameter : { 0.0, 0.3, 1.0 })
+  {
+    if (auto* morph = vtkTransportInterpolator::SafeDownCast(blend))
+    {
+      morph->SetParameter(parameter);
+    }
+    checkInformation(checks, blend, line);
+    vtkImageData* image = blend->GetDensity();
+    const int* extent = image->GetExtent();
+    std::ostringstream found;
+    for (int a = 0; a < 3; ++a)
+    {
+      found << extent[2 * a] << ".." << extent[2 * a + 1] << " " << image->GetSpacing()[a] << " "
+            << image->GetOrigin()[a] << "; ";
+    }
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const int most = box.Values[a] == 1 ? 0 : cells ? box.Values[a] : box.Values[a] - 1;
+      checks.That(extent[2 * a] == 0 && extent[2 * a + 1] == most, "extent", line, found.str());
+      checks.That(std::abs(image->GetSpacing()[a] - box.Spacing[a]) <= 1e-12 &&
+          std::abs(image->GetOrigin()[a] - box.Origin[a]) <= 1e-12,
+        "spacing and origin", line, found.str());
+    }
+    vtkDataSetAttributes* data = image->GetPointData();
+    if (cells)
+    {
+      data = image->GetCellData();
+    }
+    checks.That(data->GetScalars() != nullptr, "association", line);
+  }
+}
+
+void checkUnion(Checks& checks)
+{
+  const Box source = { { 8, 6, 1 }, { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 3.0 } };
+  // To 9.75 along x at 0.75, from -1 along y at 1: both divide the box.
+  const Box target = { { 5, 4, 1 }, { 0.75, 1.75, 9.0 }, { 6.0, -1.0, 3.0 } };
+  auto morph = makeMorph(makeBox(source, true), makeBox(target, true));
+  expectGrid(
+    checks, morph, { { 13, 7, 1 }, { 0.75, 1.0, 1.0 }, { 0.0, -1.0, 3.0 } }, true, __LINE__);
+
+  // 9.5 is not a multiple of 0.7: rounded up, and the box grown at its upper end.
+  Box uneven = target;
+  uneven.Spacing[0] = 0.7;
+  morph->SetTargetData(makeBox(uneven, true));
+  expectGrid(
+    checks, morph, { { 14, 7, 1 }, { 0.7, 1.0, 1.0 }, { 0.0, -1.0, 3.0 } }, true, __LINE__);
+
+  // So many values are on the smallest box, which then is not grown.
+  morph->SetDimensions(19, 0, 0);
+  expectGrid(
+    checks, morph, { { 19, 7, 1 }, { 0.5, 1.0, 1.0 }, { 0.0, -1.0, 3.0 } }, true, __LINE__);
+  morph->SetDimensions(0, 28, 1);
+  expectGrid(
+    checks, morph, { { 14, 28, 1 }, { 0.7, 0.25, 1.0 }, { 0.0, -1.0, 3.0 } }, true, __LINE__);
+  morph->SetDimensions(38, 2, 0);
+  expectGrid(
+    checks, morph, { { 38, 2, 1 }, { 0.25, 3.5, 1.0 }, { 0.0, -1.0, 3.0 } }, true, __LINE__);
+}
+
+// Points are the centres of dual cells, whose domain reaches half a spacing further.
+void checkPoints(Checks& checks)
+{
+  const Box source = { { 8, 6, 3 }, { 1.0, 1.0, 2.0 }, { 0.5, 0.5, 1.0 } };
+  const Box target = { { 5, 4, 3 }, { 0.75, 1.75, 2.0 }, { 6.0, -1.0, 2.0 } };
+  auto points = makeBox(source, false);
+  auto cells = makeBox(target, true);
+  // z: [0, 6] and [2, 8].
+  expectGrid(checks, makeMorph(points, cells),
+    { { 13, 7, 4 }, { 0.75, 1.0, 2.0 }, { 0.375, -0.5, 1.0 } }, false, __LINE__);
+  expectGrid(checks, makeMorph(cells, points),
+    { { 13, 7, 4 }, { 0.75, 1.0, 2.0 }, { 0.0, -1.0, 0.0 } }, true, __LINE__);
+  auto morph = makeMorph(points, cells);
+  morph->SetDimensions(0, 2, 8);
+  expectGrid(
+    checks, morph, { { 13, 2, 8 }, { 0.75, 3.5, 1.0 }, { 0.375, 0.75, 0.5 } }, false, __LINE__);
+
+  // One domain, of points and of cells: that of the first to the bit.
+  auto dual = makeBox({ { 8, 6, 3 }, { 1.0, 1.0, 2.0 }, { 0.0, 0.0, 0.0 } }, true);
+  expectGrid(checks, makeMorph(points, dual), source, false, __LINE__);
+  expectGrid(checks, makeMorph(dual, points), { { 8, 6, 3 }, { 1.0, 1.0, 2.0 }, { 0.0, 0.0, 0.0 } },
+    true, __LINE__);
+}
+
+// Rounding must not add a layer of cells.
+void checkRounding(Checks& checks)
+{
+  for (const double low : { 0.0, 0.1, 0.7 })
+  {
+    for (int shift = 1; shift <= 8; ++shift)
+    {
+      const Box source = { { 10, 1, 1 }, { 0.7, 1.0, 1.0 }, { low, 0.0, 0.0 } };
+      const Box target = { { 10, 1, 1 }, { 0.7, 1.0, 1.0 }, { low + 0.7 * shift, 0.0, 0.0 } };
+      expectGrid(checks, makeMorph(makeBox(source, true), makeBox(target, true)),
+        { { 10 + shift, 1, 1 }, { 0.7, 1.0, 1.0 }, { low, 0.0, 0.0 } }, true, __LINE__);
+    }
+  }
+  const Box third = { { 3, 1, 1 }, { 1.0 / 3.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 } };
+  const Box seventh = { { 7, 1, 1 }, { 1.0 / 7.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 } };
+  expectGrid(
+    checks, makeMorph(makeBox(third, true), makeBox(seventh, true)), seventh, true, __LINE__);
+}
+
+// An axis that runs the other way: the place of the first cell is its highest end.
+void checkNegativeSpacing(Checks& checks)
+{
+  const Box source = { { 8, 6, 1 }, { -1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 } };
+  const Box target = { { 5, 6, 1 }, { -0.5, 1.0, 1.0 }, { 2.0, 0.0, 0.0 } };
+  expectGrid(checks, makeMorph(makeBox(source, true), makeBox(target, true)),
+    { { 20, 6, 1 }, { -0.5, 1.0, 1.0 }, { 2.0, 0.0, 0.0 } }, true, __LINE__);
+  expectGrid(checks, makeMorph(makeBox(target, false), makeBox(source, false)),
+    { { 20, 6, 1 }, { -0.5, 1.0, 1.0 }, { 2.0, 0.0, 0.0 } }, false, __LINE__);
+}
+
+// Inputs of one geometry have exactly that: the extent and the direction, too.
+void checkSame(Checks& checks)
+{
+  const double turned[9] = { 0, -1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6 };
+  for (const bool cells : { true, false })
+  {
+    auto source = makeDensity({ 9, 7, 5 }, cells, bumpy);
+    const int* e = source->GetExtent();
+    source->SetExtent(e[0] + 2, e[1] + 2, e[2] - 3, e[3] - 3, e[4], e[5]);
+    source->SetSpacing(0.3, 1.1, 2.0);
+    source->SetOrigin(1.0, 2.0, 3.0);
+    source->SetDirectionMatrix(turned);
+    vtkNew<vtkImageData> target;
+    target->DeepCopy(source);
+    auto morph = makeMorph(source, target);
+    checkInformation(checks, morph, __LINE__);
+    vtkImageData* found = morph->GetDensity();
+    CHECK(checks, std::equal(found->GetExtent(), found->GetExtent() + 6, source->GetExtent()));
+    CHECK(checks, std::equal(found->GetOrigin(), found->GetOrigin() + 3, source->GetOrigin()));
+    CHECK(checks, std::equal(found->GetSpacing(), found->GetSpacing() + 3, source->GetSpacing()));
+    CHECK(checks, std::equal(turned, turned + 9, found->GetDirectionMatrix()->GetData()));
+
+    // Other numbers on the same domain, and on a larger one.
+    morph->SetDimensions(4, 0, 30);
+    checkInformation(checks, morph, __LINE__);
+    CHECK(checks, densityValues(morph).size() == 4u * 7 * 30);
+    CHECK_NEAR(checks, massOf(morph->GetDensity()), massOf(source), 1e-11 * massOf(source));
+    morph->SetDimensions(0, 0, 0);
+    target->SetSpacing(0.3, 2.2, 2.0);
+    checkInformation(checks, morph, __LINE__);
+    CHECK(checks, densityValues(morph).size() == 9u * 14 * 5);
+    CHECK(
+      checks, std::equal(turned, turned + 9, morph->GetDensity()->GetDirectionMatrix()->GetData()));
+  }
+}
+
+// Upstream has not run when information is asked for.
+void checkUpstream(Checks& checks)
+{
+  vtkNew<vtkRTAnalyticSource> source;
+  source->SetWholeExtent(-9, 12, -3, 4, 5, 11);
+  vtkNew<vtkRTAnalyticSource> target;
+  target->SetWholeExtent(0, 20, -3, 4, 5, 11);
+  vtkNew<vtkTransportInterpolator> morph;
+  morph->SetInputConnection(source->GetOutputPort());
+  morph->SetTargetConnection(target->GetOutputPort());
+  morph->SetNegativeValuesToClamp();
+  checkInformation(checks, morph, __LINE__);
+  CHECK(checks, densityValues(morph).size() == 30u * 8 * 7);
+  vtkNew<vtkPointDataToCellData> toCells;
+  toCells->SetInputConnection(source->GetOutputPort());
+  toCells->PassPointDataOff();
+  morph->SetInputConnection(toCells->GetOutputPort());
+  morph->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "RTData");
+  checkInformation(checks, morph, __LINE__);
+  CHECK(checks, densityValues(morph).size() == 30u * 8 * 7);
+
+  // An image filter downstream believes what is published.
+  vtkNew<vtkImageShrink3D> shrink;
+  morph->SetInputConnection(source->GetOutputPort());
+  morph->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "RTData");
+  shrink->SetInputConnection(morph->GetOutputPort());
+  shrink->SetShrinkFactors(2, 2, 1);
+  shrink->Update();
+  int dimensions[3];
+  shrink->GetOutput()->GetDimensions(dimensions);
+  CHECK(checks, dimensions[0] == 15 && dimensions[1] == 4 && dimensions[2] == 7);
+}
+
+} // namespace
+
+int TestMorphGrid(int, char*[])
+{
+  Checks checks;
+  checkUnion(checks);
+  checkPoints(checks);
+  checkRounding(checks);
+  checkNegativeSpacing(checks);
+  checkSame(checks);
+  checkUpstream(checks);
+  return checks.Result();
+}

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkTransportInterpolator: both ends reproduce the inputs, mass is exact on the way, and particles
+// go straight from where one flow takes them to where the other does.
+#include "BlendTest.h"
+
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <set>
+
+namespace
+{
+
+// How far both ends are from the inputs, block by block.
+double errorOfEnds(
+  vtkTransportInterpolator* morph, vtkImageData* source, vtkImageData* target, const Counts& values)
+{
+  morph->SetParameter(0.0);
+  const double first = blockError(runDensity(morph), mapValues(source, "Density"), values);
+  morph->SetParameter(1.0);
+  const double last = blockError(runDensity(morph), mapValues(target, "Density"), values);
+  return std::max(first, last);
+}
+
+void checkEnds(Checks& checks, const Counts& values, const std::array<int, 3>& perCell, int line)
+{
+  for (const bool cells : { true, false })
+  {
+    auto source = makeDensity(values, cells, smoothDensity(values[0], values[1], values[2]));
+    auto target = makeDensity(values, cells, otherDensity(values[0], values[1], values[2]));
+    auto morph = makeMorph(source, target);
+    std::array<double, 3> errors{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      morph->SetParticlesPerCell(perCell[i]);
+      errors[i] = errorOfEnds(morph, source, target, values);
+    }
+    std::ostringstream detail;
+    detail << errors[0] << " " << errors[1] << " " << errors[2];
+    checks.That(errors[1] <= 0.05, "ends are the inputs", line, detail.str());
+    checks.That(errors[1] < 0.75 * errors[0] && errors[2] < errors[1], "more particles are nearer",
+      line, detail.str());
+  }
+}
+
+void checkEnds(Checks& checks)
+{
+  checkEnds(checks, { 64, 48, 1 }, { 1, 4, 16 }, __LINE__);
+  checkEnds(checks, { 20, 24, 16 }, { 1, 8, 27 }, __LINE__);
+  checkEnds(checks, { 200, 1, 1 }, { 1, 4, 16 }, __LINE__);
+}
+
+double expectedMass(int mode, double t, double first, double last)
+{
+  switch (mode)
+  {
+    case vtkTransportBlend::MASS_LINEAR:
+      return (1.0 - t) * first + t * last;
+    case vtkTransportBlend::MASS_GEOMETRIC:
+      return std::exp((1.0 - t) * std::log(first) + t * std::log(last));
+    case vtkTransportBlend::MASS_SOURCE:
+      return first;
+    default:
+      return 1.0;
+  }
+}
+
+void checkMass(Checks& checks, vtkImageData* source, vtkImageData* target)
+{
+  auto morph = makeMorph(source, target);
+  morph->SetRadius(1.7);
+  const double first = massOf(source);
+  const double last = massOf(target);
+  for (int mode = 0; mode < 4; ++mode)
+  {
+    morph->SetMassMode(mode);
+    for (int kernel = 0; kernel < 4; ++kernel)
+    {
+      morph->SetKernel(kernel);
+      for (const double t : { 0.0, 0.2, 0.5, 0.99, 1.0 })
+      {
+        morph->SetParameter(t);
+        morph->Update();
+        const double total = mapField(morph->GetDensity(), "TotalMass");
+        const double wanted = expectedMass(mode, t, first, last);
+        CHECK_NEAR(checks, total, wanted, 1e-12 * wanted);
+        CHECK_NEAR(checks, massOf(morph->GetDensity()), total, 1e-12 * total);
+        CHECK(checks, fieldValue(morph->GetParticles(), "TotalMass") == total);
+        CHECK_NEAR(checks, sumOf(particleValues(morph, "Mass")), total, 1e-12 * total);
+      }
+    }
+  }
+}
+
+void checkMass(Checks& checks)
+{
+  auto source = makeDensity({ 30, 20, 1 }, true, smoothDensity(30, 20));
+  auto target = makeDensity({ 17, 40, 1 }, false, [](vtkIdType i) { return 9.0 * bumpy(i); });
+  target->SetSpacing(1.5, 0.5, 7.0);
+  target->SetOrigin(12.0, -3.0, 0.0);
+  checkMass(checks, source, target);
+  checkMass(checks, makeDensity({ 8, 9, 10 }, false, bumpy), makeDensity({ 5, 9, 7 }, true, bumpy));
+  checkMass(checks, makeDensity({ 1, 50, 1 }, true, bumpy), makeDensity({ 1, 20, 1 }, true, bumpy));
+}
+
+// The places that a sampler takes the particles of the pivot to: the centres of the cells of a grid
+// over the domain of an image of cells.
+Values sampleOf(vtkImageData* image, const Counts& grid)
+{
+  vtkNew<vtkPoints> seeds;
+  seeds->SetDataTypeToDouble();
+  double bounds[6];
+  image->GetBounds(bounds);
+  for (int k = 0; k < grid[2]; ++k)
+  {
+    for (int j = 0; j < grid[1]; ++j)
+    {
+      for (int i = 0; i < grid[0]; ++i)
+      {
+        const int at[3] = { i, j, k };
+        double x[3];
+        for (int a = 0; a < 3; ++a)
+        {
+          x[a] = bounds[2 * a] + (bounds[2 * a + 1] - bounds[2 * a]) * (at[a] + 0.5) / grid[a];
+        }
+        seeds->InsertNextPoint(x);
+      }
+    }
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(seeds);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetSeedsData(data);
+  return sampleCoordinates(sampler);
+}
+
+void checkPlaces(Checks& checks)
+{
+  auto source = makeDensity({ 30, 20, 1 }, true, smoothDensity(30, 20));
+  auto target = makeDensity({ 12, 25, 1 }, true, otherDensity(12, 25));
+  target->SetOrigin(40.0, -7.0, 0.0);
+  target->SetSpacing(2.0, 3.0, 1.0);
+  auto morph = makeMorph(source, target);
+  morph->SetDimensions(33, 21, 0);
+  morph->Update();
+  const Values from = particleValues(morph, "SourcePosition");
+  const Values to = particleValues(morph, "TargetPosition");
+  CHECK(checks, from.size() == 3u * 33 * 21);
+  CHECK_NEAR(checks, largestDifference(from, sampleOf(source, { 33, 21, 1 })), 0.0, 1e-9);
+  CHECK_NEAR(checks, largestDifference(to, sampleOf(target, { 33, 21, 1 })), 0.0, 1e-9);
+
+  for (const double t : { 0.0, 0.3, 0.5, 1.0 })
+  {
+    morph->SetParameter(t);
+    morph->Update();
+    Values straight = from;
+    for (std::size_t i = 0; i < straight.size(); ++i)
+    {
+      straight[i] = (1.0 - t) * from[i] + t * to[i];
+    }
+    CHECK_NEAR(checks, largestDifference(particlePlaces(morph), straight), 0.0, 1e-12);
+    CHECK(checks, particleValues(morph, "SourcePosition") == from);
+    CHECK(checks, particleValues(morph, "TargetPosition") == to);
+    if (t == 0.0 || t == 1.0)
+    {
+      CHECK(checks, particlePlaces(morph) == (t == 0.0 ? from : to));
+    }
+  }
+
+  // A lattice of the sampler on the grid of the source itself.
+  auto same = makeMorph(source, source);
+  same->Update();
+  vtkNew<vtkTransportSampler> lattice;
+  lattice->SetInputData(source);
+  lattice->SetSeedPatternToLattice();
+  lattice->SetSamplesPerCell(1);
+  CHECK_NEAR(checks,
+    largestDifference(particleValues(same, "SourcePosition"), sampleCoordinates(lattice)), 0.0,
+    1e-9);
+  same->SetParticlesPerCell(9);
+  same->Update();
+  lattice->SetSamplesPerCell(3);
+  CHECK_NEAR(checks,
+    largestDifference(particleValues(same, "TargetPosition"), sampleCoordinates(lattice)), 0.0,
+    1e-9);
+}
+
+// The flow to a uniform density leaves the particles of the pivot where they are: as many in each
+// cell of the output, none twice.
+void checkPivot(Checks& checks)
+{
+  auto uniform = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 2.0; });
+  auto morph = makeMorph(uniform, makeDensity({ 8, 9, 1 }, true, bumpy), 0.0);
+  morph->SetDimensions(12, 10, 0);
+  for (int perCell = 1; perCell <= 9; ++perCell)
+  {
+    morph->SetParticlesPerCell(perCell);
+    morph->Update();
+    const Values places = particleValues(morph, "SourcePosition");
+    std::vector<int> counts(120, 0);
+    std::set<std::pair<double, double>> different;
+    for (std::size_t i = 0; i < places.size(); i += 3)
+    {
+      ++counts.at(
+        static_cast<std::size_t>(places[i]) + 12 * static_cast<std::size_t>(places[i + 1]));
+      different.insert({ places[i], places[i + 1] });
+    }
+    CHECK(checks, std::count(counts.begin(), counts.end(), perCell) == 120);
+    CHECK(checks, different.size() == 120u * static_cast<std::size_t>(perCell));
+  }
+}
+
+// A copy elsewhere: the pivot is the unit box, so that all particles go the same way.
+void checkTranslation(Checks& checks)
+{
+  const Counts grid = { 24, 18, 1 };
+  auto source = makeDensity(grid, true, smoothDensity(grid[0], grid[1]));
+  vtkNew<vtkImageData> target;
+  target->ShallowCopy(source);
+  const double shift[3] = { 8.0, -4.0, 0.0 };
+  target->SetOrigin(shift);
+  auto morph = makeMorph(source, target, 0.0);
+  const Values start = runDensity(morph);
+  constexpr int columns = 32;
+  CHECK(checks, start.size() == columns * 22u);
+  for (const double t : { 0.25, 0.5, 1.0 })
+  {
+    morph->SetParameter(t);
+    const int right = static_cast<int>(t * shift[0]);
+    const int up = static_cast<int>(t * shift[1]);
+    const Values found = runDensity(morph);
+    // Away from the first and last cells, whose kernels the borders of the box cut.
+    double largest = 0.0;
+    for (int j = 2; j < grid[1] - 2; ++j)
+    {
+      for (int i = 2; i < grid[0] - 2; ++i)
+      {
+        const auto from = static_cast<std::size_t>(i + columns * (j + 4));
+        const auto to = static_cast<std::size_t>(i + right + columns * (j + 4 + up));
+        largest = std::max(largest, std::abs(found[to] - start[from]));
+      }
+    }
+    CHECK_NEAR(checks, largest, 0.0, 1e-11);
+    const Values from = particleValues(morph, "SourcePosition");
+    const Values to = particleValues(morph, "TargetPosition");
+    double off = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+    {
+      off = std::max(off, std::abs(to[i] - from[i] - shift[i % 3]));
+    }
+    CHECK_NEAR(checks, off, 0.0, 1e-12);
+  }
+}
+
+// Backwards is the other way round.
+void checkReverse(Checks& checks)
+{
+  auto a = makeDensity({ 20, 15, 1 }, true, smoothDensity(20, 15));
+  auto b = makeDensity({ 20, 15, 1 }, true, otherDensity(20, 15));
+  auto forth = makeMorph(a, b, 0.25);
+  auto back = makeMorph(b, a, 0.75);
+  CHECK_NEAR(checks, largestDifference(runDensity(forth), runDensity(back)), 0.0, 1e-12);
+}
+
+void checkArrays(Checks& checks)
+{
+  auto source = makeDensity({ 9, 8, 1 }, true, bumpy);
+  vtkNew<vtkStringArray> note;
+  note->SetName("Note");
+  note->InsertNextValue("kept");
+  source->GetFieldData()->AddArray(note);
+  auto target = makeDensity({ 9, 8, 1 }, false, bumpy);
+  for (const bool swap : { false, true })
+  {
+    auto morph = swap ? makeMorph(target, source) : makeMorph(source, target);
+    morph->Update();
+    vtkImageData* image = morph->GetDensity();
+    vtkDataSetAttributes* with = image->GetCellData();
+    vtkDataSetAttributes* without = image->GetPointData();
+    if (swap)
+    {
+      std::swap(with, without);
+    }
+    CHECK(checks, with->GetNumberOfArrays() == 1 && without->GetNumberOfArrays() == 0);
+    vtkDataArray* density = with->GetScalars();
+    CHECK(checks, density && density->GetName() == std::string("Density"));
+    CHECK(checks, density && density->GetDataType() == VTK_DOUBLE);
+    CHECK(checks, swap || image->GetFieldData()->GetAbstractArray("Note"));
+
+    vtkPolyData* particles = morph->GetParticles();
+    const vtkIdType count = particles->GetNumberOfPoints();
+    CHECK(checks, count == density->GetNumberOfTuples());
+    CHECK(checks, particles->GetNumberOfVerts() == count && particles->GetNumberOfCells() == count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      vtkIdType size = 0;
+      const vtkIdType* points = nullptr;
+      particles->GetCellPoints(i, size, points);
+      CHECK(checks, size == 1 && points[0] == i);
+    }
+    CHECK(checks, particles->GetPoints()->GetDataType() == VTK_DOUBLE);
+    CHECK(checks, particles->GetPointData()->GetNumberOfArrays() == 3);
+    for (const char* name : { "SourcePosition", "TargetPosition", "Mass" })
+    {
+      vtkDataArray* array = pointArray(particles, name);
+      CHECK(checks, array && array->GetNumberOfTuples() == count);
+      CHECK(checks, array && array->GetDataType() == VTK_DOUBLE);
+      CHECK(
+        checks, array && array->GetNumberOfComponents() == (name == std::string("Mass") ? 1 : 3));
+    }
+  }
+}
+
+// Arrays of their own names; a component of one.
+void checkChoice(Checks& checks)
+{
+  auto source = makeDensity({ 9, 8, 1 }, true, bumpy);
+  auto target = makeDensity({ 9, 8, 1 }, false, smoothDensity(9, 8));
+  const Values expected = runDensity(makeMorph(source, target));
+  const auto rename = [](vtkImageData* image, vtkDataSetAttributes* data, const char* name) {
+    vtkDataArray* array = data->GetScalars();
+    array->SetName(name);
+    vtkNew<vtkDoubleArray> other;
+    other->SetName("Other");
+    other->SetNumberOfTuples(array->GetNumberOfTuples());
+    other->Fill(3.0);
+    data->AddArray(other);
+    data->SetActiveScalars("Other");
+    image->Modified();
+  };
+  rename(source, source->GetCellData(), "A");
+  rename(target, target->GetPointData(), "B");
+  auto morph = makeMorph(source, target);
+  const Values uniform = runDensity(morph);
+  CHECK(checks, !uniform.empty() && uniform != expected);
+  constexpr int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  constexpr int cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  morph->SetInputArrayToProcess(0, 0, 0, cells, "A");
+  morph->SetInputArrayToProcess(1, 1, 0, points, "B");
+  CHECK(checks, runDensity(morph) == expected);
+  // As ParaView gives it.
+  auto same = makeMorph(source, target);
+  same->SetInputArrayToProcess(0, 1, 0, points, "B");
+  same->SetInputArrayToProcess(0, 0, 0, cells, "A");
+  CHECK(checks, runDensity(same) == expected);
+  // By attribute.
+  source->GetCellData()->SetActiveScalars("A");
+  target->GetPointData()->SetActiveScalars("B");
+  same = makeMorph(source, target);
+  same->SetInputArrayToProcess(1, 1, 0, points, vtkDataSetAttributes::SCALARS);
+  CHECK(checks, runDensity(same) == expected);
+}
+
+// Blanked cells have no mass, and what comes out is not blanked.
+void checkGhosts(Checks& checks)
+{
+  auto source = makeDensity({ 12, 10, 1 }, true, [](vtkIdType) { return 1.0; });
+  vtkUnsignedCharArray* flags = source->AllocateCellGhostArray();
+  for (vtkIdType i = 0; i < 120; ++i)
+  {
+    flags->SetValue(i, i % 12 < 6 ? 0 : vtkDataSetAttributes::HIDDENCELL);
+  }
+  auto target = makeDensity({ 12, 10, 1 }, true, bumpy);
+  auto morph = makeMorph(source, target, 0.0);
+  morph->Update();
+  CHECK_NEAR(checks, mapField(morph->GetDensity(), "TotalMass"), 60.0, 1e-12);
+  CHECK(checks, morph->GetDensity()->GetCellGhostArray() == nullptr);
+  const Values places = particlePlaces(morph);
+  double right = 0.0;
+  for (std::size_t i = 0; i < places.size(); i += 3)
+  {
+    right = std::max(right, places[i]);
+  }
+  CHECK_NEAR(checks, right, 6.0, 0.51);
+}
+
+} // namespace
+
+int TestMorphOutput(int, char*[])
+{
+  Checks checks;
+  checkEnds(checks);
+  checkMass(checks);
+  checkPlaces(checks);
+  checkPivot(checks);
+  checkTranslation(checks);
+  checkReverse(checks);
+  checkArrays(checks);
+  checkChoice(checks);
+  checkGhosts(checks);
+  return checks.Result();
+}

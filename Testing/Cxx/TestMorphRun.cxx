@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a morph runs: threads, progress, abort in every stage, pieces, and no more than is asked for.
+#include "BlendTest.h"
+#include "ProgressTest.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkSMPTools.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace
+{
+
+// All that comes out.
+Values allValues(vtkTransportBlend* blend)
+{
+  Values all = densityValues(blend);
+  for (const char* name : { "SourcePosition", "TargetPosition", "Mass" })
+  {
+    const Values values = particleValues(blend, name);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  const Values places = particlePlaces(blend);
+  all.insert(all.end(), places.begin(), places.end());
+  all.push_back(mapField(blend->GetDensity(), "TotalMass"));
+  return all;
+}
+
+void checkThreads(Checks& checks, vtkImageData* source, vtkImageData* target, int perCell)
+{
+  auto morph = makeMorph(source, target, 0.375);
+  morph->SetParticlesPerCell(perCell);
+  morph->SetNumberOfSteps(8);
+  for (int kernel = 0; kernel < 4; ++kernel)
+  {
+    morph->SetKernel(kernel);
+    const auto run = [&](int threading) {
+      morph->SetThreading(threading);
+      changeDensity(source); // the tables and maps, too
+      changeDensity(target);
+      morph->Update();
+      return allValues(morph);
+    };
+    const Values serial = run(vtkTransportBlend::THREADING_SERIAL);
+    CHECK(checks, serial.size() > 1000);
+    for (const char* backend : { "Sequential", "STDThread" })
+    {
+      for (const int threads : { 2, 3 })
+      {
+        if (vtkSMPTools::SetBackend(backend))
+        {
+          vtkSMPTools::Initialize(threads);
+          CHECK(checks, run(vtkTransportBlend::THREADING_VTK) == serial);
+          CHECK(checks, run(vtkTransportBlend::THREADING_AUTO) == serial);
+        }
+      }
+    }
+    CHECK(checks, run(vtkTransportBlend::THREADING_OPENMP) == serial);
+  }
+}
+
+void checkThreads(Checks& checks)
+{
+  auto target = makeDensity({ 80, 120, 1 }, false, bumpy);
+  target->SetOrigin(40.0, 20.0, 0.0);
+  checkThreads(checks, makeDensity({ 131, 97, 1 }, true, bumpy), target, 3);
+  checkThreads(
+    checks, makeDensity({ 20, 21, 29 }, true, bumpy), makeDensity({ 20, 21, 29 }, true, bumpy), 2);
+  checkThreads(
+    checks, makeDensity({ 5000, 1, 1 }, true, bumpy), makeDensity({ 4000, 1, 1 }, true, bumpy), 4);
+}
+
+void expectProgress(Checks& checks, vtkTransportBlend* blend, std::size_t calls, int line)
+{
+  ProgressTest test(blend);
+  blend->Update();
+  std::ostringstream detail;
+  for (const double heard : test.Heard)
+  {
+    detail << heard << " ";
+  }
+  checks.That(test.Heard.size() >= calls, "often", line, detail.str());
+  checks.That(std::is_sorted(test.Heard.begin(), test.Heard.end()), "rising", line, detail.str());
+  checks.That(
+    !test.Heard.empty() && test.Heard.front() >= 0.0 && test.Heard.back() == 1.0, "to 1", line);
+}
+
+void checkAbort(Checks& checks)
+{
+  const Counts size = { 90, 80, 100 };
+  const auto ramp = [](vtkIdType i) { return static_cast<double>(1 + i % 100); };
+  auto source = makeDensity(size, true, ramp);
+  auto target = makeDensity(size, true, bumpy);
+  auto morph = makeMorph(source, target);
+  Messages messages(morph);
+  const auto empty = [&]() { return isEmpty(morph); };
+  morph->SetNumberOfSteps(8);
+  const auto outdate = [&]() {
+    changeDensity(source);
+    changeDensity(target);
+  };
+  // In tables and map of either, between them, and after.
+  for (const double from : { 0.0001, 0.02, 0.25, 0.51, 0.75, 0.97, 0.995 })
+  {
+    checkAbort(checks, morph, from, outdate, empty, __LINE__);
+  }
+  for (const double from : { 0.1, 0.55 })
+  {
+    checkAbort(checks, morph, from, outdate, empty, __LINE__, 30);
+  }
+  outdate();
+  expectProgress(checks, morph, 20, __LINE__);
+  CHECK(checks, densityValues(morph).size() == 90u * 80 * 100);
+
+  // With the maps kept: means, particles, splat.
+  const auto turn = [&]() { morph->SetParameter(1.0 - morph->GetParameter() + 0.001); };
+  for (const double from : { 0.05, 0.3, 0.6, 0.95 })
+  {
+    checkAbort(checks, morph, from, turn, empty, __LINE__);
+  }
+  turn();
+  expectProgress(checks, morph, 5, __LINE__);
+
+  // One of two maps is new.
+  changeDensity(target);
+  expectProgress(checks, morph, 10, __LINE__);
+  // Only the images are new: a look at the values.
+  source->Modified();
+  target->Modified();
+  expectProgress(checks, morph, 5, __LINE__);
+  CHECK(checks, messages.Errors.empty());
+}
+
+void checkAgain(Checks& checks)
+{
+  auto morph =
+    makeMorph(makeDensity({ 12, 10, 1 }, true, bumpy), makeDensity({ 12, 10, 1 }, true, bumpy));
+  morph->Update();
+  const vtkMTimeType density = morph->GetDensity()->GetMTime();
+  const vtkMTimeType particles = morph->GetParticles()->GetMTime();
+  for (const int port : { 0, 1, 0 })
+  {
+    morph->Update(port);
+    CHECK(checks, morph->GetDensity()->GetMTime() == density);
+    CHECK(checks, morph->GetParticles()->GetMTime() == particles);
+  }
+  morph->SetParameter(morph->GetParameter());
+  morph->Update();
+  CHECK(checks, morph->GetDensity()->GetMTime() == density);
+}
+
+// All is in the first piece of what is asked for, of either output.
+void checkPieces(Checks& checks)
+{
+  auto morph =
+    makeMorph(makeDensity({ 12, 10, 1 }, true, bumpy), makeDensity({ 12, 10, 1 }, true, bumpy));
+  morph->Update();
+  const Values whole = densityValues(morph);
+  morph->UpdatePiece(0, 2, 1);
+  CHECK(checks, whole.size() == 120 && densityValues(morph) == whole);
+  morph->UpdatePiece(1, 2, 0);
+  CHECK(checks, morph->GetDensity()->GetNumberOfPoints() == 0);
+
+  const auto ask = [&](int port, int piece) {
+    vtkNew<vtkInformationVector> requests;
+    requests->SetNumberOfInformationObjects(2);
+    vtkInformation* request = requests->GetInformationObject(port);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 2);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    morph->Update(port, requests);
+  };
+  ask(0, 0);
+  CHECK(checks, densityValues(morph) == whole);
+  ask(1, 1);
+  CHECK(checks, morph->GetParticles()->GetNumberOfPoints() == 0);
+  ask(0, 0);
+  CHECK(checks, densityValues(morph) == whole);
+  // The first piece of one output is there whatever was asked of the other.
+  ask(0, 1);
+  CHECK(checks, isEmpty(morph));
+  ask(1, 0);
+  CHECK(checks, morph->GetParticles()->GetNumberOfPoints() == 120);
+  ask(0, 0);
+  CHECK(checks, densityValues(morph) == whole);
+}
+
+// The executive runs the filter for each block of a composite input, with the same other one.
+void checkComposite(Checks& checks)
+{
+  auto source = makeDensity({ 12, 10, 1 }, true, bumpy);
+  auto target = makeDensity({ 12, 10, 1 }, true, otherDensity(12, 10));
+  auto other = makeDensity({ 8, 10, 1 }, false, bumpy);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, source);
+  blocks->SetBlock(2, other);
+  vtkNew<vtkTransportInterpolator> morph;
+  morph->SetInputDataObject(blocks);
+  morph->SetTargetData(target);
+  morph->Update();
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(morph->GetOutputDataObject(0));
+  CHECK(checks, output != nullptr);
+  for (const unsigned int block : { 0u, 2u })
+  {
+    auto* image = output ? vtkImageData::SafeDownCast(output->GetBlock(block)) : nullptr;
+    const Values expected = runDensity(makeMorph(block == 0 ? source : other, target));
+    CHECK(checks, image && !expected.empty() && mapValues(image, "Density") == expected);
+  }
+}
+
+} // namespace
+
+int TestMorphRun(int, char*[])
+{
+  Checks checks;
+  checkThreads(checks);
+  checkAbort(checks);
+  checkAgain(checks);
+  checkPieces(checks);
+  checkComposite(checks);
+  return checks.Result();
+}
