@@ -216,6 +216,12 @@ int vtkMassSplatter::RequestData(
   const SplatOptions options = this->GetSplatSettings().Options();
   const std::unique_ptr<Executor> executor = threadingSettings(this->Threading).MakeExecutor();
 
+  // An image keeps its extent and the scalars of its points from run to run.
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  ImageFrame().CopyTo(output);
+  output->GetPointData()->Initialize();
+  output->GetCellData()->Initialize();
+
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* information = outputVector->GetInformationObject(0);
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
@@ -250,7 +256,6 @@ int vtkMassSplatter::RequestData(
         : "The input's points are all at one place, about which there is no box; connect an image "
           "as the Reference, or points that differ");
   }
-  vtkImageData* output = vtkImageData::GetData(outputVector);
   cells.CopyTo(output);
   const ImageGeometry geometry(output, reference && onPoints);
   const ImageFrame frame = onPoints && !reference ? cells.AtCellCentres() : cells;

@@ -4,6 +4,7 @@
 
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"
+#include "vtkMassSplatter.h"
 #include "vtkSolidDensity.h"
 #include "vtkTransportBarycenter.h"
 #include "vtkTransportInterpolator.h"
@@ -98,6 +99,23 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, cells,
     { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Integrator: Adaptive",
       "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "Threading: VTK" });
+
+  vtkNew<vtkMassSplatter> splatter;
+  expectLines(checks, splatter,
+    { "Dimensions: 128 128 128", "Association: Points", "Kernel: CloudInCell", "Radius: 1",
+      "Boundary: Renormalize", "DivideByVolume: On", "Threading: Auto" });
+  splatter->SetDimensions(4, 5, 6);
+  splatter->SetAssociationToCells();
+  splatter->SetKernelToTriangularShapedCloud();
+  splatter->SetRadius(2.5);
+  splatter->SetBoundaryToDrop();
+  splatter->DivideByVolumeOff();
+  splatter->SetThreadingToSerial();
+  expectLines(checks, splatter,
+    { "Dimensions: 4 5 6", "Association: Cells", "Kernel: TriangularShapedCloud", "Radius: 2.5",
+      "Boundary: Drop", "DivideByVolume: Off", "Threading: Serial" });
+  splatter->SetAssociation(-1);
+  CHECK(checks, splatter->GetAssociationAsString() == std::string("Unknown"));
 
   vtkNew<vtkSolidDensity> solid;
   expectLines(checks, solid,

@@ -130,6 +130,26 @@ class Errors(unittest.TestCase):
         self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
         self.assertIn("Supersampling is 17; it must be from 1 to 16", heard.errors[-2])
 
+    def test_splat(self):
+        splat = simple.SplatMass(Input=simple.Plane(), Radius=0)
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
+        self.assertIn("Radius is 0; it must be above 0 and at most 10000 cells", heard.errors[0])
+        splat.Radius = 1
+        splat.MassArray = ["POINTS", "Weight"]
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
+        self.assertIn("no mass array 'Weight'", heard.errors[0])
+        splat.MassArray = ["POINTS", "None"]
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 128 * 128)
+
+    def test_splat_outside_warns(self):
+        splat = simple.SplatMass(Input=simple.Plane(),
+                                 Reference=producer(simple, density_image()))
+        heard = Listener(splat.GetClientSideObject())
+        self.assertEqual(output_of(splat).GetNumberOfPoints(), 13 * 11)
+        self.assertIn("2 of 4 points are outside", heard.warnings[0])
+
     def test_warp_outside_warns(self):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),
                                             Density=producer(simple, density_image()))

@@ -10,7 +10,8 @@ simple = load_plugin()
 
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
-         "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter")
+         "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
+         "MassSplatter")
 
 
 def pipeline():
@@ -29,6 +30,9 @@ def pipeline():
                                  InvertDensity=1, Blend=0.25, NumberOfSteps=9)
     simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
                             InvertDensity=1, BlockSize=32)
+    simple.SplatMass(registrationName="Splat", Input=sampler, Dimensions=[30, 20, 1],
+                     MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
+                     Boundary="Drop", Association="Cells")
     simple.EqualMassCells(registrationName="Cells", Input=seeds, Domain=photograph, Resolution=60,
                           CostExponent=4, NumberOfSteps=20)
     simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
@@ -79,6 +83,9 @@ class State(unittest.TestCase):
         self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
         self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
         self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
+        splat = simple.FindSource("Splat")
+        self.assertEqual((splat.Radius, splat.Boundary, list(splat.MassArray)),
+                         (1.5, "Drop", ["POINTS", "Mass"]))
         cells = simple.FindSource("Cells")
         self.assertEqual((cells.Resolution, cells.CostExponent, cells.NumberOfSteps), (60, 4, 20))
         solid = simple.FindSource("Solid")
@@ -114,7 +121,8 @@ class State(unittest.TestCase):
     def assert_calls(self, script):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
                      "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
-                     "DensityBarycenter("):
+                     "DensityBarycenter(",
+                     "SplatMass("):
             self.assertIn(call, script)
 
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splat Mass in a pipeline: what is published, threads, progress, abort, and the way back from
+// particles to the density that they came from.
+#include "SplatTest.h"
+
+#include "ProgressTest.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTransportSampler.h"
+#include "vtkTrivialProducer.h"
+
+namespace
+{
+
+const double cube[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+
+std::array<int, 6> published(vtkMassSplatter* splatter)
+{
+  splatter->UpdateInformation();
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  splatter->GetOutputInformation(0)->Get(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
+  return extent;
+}
+
+void checkInformation(Checks& checks)
+{
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputData(makePoints(randomCoordinates(cube, 10)));
+  splatter->SetDimensions(5, 6, 7);
+  splatter->Update();
+  CHECK(checks, (published(splatter) == std::array<int, 6>{ 0, 4, 0, 5, 0, 6 }));
+  splatter->SetAssociationToCells();
+  CHECK(checks, (published(splatter) == std::array<int, 6>{ 0, 5, 0, 6, 0, 7 }));
+  vtkNew<vtkTrivialProducer> producer;
+  vtkNew<vtkImageData> reference;
+  reference->SetExtent(2, 4, 0, 0, 7, 9);
+  producer->SetOutput(reference);
+  splatter->SetReferenceConnection(producer->GetOutputPort());
+  CHECK(checks, (published(splatter) == std::array<int, 6>{ 2, 4, 0, 0, 7, 9 }));
+  // All cells are in the first piece.
+  splatter->UpdatePiece(1, 2, 0);
+  CHECK(checks, splatter->GetOutput()->GetNumberOfPoints() == 0);
+  splatter->UpdatePiece(0, 2, 0);
+  CHECK(checks, splatter->GetOutput()->GetNumberOfCells() == 4);
+}
+
+void checkThreads(Checks& checks)
+{
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputData(makePoints(randomCoordinates(cube, 60000), true));
+  splatter->SetDimensions(50, 40, 30);
+  for (int kernel = 0; kernel < 4; ++kernel)
+  {
+    splatter->SetKernel(kernel);
+    splatter->SetThreadingToSerial();
+    const std::vector<double> expected = splatValues(splatter);
+    CHECK(checks, expected.size() == 60000);
+    for (const int threading : { 0, 1, 2 })
+    {
+      splatter->SetThreading(threading);
+      CHECK(checks, splatValues(splatter) == expected);
+    }
+  }
+}
+
+// A lattice of the cells' own centres, splatted, is the density.
+void checkLattice(Checks& checks)
+{
+  vtkNew<vtkTransportSampler> sampler;
+  vtkSmartPointer<vtkImageData> image = makeImage(9, 7, 6, true, [](vtkIdType) { return 3.0; });
+  sampler->SetInputData(image);
+  sampler->SetSeedPatternToLattice();
+  sampler->SetSamplesPerCell(1);
+  sampler->SetFlowTime(0.0);
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputConnection(sampler->GetOutputPort());
+  splatter->SetReferenceData(image);
+  splatter->SetAssociationToCells();
+  splatter->SetInputArrayToProcess(0, 0, 0, 0, "Mass");
+  for (const double value : splatValues(splatter))
+  {
+    CHECK_NEAR(checks, value, 3.0, 1e-9);
+  }
+  const double sampled = sampler->GetOutput()->GetFieldData()->GetArray("TotalMass")->GetTuple1(0);
+  CHECK_NEAR(checks, totalMass(splatter), sampled, 1e-12 * sampled);
+}
+
+void checkProgressAndAbort(Checks& checks)
+{
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputData(makePoints(randomCoordinates(cube, 300000)));
+  splatter->SetDimensions(64, 64, 64);
+  splatter->SetKernelToGaussian();
+  splatter->SetRadius(2.0);
+  {
+    ProgressTest test(splatter);
+    splatter->Update();
+    CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
+    CHECK(checks, test.Heard.size() > 5 && test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+  }
+  for (const double from : { 0.0, 0.15, 0.3, 0.8 })
+  {
+    checkAbort(
+      checks, splatter, from, [&]() { splatter->Modified(); },
+      [&]() { return splatter->GetOutput()->GetNumberOfPoints() == 0; }, __LINE__);
+  }
+  splatter->SetKernelToNearestCell();
+  splatter->Modified();
+  CHECK_NEAR(checks, sumOf(splatValues(splatter)) / (64.0 * 64.0 * 64.0), 300000.0, 600.0);
+}
+
+} // namespace
+
+int TestMassSplatterRun(int, char*[])
+{
+  Checks checks;
+  checkInformation(checks);
+  checkThreads(checks);
+  checkLattice(checks);
+  checkProgressAndAbort(checks);
+  return checks.Result();
+}

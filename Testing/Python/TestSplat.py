@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Splat Mass in ParaView: mass by ParaView's own integral, arrays to choose, the reference."""
+import unittest
+
+import numpy as np
+from rt_testing import Listener, density_image, load_plugin, main, output_of, points_in, producer
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+simple = load_plugin()
+
+
+def cloud(number=400, masses=True):
+    """Points in the bounds of a volume, with an array Weight and vectors beside it."""
+    points = points_in(density_image((6, 5, 4)), number)
+    if masses:
+        random = np.random.default_rng(1)
+        for name, values in (("Weight", random.random(number)),
+                             ("Way", random.random((number, 3)))):
+            array = numpy_to_vtk(values, deep=1)
+            array.SetName(name)
+            points.GetPointData().AddArray(array)
+    return points
+
+
+def weight_of(points):
+    return vtk_to_numpy(points.GetPointData().GetArray("Weight")).sum()
+
+
+def values_of(splat):
+    output = output_of(splat)
+    owner = output.GetPointData() if splat.Association == "Points" else output.GetCellData()
+    return vtk_to_numpy(owner.GetScalars())
+
+
+def total(splat):
+    return output_of(splat).GetFieldData().GetArray("TotalMass").GetValue(0)
+
+
+class Splat(unittest.TestCase):
+    def test_mass_is_paraviews_integral(self):
+        points = cloud()
+        for kernel in ("CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"):
+            splat = simple.SplatMass(Input=producer(simple, points), Association="Cells",
+                                     Dimensions=[9, 8, 7], Kernel=kernel,
+                                     MassArray=["POINTS", "Weight"])
+            integral = output_of(simple.IntegrateVariables(Input=splat))
+            mass = integral.GetCellData().GetArray("Density").GetValue(0)
+            self.assertAlmostEqual(mass / weight_of(points), 1, delta=1e-12)
+            self.assertAlmostEqual(total(splat) / weight_of(points), 1, delta=1e-12)
+
+    def test_no_mass_array_is_chosen_by_itself(self):
+        for masses in (True, False):
+            splat = simple.SplatMass(Input=producer(simple, cloud(masses=masses)),
+                                     Dimensions=[4, 4, 4])
+            self.assertEqual(splat.MassArray[1], "None")
+            heard = Listener(splat.GetClientSideObject())
+            self.assertAlmostEqual(total(splat), 400, delta=1e-9)
+            self.assertEqual(heard.errors, [])
+
+    def test_mass_arrays_to_choose_have_one_component(self):
+        splat = simple.SplatMass(Input=producer(simple, cloud()))
+        domain = splat.GetProperty("MassArray").GetDomain("array_list")
+        names = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+        self.assertEqual(names, ["None", "Weight"])
+
+    def test_reference_can_be_taken_away(self):
+        points = producer(simple, cloud())
+        image = density_image((6, 5, 4))
+        splat = simple.SplatMass(Input=points, Reference=producer(simple, image),
+                                 Dimensions=[3, 3, 3])
+        self.assertEqual(output_of(splat).GetDimensions(), image.GetDimensions())
+        splat.Reference = None
+        self.assertEqual(output_of(splat).GetDimensions(), (3, 3, 3))
+        self.assertAlmostEqual(total(splat), 400, delta=1e-9)
+
+    def test_contour(self):
+        splat = simple.SplatMass(Input=producer(simple, cloud(5000)), Dimensions=[20, 20, 20],
+                                 Kernel="Gaussian", Radius=2)
+        middle = 0.5 * (values_of(splat).min() + values_of(splat).max())
+        contour = simple.Contour(Input=splat, Isosurfaces=[middle])
+        self.assertEqual(contour.ContourBy[1], "Density")
+        self.assertGreater(output_of(contour).GetNumberOfCells(), 10)
+
+    def test_splat_of_the_particles_of_a_density(self):
+        """Blocks of the splat hold the mass of the density's blocks."""
+        values = np.zeros((40, 40))
+        values[:20, 10:] = 2
+        values[25:, 25:] = 7
+        image = producer(simple, density_image((40, 40), values=values.ravel()))
+        dots = simple.SampleDensity(Input=image, NumberOfParticles=50000)
+        splat = simple.SplatMass(Input=dots, Reference=image, Association="Cells",
+                                 MassArray=["POINTS", "Mass"])
+        found = values_of(splat).reshape(8, 5, 8, 5).mean(axis=(1, 3))
+        wanted = values.reshape(8, 5, 8, 5).mean(axis=(1, 3))
+        self.assertLess(np.abs(found - wanted).max(), 0.25)
+        self.assertAlmostEqual(total(splat), values.sum(), delta=1e-6)
+
+    def test_dimension(self):
+        splat = simple.SplatMass(Input=simple.Plane(), Dimensions=[5, 6, 7])
+        self.assertEqual(output_of(splat).GetDimensions(), (5, 6, 1))
+        self.assertAlmostEqual(values_of(splat).sum() / 30, 4, delta=1e-12)
+
+
+if __name__ == "__main__":
+    main()
