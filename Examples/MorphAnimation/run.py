@@ -50,7 +50,9 @@ def main():
                         help="two shapes: names of rectified_shapes.py or files of surfaces, or "
                         "two joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images, with four particles each")
+                        help="pixels along the sides of the images")
+    parser.add_argument("--particles", type=figures.at_least(1), default=9,
+                        help="particles a pixel")
     parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
     parser.add_argument("--seconds", type=float, default=2, help="that it takes, one way")
     parser.add_argument("--pictures", type=figures.at_least(2), default=5,
@@ -69,9 +71,9 @@ def main():
     for image in images:
         image.GetPointData().GetScalars().SetName("Density")
     morph = simple.MorphDensities(Input=example.producer(images[0]),
-                                  Target=example.producer(images[1]), Kernel="Gaussian",
-                                  ParticlesPerCell=4, PublishTime=1,
-                                  NumberOfTimeSteps=arguments.frames)
+                                  Target=example.producer(images[1]),
+                                  ParticlesPerCell=arguments.particles, PublishTime=1,
+                                  NumberOfTimeSteps=arguments.frames, **shapes.SMOOTH)
     figures.result(morph)
     frames = []
     with tempfile.TemporaryDirectory() as folder:
