@@ -46,7 +46,7 @@ def flat_view(sources, size, pixels):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["bunny", "elephant"],
+    parser.add_argument("shapes", nargs="*", default=["knot", "coupling"],
                         help="two shapes: names of rectified_shapes.py or files of surfaces, or "
                         "two joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
