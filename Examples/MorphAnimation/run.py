@@ -31,10 +31,9 @@ def flat_view(sources, size, pixels):
     """A view of images side by side, white where they are 0 and dark where they are 1."""
     view = example.picture_view([round(2.05 * pixels), pixels], [1, 1, 1])
     for column, source in enumerate(sources):
-        place = simple.Transform(Input=source, Transform="Transform")
-        place.Transform.Translate = [1.05 * size * column, 0, 0]
-        shown = simple.Show(place, view, "StructuredGridRepresentation")
-        shown.Ambient, shown.Diffuse = 1, 0
+        shown = simple.Show(source, view, "UniformGridRepresentation")
+        shown.SetRepresentationType("Slice")
+        shown.Position = [1.05 * size * column, 0, 0]
         simple.ColorBy(shown, ("POINTS", "Density"))
         shown.SetScalarBarVisibility(view, False)
     colours = simple.GetColorTransferFunction("Density")
