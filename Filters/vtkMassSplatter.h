@@ -149,8 +149,8 @@ public:
 
   ///@{
   /**
-   * Where the part of a kernel goes that is beyond the border: back to its cells inside, axis by
-   * axis (Renormalize, default), or nowhere (Drop).
+   * What happens to the part of a kernel that is beyond the border: Renormalize (default) gives it
+   * back to the cells inside, axis by axis; with Drop it is lost.
    */
   vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);
