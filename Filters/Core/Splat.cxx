@@ -28,11 +28,8 @@ constexpr double shortestSlice = 1 << 22; // shares of particles in cells
 constexpr double densestSlice = 0.25;     // particles a cell
 constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
 
-// With chunks over more cells than these, the cells of a large grid are rarely in the cache.
-constexpr double localCells = 1 << 17;
-constexpr double cachedCells = 1 << 20;
-
-// How often a chunk may be weighed before it is cheaper to sort the particles.
+// How often a chunk may be weighed, by tasks that each add a part of it, before it is cheaper to
+// sort the particles. (One task alone has nothing of a sort: misses of the cache overlap.)
 constexpr double fewVisits = 3.0;
 constexpr double mostVisits = 8.0;
 
@@ -147,35 +144,25 @@ private:
 
   void AddSlice(std::int64_t first, std::int64_t count)
   {
-    const bool canSort = this->Job.Width <= widestSorted;
-    const bool isSerial = this->Threads.Concurrency() == 1;
-    // One task needs to know no more than whether the particles are in a good order.
-    const double boxCells = this->Survey.Look(first, count, isSerial ? 32 : 0, this->Threads);
-    const bool isLocal =
-      boxCells <= localCells || static_cast<double>(this->NumberOfCells) <= cachedCells;
-    if (canSort && !isLocal)
+    const int tasks = this->Threads.Concurrency();
+    if (tasks == 1)
+    {
+      this->AddInOrder(first, count);
+      return;
+    }
+    this->Survey.Look(first, count, this->Threads);
+    double visits = this->Survey.CutSlabs(4 * tasks);
+    if (visits > fewVisits)
+    {
+      visits = this->Survey.CutSlabs(tasks);
+    }
+    if (visits > mostVisits && this->Job.Width <= widestSorted)
     {
       this->AddByTiles(first, count);
     }
-    else if (isSerial)
-    {
-      this->AddInOrder(first, count);
-    }
     else
     {
-      double visits = this->Survey.CutSlabs(4 * this->Threads.Concurrency());
-      if (visits > fewVisits)
-      {
-        visits = this->Survey.CutSlabs(this->Threads.Concurrency());
-      }
-      if (canSort && visits > mostVisits)
-      {
-        this->AddByTiles(first, count);
-      }
-      else
-      {
-        this->AddBySlabs(first, count);
-      }
+      this->AddBySlabs(first, count);
     }
   }
 
@@ -211,9 +198,8 @@ private:
           }
           const bool isInside = planes.Low >= low && planes.High <= high;
           const std::int64_t number = std::min(splatChunk, count - chunk * splatChunk);
-          const std::int64_t found =
+          outside +=
             this->AddChunk(first + chunk * splatChunk, number, isInside ? nullptr : &box, slab);
-          outside += planes.Low >= low ? found : 0; // one task counts it
         }
         this->Outside += outside;
       }

@@ -256,16 +256,16 @@ void weighAtBorder(const SplatJob<Dimension, Real>& job, const Block<Dimension>&
   }
 }
 
-// Returns how many particles are outside.
+// Returns whether any particles are outside.
 template <int Dimension, class Weights, class Real>
-RT_INLINE int weighStencil(const SplatJob<Dimension, Real>& job, Block<Dimension>& block,
+RT_INLINE bool weighStencil(const SplatJob<Dimension, Real>& job, Block<Dimension>& block,
   Stencil<Dimension, Weights>& stencil)
 {
   if (weighInside(job, block, stencil))
   {
-    return 0;
+    return false;
   }
-  const int outside = placeBlock(job, block);
+  const bool outside = placeBlock(job, block);
   double size[3] = {};
   double stride[3] = {};
   for (int a = 0; a < Dimension; ++a)
@@ -411,7 +411,11 @@ struct FixedSplat
     {
       block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
       readBlock(job, first, index, begin, block);
-      outside += weighStencil(job, block, stencil);
+      if (box && !index && isFarFrom(job, block, *box))
+      {
+        continue;
+      }
+      outside += weighStencil(job, block, stencil) ? countOutside(block, stencil.First, box) : 0;
       addStencil(job, block.Count, stencil, box);
     }
     return outside;
@@ -424,7 +428,9 @@ struct FixedSplat
     Stencil<Dimension, Weights> stencil;
     block.Count = count;
     readBlock(job, first, nullptr, 0, block);
-    const std::int64_t outside = weighStencil(job, block, stencil);
+    const int outside = weighStencil(job, block, stencil)
+      ? countOutside<Dimension>(block, stencil.First, nullptr)
+      : 0;
     for (int a = 0; a < Dimension; ++a)
     {
       for (int i = 0; i < splatBlock; ++i)

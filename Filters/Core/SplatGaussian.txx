@@ -162,8 +162,13 @@ struct GaussianSplat
     {
       block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
       readBlock(job, first, index, begin, block);
-      outside += placeBlock(job, block);
+      if (box && !index && isFarFrom(job, block, *box))
+      {
+        continue;
+      }
+      const bool anyOutside = placeBlock(job, block);
       findGaussian(job, block, cells);
+      outside += anyOutside ? countOutside(block, cells, box) : 0;
       for (int i = 0; i < block.Count; ++i)
       {
         addGaussian(job, block, cells, i, box, scratch);
@@ -178,8 +183,8 @@ struct GaussianSplat
     Block<Dimension> block;
     block.Count = count;
     readBlock(job, first, nullptr, 0, block);
-    const std::int64_t outside = placeBlock(job, block);
+    const bool anyOutside = placeBlock(job, block);
     findGaussian(job, block, cells);
-    return outside;
+    return anyOutside ? countOutside<Dimension>(block, cells, nullptr) : 0;
   }
 };

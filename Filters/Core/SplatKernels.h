@@ -43,7 +43,8 @@ struct SplatJob
 
 // Adds what particles [first, first + count), or with an index particles first + index[0], ...,
 // first + index[count - 1], have in the cells of a box (null: all cells), in this order. `scratch`
-// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside.
+// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of
+// those whose first cell is in the box along the last axis.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);

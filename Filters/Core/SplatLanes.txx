@@ -59,6 +59,7 @@ struct Block
   Lanes Point[3];
   Lanes X[Dimension];
   Lanes Mass;
+  Lanes Beyond; // by how much particles are outside, or no number, if any are
 };
 
 // Reads a block of particles from `first` on.
@@ -186,12 +187,59 @@ RT_INLINE double sumOfLanes(const double* __restrict lanes)
   return sum;
 }
 
-// Places a block that has been read. Returns how many particles are outside.
+// Whether no particle of a block, which has been read, comes near a box along the last axis.
 template <int Dimension, class Real>
-RT_INLINE int placeBlock(const SplatJob<Dimension, Real>& job, Block<Dimension>& block)
+RT_INLINE bool isFarFrom(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
+  const CellBox<Dimension>& box)
+{
+  constexpr int a = Dimension - 1;
+  const double size = job.Size[a];
+  Lanes x;
+  mapLanes(job.Particles.ToIndex, a, block.Point, x);
+  clampLanes(x, size);
+  // Further than the kernel reaches by more than rounding; where the border moves its cells, they
+  // are within its width.
+  const double reach = 0.5 * job.Width + 1.0;
+  const double low = box.Low[a] <= job.Width ? 0.0 : box.Low[a] - reach;
+  const double high = box.High[a] >= job.Size[a] - job.Width ? size : box.High[a] + reach;
+  Lanes near;
+#pragma omp simd
+  for (int i = 0; i < splatBlock; ++i)
+  {
+    near[i] = (x[i] >= low ? 1.0 : 0.0) * (x[i] <= high ? 1.0 : 0.0);
+  }
+  return sumOfLanes(near) == 0.0;
+}
+
+// How many particles of a block are outside, of those whose first cell is within a box (null: of
+// all): every particle is counted once, however many boxes it reaches.
+template <int Dimension>
+int countOutside(
+  const Block<Dimension>& block, const SplatCells* first, const CellBox<Dimension>* box)
+{
+  int outside = 0;
+  for (int i = 0; i < block.Count; ++i)
+  {
+    const bool isOutside = !(block.Beyond[i] == 0.0);
+    const std::int32_t cell = first[Dimension - 1][i];
+    const bool counts =
+      !box || (cell >= box->Low[Dimension - 1] && cell < box->High[Dimension - 1]);
+    outside += isOutside && counts ? 1 : 0;
+  }
+  return outside;
+}
+
+// Places a block that has been read. Returns whether any particles are outside.
+template <int Dimension, class Real>
+RT_INLINE bool placeBlock(const SplatJob<Dimension, Real>& job, Block<Dimension>& block)
 {
   const SplatMap<Dimension>& map = job.Particles.ToIndex;
-  Lanes beyond = {};
+  double* __restrict beyond = block.Beyond;
+#pragma omp simd
+  for (int i = 0; i < splatBlock; ++i)
+  {
+    beyond[i] = 0.0;
+  }
   for (int a = 0; a < Dimension; ++a)
   {
     mapLanes(map, a, block.Point, block.X[a]);
@@ -206,16 +254,13 @@ RT_INLINE int placeBlock(const SplatJob<Dimension, Real>& job, Block<Dimension>&
   }
   if (sumOfLanes(beyond) == 0.0)
   {
-    return 0;
+    return false;
   }
-  int outside = 0;
-  for (int i = 0; i < block.Count; ++i)
+  for (int i = 0; i < block.Count && !job.Renormalize; ++i)
   {
-    const bool isOutside = !(beyond[i] == 0.0);
-    outside += isOutside ? 1 : 0;
-    block.Mass[i] = isOutside && !job.Renormalize ? 0.0 : block.Mass[i];
+    block.Mass[i] = beyond[i] == 0.0 ? block.Mass[i] : 0.0;
   }
-  return outside;
+  return true;
 }
 
 // Moves weights of the cells from `cell` on to the `kept` ones from the returned one on, which are

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace RectifiedTransport
 {
@@ -36,67 +35,47 @@ void boundsOf(const Real* points, std::int64_t count, double low[3], double high
 } // namespace
 
 template <int Dimension, class Real>
-CellBox<Dimension> SplatSurvey<Dimension, Real>::BoxOf(std::int64_t first, std::int64_t count) const
+typename SplatSurvey<Dimension, Real>::Planes SplatSurvey<Dimension, Real>::PlanesOf(
+  std::int64_t first, std::int64_t count) const
 {
   double low[3];
   double high[3];
   boundsOf(this->Job->Particles.Points + 3 * first, count, low, high);
+  constexpr int axis = Dimension - 1;
   const SplatMap<Dimension>& map = this->Job->Particles.ToIndex;
-  CellBox<Dimension> box;
-  for (int a = 0; a < Dimension; ++a)
+  double least = 0.0;
+  double most = 0.0;
+  for (int r = 0; r < 3; ++r)
   {
-    double least = 0.0;
-    double most = 0.0;
-    for (int r = 0; r < 3; ++r)
-    {
-      const double one = map.Matrix[a][r] * (low[r] - map.Origin[r]);
-      const double other = map.Matrix[a][r] * (high[r] - map.Origin[r]);
-      least += std::min(one, other);
-      most += std::max(one, other);
-    }
-    // A cell more than the kernel reaches is more than rounding.
-    const double size = this->Job->Size[a];
-    const double kept = this->Job->Kept[a];
-    const double reach = 0.5 * this->Job->Width + 2.0;
-    const bool known = std::isfinite(least) && std::isfinite(most);
-    const double begin = known ? std::clamp(std::floor(least - reach), 0.0, size - kept) : 0.0;
-    const double end = known ? std::clamp(std::ceil(most + reach), kept, size) : size;
-    box.Low[a] = static_cast<std::int32_t>(begin);
-    box.High[a] = static_cast<std::int32_t>(end);
+    const double one = map.Matrix[axis][r] * (low[r] - map.Origin[r]);
+    const double other = map.Matrix[axis][r] * (high[r] - map.Origin[r]);
+    least += std::min(one, other);
+    most += std::max(one, other);
   }
-  return box;
+  // A cell more than the kernel reaches is more than rounding.
+  const double size = this->Job->Size[axis];
+  const double kept = this->Job->Kept[axis];
+  const double reach = 0.5 * this->Job->Width + 2.0;
+  const bool known = std::isfinite(least) && std::isfinite(most);
+  const double begin = known ? std::clamp(std::floor(least - reach), 0.0, size - kept) : 0.0;
+  const double end = known ? std::clamp(std::ceil(most + reach), kept, size) : size;
+  return { static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end) };
 }
 
 template <int Dimension, class Real>
-double SplatSurvey<Dimension, Real>::Look(
-  std::int64_t first, std::int64_t count, std::int64_t samples, const Executor& executor)
+void SplatSurvey<Dimension, Real>::Look(
+  std::int64_t first, std::int64_t count, const Executor& executor)
 {
   const std::int64_t chunks = (count + splatChunk - 1) / splatChunk;
-  const std::int64_t looks = samples > 0 ? std::min(samples, chunks) : chunks;
-  this->Chunks.resize(static_cast<std::size_t>(looks));
-  this->Cells.resize(static_cast<std::size_t>(looks));
-  executor.For(looks, 16, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t look = begin; look < end; ++look)
+  this->Chunks.resize(static_cast<std::size_t>(chunks));
+  executor.For(chunks, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t chunk = begin; chunk < end; ++chunk)
     {
-      const std::int64_t start = look * chunks / looks * splatChunk;
-      const CellBox<Dimension> box =
-        this->BoxOf(first + start, std::min(splatChunk, count - start));
-      double cells = 1.0;
-      for (int a = 0; a < Dimension; ++a)
-      {
-        cells *= box.High[a] - box.Low[a];
-      }
-      this->Chunks[static_cast<std::size_t>(look)] = { box.Low[Dimension - 1],
-        box.High[Dimension - 1] };
-      this->Cells[static_cast<std::size_t>(look)] = cells;
+      const std::int64_t start = chunk * splatChunk;
+      this->Chunks[static_cast<std::size_t>(chunk)] =
+        this->PlanesOf(first + start, std::min(splatChunk, count - start));
     }
   });
-  double sum = 0.0;
-  for (const double cells : this->Cells)
-  {
-    sum += cells;
-  }
-  return sum / static_cast<double>(looks);
 }
 
 template <int Dimension, class Real>

@@ -31,16 +31,14 @@ public:
   {
   }
 
-  // Looks at the chunks of particles [first, first + count), or if `samples` > 0 at no more than
-  // that many of them, spread evenly. Returns the mean number of cells in the box around a chunk.
-  double Look(
-    std::int64_t first, std::int64_t count, std::int64_t samples, const Executor& executor);
+  // Looks at the chunks of particles [first, first + count).
+  void Look(std::int64_t first, std::int64_t count, const Executor& executor);
 
   std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
   // The planes that a chunk may reach.
   Planes Chunk(std::int64_t chunk) const { return this->Chunks[static_cast<std::size_t>(chunk)]; }
 
-  // Cuts the grid into at most `wanted` slabs, once all chunks have been looked at. Returns how
+  // Cuts the grid into at most `wanted` slabs, once the chunks have been looked at. Returns how
   // many of them a chunk reaches in the mean.
   double CutSlabs(std::int64_t wanted);
 
@@ -48,12 +46,11 @@ public:
   CellBox<Dimension> Slab(std::int64_t slab) const;
 
 private:
-  CellBox<Dimension> BoxOf(std::int64_t first, std::int64_t count) const;
+  Planes PlanesOf(std::int64_t first, std::int64_t count) const;
 
   const SplatJob<Dimension, Real>* Job = nullptr;
   std::vector<Planes> Chunks;
-  std::vector<double> Cells; // in the boxes around chunks
-  std::vector<double> Work;  // of every plane
+  std::vector<double> Work; // of every plane
   std::vector<std::int32_t> Cuts;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles by the tiles of the grid that they reach, each tile's in their order: however they are
-// scattered, the cells of a tile stay in the cache while they are added to.
+// Particles by the tiles of the grid that they reach, each tile's in their order: many tasks then
+// add particles that are in no order, and each weighs none but its own.
 #ifndef RectifiedTransport_SplatTiles_h
 #define RectifiedTransport_SplatTiles_h
 
