@@ -124,9 +124,9 @@ public:
 
   ///@{
   /**
-   * How a point's mass is spread: linearly over 2 cells an axis (CloudInCell, default), into the
-   * cell that holds the point (NearestCell; on a face, the upper one), quadratically over 3 cells
-   * an axis (TriangularShapedCloud), or as a Gaussian of the given Radius.
+   * How a point's mass is spread: CloudInCell (default), linearly over 2 cells an axis;
+   * NearestCell, into the cell that holds the point, on a face the upper one;
+   * TriangularShapedCloud, quadratically over 3 cells an axis; or Gaussian, of the given Radius.
    */
   vtkSetMacro(Kernel, int);
   vtkGetMacro(Kernel, int);
@@ -149,8 +149,8 @@ public:
 
   ///@{
   /**
-   * Where the part of a kernel goes that is beyond the border: back to its cells inside, axis by
-   * axis (Renormalize, default), or nowhere (Drop).
+   * Where the part of a kernel goes that is beyond the border: Renormalize (default), back to its
+   * cells inside, axis by axis; or Drop, nowhere.
    */
   vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);

@@ -89,7 +89,7 @@ class Splat(unittest.TestCase):
         image = producer(simple, density_image((40, 40), values=values.ravel()))
         dots = simple.SampleDensity(Input=image, NumberOfParticles=50000)
         splat = simple.SplatMass(Input=dots, Reference=image, Association="Cells",
-                                 MassArray=["POINTS", "Mass"])
+                                 Kernel="NearestCell", MassArray=["POINTS", "Mass"])
         found = values_of(splat).reshape(8, 5, 8, 5).mean(axis=(1, 3))
         wanted = values.reshape(8, 5, 8, 5).mean(axis=(1, 3))
         self.assertLess(np.abs(found - wanted).max(), 0.25)
