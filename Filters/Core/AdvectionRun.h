@@ -377,17 +377,28 @@ public:
   template <class Source>
   bool Advect(const Source& source, std::int64_t count, const Executor& executor)
   {
+    constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
     std::vector<Leftovers<Dimension>> leftovers;
+    std::size_t left = 0;
     const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
-      leftovers.clear();
-      leftovers.resize(static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
+      const std::size_t before = leftovers.size();
+      leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
         range.RunOnce(source, begin + first, static_cast<int>(last - first),
-          leftovers[static_cast<std::size_t>(first / this->Grain)]);
+          leftovers[before + static_cast<std::size_t>(first / this->Grain)]);
       });
-      LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
-        .Run(leftovers, this->First + 1, executor);
+      for (std::size_t range = before; range < leftovers.size(); ++range)
+      {
+        left += leftovers[range].Index.size();
+      }
+      if (left >= enough || begin + slice == count)
+      {
+        LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
+          .Run(leftovers, this->First + 1, executor);
+        leftovers.clear();
+        left = 0;
+      }
     };
     return this->Run(count, executor, runSlice);
   }
