@@ -225,8 +225,7 @@ int vtkEqualMassCells::RequestInformation(
   }
   else
   {
-    // The sites' bounds are not known before their data; what is left of the last run is as good a
-    // guess as any, and the data say what is right.
+    this->UpdateInputBeforeData(0);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);

@@ -144,6 +144,16 @@ int vtkGuardedAlgorithm::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::UpdateInputBeforeData(int port)
+{
+  int outputPort = 0;
+  if (vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort))
+  {
+    producer->Update(outputPort);
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkGuardedAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {

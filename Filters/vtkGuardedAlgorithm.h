@@ -61,6 +61,13 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
+   * Bring what is connected to a port up to date, from RequestInformation: where the extent of an
+   * image follows from points, image filters behind it would otherwise get nothing, or read past
+   * the end of an image that is smaller than announced.
+   */
+  void UpdateInputBeforeData(int port);
+
+  /**
    * Ask for whole images, because a transport is global, and for all points of other inputs.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,

@@ -173,14 +173,15 @@ int vtkMassSplatter::RequestInformation(
   {
     frame = ImageFrame(inputVector[1]->GetInformationObject(0));
   }
-  else if (vtkPointSet* points = vtkPointSet::GetData(inputVector[0]))
+  else
   {
-    // The bounds are not known before the data; what is left of the last run is as good a guess as
-    // any, and the data say what is right.
+    this->UpdateInputBeforeData(0);
+    vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
     try
     {
       requireDimensions(this->Dimensions);
-      const ImageFrame cells = points->GetNumberOfPoints() > 0 ? this->CellsAround(points) : frame;
+      const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
+      const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
       frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
     }
     catch (const Failure&)

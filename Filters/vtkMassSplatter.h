@@ -125,9 +125,9 @@ public:
 
   ///@{
   /**
-   * How a point's mass is spread: CloudInCell (default), linearly over 2 cells an axis;
-   * NearestCell, into the cell that holds the point, on a face the upper one;
-   * TriangularShapedCloud, quadratically over 3 cells an axis; or Gaussian, of the given Radius.
+   * How a point's mass is spread: CloudInCell (default) linearly over 2 cells an axis, NearestCell
+   * into the cell that holds the point (on a face, the upper one), TriangularShapedCloud
+   * quadratically over 3 cells an axis, Gaussian as a Gaussian of the given Radius.
    */
   vtkSetMacro(Kernel, int);
   vtkGetMacro(Kernel, int);
@@ -150,8 +150,8 @@ public:
 
   ///@{
   /**
-   * Where the part of a kernel goes that is beyond the border: Renormalize (default), back to its
-   * cells inside, axis by axis; or Drop, nowhere.
+   * What happens to the part of a kernel that is beyond the border: Renormalize (default) gives it
+   * back to the cells inside, axis by axis; with Drop it is lost.
    */
   vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);

@@ -130,13 +130,7 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // How many cells there are depends on the bounds, and image filters that follow would read past
-  // the end of an image that is smaller than announced: the surface has to be there first.
-  int port = 0;
-  if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port))
-  {
-    producer->Update(port);
-  }
+  this->UpdateInputBeforeData(0);
   std::array<double, 6> bounds{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   if (surface && surface->GetNumberOfPoints() > 0)

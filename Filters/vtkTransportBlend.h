@@ -127,8 +127,8 @@ public:
 
   ///@{
   /**
-   * The standard deviation of the Gaussian kernel, in cells of the output, above 0; the kernel is
-   * cut at 3 of them. Default 1.
+   * The standard deviation of the Gaussian kernel, in cells of the output, above 0 and at most
+   * 10000; the kernel is cut at 3 of them. Default 1.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);

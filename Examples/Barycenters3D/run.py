@@ -14,7 +14,7 @@ from paraview import simple
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "knot", "elephant"],
+    parser.add_argument("shapes", nargs="*", default=["spot", "eight", "bunny"],
                         help="three closed surfaces, top, left and right: names of "
                         "rectified_shapes.py or files")
     parser.add_argument("--resolution", type=figures.at_least(8), default=96,
@@ -35,7 +35,6 @@ def main():
         figures.result(solid)
     voxels = watch.lap()
     mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
-    contour = shapes.surface(mean)
     step, last = arguments.panel, arguments.rows - 1
     picture = np.full((arguments.rows * step, arguments.rows * step, 3), 255, np.uint8)
     times = []
@@ -44,11 +43,11 @@ def main():
             mean.Weights = [(last - row) / last, (row - column) / last, column / last]
             watch.lap()
             density = figures.result(mean)
-            contour.UpdatePipeline()
+            surface = shapes.surface(density)
             times.append(watch.lap())
             left, low = round((last - row) / 2 * step) + column * step, (last - row) * step
             picture[low:low + step, left:left + step] = shapes.lit(
-                contour, shapes.mixed(mean.Weights), step)
+                surface, shapes.mixed(mean.Weights), step)
     figures.table("%d x %d x %d cells with as many particles: seconds" % density.GetDimensions(),
                   ["stage", "clock", "all processors", "paper, 256\u00b3, 32 cores"],
                   [[what, *("%.2f" % seconds for seconds in time), paper] for what, time, paper in

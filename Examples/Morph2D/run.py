@@ -19,7 +19,9 @@ def main():
                         help="pairs of shapes, a morph each: names of rectified_shapes.py or files "
                         "of surfaces, or two joined by + to be side by side")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images, with one particle each")
+                        help="pixels along the sides of the images")
+    parser.add_argument("--particles", type=figures.at_least(1), default=9,
+                        help="particles a pixel; the paper has 1")
     parser.add_argument("--frames", type=figures.at_least(2), default=7, help="pictures of a morph")
     parser.add_argument("--panel", type=figures.at_least(16), default=256,
                         help="side of each of the pictures")
@@ -32,7 +34,8 @@ def main():
     for pair in pairs:
         images = [example.producer(shapes.silhouette(name, arguments.size)) for name in pair]
         morph = simple.MorphDensities(Input=images[0], Target=images[1],
-                                      Parameter=0, Kernel="Gaussian")
+                                      ParticlesPerCell=arguments.particles, Parameter=0,
+                                      **shapes.SMOOTH)
         watch, line, times = shapes.Watch(), [], []
         for t in np.linspace(0, 1, arguments.frames):
             morph.Parameter = t
@@ -43,8 +46,8 @@ def main():
         rows.append(["%s to %s" % pair, *("%.3f / %.3f" % tuple(time) for time in
                              (times[0], np.mean(times[1:], axis=0), np.sum(times, axis=0)))])
         pictures.append(line)
-    figures.table("%d\u00b2 pixels and as many particles: seconds of the clock / of all processors"
-                  % arguments.size, ["morph", "maps and a frame", "another frame",
+    figures.table("%d\u00b2 pixels with %d particles each: seconds of the clock / of all processors"
+                  % (arguments.size, arguments.particles), ["morph", "maps and a frame", "another frame",
                                      "%d frames" % arguments.frames], rows)
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "morph-2d.png")

@@ -12,7 +12,7 @@ import rectified_shapes as shapes
 from paraview import simple
 
 
-def morph(names, resolution, frames, pixels):
+def morph(names, options):
     """Pictures of a morph, the size of its grid, and how long what took."""
     watch, times = shapes.Watch(), []
 
@@ -23,30 +23,38 @@ def morph(names, resolution, frames, pixels):
     for name in names:
         mesh = example.producer(shapes.posed(name))
         watch.lap()
-        solids.append(simple.SolidDensity(Input=mesh, Resolution=resolution))
-        figures.result(solids[-1])
+        solid = simple.SolidDensity(Input=mesh, Resolution=options.resolution)
+        density = figures.result(solid)
+        if options.cube:
+            solid = example.producer(shapes.cubed(density, options.resolution))
         took("solid of " + name)
-    between = simple.MorphDensities(Input=solids[0], Target=solids[1], Kernel="Gaussian")
-    contour = shapes.surface(between)
+        solids.append(solid)
+    between = simple.MorphDensities(Input=solids[0], Target=solids[1], Kernel=options.kernel)
     pictures = []
-    for t in np.linspace(0, 1, frames):
+    for t in np.linspace(0, 1, options.frames):
         watch.lap()
         between.Parameter = t
         density = figures.result(between)
         took(*("step t = %.2f" % t, "3") if pictures else ("two maps, step t = 0", "815"))
-        contour.UpdatePipeline()
+        surface = shapes.surface(density)
         took("its surface", "with the step")
-        pictures.append(("t = %.2f" % t, shapes.lit(contour, shapes.mixed([1 - t, t]), pixels)))
+        pictures.append(("t = %.2f" % t, shapes.lit(surface, shapes.mixed([1 - t, t]),
+                                                    options.panel)))
     return pictures, density.GetDimensions(), times
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "elephant", "spot", "knot"],
+    parser.add_argument("shapes", nargs="*", default=["spot", "bunny", "spot", "eight"],
                         help="pairs of closed surfaces, a morph each: names of "
                         "rectified_shapes.py or files")
-    parser.add_argument("--resolution", type=figures.at_least(8), default=96,
+    parser.add_argument("--resolution", type=figures.at_least(8), default=128,
                         help="cells along the longest axis of a solid; the paper has 256")
+    parser.add_argument("--cube", action="store_true",
+                        help="grow the boxes of the solids to cubes, as the paper has them")
+    parser.add_argument("--kernel", default="Gaussian",
+                        choices=["Gaussian", "CloudInCell", "TriangularShapedCloud"],
+                        help="how a particle's mass is spread")
     parser.add_argument("--frames", type=figures.at_least(2), default=5, help="pictures of a morph")
     parser.add_argument("--panel", type=figures.at_least(16), default=400,
                         help="side of each of the pictures")
@@ -57,7 +65,7 @@ def main():
     example.load_plugin()
     pictures = []
     for pair in pairs:
-        line, size, times = morph(pair, arguments.resolution, arguments.frames, arguments.panel)
+        line, size, times = morph(pair, arguments)
         figures.table("%s to %s on %d x %d x %d cells with as many particles: seconds"
                       % (*pair, *size),
                       ["stage", "clock", "all processors", "paper, 256\u00b3, 32 cores"], times)

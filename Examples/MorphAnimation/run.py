@@ -31,10 +31,9 @@ def flat_view(sources, size, pixels):
     """A view of images side by side, white where they are 0 and dark where they are 1."""
     view = example.picture_view([round(2.05 * pixels), pixels], [1, 1, 1])
     for column, source in enumerate(sources):
-        place = simple.Transform(Input=source, Transform="Transform")
-        place.Transform.Translate = [1.05 * size * column, 0, 0]
-        shown = simple.Show(place, view, "StructuredGridRepresentation")
-        shown.Ambient, shown.Diffuse = 1, 0
+        shown = simple.Show(source, view, "UniformGridRepresentation")
+        shown.SetRepresentationType("Slice")
+        shown.Position = [1.05 * size * column, 0, 0]
         simple.ColorBy(shown, ("POINTS", "Density"))
         shown.SetScalarBarVisibility(view, False)
     colours = simple.GetColorTransferFunction("Density")
@@ -46,11 +45,13 @@ def flat_view(sources, size, pixels):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "elephant"],
+    parser.add_argument("shapes", nargs="*", default=["knot", "coupling"],
                         help="two shapes: names of rectified_shapes.py or files of surfaces, or "
                         "two joined by +")
     parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images, with four particles each")
+                        help="pixels along the sides of the images")
+    parser.add_argument("--particles", type=figures.at_least(1), default=9,
+                        help="particles a pixel")
     parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
     parser.add_argument("--seconds", type=float, default=2, help="that it takes, one way")
     parser.add_argument("--pictures", type=figures.at_least(2), default=5,
@@ -69,9 +70,9 @@ def main():
     for image in images:
         image.GetPointData().GetScalars().SetName("Density")
     morph = simple.MorphDensities(Input=example.producer(images[0]),
-                                  Target=example.producer(images[1]), Kernel="Gaussian",
-                                  ParticlesPerCell=4, PublishTime=1,
-                                  NumberOfTimeSteps=arguments.frames)
+                                  Target=example.producer(images[1]),
+                                  ParticlesPerCell=arguments.particles, PublishTime=1,
+                                  NumberOfTimeSteps=arguments.frames, **shapes.SMOOTH)
     figures.result(morph)
     frames = []
     with tempfile.TemporaryDirectory() as folder:

@@ -9,7 +9,10 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXAMPLES = os.path.dirname(HERE)
 sys.path.insert(0, EXAMPLES)
+import numpy as np
 import rectified_example as example
+import rectified_figures as figures
+import rectified_shapes as shapes
 from paraview import simple
 from vtkmodules.vtkImagingColor import vtkImageLuminance
 from vtkmodules.vtkImagingCore import vtkImageResize
@@ -109,6 +112,23 @@ def draw_paths(path):
     flat_picture(path, view, [511.5, 383.5], 384)
 
 
+def draw_solid(path, resolution=48, side=300):
+    """Spot's surface, a slice of its density with one square a cell, and the density's contour."""
+    spot = shapes.posed("spot")
+    density = figures.result(simple.SolidDensity(example.producer(spot), Resolution=resolution))
+    values = figures.values_of(density, density.GetDimensions()[2] // 3)[..., None]
+    cells = (255 - values * (255 - shapes.COLOURS[0])).round().astype(np.uint8)
+    cells = figures.fitted(cells, side // resolution * cells.shape[1])
+    low, left = ((side - n) // 2 for n in cells.shape[:2])
+    cut = np.full((side, side, 3), 255, np.uint8)
+    cut[low:low + cells.shape[0], left:left + cells.shape[1]] = cells
+    figures.montage(path, [[
+        ("closed surface", shapes.lit(spot, shapes.COLOURS[0], side)),
+        ("Density, a slice", cut),
+        ("Density, contour at 0.5", shapes.lit(shapes.surface(density), shapes.COLOURS[0], side)),
+    ]], side)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", help="folder of the pictures, by default the documentation's",
@@ -132,7 +152,14 @@ def main():
     draw_flow(path("flow"), stipple)
     draw_map(path("map"))
     draw_paths(path("paths"))
-    print("density, particles, volume, cartogram, cells, patterns, flow, map, paths: " + folder)
+    draw_example(path("morph"), "Morph2D", "morph-2d.png", "bunny", "camel+dinosaur",
+                 "--frames", "6", "--panel", "140")
+    draw_example(path("morph-3d"), "Morph3D", "morph-3d.png", "--resolution", "96",
+                 "--panel", "180")
+    draw_example(path("barycenters"), "Barycenters2D", "barycenters-2d.png", "--panel", "90")
+    draw_solid(path("solid"))
+    print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
+          "morph-3d, barycenters, solid: " + folder)
 
 
 if __name__ == "__main__":

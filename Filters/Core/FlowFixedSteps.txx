@@ -62,18 +62,18 @@ struct PlateauLanes
 {
   alignas(64) LaneVectors<Dimension> End; // x(1)
   alignas(64) Lanes Done;                 // 1 from where it is known, else 0
-  int Left;                               // lanes that are not done
+  int Left = BlockSize;                   // lanes that are not done
 
-  explicit PlateauLanes(int count)
-    : Left(count)
+  PlateauLanes()
   {
     std::memset(this->End, 0, sizeof(this->End));
     std::memset(this->Done, 0, sizeof(this->Done));
   }
 
   // After an evaluation of the velocity in `field`, of particles that are at x then.
-  RT_INLINE void Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
-    const LaneVectors<Dimension>& x, int count, Lanes& found)
+  // Returns whether any lane is done since the last call, and marks those that are.
+  RT_INLINE bool Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
+    const LaneVectors<Dimension>& x, Lanes& found)
   {
     constexpr double rounding = 1e-9;
     alignas(64) Lanes mass; // the largest that the box could hold
@@ -93,12 +93,18 @@ struct PlateauLanes
         mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
       }
     }
-#pragma omp simd
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
     for (int i = 0; i < BlockSize; ++i)
     {
       const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // that holds 1 / mass by now
       found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
       this->Done[i] += found[i];
+      sum += found[i];
+    }
+    if (sum == 0.0)
+    {
+      return false;
     }
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -110,10 +116,8 @@ struct PlateauLanes
         this->End[axis][i] = found[i] > 0.0 ? centre : this->End[axis][i];
       }
     }
-    for (int i = 0; i < count; ++i)
-    {
-      this->Left -= found[i] > 0.0 ? 1 : 0;
-    }
+    this->Left -= static_cast<int>(sum);
+    return true;
   }
 };
 
@@ -147,7 +151,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
 
   const std::int64_t steps = job.Steps << refinement;
   const bool hasPlateaus = job.Tables.Occupied && !job.Nearest;
-  PlateauLanes<Dimension> plateau(count);
+  PlateauLanes<Dimension> plateau;
   std::int64_t step = 0;
   for (; step + 1 < steps && plateau.Left > 0; ++step)
   {
@@ -189,8 +193,8 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
     if (hasPlateaus && 3 * step >= steps) // before, boxes are wide
     {
       alignas(64) Lanes found;
-      plateau.Find(job, lanes.Field, lanes.Position, count, found);
-      for (int i = 0; writer.IsDense() && i < count; ++i)
+      const bool any = plateau.Find(job, lanes.Field, lanes.Position, found);
+      for (int i = 0; any && writer.IsDense() && i < count; ++i)
       {
         if (found[i] > 0.0)
         {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of the README.
 
-usage: python3 run.py [--repetitions N] [--quality] PROGRAM
+usage: python3 run.py [--repetitions N] [--quality] [--morphs] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -180,6 +180,29 @@ def filters(r):
           f"{milliseconds(r.median('Solid/800000/128'))}.")
 
 
+def morphs(r):
+    rows = []
+    for name, work in (("Morph", "5 steps between two shapes"),
+                       ("Barycenters", "5 × 5 barycenters of four shapes")):
+        paper, whole = (f"{name}/{kind}" for kind in ("paper", "filter"))
+        rows.append([f"{work}, 256², 65,536 particles", milliseconds(r.median(paper)),
+                     milliseconds(r.median(whole)), f"{r.ratio(paper, whole):.1f}×"])
+    print_table(["maps and all", "paper", "filter", "ratio"], rows)
+    print(f"A change of Parameter alone: {milliseconds(r.median('Morph/step2D/256'))} at 256², "
+          f"{milliseconds(r.median('Morph/step3D/128'))} at 128³.\n")
+    rows = []
+    for side in (64, 128, 256):
+        floor = f"Splat3D/read_and_write/{side}"
+        rows.append([f"{side}³", milliseconds(r.median(floor))] +
+                    [milliseconds(r.median(f"Splat3D/{kernel}/{side}")) for kernel in
+                     ("CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian",
+                      "CloudInCell_random")] +
+                    [f"{r.ratio(f'Splat3D/CloudInCell/{side}', floor):.1f}×"])
+    print_table(["splat, one particle a cell", "read particles, write grid", "CloudInCell",
+                 "NearestCell", "TriangularShapedCloud", "Gaussian", "CloudInCell, random order",
+                 "CloudInCell / reading and writing"], rows)
+
+
 def run(arguments, names):
     """What the program reports of the benchmarks whose names match."""
     with tempfile.TemporaryDirectory() as folder:
@@ -201,12 +224,15 @@ def main():
     parser.add_argument("program", help="RectifiedTransportBenchmarks")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--quality", action="store_true", help="only how good the particles are")
+    parser.add_argument("--morphs", action="store_true", help="only morphs, barycenters and splats")
     arguments = parser.parse_args()
 
     if arguments.quality:
         return quality(Results(run(arguments, "Quality")))
+    if arguments.morphs:
+        return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Quality"))
+    results = Results(run(arguments, "-_reused|Lattice|Quality|Solid|_fresh"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
@@ -215,6 +241,7 @@ def main():
     flows(results)
     remarks(results)
     filters(results)
+    morphs(results)
     return None
 
 

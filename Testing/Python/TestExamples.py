@@ -36,7 +36,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
          "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
          "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
-                            "--panel", "96"],
+                            "--panel", "120"],
          "Barycenters2D": ["--size", "64", "--rows", "3", "--panel", "96"],
          "Barycenters3D": ["--resolution", "32", "--rows", "3", "--panel", "120"]}
 SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "Barycenters3D": 3}
@@ -314,6 +314,18 @@ class Examples(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn("the shapes with names are armadillo, bear", said)
 
+    @need_meshes
+    def test_an_open_surface(self):
+        """The filter's words come through, and no picture is left."""
+        drawn = os.path.join(OUTPUT, "morph-3d.png")
+        if os.path.exists(drawn):
+            os.remove(drawn)
+        said, code = run("Morph3D", os.path.join(SOURCE, "build-meshes", "lion-head.off"), "spot")
+        self.assertNotEqual(code, 0)
+        self.assertIn("The input surface is not closed: it has ", said)
+        self.assertIn("every edge must be one of exactly two triangles", said)
+        self.assertFalse(os.path.exists(drawn))
+
     def test_number_of_shapes(self):
         for example, number in SHAPES.items():
             said, code = run(example, "spot")
@@ -328,8 +340,9 @@ class Examples(unittest.TestCase):
         film = Image.open(os.path.join(OUTPUT, "morph-animation.gif"))
         self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
         drawn = read(os.path.join(OUTPUT, "morph-animation.png"))[0]
-        for low, fades in (10, True), (142, False):
-            start, middle, end = (drawn[low:low + 96, left:left + 96] for left in (10, 116, 222))
+        for low, fades in (10, True), (166, False):
+            start, middle, end = (drawn[low:low + 120, left:left + 120]
+                                  for left in (10, 140, 270))
             difference = np.abs(middle - (start + end) / 2)
             self.assertEqual((difference > 12).mean() < 0.01, fades)
         self.check_picture("morph-animation.png")

@@ -88,11 +88,12 @@ class Splat(unittest.TestCase):
         values[25:, 25:] = 7
         image = producer(simple, density_image((40, 40), values=values.ravel()))
         dots = simple.SampleDensity(Input=image, NumberOfParticles=50000)
+        # Wider kernels carry mass over the edges of the shape.
         splat = simple.SplatMass(Input=dots, Reference=image, Association="Cells",
-                                 Kernel="NearestCell", MassArray=["POINTS", "Mass"])
+                                 MassArray=["POINTS", "Mass"], Kernel="NearestCell")
         found = values_of(splat).reshape(8, 5, 8, 5).mean(axis=(1, 3))
         wanted = values.reshape(8, 5, 8, 5).mean(axis=(1, 3))
-        self.assertLess(np.abs(found - wanted).max(), 0.25)
+        self.assertLess(np.abs(found - wanted).max(), 0.05)
         self.assertAlmostEqual(total(splat), values.sum(), delta=1e-6)
 
     def test_dimension(self):
