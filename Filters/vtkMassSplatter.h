@@ -33,9 +33,10 @@
  * an empty one. NaN or infinite coordinates and masses, and points that are all in one place
  * without a Reference, are errors.
  *
- * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell; for points in no order up
- * to 6 more a point, 16 million at a time. The result is the same to the last bit for every number
- * of threads: the shares of a cell are added in the order of the points.
+ * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell, 8 a point if there are
+ * masses; with many threads and points in no order up to 6 more a point, of 16 million at a time.
+ * The result is the same to the last bit for every number of threads: the shares of a cell are
+ * added in the order of the points.
  *
  * \code{.cpp}
  * vtkNew<vtkMassSplatter> splatter;
