@@ -44,7 +44,7 @@ SHAPES = {"armadillo": ("armadillo.off", "-x", "+y"),
           "triceratops": ("triceratops.off", "+x", "+y")}
 COLOURS = np.array([[25, 75, 160], [190, 35, 65], [15, 125, 90], [215, 130, 15]], float)
 MARGIN = 0.06  # around silhouettes, of the side of the image
-# Particles in the narrow gaps of silhouettes need more than the 32 steps of the default; the filters
+# With the default of 32 steps a few particles end in the narrow gaps of silhouettes; the filters
 # would move them to the nearest mass, and warn.
 SMOOTH = {"Kernel": "Gaussian", "NumberOfSteps": 64}
 FINE = 4  # points along the sides of a pixel that its covered part is counted with

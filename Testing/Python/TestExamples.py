@@ -337,8 +337,8 @@ class Examples(unittest.TestCase):
         """The cross-fade's middle is the mean of its ends; the morph's is not, for mass moves."""
         said, code = run("MorphAnimation")
         self.assertEqual(code, 0, said)
-        film = Image.open(os.path.join(OUTPUT, "morph-animation.gif"))
-        self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
+        with Image.open(os.path.join(OUTPUT, "morph-animation.gif")) as film:
+            self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
         drawn = read(os.path.join(OUTPUT, "morph-animation.png"))[0]
         for low, fades in (10, True), (166, False):
             start, middle, end = (drawn[low:low + 120, left:left + 120]
