@@ -2,6 +2,7 @@
 #include "vtkDensityAlgorithm.h"
 
 #include "Bridge/DensityImage.h"
+#include "Bridge/InputBlock.h"
 #include "Bridge/PropertyCheck.h"
 
 #include "vtkCellData.h"
@@ -98,13 +99,8 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   vtkDataObject* input, int arrayIndex)
 {
   RectifiedTransport::requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
-  vtkImageData* image = vtkImageData::SafeDownCast(input);
-  if (input && !image)
-  {
-    // Of a composite input; the executive refuses others.
-    throw RectifiedTransport::Failure(std::string("The density has a block of type ") +
-      input->GetClassName() + "; it must be a vtkImageData, as Resample To Image makes one of it");
-  }
+  auto* image = RectifiedTransport::requireBlock<vtkImageData>(
+    input, "The density", "a vtkImageData, as Resample To Image makes one of it");
   if (!image || image->GetNumberOfPoints() == 0)
   {
     return nullptr;

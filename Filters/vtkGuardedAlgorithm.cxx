@@ -59,13 +59,14 @@ void publishTimes(
     }
   }
 }
-// The executive leaves the scalars that the points of an image had in the last run.
-void dropOldScalars(vtkInformationVector* outputVector)
+// The executive leaves the extent of an image and the scalars of its points from the last run.
+void emptyImages(vtkInformationVector* outputVector)
 {
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
     if (vtkImageData* image = vtkImageData::GetData(outputVector, i))
     {
+      image->SetExtent(0, -1, 0, -1, 0, -1);
       image->GetPointData()->Initialize();
     }
   }
@@ -103,7 +104,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
-    dropOldScalars(outputVector);
+    emptyImages(outputVector);
     return RectifiedTransport::runGuarded(
       this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
   }

@@ -6,6 +6,7 @@
 #include "Bridge/FlowSettings.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
+#include "Bridge/InputBlock.h"
 #include "Bridge/MassSplat.h"
 #include "Bridge/Memory.h"
 #include "Bridge/PointInput.h"
@@ -13,12 +14,11 @@
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SplatSettings.h"
 
-#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
@@ -34,12 +34,6 @@ using namespace RectifiedTransport;
 
 const char* const AssociationTexts[] = { "Points", "Cells" };
 
-// The integration's settings hold who runs the loops.
-FlowSettings threadingSettings(int threading)
-{
-  return { 0, 1, 1.0, 0, threading };
-}
-
 void requireDimensions(const int dimensions[3])
 {
   if (*std::min_element(dimensions, dimensions + 3) < 1)
@@ -48,18 +42,6 @@ void requireDimensions(const int dimensions[3])
       std::to_string(dimensions[1]) + " " + std::to_string(dimensions[2]) +
       "; it must be at least 1 along every axis");
   }
-}
-
-vtkImageData* referenceOf(vtkInformationVector* port)
-{
-  vtkDataObject* data = vtkDataObject::GetData(port);
-  vtkImageData* image = vtkImageData::SafeDownCast(data);
-  if (data && !image)
-  {
-    throw Failure(std::string("The Reference has a block of type ") + data->GetClassName() +
-      "; it must be a vtkImageData");
-  }
-  return image;
 }
 } // namespace
 
@@ -108,7 +90,7 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 //------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetThreadingAsString()
 {
-  return threadingSettings(this->Threading).ThreadingText();
+  return FlowSettings::OfThreading(this->Threading).ThreadingText();
 }
 
 //------------------------------------------------------------------------------
@@ -214,13 +196,8 @@ int vtkMassSplatter::RequestData(
   requireDimensions(this->Dimensions);
   requireChoice("Association", this->Association, AssociationTexts);
   const SplatOptions options = this->GetSplatSettings().Options();
-  const std::unique_ptr<Executor> executor = threadingSettings(this->Threading).MakeExecutor();
-
-  // An image keeps its extent and the scalars of its points from run to run.
-  vtkImageData* output = vtkImageData::GetData(outputVector);
-  ImageFrame().CopyTo(output);
-  output->GetPointData()->Initialize();
-  output->GetCellData()->Initialize();
+  const std::unique_ptr<Executor> executor =
+    FlowSettings::OfThreading(this->Threading).MakeExecutor();
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* information = outputVector->GetInformationObject(0);
@@ -229,7 +206,8 @@ int vtkMassSplatter::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  vtkImageData* reference = referenceOf(inputVector[1]);
+  auto* reference = requireBlock<vtkImageData>(
+    vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");
   const vtkIdType count = input ? input->GetNumberOfPoints() : 0;
   if (!input || (reference ? reference->GetNumberOfPoints() == 0 : count == 0))
   {
@@ -246,6 +224,7 @@ int vtkMassSplatter::RequestData(
     host.BeginStage(0.2);
     masses = PointMasses(input, array, *executor, host);
   }
+  vtkImageData* output = vtkImageData::GetData(outputVector);
   const bool onPoints = this->Association == POINTS;
   const ImageFrame cells = reference ? ImageFrame(reference) : this->CellsAround(input);
   if (cells.HasOnePoint())
@@ -274,9 +253,7 @@ int vtkMassSplatter::RequestData(
   const double total = options.Boundary == SplatBoundary::Renormalize
     ? masses.Total()
     : splatMassIn(density, target, *executor, host);
-  vtkDataSetAttributes* owner =
-    onPoints ? static_cast<vtkDataSetAttributes*>(output->GetPointData()) : output->GetCellData();
-  owner->SetScalars(density);
+  output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->SetScalars(density);
   addFieldValue(output, "TotalMass", total);
   if (outside > 0)
   {

@@ -6,18 +6,17 @@
 #include "Bridge/FlowSettings.h"
 #include "Bridge/GridText.h"
 #include "Bridge/HostMonitor.h"
+#include "Bridge/InputBlock.h"
 #include "Bridge/Memory.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SolidGrid.h"
 
-#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -33,18 +32,6 @@ using namespace RectifiedTransport;
 
 const char* const AssociationTexts[] = { "Points", "Cells" };
 constexpr int MaximumSupersampling = 16;
-
-vtkPolyData* surfaceOf(vtkInformationVector* port)
-{
-  vtkDataObject* data = vtkDataObject::GetData(port);
-  vtkPolyData* surface = vtkPolyData::SafeDownCast(data);
-  if (data && !surface)
-  {
-    throw Failure(std::string("The input has a block of type ") + data->GetClassName() +
-      "; it must be a vtkPolyData, as Extract Surface makes one of it");
-  }
-  return surface;
-}
 
 vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
   int supersampling, const Executor& executor, HostMonitor& host)
@@ -89,12 +76,6 @@ vtkSolidDensity::vtkSolidDensity()
 vtkSolidDensity::~vtkSolidDensity() = default;
 
 //------------------------------------------------------------------------------
-FlowSettings vtkSolidDensity::GetFlowSettings()
-{
-  return { 0, 1, 1.0, 0, this->Threading };
-}
-
-//------------------------------------------------------------------------------
 const char* vtkSolidDensity::GetAssociationAsString()
 {
   return choiceText(AssociationTexts, this->Association);
@@ -103,7 +84,7 @@ const char* vtkSolidDensity::GetAssociationAsString()
 //------------------------------------------------------------------------------
 const char* vtkSolidDensity::GetThreadingAsString()
 {
-  return this->GetFlowSettings().ThreadingText();
+  return FlowSettings::OfThreading(this->Threading).ThreadingText();
 }
 
 //------------------------------------------------------------------------------
@@ -162,11 +143,13 @@ int vtkSolidDensity::RequestData(
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
   requireChoice("Association", this->Association, AssociationTexts);
-  const std::unique_ptr<Executor> executor = this->GetFlowSettings().MakeExecutor();
+  const std::unique_ptr<Executor> executor =
+    FlowSettings::OfThreading(this->Threading).MakeExecutor();
   SolidGrid::RequireRanges(this->Resolution, this->Padding);
 
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
-  vtkPolyData* input = surfaceOf(inputVector[0]);
+  auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
+    "a vtkPolyData, as Extract Surface makes one of it");
   if (!input || input->GetNumberOfPoints() == 0)
   {
     return 1;
@@ -182,13 +165,7 @@ int vtkSolidDensity::RequestData(
   const ImageFrame frame = grid.Frame(onPoints);
   frame.CopyTo(output);
   frame.Publish(outputVector->GetInformationObject(0)); // it may have changed with time
-  vtkDataSetAttributes* data = output->GetPointData();
-  if (!onPoints)
-  {
-    data = output->GetCellData();
-  }
-  data->SetScalars(density);
-  output->GetFieldData()->PassData(input->GetFieldData());
+  output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->SetScalars(density);
   return 1;
 }
 

@@ -44,11 +44,6 @@
 
 #include "vtkGuardedAlgorithm.h"
 
-namespace RectifiedTransport
-{
-struct FlowSettings;
-} // namespace RectifiedTransport
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 
@@ -144,8 +139,6 @@ protected:
   int Threading;
 
 private:
-  RectifiedTransport::FlowSettings GetFlowSettings();
-
   vtkSolidDensity(const vtkSolidDensity&) = delete;
   void operator=(const vtkSolidDensity&) = delete;
 };

@@ -216,11 +216,8 @@ int vtkTransportMap::RequestData(
     output->GetPointData()->PassData(input->GetPointData());
     output->GetCellData()->PassData(input->GetCellData());
   }
-  vtkDataSetAttributes* attributes = output->GetPointData();
-  if (!onPoints)
-  {
-    attributes = output->GetCellData();
-  }
+  vtkDataSetAttributes* attributes =
+    output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
 
   HostMonitor host(this);
   const MapRun run{ host, *executor, *density, this->GetFlowCache(), options,

@@ -12,7 +12,6 @@
 #include "ParticleCells.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -121,12 +120,8 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   renew(this->Density, "Density", 1, geometry.NumberOfCells());
   splatPoints(this->Means->GetPointer(0), count, massEach, { geometry, settings.Splat, true },
     executor, host, this->Density);
-  vtkDataSetAttributes* attributes = output.Density->GetPointData();
-  if (!onPoints)
-  {
-    attributes = output.Density->GetCellData();
-  }
-  attributes->SetScalars(this->Density);
+  output.Density->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
+    ->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
   return moved;
 }

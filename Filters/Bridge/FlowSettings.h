@@ -25,6 +25,9 @@ struct FlowSettings
   int TableLookup;
   int Threading;
 
+  // Of a filter that integrates nothing, but has loops for someone to run.
+  static FlowSettings OfThreading(int threading) { return { 0, 1, 1.0, 0, threading }; }
+
   const char* IntegratorText() const;
   const char* TableLookupText() const;
   const char* ThreadingText() const;

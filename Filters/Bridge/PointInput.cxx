@@ -2,6 +2,7 @@
 #include "PointInput.h"
 
 #include "Failure.h"
+#include "InputBlock.h"
 
 #include "vtkDataObject.h"
 
@@ -13,14 +14,8 @@ namespace RectifiedTransport
 
 vtkPointSet* pointSetOf(vtkInformationVector* port)
 {
-  vtkDataObject* data = vtkDataObject::GetData(port);
-  vtkPointSet* points = vtkPointSet::SafeDownCast(data);
-  if (data && !points)
-  {
-    throw Failure(std::string("The input has a block of type ") + data->GetClassName() +
-      "; it must be a vtkPointSet, as Extract Surface makes one of it");
-  }
-  return points;
+  return requireBlock<vtkPointSet>(
+    vtkDataObject::GetData(port), "The input", "a vtkPointSet, as Extract Surface makes one of it");
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)
