@@ -27,10 +27,12 @@ constexpr double shortestSlice = 1 << 22; // shares of particles in cells
 constexpr double densestSlice = 0.25;     // particles a cell
 constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
 
-// How often a chunk may be weighed, by tasks that each add a part of it, before it is cheaper to
-// sort the particles. (One task alone has nothing of a sort: misses of the cache overlap.)
-constexpr double fewVisits = 3.0;
+// How often chunks may be weighed in the mean, by tasks that each add a part of them: for some more
+// slabs than tasks, and before it is cheaper to sort the particles. (One task alone has nothing of
+// a sort: misses of the cache overlap.)
+constexpr double fewVisits = 1.2;
 constexpr double mostVisits = 8.0;
+constexpr std::int64_t mostSlabs = 4; // a task
 
 constexpr std::int64_t widestSorted = 16;
 constexpr std::int64_t groupsOfTiles = 256;
@@ -77,12 +79,12 @@ public:
     }
     this->NumberOfCells = stride;
     const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);
-    this->Step = std::min(static_cast<std::int64_t>(shortest), splatChunk);
+    this->Step = static_cast<std::int64_t>(shortest);
     const double dense =
       std::min(densestSlice * static_cast<double>(stride), static_cast<double>(longestSlice));
     this->ShortestSlice = static_cast<std::int64_t>(
       this->Job.Width > widestSorted ? shortest : std::max(shortest, dense));
-    this->Survey = SplatSurvey<Dimension, Real>(this->Job);
+    this->Survey = SplatSurvey<Dimension, Real>(this->Job, this->Kernels.Reach);
     this->Tiles.Divide();
   }
 
@@ -150,10 +152,14 @@ private:
       return;
     }
     this->Survey.Look(first, count, this->Threads);
-    double visits = this->Survey.CutSlabs(4 * tasks);
-    if (visits > fewVisits)
+    double visits = 0.0;
+    for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
-      visits = this->Survey.CutSlabs(tasks);
+      visits = this->Survey.CutSlabs(slabs * tasks);
+      if (visits <= fewVisits)
+      {
+        break;
+      }
     }
     if (visits > mostVisits && this->Job.Width <= widestSorted)
     {
@@ -168,11 +174,7 @@ private:
   void AddInOrder(std::int64_t first, std::int64_t count)
   {
     this->MakeScratch(1);
-    for (std::int64_t begin = 0; begin < count && !this->Pace.ShouldStop(); begin += splatChunk)
-    {
-      const std::int64_t number = std::min(splatChunk, count - begin);
-      this->Outside += this->AddChunk(first + begin, number, nullptr, 0);
-    }
+    this->Outside += this->AddRange(first, count, nullptr, 0);
   }
 
   // Each task adds what falls between two planes, of the chunks that come near.
@@ -198,7 +200,7 @@ private:
           const bool isInside = planes.Low >= low && planes.High <= high;
           const std::int64_t number = std::min(splatChunk, count - chunk * splatChunk);
           outside +=
-            this->AddChunk(first + chunk * splatChunk, number, isInside ? nullptr : &box, slab);
+            this->AddRange(first + chunk * splatChunk, number, isInside ? nullptr : &box, slab);
         }
         this->Outside += outside;
       }
@@ -230,7 +232,7 @@ private:
   }
 
   // In steps that the host can wait for, however wide the kernel is.
-  std::int64_t AddChunk(
+  std::int64_t AddRange(
     std::int64_t first, std::int64_t count, const CellBox<Dimension>* box, std::int64_t task)
   {
     std::int64_t outside = 0;
@@ -244,10 +246,8 @@ private:
 
   void MakeScratch(std::int64_t tasks)
   {
-    const std::int64_t each =
-      this->AtOffset.empty() ? 0 : std::int64_t{ Dimension } * this->Job.Width;
-    this->ScratchEach = each;
-    this->Scratch.resize(static_cast<std::size_t>(each * tasks));
+    this->ScratchEach = this->AtOffset.empty() ? 0 : std::int64_t{ Dimension } * this->Job.Width;
+    this->Scratch.resize(static_cast<std::size_t>(this->ScratchEach * tasks));
   }
   double* ScratchOf(std::int64_t task) { return this->Scratch.data() + task * this->ScratchEach; }
 

@@ -1,443 +1,402 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kernels of a fixed number of cells an axis. Included by SplatKernels.txx.
 
-// The cells and weights of a coordinate of [0, size]; cells may lie beyond the border. `Inside`:
-// the coordinate is at least one cell away from it. Cells are doubles, which have their sums and
-// products in all instruction sets.
+RT_INLINE FourCells truncated(const Four& x)
+{
+  return __builtin_convertvector(x, FourCells);
+}
+
+// Of coordinates of [0, size]: the first cell, which may lie beyond the border, and Parts numbers
+// that the Width weights follow from. `Inside`: they are more than one cell away from the border.
 struct CloudInCellWeights
 {
   static constexpr int Width = 2;
+  static constexpr int Parts = 1;
   template <bool Inside>
-  RT_INLINE void Weigh(double x, double)
+  static RT_INLINE FourCells Weigh(const Four& x, const Four&, Four* part)
   {
-    const double upper = static_cast<std::int32_t>(x + 0.5);
-    const double part = x - (upper - 0.5);
-    this->First = upper - 1.0;
-    this->Upper = Inside || part > 0.0 ? part : 0.0; // below 0 where x + 0.5 was rounded up to 1
-    this->Lower = 1.0 - this->Upper;
+    const FourCells upper = truncated(x + 0.5);
+    part[0] = x - (__builtin_convertvector(upper, Four) - 0.5);
+    if (!Inside)
+    {
+      part[0] = part[0] > 0.0 ? part[0] : Four{}; // below 0 where x + 0.5 was rounded up to 1
+    }
+    return upper - 1;
   }
-  template <int K>
-  RT_INLINE double Get() const
+  static RT_INLINE void Spread(const double* part, double* weight)
   {
-    return K == 0 ? this->Lower : this->Upper;
+    weight[0] = 1.0 - part[0];
+    weight[1] = part[0];
   }
-
-  double First;
-  double Lower;
-  double Upper;
 };
 
 struct NearestCellWeights
 {
   static constexpr int Width = 1;
+  static constexpr int Parts = 0;
   template <bool Inside>
-  RT_INLINE void Weigh(double x, double size)
+  static RT_INLINE FourCells Weigh(const Four& x, const Four& size, Four*)
   {
-    const double last = size - 1.0;
-    this->First = static_cast<std::int32_t>(Inside || x < last ? x : last);
+    const Four last = size - 1.0;
+    return truncated(Inside ? x : x < last ? x : last);
   }
-  template <int K>
-  RT_INLINE double Get() const
-  {
-    return 1.0;
-  }
-
-  double First;
+  static RT_INLINE void Spread(const double*, double* weight) { weight[0] = 1.0; }
 };
 
 struct TriangularShapedCloudWeights
 {
   static constexpr int Width = 3;
+  static constexpr int Parts = 2;
   template <bool Inside>
-  RT_INLINE void Weigh(double x, double)
+  static RT_INLINE FourCells Weigh(const Four& x, const Four&, Four* part)
   {
-    const double own = static_cast<std::int32_t>(x);
-    const double offset = x - (own + 0.5);
-    this->First = own - 1.0;
-    this->Lower = 0.5 * (0.5 - offset) * (0.5 - offset);
-    this->Upper = 0.5 * (0.5 + offset) * (0.5 + offset);
-    this->Middle = 1.0 - this->Lower - this->Upper;
+    const FourCells own = truncated(x);
+    const Four offset = x - (__builtin_convertvector(own, Four) + 0.5);
+    part[0] = 0.5 * (0.5 - offset) * (0.5 - offset);
+    part[1] = 0.5 * (0.5 + offset) * (0.5 + offset);
+    return own - 1;
   }
-  template <int K>
-  RT_INLINE double Get() const
+  static RT_INLINE void Spread(const double* part, double* weight)
   {
-    return K == 0 ? this->Lower : K == 1 ? this->Middle : this->Upper;
+    weight[0] = part[0];
+    weight[1] = 1.0 - part[0] - part[1];
+    weight[2] = part[1];
   }
-
-  double First;
-  double Lower;
-  double Middle;
-  double Upper;
 };
 
-template <int Dimension, class Weights>
-struct Stencil
+constexpr int atLeastOne(int count)
 {
-  static constexpr int Width = Weights::Width;
-  // Rows of cells along axis 0 that a particle reaches.
-  static constexpr int Rows = Dimension == 1 ? 1 : Dimension == 2 ? Width : Width * Width;
-
-  SplatCells First[Dimension];
-  Lanes Weight[Width];   // along axis 0
-  Lanes RowWeight[Rows]; // products of mass and weights across axis 0
-  Lanes Start;           // the number of the first cell, plus startBias
-};
-
-// The number of a cell plus this is a double whose last bits are the number: vectors of doubles
-// become 64-bit integers at no cost.
-constexpr double startBias = 0x1p52;
-constexpr std::uint64_t startBiasBits = 0x4330000000000000u;
-
-template <class Weights, int K = 0>
-RT_INLINE void writeAlong(const Weights& weights, Lanes* __restrict to, int i)
-{
-  if constexpr (K < Weights::Width)
-  {
-    to[K][i] = weights.template Get<K>();
-    writeAlong<Weights, K + 1>(weights, to, i);
-  }
+  return count > 0 ? count : 1;
 }
 
-// Axis 1 is `across`; axis 2 is in `mass` already.
-template <class Weights, int First, int K = 0>
-RT_INLINE void writeAcross(const Weights& across, double mass, Lanes* __restrict to, int i)
+// The weights of a block, coordinate by coordinate.
+template <class Weights>
+struct WeighedBlock
 {
-  if constexpr (K < Weights::Width)
-  {
-    to[First + K][i] = mass * across.template Get<K>();
-    writeAcross<Weights, First, K + 1>(across, mass, to, i);
-  }
-}
+  std::int32_t First[blockCoordinates];
+  double Part[atLeastOne(Weights::Parts)][blockCoordinates];
 
-template <class Weights, int K = 0>
-RT_INLINE void writeSlices(const Weights* weights, double mass, Lanes* __restrict to, int i)
-{
-  if constexpr (K < Weights::Width)
+  RT_INLINE void Spread(int coordinate, double* weight) const
   {
-    writeAcross<Weights, K * Weights::Width>(
-      weights[1], mass * weights[2].template Get<K>(), to, i);
-    writeSlices<Weights, K + 1>(weights, mass, to, i);
-  }
-}
-
-template <int Dimension, class Weights>
-RT_INLINE void writeLane(const Weights* weights, double mass, const double* stride,
-  Stencil<Dimension, Weights>& stencil, int i)
-{
-  writeAlong(weights[0], stencil.Weight, i);
-  double start = weights[0].First + startBias;
-  stencil.First[0][i] = static_cast<std::int32_t>(weights[0].First);
-  if constexpr (Dimension > 1)
-  {
-    start += weights[1].First * stride[1];
-    stencil.First[1][i] = static_cast<std::int32_t>(weights[1].First);
-  }
-  if constexpr (Dimension > 2)
-  {
-    start += weights[2].First * stride[2];
-    stencil.First[2][i] = static_cast<std::int32_t>(weights[2].First);
-  }
-  stencil.Start[i] = start;
-  if constexpr (Dimension == 1)
-  {
-    stencil.RowWeight[0][i] = mass;
-  }
-  else if constexpr (Dimension == 2)
-  {
-    writeAcross<Weights, 0>(weights[1], mass, stencil.RowWeight, i);
-  }
-  else
-  {
-    writeSlices(weights, mass, stencil.RowWeight, i);
-  }
-}
-
-template <int Dimension, class Weights, bool Inside>
-RT_INLINE void weighLane(double x, double y, double z, const double* size, double mass,
-  const double* stride, Stencil<Dimension, Weights>& stencil, int i)
-{
-  Weights weights[Dimension];
-  weights[0].template Weigh<Inside>(x, size[0]);
-  if constexpr (Dimension > 1)
-  {
-    weights[1].template Weigh<Inside>(y, size[1]);
-  }
-  if constexpr (Dimension > 2)
-  {
-    weights[2].template Weigh<Inside>(z, size[2]);
-  }
-  writeLane<Dimension>(weights, mass, stride, stencil, i);
-}
-
-// Weighs a block whose particles may all be at least one cell away from the border, in one pass
-// along the axes of physical space. Returns whether they are; what has been written is else of no
-// use.
-template <int Dimension, class Weights, class Real>
-RT_INLINE bool weighInside(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
-  Stencil<Dimension, Weights>& stencil)
-{
-  const SplatMap<Dimension>& map = job.Particles.ToIndex;
-  int axis[3];
-  double factor[3];
-  double origin[3];
-  double size[3];
-  double half[3];
-  double allowed[3];
-  double stride[3] = {};
-  for (int a = 0; a < 3; ++a)
-  {
-    axis[a] = onlyAxis(map.Matrix[a]);
-    if (axis[a] < 0)
+    double part[atLeastOne(Weights::Parts)] = {};
+    for (int p = 0; p < Weights::Parts; ++p)
     {
-      return false;
+      part[p] = this->Part[p][coordinate];
     }
-    factor[a] = map.Matrix[a][axis[a]];
-    origin[a] = map.Origin[axis[a]];
-    size[a] = a < Dimension ? job.Size[a < Dimension ? a : 0] : 0.0;
-    half[a] = 0.5 * size[a];
-    allowed[a] = a < Dimension ? half[a] - 1.0 : map.Tolerance[a];
-    stride[a] = a < Dimension ? static_cast<double>(job.Stride[a < Dimension ? a : 0]) : 0.0;
+    Weights::Spread(part, weight);
   }
-  const double* __restrict along0 = block.Point[axis[0]];
-  const double* __restrict along1 = block.Point[axis[1]];
-  const double* __restrict along2 = block.Point[axis[2]];
-  const double* __restrict mass = block.Mass;
-  double beyond = 0.0;
-#pragma omp simd reduction(+ : beyond)
-  for (int i = 0; i < splatBlock; ++i)
+};
+
+// Weighs a block, given in index space or, if `IsMapped`, in physical space. Returns whether all
+// particles are inside, or if `Inside` more than one cell away from the border; if they are not,
+// what has been written is of no use.
+template <bool Inside, bool IsMapped, int Dimension, class Weights, class Real, class From>
+RT_INLINE bool weighBlock(
+  const Axes<Dimension, Real>& axes, const From* __restrict from, WeighedBlock<Weights>& weighed)
+{
+  const Period& allowed = Inside ? axes.Inside : axes.Within;
+  auto inside = Four{} == Four{};
+  for (int begin = 0; begin < blockCoordinates; begin += coordinatePeriod)
   {
-    const double x = factor[0] * (along0[i] - origin[0]);
-    const double y = factor[1] * (along1[i] - origin[1]);
-    const double z = factor[2] * (along2[i] - origin[2]);
-    beyond += __builtin_fabs(x - half[0]) <= allowed[0] ? 0.0 : 1.0;
-    beyond += __builtin_fabs(y - half[1]) <= allowed[1] ? 0.0 : 1.0;
-    beyond += __builtin_fabs(z - half[2]) <= allowed[2] ? 0.0 : 1.0;
-    weighLane<Dimension, Weights, true>(x, y, z, size, mass[i], stride, stencil, i);
+    for (int v = 0; v < vectorsOfPeriod; ++v)
+    {
+      const int lane = begin + 4 * v;
+      const Four place = __builtin_convertvector(load(from + lane), Four);
+      const Four x = IsMapped ? axes.Factor[v] * (place - axes.Origin[v]) : place;
+      const Four offset = x - axes.Half[v];
+      inside &= (offset <= allowed[v]) & (-offset <= allowed[v]);
+      Four part[atLeastOne(Weights::Parts)];
+      store(Weights::template Weigh<Inside>(x, axes.Size[v], part), weighed.First + lane);
+      for (int p = 0; p < Weights::Parts; ++p)
+      {
+        store(part[p], weighed.Part[p] + lane);
+      }
+    }
   }
-  return beyond == 0.0;
+  return (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
 }
 
-// Weighs particle i of a block that has been placed, with an eye to the border.
+// The box of the cells that the particles of a block reach, where the border is far.
+template <int Dimension, class Weights>
+RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
+{
+  FourCells low[vectorsOfPeriod];
+  FourCells high[vectorsOfPeriod];
+  for (int v = 0; v < vectorsOfPeriod; ++v)
+  {
+    low[v] = load(weighed.First + 4 * v);
+    high[v] = low[v];
+  }
+  for (int begin = coordinatePeriod; begin < blockCoordinates; begin += coordinatePeriod)
+  {
+    for (int v = 0; v < vectorsOfPeriod; ++v)
+    {
+      const FourCells cells = load(weighed.First + begin + 4 * v);
+      low[v] = cells < low[v] ? cells : low[v];
+      high[v] = cells > high[v] ? cells : high[v];
+    }
+  }
+  CellBox<Dimension> box;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    box.Low[a] = low[0][a];
+    box.High[a] = high[0][a];
+    for (int j = a + 3; j < coordinatePeriod; j += 3)
+    {
+      box.Low[a] = smaller(box.Low[a], low[j / 4][j % 4]);
+      box.High[a] = larger(box.High[a], high[j / 4][j % 4]);
+    }
+    box.High[a] += Weights::Width;
+  }
+  return box;
+}
+
+template <int Dimension>
+RT_INLINE std::int64_t rowOffset(const std::int64_t* stride, int j, int k)
+{
+  return (Dimension > 1 ? j * stride[Dimension > 1 ? 1 : 0] : 0) +
+    (Dimension > 2 ? k * stride[Dimension - 1] : 0);
+}
+
+// Adds all of particle i.
+template <int Dimension, class Weights>
+RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass,
+  const std::int64_t* stride, double* cells)
+{
+  constexpr int width = Weights::Width;
+  double weight[Dimension][width];
+  double* start = cells;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    weighed.Spread(3 * i + a, weight[a]);
+    start += weighed.First[3 * i + a] * stride[a];
+  }
+#pragma GCC unroll 3
+  for (int k = 0; k < (Dimension > 2 ? width : 1); ++k)
+  {
+    const double slice = Dimension > 2 ? mass * weight[Dimension - 1][k] : mass;
+#pragma GCC unroll 3
+    for (int j = 0; j < (Dimension > 1 ? width : 1); ++j)
+    {
+      const double row = Dimension > 1 ? slice * weight[Dimension > 1 ? 1 : 0][j] : slice;
+      double* to = start + rowOffset<Dimension>(stride, j, k);
+#pragma GCC unroll 3
+      for (int l = 0; l < width; ++l)
+      {
+        to[l] += row * weight[0][l];
+      }
+    }
+  }
+}
+
+// Adds what particle i, which may be at the border, has in a box.
 template <int Dimension, class Weights, class Real>
-void weighAtBorder(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block, int i,
-  Stencil<Dimension, Weights>& stencil)
+void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& weighed, int i,
+  double mass, const CellBox<Dimension>& box)
 {
   constexpr int width = Weights::Width;
   double weight[3][width];
-  std::int64_t start = 0;
+  int begin[3] = { 0, 0, 0 };
+  int end[3] = { 1, 1, 1 };
+  double* start = job.Cells;
   for (int a = 0; a < Dimension; ++a)
   {
+    weighed.Spread(3 * i + a, weight[a]);
     const std::int32_t size = job.Size[a];
-    Weights along;
-    along.template Weigh<false>(block.X[a][i], size);
-    Lanes lanes[width];
-    writeAlong(along, lanes, 0);
-    for (int k = 0; k < width; ++k)
-    {
-      weight[a][k] = lanes[k][0];
-    }
-    std::int32_t first = static_cast<std::int32_t>(along.First);
+    std::int32_t first = weighed.First[3 * i + a];
     if (first < 0 || first + width > size)
     {
       first = keepInside(first, width, job.Kept[a], size, job.Renormalize, weight[a]);
     }
-    stencil.First[a][i] = first;
     start += first * job.Stride[a];
+    begin[a] = larger(box.Low[a] - first, 0);
+    end[a] = smaller(box.High[a] - first, job.Kept[a]);
   }
-  stencil.Start[i] = static_cast<double>(start) + startBias;
-  for (int k = 0; k < width; ++k)
-  {
-    stencil.Weight[k][i] = weight[0][k];
-  }
-  for (int r = 0; r < Stencil<Dimension, Weights>::Rows; ++r)
-  {
-    const double slice = Dimension > 2 ? block.Mass[i] * weight[2][r / width] : block.Mass[i];
-    stencil.RowWeight[r][i] = Dimension > 1 ? slice * weight[1][r % width] : slice;
-  }
-}
-
-// Returns whether any particles are outside.
-template <int Dimension, class Weights, class Real>
-RT_INLINE bool weighStencil(const SplatJob<Dimension, Real>& job, Block<Dimension>& block,
-  Stencil<Dimension, Weights>& stencil)
-{
-  if (weighInside(job, block, stencil))
-  {
-    return false;
-  }
-  const bool outside = placeBlock(job, block);
-  double size[3] = {};
-  double stride[3] = {};
-  for (int a = 0; a < Dimension; ++a)
-  {
-    size[a] = job.Size[a];
-    stride[a] = static_cast<double>(job.Stride[a]);
-  }
-  const double* __restrict x = block.X[0];
-  const double* __restrict y = block.X[Dimension > 1 ? 1 : 0];
-  const double* __restrict z = block.X[Dimension > 2 ? 2 : 0];
-  const double* __restrict mass = block.Mass;
-#pragma omp simd
-  for (int i = 0; i < splatBlock; ++i)
-  {
-    weighLane<Dimension, Weights, false>(x[i], y[i], z[i], size, mass[i], stride, stencil, i);
-  }
-  for (int i = 0; i < block.Count; ++i)
-  {
-    bool inside = true;
-    for (int a = 0; a < Dimension; ++a)
-    {
-      const std::int32_t first = stencil.First[a][i];
-      inside = inside && first >= 0 && first <= job.Size[a] - Weights::Width;
-    }
-    if (!inside)
-    {
-      weighAtBorder(job, block, i, stencil);
-    }
-  }
-  return outside;
-}
-
-template <int Dimension, int Width>
-RT_INLINE std::int64_t rowOffset(const std::int64_t* stride, int row)
-{
-  return Dimension == 1 ? 0
-    : Dimension == 2
-    ? row * stride[Dimension - 1]
-    : row % Width * stride[Dimension > 1 ? 1 : 0] + row / Width * stride[Dimension - 1];
-}
-
-template <int Dimension, class Weights>
-RT_INLINE double* startOf(const Stencil<Dimension, Weights>& stencil, int i, double* cells)
-{
-  std::uint64_t bits;
-  __builtin_memcpy(&bits, &stencil.Start[i], sizeof bits);
-  return cells + (bits - startBiasBits);
-}
-
-template <int Dimension, class Weights>
-RT_INLINE void addWhole(
-  const Stencil<Dimension, Weights>& stencil, int i, const std::int64_t* stride, double* cells)
-{
-  double* start = startOf(stencil, i, cells);
-#pragma GCC unroll 9
-  for (int r = 0; r < Stencil<Dimension, Weights>::Rows; ++r)
-  {
-    double* to = start + rowOffset<Dimension, Weights::Width>(stride, r);
-    const double row = stencil.RowWeight[r][i];
-#pragma GCC unroll 3
-    for (int l = 0; l < Weights::Width; ++l)
-    {
-      to[l] += row * stencil.Weight[l][i];
-    }
-  }
-}
-
-template <int Dimension, class Weights, class Real>
-void addPart(const SplatJob<Dimension, Real>& job, const Stencil<Dimension, Weights>& stencil,
-  int i, const CellBox<Dimension>* box)
-{
-  int begin[3] = { 0, 0, 0 };
-  int end[3] = { 1, 1, 1 };
-  for (int a = 0; a < Dimension; ++a)
-  {
-    const std::int32_t first = stencil.First[a][i];
-    begin[a] = box ? larger(box->Low[a] - first, 0) : 0;
-    end[a] = box ? smaller(box->High[a] - first, job.Kept[a]) : job.Kept[a];
-  }
-  double* start = startOf(stencil, i, job.Cells);
   for (int k = begin[2]; k < end[2]; ++k)
   {
+    const double slice = Dimension > 2 ? mass * weight[2][k] : mass;
     for (int j = begin[1]; j < end[1]; ++j)
     {
-      const int r = k * Weights::Width + j;
-      double* to = start + rowOffset<Dimension, Weights::Width>(job.Stride, r);
+      const double row = Dimension > 1 ? slice * weight[1][j] : slice;
+      double* to = start + rowOffset<Dimension>(job.Stride, j, k);
       for (int l = begin[0]; l < end[0]; ++l)
       {
-        to[l] += stencil.RowWeight[r][i] * stencil.Weight[l][i];
+        to[l] += row * weight[0][l];
       }
     }
   }
 }
 
-template <int Dimension, class Weights, class Real>
-RT_INLINE void addStencil(const SplatJob<Dimension, Real>& job, int count,
-  const Stencil<Dimension, Weights>& stencil, const CellBox<Dimension>* box)
+// How much of what particles reach is in a box.
+enum class Part
 {
-  bool whole = true;
-  std::int64_t stride[Dimension];
+  Nothing,
+  Some,
+  All
+};
+
+template <int Dimension>
+RT_INLINE Part partOf(const CellBox<Dimension>& reached, const CellBox<Dimension>& box)
+{
+  Part part = Part::All;
   for (int a = 0; a < Dimension; ++a)
   {
-    whole = whole && job.Kept[a] == Weights::Width;
-    stride[a] = job.Stride[a];
-  }
-  if (whole && !box)
-  {
-    for (int i = 0; i < count; ++i)
+    if (reached.Low[a] >= box.High[a] || reached.High[a] <= box.Low[a])
     {
-      addWhole(stencil, i, stride, job.Cells);
+      return Part::Nothing;
     }
-    return;
-  }
-  for (int i = 0; i < count; ++i)
-  {
-    bool inside = whole;
-    for (int a = 0; a < Dimension && box; ++a)
+    if (reached.Low[a] < box.Low[a] || reached.High[a] > box.High[a])
     {
-      const std::int32_t first = stencil.First[a][i];
-      inside = inside && first >= box->Low[a] && first + Weights::Width <= box->High[a];
-    }
-    if (inside)
-    {
-      addWhole(stencil, i, stride, job.Cells);
-    }
-    else
-    {
-      addPart(job, stencil, i, box);
+      part = Part::Some;
     }
   }
+  return part;
 }
 
 template <int Dimension, class Weights, class Real>
-struct FixedSplat
+class FixedSplat
 {
+public:
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
     const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double*)
   {
-    Block<Dimension> block;
-    Stencil<Dimension, Weights> stencil;
+    FixedSplat splat(job, box);
     std::int64_t outside = 0;
     for (std::int64_t begin = 0; begin < count; begin += splatBlock)
     {
-      block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
-      readBlock(job, first, index, begin, block);
-      if (box && !index && isFarFrom(job, block, *box))
+      const std::int64_t left = count - begin;
+      const int number = left < splatBlock ? static_cast<int>(left) : splatBlock;
+      outside += splat.Weigh(first, index, begin, number);
+      const Part part =
+        box && splat.IsInside ? partOf(boxOf<Dimension>(splat.Weighed), splat.Box) : Part::All;
+      if (part == Part::All && splat.IsInside)
       {
-        continue;
+        splat.AddWhole();
       }
-      outside += weighStencil(job, block, stencil) ? countOutside(block, stencil.First, box) : 0;
-      addStencil(job, block.Count, stencil, box);
+      else if (part != Part::Nothing)
+      {
+        splat.AddParts();
+      }
     }
     return outside;
   }
 
   static std::int64_t Find(
-    const SplatJob<Dimension, Real>& job, std::int64_t first, int count, SplatCells* cells)
+    const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells)
   {
-    Block<Dimension> block;
-    Stencil<Dimension, Weights> stencil;
-    block.Count = count;
-    readBlock(job, first, nullptr, 0, block);
-    const int outside = weighStencil(job, block, stencil)
-      ? countOutside<Dimension>(block, stencil.First, nullptr)
-      : 0;
-    for (int a = 0; a < Dimension; ++a)
+    FixedSplat splat(job, nullptr);
+    const int outside = splat.Weigh(first, nullptr, 0, count);
+    for (int i = 0; i < count; ++i)
     {
-      for (int i = 0; i < splatBlock; ++i)
+      for (int a = 0; a < Dimension; ++a)
       {
-        cells[a][i] = stencil.First[a][i];
+        cells[3 * i + a] = keptFirst(job, a, splat.Weighed.First[3 * i + a]);
       }
     }
     return outside;
   }
+
+  static CellBox<Dimension> Reach(
+    const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
+  {
+    constexpr double below = 0.5 * (Weights::Width - 1);
+    constexpr double rounding = 0x1p-10; // more than there is
+    double least[Dimension];
+    double most[Dimension];
+    findBounds(job, job.Particles.Points + 3 * first, count, least, most);
+    CellBox<Dimension> box;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      // Below 0 what is truncated is kept inside anyway.
+      box.Low[a] = keptFirst(job, a, static_cast<std::int32_t>(least[a] - below - rounding));
+      box.High[a] =
+        keptFirst(job, a, static_cast<std::int32_t>(most[a] - below + rounding)) + job.Kept[a];
+    }
+    return box;
+  }
+
+private:
+  RT_INLINE FixedSplat(const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
+    : Job(job)
+    , Along(job)
+    , Box(boxOrGrid(job, box))
+  {
+  }
+
+  // Weighs the `count` particles first + begin, ... of a range, or with an index first +
+  // index[begin], .... Returns how many are outside.
+  RT_INLINE int Weigh(std::int64_t first, const std::uint32_t* index, std::int64_t begin, int count)
+  {
+    this->Particles.Count = count;
+    if (index || count < splatBlock || !this->Along.AreParallel)
+    {
+      readBlock(this->Job, this->Along, first, index, begin, this->Particles);
+      return this->WeighPlaced();
+    }
+    const Real* points = this->Job.Particles.Points + 3 * (first + begin);
+    this->IsInside = weighBlock<true, true>(this->Along, points, this->Weighed);
+    if (!this->IsInside && !weighBlock<false, true>(this->Along, points, this->Weighed))
+    {
+      readBlock(this->Job, this->Along, first, index, begin, this->Particles);
+      return this->WeighPlaced();
+    }
+    readMasses(this->Job, first, index, begin, count, this->Particles.Mass);
+    return 0;
+  }
+
+  int WeighPlaced()
+  {
+    this->IsInside = weighBlock<true, false>(this->Along, this->Particles.X, this->Weighed);
+    if (this->IsInside)
+    {
+      return 0;
+    }
+    const bool anyOutside = placeBlock(this->Job, this->Along, this->Particles);
+    weighBlock<false, false>(this->Along, this->Particles.X, this->Weighed);
+    return anyOutside ? countOutside(this->Job, this->Particles, this->Weighed.First, this->Box)
+                      : 0;
+  }
+
+  RT_INLINE void AddWhole()
+  {
+    std::int64_t stride[Dimension];
+    for (int a = 0; a < Dimension; ++a)
+    {
+      stride[a] = this->Job.Stride[a];
+    }
+    for (int i = 0; i < this->Particles.Count; ++i)
+    {
+      addWhole<Dimension>(this->Weighed, i, this->Particles.Mass[i], stride, this->Job.Cells);
+    }
+  }
+
+  void AddParts()
+  {
+    for (int i = 0; i < this->Particles.Count; ++i)
+    {
+      CellBox<Dimension> reached;
+      for (int a = 0; a < Dimension; ++a)
+      {
+        reached.Low[a] = this->Weighed.First[3 * i + a];
+        reached.High[a] = reached.Low[a] + Weights::Width;
+      }
+      const Part part = partOf(reached, this->Box);
+      if (part == Part::All)
+      {
+        addWhole<Dimension>(
+          this->Weighed, i, this->Particles.Mass[i], this->Job.Stride, this->Job.Cells);
+      }
+      else if (part == Part::Some)
+      {
+        addPart(this->Job, this->Weighed, i, this->Particles.Mass[i], this->Box);
+      }
+    }
+  }
+
+  const SplatJob<Dimension, Real>& Job;
+  const Axes<Dimension, Real> Along;
+  const CellBox<Dimension> Box;
+  Block<Dimension> Particles;
+  WeighedBlock<Weights> Weighed;
+  bool IsInside = false; // all particles of the block
 };

@@ -7,7 +7,7 @@
 inline double exponential(double x)
 {
   int halvings = 0;
-  for (; absolute(x) > 0.5; ++halvings)
+  for (; __builtin_fabs(x) > 0.5; ++halvings)
   {
     x *= 0.5;
   }
@@ -93,22 +93,21 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
 
 template <int Dimension, class Real>
 RT_INLINE void findGaussian(
-  const SplatJob<Dimension, Real>& job, const Block<Dimension>& block, SplatCells* cells)
+  const SplatJob<Dimension, Real>& job, const Block<Dimension>& block, std::int32_t* cells)
 {
-  for (int a = 0; a < Dimension; ++a)
+  for (int i = 0; i < block.Count; ++i)
   {
-    const std::int32_t last = job.Size[a] - job.Kept[a];
-    for (int i = 0; i < block.Count; ++i)
+    for (int a = 0; a < Dimension; ++a)
     {
-      const GaussianPlace place(block.X[a][i], job.Size[a], job.Cut);
-      cells[a][i] = smaller(larger(place.First, 0), last);
+      const GaussianPlace place(block.X[3 * i + a], job.Size[a], job.Cut);
+      cells[3 * i + a] = keptFirst(job, a, place.First);
     }
   }
 }
 
 template <int Dimension, class Real>
 RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
-  const SplatCells* first, int i, const CellBox<Dimension>* box, double* scratch)
+  const std::int32_t* first, int i, const CellBox<Dimension>& box, double* scratch)
 {
   int begin[3] = { 0, 0, 0 };
   int end[3] = { 1, 1, 1 };
@@ -116,10 +115,10 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dim
   const double* weight[3] = { scratch, scratch, scratch };
   for (int a = 0; a < Dimension; ++a)
   {
-    const std::int32_t cell = first[a][i];
+    const std::int32_t cell = first[3 * i + a];
     start += cell * job.Stride[a];
-    begin[a] = box ? larger(box->Low[a] - cell, 0) : 0;
-    end[a] = box ? smaller(box->High[a] - cell, job.Kept[a]) : job.Kept[a];
+    begin[a] = larger(box.Low[a] - cell, 0);
+    end[a] = smaller(box.High[a] - cell, job.Kept[a]);
     if (begin[a] >= end[a])
     {
       return;
@@ -128,7 +127,7 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dim
   }
   for (int a = 0; a < Dimension; ++a)
   {
-    weighGaussian(job, a, block.X[a][i], scratch + a * job.Width);
+    weighGaussian(job, a, block.X[3 * i + a], scratch + a * job.Width);
   }
   for (int k = begin[2]; k < end[2]; ++k)
   {
@@ -153,22 +152,20 @@ template <int Dimension, class Real>
 struct GaussianSplat
 {
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
-    const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch)
+    const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* part, double* scratch)
   {
+    const Axes<Dimension, Real> axes(job);
+    const CellBox<Dimension> box = boxOrGrid(job, part);
     Block<Dimension> block;
-    SplatCells cells[Dimension];
+    std::int32_t cells[blockCoordinates];
     std::int64_t outside = 0;
     for (std::int64_t begin = 0; begin < count; begin += splatBlock)
     {
       block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
-      readBlock(job, first, index, begin, block);
-      if (box && !index && isFarFrom(job, block, *box))
-      {
-        continue;
-      }
-      const bool anyOutside = placeBlock(job, block);
+      readBlock(job, axes, first, index, begin, block);
+      const bool anyOutside = placeBlock(job, axes, block);
       findGaussian(job, block, cells);
-      outside += anyOutside ? countOutside(block, cells, box) : 0;
+      outside += anyOutside ? countOutside(job, block, cells, box) : 0;
       for (int i = 0; i < block.Count; ++i)
       {
         addGaussian(job, block, cells, i, box, scratch);
@@ -178,13 +175,31 @@ struct GaussianSplat
   }
 
   static std::int64_t Find(
-    const SplatJob<Dimension, Real>& job, std::int64_t first, int count, SplatCells* cells)
+    const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells)
   {
+    const Axes<Dimension, Real> axes(job);
     Block<Dimension> block;
     block.Count = count;
-    readBlock(job, first, nullptr, 0, block);
-    const bool anyOutside = placeBlock(job, block);
+    readBlock(job, axes, first, nullptr, 0, block);
+    const bool anyOutside = placeBlock(job, axes, block);
     findGaussian(job, block, cells);
-    return anyOutside ? countOutside<Dimension>(block, cells, nullptr) : 0;
+    return anyOutside ? countOutside(job, block, cells, boxOrGrid<Dimension>(job, nullptr)) : 0;
+  }
+
+  static CellBox<Dimension> Reach(
+    const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
+  {
+    constexpr double rounding = 0x1p-10; // more than there is
+    double least[Dimension];
+    double most[Dimension];
+    findBounds(job, job.Particles.Points + 3 * first, count, least, most);
+    CellBox<Dimension> box;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const std::int32_t below = ceiling(job.Cut + 0.5 + rounding);
+      box.Low[a] = keptFirst(job, a, static_cast<std::int32_t>(least[a]) - below);
+      box.High[a] = keptFirst(job, a, static_cast<std::int32_t>(most[a]) - below + 3) + job.Kept[a];
+    }
+    return box;
   }
 };

@@ -10,9 +10,8 @@
 namespace RectifiedTransport
 {
 
-// Particles are placed in blocks of this many structure-of-arrays lanes.
+// Particles are placed in blocks of this many.
 constexpr int splatBlock = 64;
-using SplatCells = std::int32_t[splatBlock];
 
 // Cells [Low, High) along each axis.
 template <int Dimension>
@@ -43,17 +42,22 @@ struct SplatJob
 
 // Adds what particles [first, first + count), or with an index particles first + index[0], ...,
 // first + index[count - 1], have in the cells of a box (null: all cells), in this order. `scratch`
-// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of
-// those whose first cell is in the box along the last axis.
+// has room for splatPatch doubles (Gaussian: for Width an axis); it is not needed with an index.
+// Returns how many are outside, of those whose first cell is in the box along the last axis.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
 
 // Finds the first of the cells that particles [first, first + count) reach, count <= splatBlock:
-// Kept cells from there on. Returns how many are outside.
+// Kept cells from there on, along axis a from cells[3 i + a]. Returns how many are outside.
 template <int Dimension, class Real>
 using FindCells = std::int64_t (*)(
-  const SplatJob<Dimension, Real>& job, std::int64_t first, int count, SplatCells* cells);
+  const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells);
+
+// A box of cells that holds all that particles [first, first + count), count > 0, reach.
+template <int Dimension, class Real>
+using BoxOfParticles = CellBox<Dimension> (*)(
+  const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count);
 
 // Of one SplatKernel.
 template <int Dimension, class Real>
@@ -61,6 +65,7 @@ struct SplatKernels
 {
   AddParticles<Dimension, Real> Add;
   FindCells<Dimension, Real> Find;
+  BoxOfParticles<Dimension, Real> Reach;
   double (*Exponential)(double); // with the same bits on every machine
 };
 

@@ -11,7 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
-#include "SplatLanes.txx"
+#include "SplatBlock.txx"
 
 #include "SplatFixed.txx"
 
@@ -20,7 +20,7 @@ namespace
 template <class Splat, int Dimension, class Real>
 SplatKernels<Dimension, Real> kernelsOf()
 {
-  return { &Splat::Add, &Splat::Find, &exponential };
+  return { &Splat::Add, &Splat::Find, &Splat::Reach, &exponential };
 }
 
 } // namespace

@@ -2,65 +2,9 @@
 #include "SplatSurvey.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace RectifiedTransport
 {
-
-namespace
-{
-
-// The box of physical space around particles.
-template <class Real>
-void boundsOf(const Real* points, std::int64_t count, double low[3], double high[3])
-{
-  Real least[3] = { points[0], points[1], points[2] };
-  Real most[3] = { points[0], points[1], points[2] };
-  for (std::int64_t i = 1; i < count; ++i)
-  {
-    for (int r = 0; r < 3; ++r)
-    {
-      const Real x = points[3 * i + r];
-      least[r] = x < least[r] ? x : least[r];
-      most[r] = x > most[r] ? x : most[r];
-    }
-  }
-  for (int r = 0; r < 3; ++r)
-  {
-    low[r] = least[r];
-    high[r] = most[r];
-  }
-}
-
-} // namespace
-
-template <int Dimension, class Real>
-typename SplatSurvey<Dimension, Real>::Planes SplatSurvey<Dimension, Real>::PlanesOf(
-  std::int64_t first, std::int64_t count) const
-{
-  double low[3];
-  double high[3];
-  boundsOf(this->Job->Particles.Points + 3 * first, count, low, high);
-  constexpr int axis = Dimension - 1;
-  const SplatMap<Dimension>& map = this->Job->Particles.ToIndex;
-  double least = 0.0;
-  double most = 0.0;
-  for (int r = 0; r < 3; ++r)
-  {
-    const double one = map.Matrix[axis][r] * (low[r] - map.Origin[r]);
-    const double other = map.Matrix[axis][r] * (high[r] - map.Origin[r]);
-    least += std::min(one, other);
-    most += std::max(one, other);
-  }
-  // A cell more than the kernel reaches is more than rounding.
-  const double size = this->Job->Size[axis];
-  const double kept = this->Job->Kept[axis];
-  const double reach = 0.5 * this->Job->Width + 2.0;
-  const bool known = std::isfinite(least) && std::isfinite(most);
-  const double begin = known ? std::clamp(std::floor(least - reach), 0.0, size - kept) : 0.0;
-  const double end = known ? std::clamp(std::ceil(most + reach), kept, size) : size;
-  return { static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end) };
-}
 
 template <int Dimension, class Real>
 void SplatSurvey<Dimension, Real>::Look(
@@ -72,8 +16,10 @@ void SplatSurvey<Dimension, Real>::Look(
     for (std::int64_t chunk = begin; chunk < end; ++chunk)
     {
       const std::int64_t start = chunk * splatChunk;
-      this->Chunks[static_cast<std::size_t>(chunk)] =
-        this->PlanesOf(first + start, std::min(splatChunk, count - start));
+      const CellBox<Dimension> box =
+        this->Reach(*this->Job, first + start, std::min(splatChunk, count - start));
+      this->Chunks[static_cast<std::size_t>(chunk)] = { box.Low[Dimension - 1],
+        box.High[Dimension - 1] };
     }
   });
 }

@@ -26,8 +26,9 @@ public:
   };
 
   SplatSurvey() = default;
-  explicit SplatSurvey(const SplatJob<Dimension, Real>& job)
+  SplatSurvey(const SplatJob<Dimension, Real>& job, BoxOfParticles<Dimension, Real> reach)
     : Job(&job)
+    , Reach(reach)
   {
   }
 
@@ -46,9 +47,8 @@ public:
   CellBox<Dimension> Slab(std::int64_t slab) const;
 
 private:
-  Planes PlanesOf(std::int64_t first, std::int64_t count) const;
-
   const SplatJob<Dimension, Real>* Job = nullptr;
+  BoxOfParticles<Dimension, Real> Reach = nullptr;
   std::vector<Planes> Chunks;
   std::vector<double> Work; // of every plane
   std::vector<std::int32_t> Cuts;

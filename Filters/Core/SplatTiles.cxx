@@ -43,14 +43,13 @@ void SplatTiles<Dimension, Real>::Divide()
 
 template <int Dimension, class Real>
 template <class Visit>
-void SplatTiles<Dimension, Real>::VisitTiles(
-  const SplatCells* cells, int particle, const Visit& visit) const
+void SplatTiles<Dimension, Real>::VisitTiles(const std::int32_t* cells, const Visit& visit) const
 {
   std::int64_t low[3] = { 0, 0, 0 };
   std::int64_t high[3] = { 0, 0, 0 };
   for (int a = 0; a < Dimension; ++a)
   {
-    const std::int32_t first = cells[a][particle];
+    const std::int32_t first = cells[a];
     low[a] = first >> this->Shift[a];
     high[a] = (first + this->Job.Kept[a] - 1) >> this->Shift[a];
   }
@@ -78,7 +77,7 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
   this->Position.assign(static_cast<std::size_t>(used * this->NumberOfTiles), 0);
   this->Start.resize(static_cast<std::size_t>(this->NumberOfTiles + 1));
   const auto visitPart = [&](std::int64_t number, const auto& visit) {
-    SplatCells cells[Dimension];
+    std::int32_t cells[3 * splatBlock];
     std::int64_t outside = 0;
     const std::int64_t end = std::min((number + 1) * part, count);
     for (std::int64_t begin = number * part; begin < end && !pacer.ShouldStop();
@@ -88,7 +87,7 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
       outside += find(this->Job, first + begin, lanes, cells);
       for (int i = 0; i < lanes; ++i)
       {
-        this->VisitTiles(cells, i, [&](std::int64_t tile) { visit(tile, begin + i); });
+        this->VisitTiles(cells + 3 * i, [&](std::int64_t tile) { visit(tile, begin + i); });
       }
     }
     return outside;

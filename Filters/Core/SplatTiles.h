@@ -38,8 +38,9 @@ public:
   std::int64_t CountOf(std::int64_t tile) const;
 
 private:
+  // The tiles of the cells that a particle reaches, by the first of these along each axis.
   template <class Visit>
-  void VisitTiles(const SplatCells* cells, int particle, const Visit& visit) const;
+  void VisitTiles(const std::int32_t* cells, const Visit& visit) const;
 
   const SplatJob<Dimension, Real>& Job;
   int Shift[Dimension];

@@ -89,6 +89,37 @@ TYPED_TEST(Splat, KeepsMassAtBorders)
   }
 }
 
+// Blocks whose particles are all on one face between cells, or in the middle of one.
+TYPED_TEST(Splat, KeepsMassOnFaces)
+{
+  constexpr int D = TypeParam::value;
+  for (const std::int64_t cells : { 1, 2, 3, 6 })
+  {
+    GridSize<D> size;
+    size.fill(cells);
+    for (std::int64_t half = 0; half <= 2 * cells; ++half)
+    {
+      Point<D> point;
+      for (int a = 0; a < D; ++a)
+      {
+        point[a] = 0.5 * static_cast<double>(half);
+      }
+      Cloud<D> cloud;
+      for (int i = 0; i < 130; ++i)
+      {
+        cloud.Add(point, 1.0);
+      }
+      for (const SplatKernel kernel : allKernels)
+      {
+        const Splatted result = splat(cloud.Particles(), size, splatOptions(kernel));
+        EXPECT_EQ(result.Outside, 0);
+        EXPECT_NEAR(sumOf(result.Cells), 130.0, 1e-10)
+          << static_cast<int>(kernel) << " at " << half << " halves of " << cells;
+      }
+    }
+  }
+}
+
 // The kernels as they are defined, by a distance from the particle.
 double definition(SplatKernel kernel, double distance, double radius)
 {

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A block of particles and their coordinates in index space. Included by SplatKernels.txx.
+
+RT_INLINE std::int32_t smaller(std::int32_t a, std::int32_t b)
+{
+  return a < b ? a : b;
+}
+
+RT_INLINE std::int32_t larger(std::int32_t a, std::int32_t b)
+{
+  return a > b ? a : b;
+}
+
+// Vectors of GCC, as loops over a period of coordinates are not recognized as such.
+template <class Number>
+struct FourOf;
+template <>
+struct FourOf<double>
+{
+  using Type = double __attribute__((vector_size(32)));
+};
+template <>
+struct FourOf<float>
+{
+  using Type = float __attribute__((vector_size(16)));
+};
+template <>
+struct FourOf<std::int32_t>
+{
+  using Type = std::int32_t __attribute__((vector_size(16)));
+};
+using Four = FourOf<double>::Type;
+using FourCells = FourOf<std::int32_t>::Type;
+
+template <class Number>
+RT_INLINE typename FourOf<Number>::Type load(const Number* from)
+{
+  typename FourOf<Number>::Type four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return four;
+}
+
+template <class Vector, class Number>
+RT_INLINE void store(const Vector& four, Number* to)
+{
+  static_assert(sizeof four == 4 * sizeof *to, "four numbers");
+  __builtin_memcpy(to, &four, sizeof four);
+}
+
+// Of the coordinates of particles as they are in memory, x y z x y z ..., as many as are whole
+// particles and whole vectors.
+constexpr int coordinatePeriod = 12;
+constexpr int vectorsOfPeriod = 3;
+constexpr int blockCoordinates = 3 * splatBlock;
+static_assert(blockCoordinates % coordinatePeriod == 0, "blocks are whole periods");
+
+struct Period
+{
+  double Of[coordinatePeriod];
+  RT_INLINE Four operator[](int vector) const { return load(this->Of + 4 * vector); }
+};
+
+// What the axes of a job are for the coordinates of a period. Axes beyond the Dimension have size
+// 0.
+template <int Dimension, class Real>
+struct Axes
+{
+  RT_INLINE explicit Axes(const SplatJob<Dimension, Real>& job)
+  {
+    constexpr double roundings = 0x1p-50;
+    const SplatMap<Dimension>& map = job.Particles.ToIndex;
+    this->AreParallel = true;
+    for (int j = 0; j < coordinatePeriod; ++j)
+    {
+      const int a = j % 3;
+      const double* row = map.Matrix[a];
+      this->AreParallel = this->AreParallel && row[(a + 1) % 3] == 0.0 && row[(a + 2) % 3] == 0.0;
+      this->Factor.Of[j] = row[a];
+      this->Origin.Of[j] = map.Origin[a];
+      const double size = a < Dimension ? job.Size[a < Dimension ? a : 0] : 0.0;
+      this->Size.Of[j] = size;
+      this->Half.Of[j] = 0.5 * size;
+      this->Allowed.Of[j] = 0.5 * size + map.Tolerance[a];
+      this->Within.Of[j] = a < Dimension ? 0.5 * size : this->Allowed.Of[j];
+      this->Inside.Of[j] =
+        a < Dimension ? 0.5 * size - 1.0 - roundings * size : this->Allowed.Of[j];
+    }
+  }
+
+  bool AreParallel; // to those of physical space, as in most images: axis a is axis a there
+  Period Factor;
+  Period Origin;
+  Period Size;
+  Period Half;
+  Period Allowed; // from the middle, for a particle not to be outside
+  Period Within;  // from the middle, for a particle not to be moved to the border either
+  Period Inside;  // from the middle, for a particle to be more than one cell away from the border
+};
+
+// A block of particles. Coordinate a of particle i is number 3 i + a, as in memory: to move it
+// elsewhere costs more than all that is computed of it.
+template <int Dimension>
+struct Block
+{
+  int Count;
+  double X[blockCoordinates]; // in index space
+  double Mass[splatBlock];
+  double Beyond[splatBlock]; // by how much particles are outside, or no number, if any are
+};
+
+template <int Dimension>
+RT_INLINE void mapTurned(
+  const SplatMap<Dimension>& map, const double* __restrict from, double* __restrict x)
+{
+  for (int i = 0; i < splatBlock; ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      const double* row = map.Matrix[a];
+      x[3 * i + a] = row[0] * (from[3 * i] - map.Origin[0]) +
+        row[1] * (from[3 * i + 1] - map.Origin[1]) + row[2] * (from[3 * i + 2] - map.Origin[2]);
+    }
+  }
+}
+
+// The box of physical space around particles, in index space [least, most] along the Dimension
+// axes, as far as that is in the grid.
+template <int Dimension, class Real>
+RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* points,
+  std::int64_t count, double* least, double* most)
+{
+  Real low[coordinatePeriod];
+  Real high[coordinatePeriod];
+  for (int j = 0; j < coordinatePeriod; ++j)
+  {
+    low[j] = points[j % 3];
+    high[j] = points[j % 3];
+  }
+  using Vector = typename FourOf<Real>::Type;
+  Vector lows[vectorsOfPeriod];
+  Vector highs[vectorsOfPeriod];
+  __builtin_memcpy(lows, low, sizeof low);
+  __builtin_memcpy(highs, high, sizeof high);
+  const std::int64_t whole = 3 * count / coordinatePeriod * coordinatePeriod;
+  for (std::int64_t begin = 0; begin < whole; begin += coordinatePeriod)
+  {
+    for (int v = 0; v < vectorsOfPeriod; ++v)
+    {
+      const Vector x = load(points + begin + 4 * v);
+      lows[v] = x < lows[v] ? x : lows[v];
+      highs[v] = x > highs[v] ? x : highs[v];
+    }
+  }
+  __builtin_memcpy(low, lows, sizeof low);
+  __builtin_memcpy(high, highs, sizeof high);
+  for (std::int64_t j = whole; j < 3 * count; ++j)
+  {
+    low[j - whole] = points[j] < low[j - whole] ? points[j] : low[j - whole];
+    high[j - whole] = points[j] > high[j - whole] ? points[j] : high[j - whole];
+  }
+  const SplatMap<Dimension>& map = job.Particles.ToIndex;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    least[a] = 0.0;
+    most[a] = 0.0;
+  }
+  for (int r = 0; r < 3; ++r)
+  {
+    for (int j = r + 3; j < coordinatePeriod; j += 3)
+    {
+      low[r] = low[j] < low[r] ? low[j] : low[r];
+      high[r] = high[j] > high[r] ? high[j] : high[r];
+    }
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const double one = map.Matrix[a][r] * (low[r] - map.Origin[r]);
+      const double other = map.Matrix[a][r] * (high[r] - map.Origin[r]);
+      least[a] += one < other ? one : other;
+      most[a] += one < other ? other : one;
+    }
+  }
+  for (int a = 0; a < Dimension; ++a)
+  {
+    // Not so if the map has overflowed.
+    const double size = job.Size[a];
+    const bool known = least[a] <= most[a];
+    least[a] = known && least[a] > 0.0 ? (least[a] < size ? least[a] : size) : 0.0;
+    most[a] = known && most[a] < size ? (most[a] > 0.0 ? most[a] : 0.0) : size;
+  }
+}
+
+template <int Dimension, class Real>
+RT_INLINE CellBox<Dimension> boxOrGrid(
+  const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
+{
+  CellBox<Dimension> cells;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    cells.Low[a] = box ? box->Low[a] : 0;
+    cells.High[a] = box ? box->High[a] : job.Size[a];
+  }
+  return cells;
+}
+
+// The masses of `count` particles first + begin, ... of a range, or with an index first +
+// index[begin], .... Lanes from the count on repeat the last one; their results are not used.
+template <int Dimension, class Real>
+RT_INLINE void readMasses(const SplatJob<Dimension, Real>& job, std::int64_t first,
+  const std::uint32_t* index, std::int64_t begin, int count, double* __restrict mass)
+{
+  const double* masses = job.Particles.Masses;
+  if (!masses)
+  {
+    const double each = job.Scale * job.Particles.Mass;
+    for (int i = 0; i < splatBlock; ++i)
+    {
+      mass[i] = each;
+    }
+  }
+  else if (!index && count == splatBlock)
+  {
+    for (int i = 0; i < splatBlock; ++i)
+    {
+      mass[i] = job.Scale * masses[first + begin + i];
+    }
+  }
+  else
+  {
+    for (int i = 0; i < splatBlock; ++i)
+    {
+      const std::int64_t at = begin + smaller(i, count - 1);
+      mass[i] = job.Scale * masses[first + (index ? index[at] : at)];
+    }
+  }
+}
+
+// Reads the same particles, block.Count of them.
+template <int Dimension, class Real>
+RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes,
+  std::int64_t first, const std::uint32_t* index, std::int64_t begin, Block<Dimension>& block)
+{
+  readMasses(job, first, index, begin, block.Count, block.Mass);
+  double from[blockCoordinates];
+  for (int i = 0; i < splatBlock; ++i)
+  {
+    const std::int64_t at = begin + smaller(i, block.Count - 1);
+    const Real* point = job.Particles.Points + 3 * (first + (index ? index[at] : at));
+    for (int r = 0; r < 3; ++r)
+    {
+      from[3 * i + r] = point[r];
+    }
+  }
+  if (!axes.AreParallel)
+  {
+    mapTurned(job.Particles.ToIndex, from, block.X);
+    return;
+  }
+  for (int begins = 0; begins < blockCoordinates; begins += coordinatePeriod)
+  {
+    for (int v = 0; v < vectorsOfPeriod; ++v)
+    {
+      const int lane = begins + 4 * v;
+      store(axes.Factor[v] * (load(from + lane) - axes.Origin[v]), block.X + lane);
+    }
+  }
+}
+
+// The first of the cells that a particle reaches along axis `a`, where those beyond the border are
+// not kept.
+template <int Dimension, class Real>
+RT_INLINE std::int32_t keptFirst(const SplatJob<Dimension, Real>& job, int a, std::int32_t first)
+{
+  return smaller(larger(first, 0), job.Size[a] - job.Kept[a]);
+}
+
+// How many particles of a block are outside, of those whose first cell along the last axis is in a
+// box: every particle is counted once, however many boxes it reaches.
+template <int Dimension, class Real>
+int countOutside(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
+  const std::int32_t* first, const CellBox<Dimension>& box)
+{
+  constexpr int axis = Dimension - 1;
+  int outside = 0;
+  for (int i = 0; i < block.Count; ++i)
+  {
+    const std::int32_t cell = keptFirst(job, axis, first[3 * i + axis]);
+    const bool counts = cell >= box.Low[axis] && cell < box.High[axis];
+    outside += !(block.Beyond[i] == 0.0) && counts ? 1 : 0;
+  }
+  return outside;
+}
+
+// Moves the particles of a block that are not inside to the border. Returns whether any are
+// outside.
+template <int Dimension, class Real>
+RT_INLINE bool placeBlock(
+  const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes, Block<Dimension>& block)
+{
+  double beyond[blockCoordinates];
+  Four sum = {};
+  for (int begin = 0; begin < blockCoordinates; begin += coordinatePeriod)
+  {
+    for (int v = 0; v < vectorsOfPeriod; ++v)
+    {
+      double* at = block.X + begin + 4 * v;
+      const Four x = load(at);
+      const Four offset = x - axes.Half[v];
+      // No number where the map has overflowed.
+      const Four excess = (offset < 0.0 ? -offset : offset) - axes.Allowed[v];
+      const Four outside = excess <= 0.0 ? Four{} : excess;
+      store(outside, beyond + begin + 4 * v);
+      sum += outside;
+      const Four above = x > 0.0 ? x : Four{};
+      store(above < axes.Size[v] ? above : axes.Size[v], at);
+    }
+  }
+  if (sum[0] + sum[1] + sum[2] + sum[3] == 0.0)
+  {
+    return false;
+  }
+  for (int i = 0; i < splatBlock; ++i)
+  {
+    block.Beyond[i] = beyond[3 * i] + beyond[3 * i + 1] + beyond[3 * i + 2];
+    block.Mass[i] = job.Renormalize || block.Beyond[i] == 0.0 ? block.Mass[i] : 0.0;
+  }
+  return true;
+}
+
+// Moves weights of the cells from `cell` on to the `kept` ones from the returned one on, which are
+// inside; what was outside is shared among them or lost.
+RT_INLINE std::int32_t keepInside(
+  std::int32_t cell, int width, int kept, std::int32_t size, bool renormalize, double* weight)
+{
+  const std::int32_t first = smaller(larger(cell, 0), size - kept);
+  const std::int32_t shift = first - cell;
+  double sum = 0.0;
+  // Weights move towards the first if the first cells are outside, else away from it: none is
+  // overwritten before it is read.
+  for (int step = 0; step < kept; ++step)
+  {
+    const int k = shift >= 0 ? step : kept - 1 - step;
+    const int from = k + shift;
+    weight[k] = from >= 0 && from < width ? weight[from] : 0.0;
+    sum += weight[k];
+  }
+  for (int k = 0; k < kept && renormalize; ++k)
+  {
+    weight[k] /= sum;
+  }
+  return first;
+}
