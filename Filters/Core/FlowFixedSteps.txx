@@ -62,12 +62,14 @@ struct PlateauLanes
 {
   alignas(64) LaneVectors<Dimension> End; // x(1)
   alignas(64) Lanes Done;                 // 1 from where it is known, else 0
-  int Left = BlockSize;                   // lanes that are not done
+  bool Active[BlockSize];                 // lanes that are not done
+  int Left = BlockSize;                   // how many
 
   PlateauLanes()
   {
     std::memset(this->End, 0, sizeof(this->End));
     std::memset(this->Done, 0, sizeof(this->Done));
+    std::memset(this->Active, 1, sizeof(this->Active));
   }
 
   // After an evaluation of the velocity in `field`, of particles that are at x then.
@@ -105,6 +107,10 @@ struct PlateauLanes
     if (sum == 0.0)
     {
       return false;
+    }
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      this->Active[i] = this->Done[i] == 0.0;
     }
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -171,7 +177,9 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       before[i] = lanes.Time[i];
       lanes.Time[i] = start[i] + lanes.Span[i] * weights.Time;
     }
-    evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest);
+    const bool* active = plateau.Left < BlockSize ? plateau.Active : nullptr;
+    evaluateVelocity<Dimension>(
+      job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
