@@ -232,7 +232,7 @@ def main():
     if arguments.morphs:
         return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Quality|Solid|_fresh"))
+    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
