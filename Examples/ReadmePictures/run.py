@@ -112,6 +112,19 @@ def draw_paths(path):
     flat_picture(path, view, [511.5, 383.5], 384)
 
 
+def draw_splats(path, stipple, cells=(80, 60), side=240):
+    """10,000 particles of the photograph's ink and what each kernel makes of them."""
+    dots, radius = stipple.stipple(example.open_image(PHOTOGRAPH), 10000)
+    row = [("particles", figures.drawn(stipple.write_png, dots, [-0.5, 1023.5, -0.5, 767.5],
+                                       radius, side))]
+    splat = simple.SplatMass(Input=dots, Dimensions=[*cells, 1], MassArray=["POINTS", "Mass"])
+    for kernel in ("NearestCell", "CloudInCell", "TriangularShapedCloud", "Gaussian"):
+        splat.Kernel = kernel
+        ink = np.clip(figures.values_of(figures.result(splat)), 0, 255)
+        row.append((kernel, figures.grey((255 - ink).round().astype(np.uint8))))
+    figures.montage(path, [row], side)
+
+
 def draw_solid(path, resolution=48, side=300):
     """Spot's surface, a slice of its density with one square a cell, and the density's contour."""
     spot = shapes.posed("spot")
@@ -157,9 +170,10 @@ def main():
     draw_example(path("morph-3d"), "Morph3D", "morph-3d.png", "--resolution", "96",
                  "--panel", "180")
     draw_example(path("barycenters"), "Barycenters2D", "barycenters-2d.png", "--panel", "90")
+    draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
     print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
-          "morph-3d, barycenters, solid: " + folder)
+          "morph-3d, barycenters, splats, solid: " + folder)
 
 
 if __name__ == "__main__":
