@@ -29,6 +29,11 @@ struct FourOf<std::int32_t>
 {
   using Type = std::int32_t __attribute__((vector_size(16)));
 };
+template <>
+struct FourOf<std::uint32_t>
+{
+  using Type = std::uint32_t __attribute__((vector_size(16)));
+};
 using Four = FourOf<double>::Type;
 using FourCells = FourOf<std::int32_t>::Type;
 

@@ -6,6 +6,12 @@ RT_INLINE FourCells truncated(const Four& x)
   return __builtin_convertvector(x, FourCells);
 }
 
+// One less. Of what is far outside, cells are any number.
+RT_INLINE FourCells before(const FourCells& cells)
+{
+  return (FourCells)((FourOf<std::uint32_t>::Type)cells - 1);
+}
+
 // Of coordinates of [0, size]: the first cell, which may lie beyond the border, and Parts numbers
 // that the Width weights follow from. `Inside`: they are more than one cell away from the border.
 struct CloudInCellWeights
@@ -21,7 +27,7 @@ struct CloudInCellWeights
     {
       part[0] = part[0] > 0.0 ? part[0] : Four{}; // below 0 where x + 0.5 was rounded up to 1
     }
-    return upper - 1;
+    return before(upper);
   }
   static RT_INLINE void Spread(const double* part, double* weight)
   {
@@ -54,7 +60,7 @@ struct TriangularShapedCloudWeights
     const Four offset = x - (__builtin_convertvector(own, Four) + 0.5);
     part[0] = 0.5 * (0.5 - offset) * (0.5 - offset);
     part[1] = 0.5 * (0.5 + offset) * (0.5 + offset);
-    return own - 1;
+    return before(own);
   }
   static RT_INLINE void Spread(const double* part, double* weight)
   {
