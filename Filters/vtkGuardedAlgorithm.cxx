@@ -59,6 +59,17 @@ void publishTimes(
     }
   }
 }
+// The executive hands on what the first input has, which no output has unless it is said.
+void forgetArrays(vtkInformationVector* outputVector)
+{
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(i);
+    output->Remove(vtkDataObject::POINT_DATA_VECTOR());
+    output->Remove(vtkDataObject::CELL_DATA_VECTOR());
+  }
+}
+
 // The executive leaves the extent of an image and the scalars of its points from the last run.
 void emptyImages(vtkInformationVector* outputVector)
 {
@@ -96,6 +107,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
   {
     publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
+    forgetArrays(outputVector);
     return this->RequestInformation(request, inputVector, outputVector);
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
@@ -148,10 +160,25 @@ int vtkGuardedAlgorithm::RequestInformation(
 void vtkGuardedAlgorithm::UpdateInputBeforeData(int port)
 {
   int outputPort = 0;
-  if (vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort))
+  vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort);
+  auto* pipeline =
+    vtkDemandDrivenPipeline::SafeDownCast(producer ? producer->GetExecutive() : nullptr);
+  if (!pipeline)
   {
-    producer->Update(outputPort);
+    return;
   }
+  // In the executive's loop over blocks the producer's output is one of them, on which it must not
+  // run again.
+  vtkDataObject* data = producer->GetOutputDataObject(outputPort);
+  if (producer == this->Updated && outputPort == this->UpdatedPort && data &&
+    !data->GetDataReleased() && pipeline->GetPipelineMTime() == this->UpdatedTime)
+  {
+    return;
+  }
+  producer->Update(outputPort);
+  this->Updated = producer;
+  this->UpdatedPort = outputPort;
+  this->UpdatedTime = pipeline->GetPipelineMTime();
 }
 
 //------------------------------------------------------------------------------

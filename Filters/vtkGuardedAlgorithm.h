@@ -92,6 +92,10 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
 private:
+  const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
+  int UpdatedPort = 0;
+  vtkMTimeType UpdatedTime = 0;
+
   vtkGuardedAlgorithm(const vtkGuardedAlgorithm&) = delete;
   void operator=(const vtkGuardedAlgorithm&) = delete;
 };

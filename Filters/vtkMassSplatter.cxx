@@ -4,6 +4,7 @@
 #include "Bridge/Failure.h"
 #include "Bridge/FieldValue.h"
 #include "Bridge/FlowSettings.h"
+#include "Bridge/GridText.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
 #include "Bridge/InputBlock.h"
@@ -23,6 +24,8 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -41,6 +44,19 @@ void requireDimensions(const int dimensions[3])
     throw Failure("Dimensions is " + std::to_string(dimensions[0]) + " " +
       std::to_string(dimensions[1]) + " " + std::to_string(dimensions[2]) +
       "; it must be at least 1 along every axis");
+  }
+}
+
+// A cell may hold all the mass.
+void requireFinite(double mass, double measure)
+{
+  if (!std::isfinite(1.0 / measure) || !std::isfinite(mass / measure))
+  {
+    std::ostringstream message;
+    message << "The points' masses of " << mass << " in all make densities past the largest double "
+            << "in cells of " << measure
+            << "; make the masses smaller, the cells larger, or switch DivideByVolume off";
+    throw Failure(message.str());
   }
 }
 } // namespace
@@ -171,7 +187,12 @@ int vtkMassSplatter::RequestInformation(
       frame = ImageFrame(); // RequestData says it, once
     }
   }
-  frame.Publish(outputVector->GetInformationObject(0));
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  frame.Publish(output);
+  vtkDataObject::SetActiveAttributeInfo(output,
+    this->Association == POINTS ? vtkDataObject::FIELD_ASSOCIATION_POINTS
+                                : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
   return 1;
 }
 
@@ -186,7 +207,11 @@ vtkDataArray* vtkMassSplatter::FindMasses(vtkPointSet* points)
       "; it must be 0 (points)");
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  return findMasses(points, name ? name : "");
+  if (!name && choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return findMasses(points, choice->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  }
+  return findMasses(points, std::string(name ? name : ""));
 }
 
 //------------------------------------------------------------------------------
@@ -235,8 +260,24 @@ int vtkMassSplatter::RequestData(
         : "The input's points are all at one place, about which there is no box; connect an image "
           "as the Reference, or points that differ");
   }
+  double values = 1.0;
+  for (const int along : cells.Values(reference && onPoints))
+  {
+    values *= along;
+  }
+  if (!reference)
+  {
+    const std::array<int, 3> size = cells.Values(false);
+    requireMemory("the array Density of " + describeSize<3>({ size[0], size[1], size[2] }) +
+        " values (see Dimensions)",
+      values * sizeof(double));
+  }
   cells.CopyTo(output);
   const ImageGeometry geometry(output, reference && onPoints);
+  if (this->DivideByVolume)
+  {
+    requireFinite(masses.TotalSize(), geometry.CellMeasure());
+  }
   const ImageFrame frame = onPoints && !reference ? cells.AtCellCentres() : cells;
   frame.CopyTo(output);
   frame.Publish(information); // without a Reference it is not known before the data

@@ -112,16 +112,15 @@ int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->UpdateInputBeforeData(0);
-  std::array<double, 6> bounds{ 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
-  if (surface && surface->GetNumberOfPoints() > 0)
-  {
-    bounds = polygonBounds(surface);
-  }
   ImageFrame frame;
   try
   {
-    frame = SolidGrid(bounds, this->Resolution, this->Padding).Frame(this->Association == POINTS);
+    if (surface && surface->GetNumberOfPoints() > 0)
+    {
+      const SolidGrid grid(polygonBounds(surface), this->Resolution, this->Padding);
+      frame = grid.Frame(this->Association == POINTS);
+    }
   }
   catch (const Failure&)
   {

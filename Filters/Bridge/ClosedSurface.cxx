@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ClosedSurface.h"
 
-#include "../Core/EqualPoints.h"
 #include "../Core/SurfaceOrientation.h"
 #include "Failure.h"
 #include "Memory.h"
@@ -14,6 +13,7 @@
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
 #include "vtkDataArrayRange.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
@@ -93,19 +93,12 @@ void runInside(vtkAlgorithm* filter, HostMonitor& host)
   }
 }
 
-// The polygons and strips of a surface as triangles, in the order of the polygons.
-vtkSmartPointer<vtkCellArray> triangulate(vtkPolyData* input, HostMonitor& host)
+// Polygons and strips as triangles, in the order of the polygons.
+vtkSmartPointer<vtkCellArray> triangulate(
+  vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, HostMonitor& host)
 {
-  vtkCellArray* polygons = input->GetPolys();
-  vtkCellArray* strips = input->GetStrips();
-  requireIds(polygons, input->GetNumberOfPoints());
-  requireIds(strips, input->GetNumberOfPoints());
-  if (strips->GetNumberOfCells() == 0 && polygons->IsHomogeneous() == 3)
-  {
-    return polygons;
-  }
   vtkNew<vtkPolyData> surface;
-  surface->SetPoints(input->GetPoints());
+  surface->SetPoints(points);
   surface->SetPolys(polygons);
   surface->SetStrips(strips);
   vtkNew<vtkTriangleFilter> filter;
@@ -202,15 +195,75 @@ ClosedSurface::ClosedSurface(
       " and no polygons; a solid needs a closed surface of polygons (lines and vertices do not "
       "count)");
   }
+  vtkCellArray* polygons = input->GetPolys();
+  vtkCellArray* strips = input->GetStrips();
+  requireIds(polygons, this->NumberOfPoints);
+  requireIds(strips, this->NumberOfPoints);
   stage(0.25);
-  const vtkSmartPointer<vtkCellArray> triangles = triangulate(input, host);
+  withMemory("the table of the surface's " + points,
+    static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
+    [this, &host]() { this->EnterPoints(host); });
+  vtkSmartPointer<vtkCellArray> triangles = polygons;
+  if (strips->GetNumberOfCells() > 0 || polygons->IsHomogeneous() != 3)
+  {
+    stage(0.3);
+    triangles = this->MergeCorners(polygons, host);
+    stage(0.4);
+    triangles = triangulate(input->GetPoints(), triangles, strips, host);
+  }
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
-      stage(0.3);
+      stage(0.45);
       this->ReadTriangles(triangles, executor, host);
-      this->MergePoints(host, begin + 0.6 * (end - begin));
+      stage(0.6);
+      this->MergePoints(host);
       this->RequireClosed(executor, host, end);
     });
+}
+
+void ClosedSurface::EnterPoints(HostMonitor& host)
+{
+  this->Equal = std::make_unique<EqualPoints>(this->Points.data(), this->NumberOfPoints);
+  EqualPoints& equal = *this->Equal;
+  host.Run(
+    SerialExecutor(), this->NumberOfPoints, Grain,
+    [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); }, Slow);
+}
+
+// The polygons without corners at the place of the one before, as at the poles of a sphere of
+// quads; those of fewer than three corners are dropped.
+vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
+  vtkCellArray* polygons, HostMonitor& host) const
+{
+  auto merged = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> corners;
+  host.Run(
+    SerialExecutor(), polygons->GetNumberOfCells(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t polygon = first; polygon < last; ++polygon)
+      {
+        polygons->GetCellAtId(polygon, corners);
+        vtkIdType kept = 0;
+        for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+        {
+          const vtkIdType corner = this->Equal->First(corners->GetId(i));
+          if (kept == 0 || corner != corners->GetId(kept - 1))
+          {
+            corners->SetId(kept++, corner);
+          }
+        }
+        while (kept > 1 && corners->GetId(0) == corners->GetId(kept - 1))
+        {
+          --kept;
+        }
+        if (kept >= 3)
+        {
+          merged->InsertNextCell(kept, corners->GetPointer(0));
+        }
+      }
+    },
+    Slow);
+  return merged;
 }
 
 void ClosedSurface::ReadTriangles(
@@ -228,18 +281,11 @@ void ClosedSurface::ReadTriangles(
 }
 
 // Triangles with two corners at one point are dropped: their other two sides are then one edge.
-void ClosedSurface::MergePoints(HostMonitor& host, double end)
+void ClosedSurface::MergePoints(HostMonitor& host)
 {
-  const SerialExecutor inOrder;
-  EqualPoints equal(this->Points.data(), this->NumberOfPoints);
-  const double begin = host.Reached();
-  host.BeginStage(0.5 * (begin + end));
-  host.Run(
-    inOrder, this->NumberOfPoints, Grain,
-    [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); }, Slow);
+  const EqualPoints& equal = *this->Equal;
   std::int64_t kept = 0;
-  host.BeginStage(end);
-  host.Run(inOrder, this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
+  host.Run(SerialExecutor(), this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t triangle = first; triangle < last; ++triangle)
     {
       const std::int64_t* from = this->Triangles.data() + 3 * triangle;
@@ -257,6 +303,7 @@ void ClosedSurface::MergePoints(HostMonitor& host, double end)
       " points and no polygon of three different ones; a solid needs a closed surface");
   }
   this->Count = kept;
+  this->Equal.reset();
 }
 
 void ClosedSurface::RequireClosed(const Executor& executor, HostMonitor& host, double end)

@@ -3,10 +3,13 @@
 #ifndef RectifiedTransport_ClosedSurface_h
 #define RectifiedTransport_ClosedSurface_h
 
+#include "../Core/EqualPoints.h"
 #include "../Core/LargeBuffer.h"
 #include "../Core/SolidCoverage.h"
 #include "../Core/SurfaceEdges.h"
 #include "HostMonitor.h"
+
+#include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstdint>
@@ -27,7 +30,7 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface);
 class ClosedSurface
 {
 public:
-  // Cuts polygons and strips into triangles and merges points of equal coordinates, as stages of
+  // Merges points of equal coordinates and cuts polygons and strips into triangles, as stages of
   // the run up to the progress `end`; lines and vertices do not count. Throws Failure where the
   // input has no polygons, coordinates that are not finite, or edges that have not two triangles,
   // and Aborted.
@@ -39,8 +42,10 @@ public:
     const SolidGrid& grid, const Executor& executor, HostMonitor& host, double end);
 
 private:
+  void EnterPoints(HostMonitor& host);
+  vtkSmartPointer<vtkCellArray> MergeCorners(vtkCellArray* polygons, HostMonitor& host) const;
   void ReadTriangles(vtkCellArray* triangles, const Executor& executor, HostMonitor& host);
-  void MergePoints(HostMonitor& host, double end);
+  void MergePoints(HostMonitor& host);
   void RequireClosed(const Executor& executor, HostMonitor& host, double end);
   void Orient(HostMonitor& host);
 
@@ -48,6 +53,7 @@ private:
   LargeBuffer<std::int64_t> Triangles;
   std::int64_t NumberOfPoints;
   std::int64_t Count = 0; // of triangles
+  std::unique_ptr<EqualPoints> Equal;
   std::unique_ptr<SurfaceEdges> Edges;
 };
 

@@ -47,6 +47,7 @@ std::string listArrays(vtkPointSet* points)
 struct RangeOfMasses
 {
   double Sum = 0.0;
+  double Sizes = 0.0;
   std::int64_t NotFinite = 0;
   std::int64_t First = -1;
 };
@@ -86,6 +87,7 @@ public:
     for (const RangeOfMasses& range : this->Ranges)
     {
       all.Sum += range.Sum;
+      all.Sizes += range.Sizes;
       all.First = all.NotFinite == 0 ? range.First : all.First;
       all.NotFinite += range.NotFinite;
     }
@@ -108,6 +110,7 @@ private:
       }
       this->Masses[i] = isGhost ? 0.0 : value;
       range.Sum += this->Masses[i];
+      range.Sizes += std::abs(this->Masses[i]);
     }
   }
 
@@ -117,21 +120,8 @@ private:
   std::int64_t Count;
 };
 
-} // namespace
-
-vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
+vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
 {
-  vtkAbstractArray* found =
-    name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());
-  if (!found && (name.empty() || name == "None"))
-  {
-    return nullptr;
-  }
-  const std::string text = "The mass array '" + name + "'";
-  if (!found)
-  {
-    throw Failure("The input has no mass array '" + name + "'; it has " + listArrays(points));
-  }
   vtkDataArray* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {
@@ -151,6 +141,36 @@ vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
   return array;
 }
 
+} // namespace
+
+vtkDataArray* findMasses(vtkPointSet* points, int attribute)
+{
+  vtkAbstractArray* found = points->GetPointData()->GetAbstractAttribute(attribute);
+  if (!found)
+  {
+    const char* kind = vtkDataSetAttributes::GetAttributeTypeAsString(attribute);
+    throw Failure("The input's points have no active " + std::string(kind ? kind : "attribute") +
+      " to take the masses from; they have " + listArrays(points));
+  }
+  const char* name = found->GetName();
+  return requireMasses(points, found, "The mass array '" + std::string(name ? name : "") + "'");
+}
+
+vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
+{
+  vtkAbstractArray* found =
+    name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found && (name.empty() || name == "None"))
+  {
+    return nullptr;
+  }
+  if (!found)
+  {
+    throw Failure("The input has no mass array '" + name + "'; it has " + listArrays(points));
+  }
+  return requireMasses(points, found, "The mass array '" + name + "'");
+}
+
 PointMasses::PointMasses(
   vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host)
 {
@@ -159,6 +179,7 @@ PointMasses::PointMasses(
   if (!array && !ghosts)
   {
     this->Sum = static_cast<double>(count);
+    this->Sizes = this->Sum;
     return;
   }
   this->Array = newArray<vtkDoubleArray>("Mass", 1, count);
@@ -174,6 +195,7 @@ PointMasses::PointMasses(
   }
   const RangeOfMasses all = read.All();
   this->Sum = all.Sum;
+  this->Sizes = all.Sizes;
   const char* name = array ? array->GetName() : nullptr;
   std::ostringstream message;
   message << "The mass array '" << (name ? name : "") << "' ";

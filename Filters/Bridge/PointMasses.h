@@ -22,6 +22,9 @@ class HostMonitor;
 // Throws Failure if it is missing, not numeric or has several components.
 vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
 
+// The array that is an attribute of the points, of vtkDataSetAttributes::AttributeTypes.
+vtkDataArray* findMasses(vtkPointSet* points, int attribute);
+
 class PointMasses
 {
 public:
@@ -34,10 +37,13 @@ public:
   // One a point; nullptr for 1 each.
   const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
   double Total() const { return this->Sum; }
+  // The sum of their sizes, without signs.
+  double TotalSize() const { return this->Sizes; }
 
 private:
   vtkSmartPointer<vtkDoubleArray> Array;
   double Sum = 0.0;
+  double Sizes = 0.0;
 };
 
 } // namespace RectifiedTransport
