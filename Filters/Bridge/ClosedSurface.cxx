@@ -113,7 +113,8 @@ vtkSmartPointer<vtkCellArray> triangulate(
   {
     throw Failure("The input surface has polygons that cannot be cut into triangles: " +
       std::to_string(missing) +
-      " triangles are missing; polygons must be simple, without corners that coincide");
+      " triangles are missing; polygons must be simple: edges must not cross, and no corner be "
+      "there twice");
   }
   return triangles;
 }

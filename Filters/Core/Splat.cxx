@@ -37,11 +37,6 @@ constexpr std::int64_t mostSlabs = 4; // a task
 constexpr std::int64_t widestSorted = 16;
 constexpr std::int64_t groupsOfTiles = 256;
 
-int fixedWidth(SplatKernel kernel)
-{
-  return kernel == SplatKernel::CloudInCell ? 2 : kernel == SplatKernel::NearestCell ? 1 : 3;
-}
-
 template <int Dimension, class Real>
 class SplatRun
 {
@@ -62,7 +57,7 @@ public:
     const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
     const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
     this->Kernels = splatKernels<Dimension, Real>(kernel);
-    this->Job.Width = fixedWidth(kernel);
+    this->Job.Width = this->Kernels.Width;
     if (kernel == SplatKernel::Gaussian)
     {
       this->UseGaussian(options.Radius);

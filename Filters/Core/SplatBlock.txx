@@ -104,7 +104,6 @@ struct Axes
 
 // A block of particles. Coordinate a of particle i is number 3 i + a, as in memory: to move it
 // elsewhere costs more than all that is computed of it.
-template <int Dimension>
 struct Block
 {
   int Count;
@@ -242,7 +241,7 @@ RT_INLINE void readMasses(const SplatJob<Dimension, Real>& job, std::int64_t fir
 // Reads the same particles, block.Count of them.
 template <int Dimension, class Real>
 RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes,
-  std::int64_t first, const std::uint32_t* index, std::int64_t begin, Block<Dimension>& block)
+  std::int64_t first, const std::uint32_t* index, std::int64_t begin, Block& block)
 {
   readMasses(job, first, index, begin, block.Count, block.Mass);
   double from[blockCoordinates];
@@ -281,7 +280,7 @@ RT_INLINE std::int32_t keptFirst(const SplatJob<Dimension, Real>& job, int a, st
 // How many particles of a block are outside, of those whose first cell along the last axis is in a
 // box: every particle is counted once, however many boxes it reaches.
 template <int Dimension, class Real>
-int countOutside(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
+int countOutside(const SplatJob<Dimension, Real>& job, const Block& block,
   const std::int32_t* first, const CellBox<Dimension>& box)
 {
   constexpr int axis = Dimension - 1;
@@ -299,7 +298,7 @@ int countOutside(const SplatJob<Dimension, Real>& job, const Block<Dimension>& b
 // outside.
 template <int Dimension, class Real>
 RT_INLINE bool placeBlock(
-  const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes, Block<Dimension>& block)
+  const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes, Block& block)
 {
   double beyond[blockCoordinates];
   Four sum = {};

@@ -233,36 +233,38 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
   }
 }
 
-// How much of what particles reach is in a box.
-enum class Part
+// How many of the cells that particles reach are in a box.
+enum class Covered
 {
-  Nothing,
+  None,
   Some,
   All
 };
 
 template <int Dimension>
-RT_INLINE Part partOf(const CellBox<Dimension>& reached, const CellBox<Dimension>& box)
+RT_INLINE Covered coveredBy(const CellBox<Dimension>& reached, const CellBox<Dimension>& box)
 {
-  Part part = Part::All;
+  Covered covered = Covered::All;
   for (int a = 0; a < Dimension; ++a)
   {
     if (reached.Low[a] >= box.High[a] || reached.High[a] <= box.Low[a])
     {
-      return Part::Nothing;
+      return Covered::None;
     }
     if (reached.Low[a] < box.Low[a] || reached.High[a] > box.High[a])
     {
-      part = Part::Some;
+      covered = Covered::Some;
     }
   }
-  return part;
+  return covered;
 }
 
 template <int Dimension, class Weights, class Real>
 class FixedSplat
 {
 public:
+  static constexpr int Width = Weights::Width;
+
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
     const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double*)
   {
@@ -273,13 +275,14 @@ public:
       const std::int64_t left = count - begin;
       const int number = left < splatBlock ? static_cast<int>(left) : splatBlock;
       outside += splat.Weigh(first, index, begin, number);
-      const Part part =
-        box && splat.IsInside ? partOf(boxOf<Dimension>(splat.Weighed), splat.Box) : Part::All;
-      if (part == Part::All && splat.IsInside)
+      const Covered covered = box && splat.IsInside
+        ? coveredBy(boxOf<Dimension>(splat.Weighed), splat.Box)
+        : Covered::All;
+      if (covered == Covered::All && splat.IsInside)
       {
         splat.AddWhole();
       }
-      else if (part != Part::Nothing)
+      else if (covered != Covered::None)
       {
         splat.AddParts();
       }
@@ -291,12 +294,17 @@ public:
     const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells)
   {
     FixedSplat splat(job, nullptr);
-    const int outside = splat.Weigh(first, nullptr, 0, count);
-    for (int i = 0; i < count; ++i)
+    std::int64_t outside = 0;
+    for (int begin = 0; begin < count; begin += splatBlock)
     {
-      for (int a = 0; a < Dimension; ++a)
+      const int number = smaller(count - begin, splatBlock);
+      outside += splat.Weigh(first, nullptr, begin, number);
+      for (int i = 0; i < number; ++i)
       {
-        cells[3 * i + a] = keptFirst(job, a, splat.Weighed.First[3 * i + a]);
+        for (int a = 0; a < Dimension; ++a)
+        {
+          cells[3 * (begin + i) + a] = keptFirst(job, a, splat.Weighed.First[3 * i + a]);
+        }
       }
     }
     return outside;
@@ -386,13 +394,13 @@ private:
         reached.Low[a] = this->Weighed.First[3 * i + a];
         reached.High[a] = reached.Low[a] + Weights::Width;
       }
-      const Part part = partOf(reached, this->Box);
-      if (part == Part::All)
+      const Covered covered = coveredBy(reached, this->Box);
+      if (covered == Covered::All)
       {
         addWhole<Dimension>(
           this->Weighed, i, this->Particles.Mass[i], this->Job.Stride, this->Job.Cells);
       }
-      else if (part == Part::Some)
+      else if (covered == Covered::Some)
       {
         addPart(this->Job, this->Weighed, i, this->Particles.Mass[i], this->Box);
       }
@@ -402,7 +410,7 @@ private:
   const SplatJob<Dimension, Real>& Job;
   const Axes<Dimension, Real> Along;
   const CellBox<Dimension> Box;
-  Block<Dimension> Particles;
+  Block Particles;
   WeighedBlock<Weights> Weighed;
   bool IsInside = false; // all particles of the block
 };

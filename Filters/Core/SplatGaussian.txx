@@ -93,7 +93,7 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
 
 template <int Dimension, class Real>
 RT_INLINE void findGaussian(
-  const SplatJob<Dimension, Real>& job, const Block<Dimension>& block, std::int32_t* cells)
+  const SplatJob<Dimension, Real>& job, const Block& block, std::int32_t* cells)
 {
   for (int i = 0; i < block.Count; ++i)
   {
@@ -106,7 +106,7 @@ RT_INLINE void findGaussian(
 }
 
 template <int Dimension, class Real>
-RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dimension>& block,
+RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& block,
   const std::int32_t* first, int i, const CellBox<Dimension>& box, double* scratch)
 {
   int begin[3] = { 0, 0, 0 };
@@ -151,12 +151,14 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block<Dim
 template <int Dimension, class Real>
 struct GaussianSplat
 {
+  static constexpr int Width = 0; // by its radius
+
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
     const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* part, double* scratch)
   {
     const Axes<Dimension, Real> axes(job);
     const CellBox<Dimension> box = boxOrGrid(job, part);
-    Block<Dimension> block;
+    Block block;
     std::int32_t cells[blockCoordinates];
     std::int64_t outside = 0;
     for (std::int64_t begin = 0; begin < count; begin += splatBlock)
@@ -178,12 +180,18 @@ struct GaussianSplat
     const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells)
   {
     const Axes<Dimension, Real> axes(job);
-    Block<Dimension> block;
-    block.Count = count;
-    readBlock(job, axes, first, nullptr, 0, block);
-    const bool anyOutside = placeBlock(job, axes, block);
-    findGaussian(job, block, cells);
-    return anyOutside ? countOutside(job, block, cells, boxOrGrid<Dimension>(job, nullptr)) : 0;
+    const CellBox<Dimension> grid = boxOrGrid<Dimension>(job, nullptr);
+    Block block;
+    std::int64_t outside = 0;
+    for (int begin = 0; begin < count; begin += splatBlock)
+    {
+      block.Count = smaller(count - begin, splatBlock);
+      readBlock(job, axes, first, nullptr, begin, block);
+      const bool anyOutside = placeBlock(job, axes, block);
+      findGaussian(job, block, cells + 3 * begin);
+      outside += anyOutside ? countOutside(job, block, cells + 3 * begin, grid) : 0;
+    }
+    return outside;
   }
 
   static CellBox<Dimension> Reach(

@@ -42,14 +42,14 @@ struct SplatJob
 
 // Adds what particles [first, first + count), or with an index particles first + index[0], ...,
 // first + index[count - 1], have in the cells of a box (null: all cells), in this order. `scratch`
-// has room for splatPatch doubles (Gaussian: for Width an axis); it is not needed with an index.
-// Returns how many are outside, of those whose first cell is in the box along the last axis.
+// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of
+// those whose first cell is in the box along the last axis.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
 
-// Finds the first of the cells that particles [first, first + count) reach, count <= splatBlock:
-// Kept cells from there on, along axis a from cells[3 i + a]. Returns how many are outside.
+// Finds the first of the cells that particles [first, first + count) reach: Kept cells from there
+// on, along axis a from cells[3 i + a]. Returns how many are outside.
 template <int Dimension, class Real>
 using FindCells = std::int64_t (*)(
   const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells);
@@ -63,6 +63,7 @@ using BoxOfParticles = CellBox<Dimension> (*)(
 template <int Dimension, class Real>
 struct SplatKernels
 {
+  std::int32_t Width; // cells an axis; 0 for the Gaussian, which has it from its radius
   AddParticles<Dimension, Real> Add;
   FindCells<Dimension, Real> Find;
   BoxOfParticles<Dimension, Real> Reach;

@@ -20,7 +20,7 @@ namespace
 template <class Splat, int Dimension, class Real>
 SplatKernels<Dimension, Real> kernelsOf()
 {
-  return { &Splat::Add, &Splat::Find, &Splat::Reach, &exponential };
+  return { Splat::Width, &Splat::Add, &Splat::Find, &Splat::Reach, &exponential };
 }
 
 } // namespace

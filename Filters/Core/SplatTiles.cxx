@@ -77,13 +77,13 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
   this->Position.assign(static_cast<std::size_t>(used * this->NumberOfTiles), 0);
   this->Start.resize(static_cast<std::size_t>(this->NumberOfTiles + 1));
   const auto visitPart = [&](std::int64_t number, const auto& visit) {
-    std::int32_t cells[3 * splatBlock];
+    constexpr std::int64_t found = 16 * splatBlock; // at a time
+    std::int32_t cells[3 * found];
     std::int64_t outside = 0;
     const std::int64_t end = std::min((number + 1) * part, count);
-    for (std::int64_t begin = number * part; begin < end && !pacer.ShouldStop();
-         begin += splatBlock)
+    for (std::int64_t begin = number * part; begin < end && !pacer.ShouldStop(); begin += found)
     {
-      const int lanes = static_cast<int>(std::min<std::int64_t>(splatBlock, end - begin));
+      const int lanes = static_cast<int>(std::min(found, end - begin));
       outside += find(this->Job, first + begin, lanes, cells);
       for (int i = 0; i < lanes; ++i)
       {

@@ -186,6 +186,17 @@ void checkMasses(Checks& checks)
   splatter->Update();
   CHECK_NEAR(checks, totalMass(splatter), 5.0, 1e-14);
 
+  splatter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  Messages messages(splatter);
+  splatter->Update();
+  CHECK(checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "no active Scalars"));
+  points->GetPointData()->SetActiveScalars("Weight");
+  splatter->Update();
+  CHECK_NEAR(checks, totalMass(splatter), 4.0, 1e-14);
+  points->GetPointData()->SetActiveScalars(nullptr);
+  splatter->SetInputArrayToProcess(0, 0, 0, 0, "None");
+
   // Duplicates and hidden points have no mass, whether there is an array or not.
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
@@ -248,6 +259,8 @@ void checkErrors(Checks& checks)
   expect({ "Dimensions is 4 4 2000000000", "at most 1073741824" }, __LINE__);
   splatter->SetDimensions(1 << 20, 1 << 20, 1 << 20);
   expect({ "Not enough memory", "Density" }, __LINE__);
+  splatter->SetDimensions(1 << 21, 1 << 21, 1 << 22); // 2^64 values
+  expect({ "Not enough memory", "2097152 x 2097152 x 4194304 values" }, __LINE__);
   splatter->SetDimensions(4, 4, 4);
   splatter->SetAssociation(2);
   expect({ "Association is 2", "0 (Points) or 1 (Cells)" }, __LINE__);
@@ -289,6 +302,15 @@ void checkErrors(Checks& checks)
   expect({ "'Mass' has 2 values that are NaN or infinite", "index 7" }, __LINE__);
   mass->FillValue(1e307);
   expect({ "'Mass' sums to inf" }, __LINE__);
+  vtkSmartPointer<vtkPolyData> heavy = makePoints({ 0.0, 0.0, 0.0, 1e-3, 1e-3, 1e-3 });
+  vtkNew<vtkDoubleArray> pair; // which sums to 0
+  pair->SetName("Mass");
+  pair->InsertNextValue(1e303);
+  pair->InsertNextValue(-1e303);
+  heavy->GetPointData()->AddArray(pair);
+  splatter->SetInputData(heavy);
+  expect({ "masses of 2e+303", "past the largest double", "DivideByVolume off" }, __LINE__);
+  splatter->SetInputData(points);
   splatter->SetInputArrayToProcess(0, 0, 0, 0, "Vectors");
   expect({ "'Vectors' has 3 components", "must have 1" }, __LINE__);
   splatter->SetInputArrayToProcess(0, 0, 0, 0, "Names");

@@ -5,10 +5,18 @@
 
 #include "ProgressTest.h"
 
+#include "vtkElevationFilter.h"
+#include "vtkImageDataToPointSet.h"
+#include "vtkImageShiftScale.h"
 #include "vtkInformation.h"
+#include "vtkMultiBlockDataGroupFilter.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkSphereSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransportSampler.h"
 #include "vtkTrivialProducer.h"
+
+#include <initializer_list>
 
 namespace
 {
@@ -44,6 +52,62 @@ void checkInformation(Checks& checks)
   CHECK(checks, splatter->GetOutput()->GetNumberOfPoints() == 0);
   splatter->UpdatePiece(0, 2, 0);
   CHECK(checks, splatter->GetOutput()->GetNumberOfCells() == 4);
+}
+
+// Image filters behind it see its own array, not those of the image that its points come from.
+void checkAnnouncedArray(Checks& checks)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 4);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 2);
+  std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), 128, 1);
+  vtkNew<vtkImageDataToPointSet> points;
+  points->SetInputData(image);
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputConnection(points->GetOutputPort());
+  splatter->SetDimensions(3, 3, 3);
+  vtkNew<vtkImageShiftScale> twice;
+  twice->SetInputConnection(splatter->GetOutputPort());
+  twice->SetScale(2.0);
+  twice->Update();
+  vtkDataArray* doubled = twice->GetOutput()->GetPointData()->GetScalars();
+  const std::vector<double> values = splatValues(splatter);
+  CHECK(checks, doubled && doubled->GetDataType() == VTK_DOUBLE);
+  CHECK(checks, doubled && doubled->GetNumberOfComponents() == 1 && values.size() == 27);
+  CHECK(checks, doubled && doubled->GetTuple1(13) == 2.0 * values.at(13));
+}
+
+// A block at a time, also where what makes the blocks runs again.
+void checkProducedBlocks(Checks& checks)
+{
+  vtkNew<vtkSphereSource> spheres[2];
+  vtkNew<vtkMultiBlockDataGroupFilter> group;
+  for (int i = 0; i < 2; ++i)
+  {
+    spheres[i]->SetCenter(10.0 * i, 0.0, 0.0);
+    group->AddInputConnection(spheres[i]->GetOutputPort());
+  }
+  vtkNew<vtkElevationFilter> elevation; // a block at a time, too
+  elevation->SetInputConnection(group->GetOutputPort());
+  for (vtkAlgorithm* producer : std::initializer_list<vtkAlgorithm*>{ group, elevation })
+  {
+    vtkNew<vtkMassSplatter> splatter;
+    Messages messages(splatter);
+    splatter->SetInputConnection(producer->GetOutputPort());
+    splatter->SetDimensions(4, 4, 4);
+    for (const double radius : { 1.0, 2.0 })
+    {
+      spheres[1]->SetRadius(radius);
+      splatter->Update();
+      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(splatter->GetOutputDataObject(0));
+      CHECK(checks, blocks && blocks->GetNumberOfBlocks() == 2);
+      auto* image = vtkImageData::SafeDownCast(blocks ? blocks->GetBlock(1) : nullptr);
+      CHECK(checks, image && image->GetNumberOfPoints() == 64);
+      CHECK_NEAR(checks, image ? image->GetCenter()[0] : 0.0, 10.0, 0.1);
+      CHECK_NEAR(checks, image ? image->GetSpacing()[2] : 0.0, 0.5 * radius, 1e-6);
+    }
+    CHECK(checks, messages.Errors.empty());
+  }
 }
 
 void checkThreads(Checks& checks)
@@ -117,6 +181,8 @@ int TestMassSplatterRun(int, char*[])
 {
   Checks checks;
   checkInformation(checks);
+  checkAnnouncedArray(checks);
+  checkProducedBlocks(checks);
   checkThreads(checks);
   checkLattice(checks);
   checkProgressAndAbort(checks);

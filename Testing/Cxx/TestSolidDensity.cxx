@@ -222,6 +222,39 @@ void checkPolygons(Checks& checks)
 }
 
 // Two triangles back to back: closed, with nothing inside.
+// A sphere of quads alone, whose corners meet at the poles and whose edges meet along a seam.
+void checkCornersThatCoincide(Checks& checks)
+{
+  constexpr int rows = 24;
+  constexpr int columns = 36;
+  std::vector<double> points;
+  std::vector<vtkIdType> faces;
+  for (int row = 0; row <= rows; ++row)
+  {
+    const double radius = row % rows == 0 ? 0.0 : std::sin(pi * row / rows);
+    for (int column = 0; column <= columns; ++column)
+    {
+      const double angle = 2.0 * pi * (column % columns) / columns;
+      const double place[3] = { radius * std::cos(angle), radius * std::sin(angle),
+        std::cos(pi * row / rows) };
+      points.insert(points.end(), place, place + 3);
+      if (row < rows && column < columns)
+      {
+        const vtkIdType corner = row * (columns + 1) + column;
+        const vtkIdType below = corner + columns + 1;
+        faces.insert(faces.end(), { 4, corner, corner + 1, below + 1, below });
+      }
+    }
+  }
+  auto surface = makePolyhedron(points, faces);
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(surface);
+  clean->Update();
+  const double volume = volumeOf(clean->GetOutput());
+  CHECK_NEAR(checks, volume, 4.0 / 3.0 * pi, 0.1);
+  CHECK_NEAR(checks, massOf(surface, 64), volume, 1e-3 * volume);
+}
+
 void checkFlat(Checks& checks)
 {
   vtkNew<vtkSolidDensity> solid;
@@ -272,6 +305,7 @@ int TestSolidDensity(int, char*[])
   checkTransforms(checks);
   checkInside(checks);
   checkPolygons(checks);
+  checkCornersThatCoincide(checks);
   checkFlat(checks);
   checkSizes(checks);
   return checks.Result();

@@ -7,6 +7,7 @@
 #include "vtkContourFilter.h"
 #include "vtkFeatureEdges.h"
 #include "vtkImageShiftScale.h"
+#include "vtkMultiBlockDataGroupFilter.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPlaneSource.h"
 #include "vtkSMPTools.h"
@@ -71,6 +72,18 @@ void checkPipeline(Checks& checks)
   CHECK(checks, solid->GetOutput()->GetFieldData()->GetArray("Own") == own);
 }
 
+// Image filters behind it have nothing to do where there is no surface, and no shape of one.
+void checkNoSurface(Checks& checks)
+{
+  vtkNew<vtkSolidDensity> solid;
+  vtkNew<vtkPolyData> none;
+  solid->SetInputData(none);
+  vtkNew<vtkImageShiftScale> twice;
+  twice->SetInputConnection(solid->GetOutputPort());
+  twice->Update();
+  CHECK(checks, twice->GetOutput()->GetNumberOfPoints() == 0);
+}
+
 // A block at a time, with an image for each.
 void checkBlocks(Checks& checks)
 {
@@ -87,6 +100,20 @@ void checkBlocks(Checks& checks)
   {
     auto* image = vtkImageData::SafeDownCast(output->GetBlock(i));
     CHECK(checks, image && image->GetNumberOfPoints() == 12 * 12 * 12);
+  }
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkMultiBlockDataGroupFilter> group; // what makes the blocks is in the pipeline
+  group->AddInputConnection(sphere->GetOutputPort());
+  group->AddInputConnection(sphere->GetOutputPort());
+  solid->SetInputConnection(group->GetOutputPort());
+  for (const double radius : { 0.5, 3.0 })
+  {
+    sphere->SetRadius(radius);
+    solid->Update();
+    output = vtkMultiBlockDataSet::SafeDownCast(solid->GetOutputDataObject(0));
+    auto* image = vtkImageData::SafeDownCast(output ? output->GetBlock(1) : nullptr);
+    CHECK(checks, image && image->GetNumberOfPoints() == 12 * 12 * 12);
+    CHECK_NEAR(checks, image ? image->GetSpacing()[0] : 0.0, radius * 2.2 / 12, 1e-6);
   }
 }
 
@@ -310,6 +337,7 @@ int TestSolidRun(int, char*[])
 {
   Checks checks;
   checkPipeline(checks);
+  checkNoSurface(checks);
   checkBlocks(checks);
   checkThreads(checks);
   checkAborts(checks);

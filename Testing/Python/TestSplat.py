@@ -96,6 +96,22 @@ class Splat(unittest.TestCase):
         self.assertLess(np.abs(found - wanted).max(), 0.05)
         self.assertAlmostEqual(total(splat), values.sum(), delta=1e-6)
 
+    def test_blocks_of_a_pipeline(self):
+        """ParaView's executive goes through blocks one by one, and through changed ones again."""
+        spheres = [simple.Sphere(Center=[3 * i, 0, 0]) for i in range(2)]
+        blocks = simple.GroupDatasets(Input=spheres)
+        for proxy in (simple.SplatMass(Input=blocks, Dimensions=[4, 4, 4]),
+                      simple.SolidDensity(Input=blocks, Resolution=8)):
+            heard = Listener(proxy.GetClientSideObject())
+            ends = []
+            for radius in (0.5, 1):
+                spheres[0].Radius = radius
+                proxy.UpdatePipeline()
+                ends.append(proxy.GetDataInformation().GetBounds()[4])
+            self.assertAlmostEqual(ends[1] / ends[0], 2, delta=1e-6)
+            self.assertEqual(heard.errors, [])
+            spheres[0].Radius = 0.5
+
     def test_dimension(self):
         splat = simple.SplatMass(Input=simple.Plane(), Dimensions=[5, 6, 7])
         self.assertEqual(output_of(splat).GetDimensions(), (5, 6, 1))
