@@ -187,12 +187,7 @@ int vtkMassSplatter::RequestInformation(
       frame = ImageFrame(); // RequestData says it, once
     }
   }
-  vtkInformation* output = outputVector->GetInformationObject(0);
-  frame.Publish(output);
-  vtkDataObject::SetActiveAttributeInfo(output,
-    this->Association == POINTS ? vtkDataObject::FIELD_ASSOCIATION_POINTS
-                                : vtkDataObject::FIELD_ASSOCIATION_CELLS,
-    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
+  frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
   return 1;
 }
 

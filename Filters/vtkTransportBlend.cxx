@@ -190,16 +190,10 @@ int vtkTransportBlend::RequestInformation(
   {
     return 1;
   }
-  vtkInformation* output = outputVector->GetInformationObject(0);
-  output->Remove(vtkDataObject::POINT_DATA_VECTOR());
-  output->Remove(vtkDataObject::CELL_DATA_VECTOR());
-  vtkDataObject::SetActiveAttributeInfo(output,
-    parts.front().OnPoints ? vtkDataObject::FIELD_ASSOCIATION_POINTS
-                           : vtkDataObject::FIELD_ASSOCIATION_CELLS,
-    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
   try
   {
-    commonFrame(parts, this->Dimensions).Publish(output);
+    commonFrame(parts, this->Dimensions)
+      .PublishDensity(outputVector->GetInformationObject(0), parts.front().OnPoints);
   }
   catch (const Failure&)
   {

@@ -5,6 +5,7 @@
 #include "PropertyCheck.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
@@ -149,6 +150,14 @@ void ImageFrame::Publish(vtkInformation* information) const
   information->Set(vtkDataObject::ORIGIN(), this->Origin.data(), 3);
   information->Set(vtkDataObject::SPACING(), this->Spacing.data(), 3);
   information->Set(vtkDataObject::DIRECTION(), this->Direction.data(), 9);
+}
+
+void ImageFrame::PublishDensity(vtkInformation* information, bool onPoints) const
+{
+  this->Publish(information);
+  vtkDataObject::SetActiveAttributeInfo(information,
+    onPoints ? vtkDataObject::FIELD_ASSOCIATION_POINTS : vtkDataObject::FIELD_ASSOCIATION_CELLS,
+    vtkDataSetAttributes::SCALARS, "Density", VTK_DOUBLE, 1, -1);
 }
 
 bool ImageFrame::IsEmpty() const

@@ -48,6 +48,8 @@ public:
 
   void CopyTo(vtkImageData* image) const;
   void Publish(vtkInformation* information) const;
+  // And that the active scalars will be the array Density, of doubles.
+  void PublishDensity(vtkInformation* information, bool onPoints) const;
 
   bool IsEmpty() const;
   bool HasOnePoint() const { return this->Values(true) == std::array<int, 3>{ 1, 1, 1 }; }
