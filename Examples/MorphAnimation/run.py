@@ -23,7 +23,7 @@ def time_series(folder, images):
         writer = vtkXMLImageDataWriter()
         writer.SetFileName(files[-1])
         writer.SetInputData(image)
-        writer.SetDataModeToBinary()  # with recent versions of Expat VTK does not read appended data
+        writer.SetDataModeToBinary()  # appended: see Testing/Data/README.md
         writer.Write()
     return simple.XMLImageDataReader(FileName=files)
 

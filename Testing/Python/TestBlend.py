@@ -218,7 +218,7 @@ class Morph(Blend):
             writer = vtkXMLImageDataWriter()
             writer.SetFileName(paths[-1])
             writer.SetInputData(image)
-            writer.SetDataModeToBinary()  # recent versions of Expat: Testing/Data/README.md
+            writer.SetDataModeToBinary()  # appended: see Testing/Data/README.md
             writer.Write()
         series = simple.XMLImageDataReader(FileName=paths)
         series.UpdatePipelineInformation()
