@@ -170,11 +170,16 @@ int vtkTransportMap::RequestInformation(
     const ImageFrame frame = inputFrame.WithValues(
       this->SampleDimensions, this->IsDensityOnPoints(inputInformation), "SampleDimensions");
     frame.Publish(outputInformation);
-    if (!frame.HasExtentOf(inputFrame))
+    if (frame.HasExtentOf(inputFrame))
     {
-      // The input's scalars are not passed on.
-      outputInformation->Remove(vtkDataObject::POINT_DATA_VECTOR());
-      outputInformation->Remove(vtkDataObject::CELL_DATA_VECTOR());
+      // The input's scalars are passed on.
+      for (auto* key : { vtkDataObject::POINT_DATA_VECTOR(), vtkDataObject::CELL_DATA_VECTOR() })
+      {
+        if (inputInformation->Has(key))
+        {
+          outputInformation->CopyEntry(inputInformation, key, 1);
+        }
+      }
     }
   }
   catch (const Failure&)

@@ -5,6 +5,7 @@
 #include "MapTest.h"
 #include "ProgressTest.h"
 
+#include "vtkImageShiftScale.h"
 #include "vtkImageShrink3D.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
@@ -49,6 +50,16 @@ void checkInformation(Checks& checks)
   vtkNew<vtkTransportMap> map;
   map->SetInputConnection(source->GetOutputPort());
   map->SetNegativeValuesToClamp();
+  // On the input's own grid its scalars go on, as an image filter that follows has to know.
+  vtkNew<vtkImageShiftScale> twice;
+  twice->SetInputConnection(map->GetOutputPort());
+  twice->SetScale(2.0);
+  twice->Update();
+  vtkDataArray* passed = map->GetOutput()->GetPointData()->GetScalars();
+  vtkDataArray* doubled = twice->GetOutput()->GetPointData()->GetScalars();
+  CHECK(checks, passed && doubled && passed->GetDataType() == VTK_FLOAT);
+  CHECK(checks, doubled && doubled->GetDataType() == VTK_FLOAT);
+  CHECK(checks, passed && doubled && doubled->GetTuple1(20) == 2.0 * passed->GetTuple1(20));
   map->SetSampleDimensions(10, 20, 5);
   checkInformation(checks, map, __LINE__);
   vtkNew<vtkPointDataToCellData> toCells;
