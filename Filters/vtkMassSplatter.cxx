@@ -255,17 +255,12 @@ int vtkMassSplatter::RequestData(
         : "The input's points are all at one place, about which there is no box; connect an image "
           "as the Reference, or points that differ");
   }
-  double values = 1.0;
-  for (const int along : cells.Values(reference && onPoints))
-  {
-    values *= along;
-  }
   if (!reference)
   {
-    const std::array<int, 3> size = cells.Values(false);
-    requireMemory("the array Density of " + describeSize<3>({ size[0], size[1], size[2] }) +
-        " values (see Dimensions)",
-      values * sizeof(double));
+    const std::array<int, 3> along = cells.Values(false);
+    const GridSize<3> size{ along[0], along[1], along[2] };
+    requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
+      numberOfCells<3>(size) * sizeof(double));
   }
   cells.CopyTo(output);
   const ImageGeometry geometry(output, reference && onPoints);

@@ -47,8 +47,9 @@ def main():
                              (times[0], np.mean(times[1:], axis=0), np.sum(times, axis=0)))])
         pictures.append(line)
     figures.table("%d\u00b2 pixels with %d particles each: seconds of the clock / of all "
-                  "processors" % (arguments.size, arguments.particles), ["morph", "maps and a frame", "another frame",
-                                     "%d frames" % arguments.frames], rows)
+                  "processors" % (arguments.size, arguments.particles),
+                  ["morph", "maps and a frame", "another frame",
+                   "%d frames" % arguments.frames], rows)
     os.makedirs(arguments.output, exist_ok=True)
     path = os.path.join(arguments.output, "morph-2d.png")
     figures.montage(path, pictures, arguments.panel)

@@ -373,7 +373,7 @@ private:
 
   RT_INLINE void AddWhole()
   {
-    std::int64_t stride[Dimension];
+    std::int64_t stride[Dimension]; // copied, as for all that is known cells might be the job's
     for (int a = 0; a < Dimension; ++a)
     {
       stride[a] = this->Job.Stride[a];

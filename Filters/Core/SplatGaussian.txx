@@ -148,6 +148,19 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& bl
   }
 }
 
+// Reads block.Count particles and finds their cells. Returns how many are outside, of those that a
+// box has to count.
+template <int Dimension, class Real>
+RT_INLINE int findBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes,
+  std::int64_t first, const std::uint32_t* index, std::int64_t begin, const CellBox<Dimension>& box,
+  Block& block, std::int32_t* cells)
+{
+  readBlock(job, axes, first, index, begin, block);
+  const bool anyOutside = placeBlock(job, axes, block);
+  findGaussian(job, block, cells);
+  return anyOutside ? countOutside(job, block, cells, box) : 0;
+}
+
 template <int Dimension, class Real>
 struct GaussianSplat
 {
@@ -164,10 +177,7 @@ struct GaussianSplat
     for (std::int64_t begin = 0; begin < count; begin += splatBlock)
     {
       block.Count = count - begin < splatBlock ? static_cast<int>(count - begin) : splatBlock;
-      readBlock(job, axes, first, index, begin, block);
-      const bool anyOutside = placeBlock(job, axes, block);
-      findGaussian(job, block, cells);
-      outside += anyOutside ? countOutside(job, block, cells, box) : 0;
+      outside += findBlock(job, axes, first, index, begin, box, block, cells);
       for (int i = 0; i < block.Count; ++i)
       {
         addGaussian(job, block, cells, i, box, scratch);
@@ -186,10 +196,7 @@ struct GaussianSplat
     for (int begin = 0; begin < count; begin += splatBlock)
     {
       block.Count = smaller(count - begin, splatBlock);
-      readBlock(job, axes, first, nullptr, begin, block);
-      const bool anyOutside = placeBlock(job, axes, block);
-      findGaussian(job, block, cells + 3 * begin);
-      outside += anyOutside ? countOutside(job, block, cells + 3 * begin, grid) : 0;
+      outside += findBlock(job, axes, first, nullptr, begin, grid, block, cells + 3 * begin);
     }
     return outside;
   }
