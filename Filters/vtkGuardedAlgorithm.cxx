@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGuardedAlgorithm.h"
 
+#include "Bridge/Failure.h"
 #include "Bridge/GuardedRun.h"
 
 #include "vtkImageData.h"
@@ -100,6 +101,14 @@ void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  return RectifiedTransport::runGuarded(this, outputVector,
+    [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::AnswerRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
     return this->RequestDataObject(request, inputVector, outputVector);
@@ -108,7 +117,15 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   {
     publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
     forgetArrays(outputVector);
-    return this->RequestInformation(request, inputVector, outputVector);
+    try
+    {
+      return this->RequestInformation(request, inputVector, outputVector);
+    }
+    catch (const RectifiedTransport::Failure&)
+    {
+      RectifiedTransport::withdrawExtents(outputVector); // RequestData says it, once
+      return 1;
+    }
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
@@ -117,8 +134,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     emptyImages(outputVector);
-    return RectifiedTransport::runGuarded(
-      this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
+    return this->RequestData(request, inputVector, outputVector);
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }

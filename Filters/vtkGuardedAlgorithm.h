@@ -3,8 +3,8 @@
  * @class   vtkGuardedAlgorithm
  * @brief   what all filters of the module share as algorithms
  *
- * Passes the executive's requests to virtual methods. What RequestData throws becomes one error of
- * the filter; after an error or an abort all outputs are empty.
+ * Passes the executive's requests to virtual methods. What they throw becomes one error of the
+ * filter; after an error or an abort all outputs are empty, and images announce no extent.
  *
  * @sa vtkDensityAlgorithm vtkEqualMassCells
  */
@@ -55,7 +55,8 @@ protected:
     vtkInformationVector* input, vtkInformationVector* outputVector, int port);
 
   /**
-   * Publish what is known before the data, beside the times of all inputs. By default nothing.
+   * Publish what is known before the data, beside the times of all inputs. By default nothing. What
+   * the user can put right is left to RequestData to say: the images are then announced as empty.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -92,6 +93,9 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
 private:
+  int AnswerRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
   int UpdatedPort = 0;
   vtkMTimeType UpdatedTime = 0;

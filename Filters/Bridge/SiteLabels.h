@@ -31,6 +31,9 @@ using SiteIdArray =
 class SiteLabels
 {
 public:
+  // Throws Failure if there is no memory to make labels.
+  static void RequireMemory(const ImageFrame& frame);
+
   // Whether these are the labels of such sites on such a grid.
   bool IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const;
   // What is outdated need not take memory while new labels are made.
