@@ -101,8 +101,8 @@ void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return RectifiedTransport::runGuarded(this, outputVector,
-    [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
+  return RectifiedTransport::runGuarded(
+    this, outputVector, [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
 }
 
 //------------------------------------------------------------------------------
@@ -134,7 +134,8 @@ int vtkGuardedAlgorithm::AnswerRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     emptyImages(outputVector);
-    return this->RequestData(request, inputVector, outputVector);
+    const int result = this->RequestData(request, inputVector, outputVector);
+    return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }

@@ -219,8 +219,8 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const ImageFrame frame = ImageFrame(input).WithValues(
-    this->SampleDimensions, density->IsOnPoints(), "SampleDimensions");
+  const ImageFrame frame =
+    ImageFrame(input).WithValues(this->SampleDimensions, density->IsOnPoints(), "SampleDimensions");
   vtkImageData* output = vtkImageData::GetData(outputVector);
   frame.Publish(outputInformation); // which array it is, is not always known before the data
 

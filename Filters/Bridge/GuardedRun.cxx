@@ -20,7 +20,62 @@ namespace RectifiedTransport
 namespace
 {
 
-void emptyOutputs(vtkInformationVector* outputs)
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const int none[6] = { 0, -1, 0, -1, 0, -1 };
+
+bool isStructured(vtkInformation* output)
+{
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  return data && data->GetExtentType() == VTK_3D_EXTENT;
+}
+
+bool isWithin(const int* part, const int* whole)
+{
+  const bool isEmpty = part[0] > part[1] || part[2] > part[3] || part[4] > part[5];
+  return isEmpty ||
+    (part[0] >= whole[0] && part[1] <= whole[1] && part[2] >= whole[2] && part[3] <= whole[3] &&
+      part[4] >= whole[4] && part[5] <= whole[5]);
+}
+
+void forgetRequest(vtkInformation* output)
+{
+  output->Set(Pipeline::UPDATE_EXTENT(), none, 6);
+  output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // it would come back from there
+  output->Remove(Pipeline::UPDATE_EXTENT_INITIALIZED());
+}
+
+// Visits the structured outputs of the filters that read an output, and of those behind them.
+// Returns whether these were all.
+template <class Visit>
+bool visitConsumers(vtkInformation* output, const Visit& visit)
+{
+  // A filter that was deleted stays among the consumers, but holds the information no longer. Which
+  // one it is cannot be told.
+  const int count = vtkExecutive::CONSUMERS()->Length(output);
+  if (output->GetReferenceCount() != count + 1)
+  {
+    return false;
+  }
+  bool isComplete = true;
+  vtkExecutive** consumers = vtkExecutive::CONSUMERS()->GetExecutives(output);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkInformationVector* outputs = consumers[i]->GetOutputInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      vtkInformation* next = outputs->GetInformationObject(j);
+      if (isStructured(next))
+      {
+        visit(next);
+        isComplete = visitConsumers(next, visit) && isComplete;
+      }
+    }
+  }
+  return isComplete;
+}
+
+bool emptyOutputs(vtkInformationVector* outputs)
 {
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
   {
@@ -29,33 +84,46 @@ void emptyOutputs(vtkInformationVector* outputs)
       output->Initialize();
     }
   }
-  withdrawExtents(outputs);
+  return withdrawExtents(outputs);
 }
 
 } // namespace
 
-void withdrawExtents(vtkInformationVector* outputs)
+bool withdrawExtents(vtkInformationVector* outputs)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int none[6] = { 0, -1, 0, -1, 0, -1 };
+  const auto withdraw = [](vtkInformation* output) {
+    output->Set(Pipeline::WHOLE_EXTENT(), none, 6);
+    forgetRequest(output);
+  };
+  bool isComplete = true;
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
   {
     vtkInformation* output = outputs->GetInformationObject(i);
-    vtkDataObject* data = vtkDataObject::GetData(output);
-    if (!data || data->GetExtentType() != VTK_3D_EXTENT)
+    if (isStructured(output))
     {
-      continue;
-    }
-    output->Set(Pipeline::WHOLE_EXTENT(), none, 6);
-    output->Set(Pipeline::UPDATE_EXTENT(), none, 6);
-    output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // it would come back from there
-    output->Remove(Pipeline::UPDATE_EXTENT_INITIALIZED());
-    vtkExecutive** consumers = vtkExecutive::CONSUMERS()->GetExecutives(output);
-    for (int j = 0; j < vtkExecutive::CONSUMERS()->Length(output); ++j)
-    {
-      withdrawExtents(consumers[j]->GetOutputInformation());
+      withdraw(output);
+      isComplete = visitConsumers(output, withdraw) && isComplete;
     }
   }
+  return isComplete;
+}
+
+bool withdrawUnmetRequests(vtkInformationVector* outputs)
+{
+  bool isComplete = true;
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    const int* asked = output->Get(Pipeline::UPDATE_EXTENT());
+    if (asked && isStructured(output) &&
+      !isWithin(
+        asked, vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT())))
+    {
+      output->Remove(vtkDataObject::ALL_PIECES_EXTENT()); // or the next reader would not come here
+      isComplete = visitConsumers(output, forgetRequest) && isComplete;
+    }
+  }
+  return isComplete;
 }
 
 int runGuarded(
@@ -68,8 +136,7 @@ int runGuarded(
   }
   catch (const Aborted&)
   {
-    emptyOutputs(outputs);
-    return 1;
+    return emptyOutputs(outputs) ? 1 : 0;
   }
   catch (const std::bad_alloc&)
   {

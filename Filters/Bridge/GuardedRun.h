@@ -17,8 +17,12 @@ int runGuarded(
   vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<int()>& body);
 
 // Announces that structured outputs have no points, after all. Filters that follow would read all
-// of what was announced before, so that they are asked for nothing, too.
-void withdrawExtents(vtkInformationVector* outputs);
+// of what was announced before, so that they are asked for nothing, too. Returns false where not
+// all of them can be reached: they must then be kept from running, by a failure.
+bool withdrawExtents(vtkInformationVector* outputs);
+
+// The same for this update alone, where an output holds less than was asked for: a later piece.
+bool withdrawUnmetRequests(vtkInformationVector* outputs);
 
 } // namespace RectifiedTransport
 

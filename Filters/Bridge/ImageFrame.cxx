@@ -143,8 +143,7 @@ void ImageFrame::CopyTo(vtkImageData* image) const
   {
     planes += points;
   }
-  requireMemory(
-    "an image of " + this->DescribeValues(true) + " points", planes * sizeof(double));
+  requireMemory("an image of " + this->DescribeValues(true) + " points", planes * sizeof(double));
   const auto& e = this->Extent;
   image->SetExtent(e[0], e[1], e[2], e[3], e[4], e[5]);
   image->SetOrigin(this->Origin.data());
