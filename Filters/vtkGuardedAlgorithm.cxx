@@ -3,6 +3,7 @@
 
 #include "Bridge/Failure.h"
 #include "Bridge/GuardedRun.h"
+#include "Bridge/WholeInput.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -134,6 +136,7 @@ int vtkGuardedAlgorithm::AnswerRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     emptyImages(outputVector);
+    this->RequireWhole(request, inputVector, outputVector);
     const int result = this->RequestData(request, inputVector, outputVector);
     return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
   }
@@ -204,9 +207,72 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+    if (this->NeedsWhole(port))
+    {
+      vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+    }
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGuardedAlgorithm::NeedsWhole(int)
+{
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::RequireWhole(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using RectifiedTransport::RankAgreement;
+  std::vector<std::vector<vtkDataObject*>> inputs(
+    static_cast<std::size_t>(this->GetNumberOfInputPorts()));
+  vtkMTimeType newest = 0;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    const int connections =
+      this->NeedsWhole(port) ? inputVector[port]->GetNumberOfInformationObjects() : 0;
+    for (int i = 0; i < connections; ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      RectifiedTransport::requireWholeExtent(input, "Input port " + std::to_string(port));
+      if (vtkDataObject* data = vtkDataObject::GetData(input))
+      {
+        newest = std::max({ newest, data->GetMTime(), data->GetUpdateTime() });
+        inputs[static_cast<std::size_t>(port)].push_back(data);
+      }
+    }
+  }
+  if (newest == this->Compared)
+  {
+    return;
+  }
+  const int asked = std::max(0, request->Get(vtkStreamingDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  for (std::size_t port = 0; port < inputs.size(); ++port)
+  {
+    const std::string name = "input port " + std::to_string(port);
+    int rank = 0;
+    const RankAgreement agreement = inputs[port].empty()
+      ? RankAgreement::Same
+      : RectifiedTransport::compareRanks(outputVector->GetInformationObject(asked),
+          this->GetClassName() + name, inputs[port], rank);
+    if (agreement == RankAgreement::Differs)
+    {
+      throw RectifiedTransport::Failure("The data on " + name +
+        " are not the same here and on rank " + std::to_string(rank) +
+        "; what lies on several ranks must be gathered on the first one, or be whole on each "
+        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)");
+    }
+    if (agreement == RankAgreement::NoAnswer)
+    {
+      vtkWarningMacro(<< "Rank " << rank << " has not run this filter for ten seconds; whether the "
+                      << "data on " << name << " lie on several ranks, which would make the result "
+                      << "wrong, is not known");
+      return;
+    }
+  }
+  this->Compared = newest;
 }
 
 //------------------------------------------------------------------------------

@@ -69,7 +69,14 @@ protected:
   void UpdateInputBeforeData(int port);
 
   /**
-   * Ask for whole images, because a transport is global, and for all points of other inputs.
+   * Whether the filter needs all of an input port: whole images, because a transport is global, and
+   * all points. By default yes; if not, the pieces that are asked for are passed on.
+   */
+  virtual bool NeedsWhole(int port);
+
+  /**
+   * Ask for the whole of the ports that NeedsWhole names. Data that are less all the same, as those
+   * that lie on several ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -96,6 +103,10 @@ private:
   int AnswerRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
+  void RequireWhole(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
   int UpdatedPort = 0;
   vtkMTimeType UpdatedTime = 0;
