@@ -226,7 +226,7 @@ int vtkEqualMassCells::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);

@@ -3,6 +3,7 @@
 
 #include "Bridge/Failure.h"
 #include "Bridge/GuardedRun.h"
+#include "Bridge/ImageFrame.h"
 #include "Bridge/WholeInput.h"
 
 #include "vtkImageData.h"
@@ -119,15 +120,11 @@ int vtkGuardedAlgorithm::AnswerRequest(
   {
     publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
     forgetArrays(outputVector);
-    try
-    {
-      return this->RequestInformation(request, inputVector, outputVector);
-    }
-    catch (const RectifiedTransport::Failure&)
-    {
-      RectifiedTransport::withdrawExtents(outputVector); // RequestData says it, once
-      return 1;
-    }
+    return this->Inform(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
+  {
+    return this->InformOfTime(request, inputVector, outputVector);
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
@@ -141,6 +138,42 @@ int vtkGuardedAlgorithm::AnswerRequest(
     return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::Inform(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  try
+  {
+    return this->RequestInformation(request, inputVector, outputVector);
+  }
+  catch (const RectifiedTransport::Failure&)
+  {
+    RectifiedTransport::withdrawExtents(outputVector); // RequestData says it, once
+    return 1;
+  }
+}
+
+//------------------------------------------------------------------------------
+// The inputs' times are those that were asked for, which they were not in RequestInformation.
+int vtkGuardedAlgorithm::InformOfTime(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->Updated)
+  {
+    return 1;
+  }
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  const RectifiedTransport::ImageFrame before(output);
+  this->Updated = nullptr;
+  const int result = this->Inform(request, inputVector, outputVector);
+  if (result && !(RectifiedTransport::ImageFrame(output) == before))
+  {
+    this->Modified();
+    RectifiedTransport::renewConsumers(output);
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -177,8 +210,15 @@ int vtkGuardedAlgorithm::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::UpdateInputBeforeData(int port)
+void vtkGuardedAlgorithm::UpdateInputBeforeData(
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* input = inputVector[port]->GetInformationObject(0);
+  if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
+  {
+    outputVector->GetInformationObject(0)->Set(Pipeline::TIME_DEPENDENT_INFORMATION(), 1);
+  }
   int outputPort = 0;
   vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort);
   auto* pipeline =

@@ -64,9 +64,11 @@ protected:
   /**
    * Bring what is connected to a port up to date, from RequestInformation: where the extent of an
    * image follows from points, image filters behind it would otherwise get nothing, or read past
-   * the end of an image that is smaller than announced.
+   * the end of an image that is smaller than announced. Where the points change with time,
+   * RequestInformation is called again for the time that a consumer asks for.
    */
-  void UpdateInputBeforeData(int port);
+  void UpdateInputBeforeData(
+    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
    * Whether the filter needs all of an input port: whole images, because a transport is global, and
@@ -103,6 +105,10 @@ private:
   int AnswerRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
+  int Inform(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  int InformOfTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
   void RequireWhole(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 

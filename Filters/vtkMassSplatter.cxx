@@ -173,7 +173,7 @@ int vtkMassSplatter::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
     requireDimensions(this->Dimensions);
     const bool isEmpty = !points || points->GetNumberOfPoints() == 0;

@@ -111,7 +111,7 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->UpdateInputBeforeData(0);
+  this->UpdateInputBeforeData(0, inputVector, outputVector);
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   ImageFrame frame;
   if (surface && surface->GetNumberOfPoints() > 0)

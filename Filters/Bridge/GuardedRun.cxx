@@ -108,6 +108,23 @@ bool withdrawExtents(vtkInformationVector* outputs)
   return isComplete;
 }
 
+bool renewConsumers(vtkInformation* output)
+{
+  const bool isComplete = visitConsumers(output, forgetRequest);
+  const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    vtkExecutive* consumer = vtkExecutive::CONSUMERS()->GetExecutives(output)[i];
+    vtkInformationVector* outputs = consumer->GetOutputInformation();
+    consumer->UpdateInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      renewConsumers(outputs->GetInformationObject(j));
+    }
+  }
+  return isComplete;
+}
+
 bool withdrawUnmetRequests(vtkInformationVector* outputs)
 {
   bool isComplete = true;

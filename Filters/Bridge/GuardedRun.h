@@ -6,6 +6,7 @@
 #include <functional>
 
 class vtkAlgorithm;
+class vtkInformation;
 class vtkInformationVector;
 
 namespace RectifiedTransport
@@ -23,6 +24,10 @@ bool withdrawExtents(vtkInformationVector* outputs);
 
 // The same for this update alone, where an output holds less than was asked for: a later piece.
 bool withdrawUnmetRequests(vtkInformationVector* outputs);
+
+// Has the filters that read a structured output ask again what it announces, within an update.
+// Returns false where not all of them can be reached.
+bool renewConsumers(vtkInformation* output);
 
 } // namespace RectifiedTransport
 
