@@ -6,6 +6,7 @@
 #include "vtkGuardedAlgorithm.h"
 #include "vtkImageShiftScale.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
