@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace RectifiedTransport
@@ -187,7 +188,7 @@ TEST(SiteCells, FlowGivesNearlyEqualCells)
   }
 }
 
-// Boxes at nodes give other cells, nearly as equal.
+// Boxes at nodes give cells nearly as equal, of which every fiftieth pixel is another's.
 TEST(SiteCells, NearestLookupFindsSitesToo)
 {
   const GridSize<2> size{ 128, 128 };
@@ -195,10 +196,14 @@ TEST(SiteCells, NearestLookupFindsSitesToo)
   FlowOptions options;
   options.Lookup = TableLookup::Nearest;
   const Labels labels = flowToSites(sites, options);
-  EXPECT_NE(labels, flowToSites(sites));
+  const Labels exact = flowToSites(sites);
+  const std::int64_t same =
+    std::inner_product(labels.begin(), labels.end(), exact.begin(), std::int64_t{ 0 },
+      std::plus<>(), [](std::int64_t a, std::int64_t b) { return a == b ? 1 : 0; });
+  EXPECT_NEAR(static_cast<double>(same) / static_cast<double>(labels.size()), 0.98, 0.008);
   for (const std::int64_t count : countLabels(labels, 16))
   {
-    EXPECT_NEAR(static_cast<double>(count), 1024.0, 150.0);
+    EXPECT_NEAR(static_cast<double>(count), 1024.0, 30.0);
   }
 }
 
