@@ -26,7 +26,10 @@ void HostMonitor::Run(const Executor& executor, std::int64_t count, std::int64_t
   const Monitor monitor = this->GetMonitor();
   Pacer pacer(monitor);
   pacer.BeginStage(1.0, count);
-  const std::int64_t smallest = (units + grain - 1) / grain * grain;
+  // Ranges for all threads, however few units of work there are.
+  const std::int64_t ranges =
+    std::max<std::int64_t>((units + grain - 1) / grain, executor.Concurrency());
+  const std::int64_t smallest = ranges * grain;
   for (std::int64_t begin = 0; begin < count;)
   {
     const std::int64_t slice = std::min(count - begin, pacer.NextSlice(smallest));

@@ -37,8 +37,8 @@ public:
   Monitor GetMonitor();
 
   // Runs a kernel over [0, count), cut at multiples of `grain`, as the work of the current stage.
-  // The first slice has `units`, which should take a few milliseconds: by default for work that is
-  // bound by memory. Throws Aborted.
+  // The first slice has `units`, which should take a few milliseconds (by default for work that is
+  // bound by memory), and a range for every thread. Throws Aborted, and what the kernel throws.
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel,
     std::int64_t units = std::int64_t{ 1 } << 18);
 
