@@ -58,21 +58,20 @@ announce_installation()
   echo "That is about $((1 + bytes / 150000000)) min. What apt says is in $apt_log"
 }
 
-# Debian 13's CMake files of VTK and ParaView name Python modules X.so where X.cpython-….so is
-# installed, and stop for it. Links under a prefix, where that is so.
+# From Debian 13 on ParaView's CMake files name Python modules X.so where X.cpython-….so is installed,
+# and stop for it. Links, where that is so.
 link_python_modules()
 {
-  local prefix="$1" name files links=()
+  local name plain files links=()
   while read -r name; do
-    files=("$prefix/lib/python3/${name%.so}".cpython-*.so)
-    if [ ! -e "$prefix/lib/python3/$name" ] && [ -e "${files[0]}" ]; then
-      links+=("${files[0]}" "$prefix/lib/python3/$name")
+    plain="/usr/lib/python3/${name%.so}"
+    files=("$plain".cpython-*.so)
+    if [ ! -e "$plain.so" ] && [ -e "${files[0]}" ]; then
+      links+=("${files[0]}" "$plain.so")
     fi
-  done < <(grep -rhoE 'dist-packages/[^"]*\.so' "$prefix"/lib/*/cmake/{vtk,paraview}* 2> /dev/null |
-    sort -u)
+  done < <(grep -rhoE 'dist-packages/[^"]*\.so' /usr/lib/*/cmake/paraview-* 2> /dev/null | sort -u)
   if [ ${#links[@]} -gt 0 ]; then
-    say "Linking $((${#links[@]} / 2)) Python modules as CMake files of Debian's name them, in" \
-      "$prefix/lib/python3/dist-packages"
+    say "Linking $((${#links[@]} / 2)) Python modules to the names that ParaView's CMake files have"
     printf '%s\0' "${links[@]}" | as_root xargs -0 -n 2 ln -sfr
   fi
 }
@@ -91,7 +90,7 @@ need()
     fi
   done
   if [ -z "$missing" ]; then
-    link_python_modules /usr
+    link_python_modules
     return
   fi
   say "Installing by apt:$missing"
@@ -102,7 +101,7 @@ need()
   announce_installation $missing
   # shellcheck disable=SC2086
   logged "$apt_log" apt_get install -qy --no-install-recommends $missing || return 1
-  link_python_modules /usr
+  link_python_modules
 }
 
 # What both commands build with, and other packages.

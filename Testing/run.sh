@@ -11,7 +11,7 @@ usage: bash Testing/run.sh [--long] [--gui] [--asan] [--vtk] [--all] [--suite SU
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
-  --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk/
+  --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
   --all    all of these
   --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
            Debian (trixie, sid) instead of here: a bare system made by debootstrap, which is kept
@@ -102,7 +102,7 @@ unpack_vtk()
   rm -rf "$prefix"
   mkdir -p "$prefix/debs" && chmod 777 "$prefix/debs" && cd "$prefix/debs" &&
     download libvtk9-dev vtk9 python3-vtk9 libvtk9-java \
-      $(apt-cache depends libvtk9-dev | sed -n 's/.*Depends: \(libvtk9\.[0-9a-z.-]*\)$/\1/p') ||
+      $(apt-cache depends python3-vtk9 | sed -n 's/.*Depends: \(libvtk9\.[0-9a-z.-]*\)$/\1/p') ||
     return 1
   for package in *.deb; do
     dpkg -x "$package" "$prefix" || return 1
@@ -112,7 +112,7 @@ unpack_vtk()
 
 run_vtk()
 {
-  local folder="$root/build-vtk" prefix="$root/build-vtk/prefix" arch
+  local folder="$root/build-vtk" prefix="$root/build-vtk-prefix" arch
   arch="$(gcc -print-multiarch)"
   need $packages_vtk && (unpack_vtk "$prefix") &&
     configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Release \
