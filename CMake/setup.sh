@@ -164,7 +164,7 @@ configure_and_build()
   if [ "$steps" = 0 ]; then
     return 0
   fi
-  say "Building in $folder: $steps steps, about $((1 + steps * 4 / 60 / $(nproc))) min"
+  say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
   echo "What the compiler says is in $folder/build.log"
   logged "$folder/build.log" cmake --build "$folder" -j "$(nproc)"
 }
