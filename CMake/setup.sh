@@ -184,5 +184,5 @@ build_release()
 # Runs a command on a virtual display: the same pictures with and without a screen.
 with_display()
 {
-  xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" "$@"
+  xvfb-run -a -n "${first_display:-99}" -s "-screen 0 1600x1200x24 -noreset" "$@"
 }

@@ -66,8 +66,7 @@ mount_all()
   mount -t proc proc "$folder/proc"
   mount --rbind --read-only /sys "$folder/sys"
   mount --rbind /dev "$folder/dev"
-  # Displays here and there have different numbers where they see each other's locks.
-  mount --bind /tmp "$folder/tmp"
+  mount -t tmpfs tmpfs "$folder/tmp"
 }
 
 # The sources with the times of their files, so that a second run builds only what has changed.
@@ -82,6 +81,8 @@ inside()
 {
   # Where somebody has installed ccache, Debian's links to it come first.
   local name environment=(PATH=/usr/lib/ccache:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8)
+  # Displays share their names with those outside, whose locks cannot be seen from here.
+  environment+=("first_display=$((1000 + RANDOM))")
   for name in CI TERM OMP_WAIT_POLICY http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
     if [ -n "${!name:-}" ]; then
       environment+=("$name=${!name}")
