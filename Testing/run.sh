@@ -15,7 +15,7 @@ usage: bash Testing/run.sh [--long] [--gui] [--asan] [--vtk] [--all] [--suite SU
   --all    all of these
   --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
            Debian (trixie, sid) instead of here: a bare system made by debootstrap, which is kept
-           in build-suites/. Needs root or sudo, and 5 GB a suite.
+           in build-suites/. Needs root or sudo, and up to 6 GB a suite.
 TEXT
 }
 

@@ -37,8 +37,8 @@ make_system()
     return 0
   fi
   say "Making a bare $suite in $folder"
-  echo "This fetches 80 MB and takes 2 min; with what is installed and built in it, it will need" \
-    "5 GB. What debootstrap says is in $log"
+  echo "This fetches 50 MB and takes 1 min; with what is installed and built in it, it will need" \
+    "up to 6 GB. What debootstrap says is in $log"
   rm -rf "$folder" "$log"
   mkdir -p "$folder"
   logged "$log" debootstrap --variant=minbase "$suite" "$folder" "$(mirror)"
@@ -108,9 +108,8 @@ $(sed -n 's/^[0-9]*% tests passed.*/                  &/p' "$command_log")
 
 versions()
 {
-  inside bash -c 'dpkg-query -W -f "\${Package} \${Version}\n" \
-    paraview-dev g++ cmake python3 2> /dev/null
-    grep -ho "RectifiedTransport: VTK .*" /src/build*/configure.log' || true
+  inside bash -c 'for program in g++ cmake python3 pvpython; do $program --version | head -n 1; done
+    grep -ho "RectifiedTransport: VTK .*" /src/build*/configure.log' 2> /dev/null || true
 }
 
 make_system
