@@ -7,14 +7,17 @@
 #include "../Core/FlowOptions.h"
 #include "../Core/Splat.h"
 #include "PivotMap.h"
+#include "VTKCompatibility.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
 class vtkImageData;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -5,6 +5,7 @@
 
 #include "../Core/Density.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -15,8 +16,10 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkImageData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -4,11 +4,14 @@
 #define RectifiedTransport_HostMonitor_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 #include <thread>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

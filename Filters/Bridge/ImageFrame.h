@@ -4,11 +4,15 @@
 #ifndef RectifiedTransport_ImageFrame_h
 #define RectifiedTransport_ImageFrame_h
 
+#include "VTKCompatibility.h"
+
 #include <array>
 #include <cstddef>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkInformation;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -6,11 +6,14 @@
 #include "../Core/Executor.h"
 #include "../Core/Splat.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -4,10 +4,13 @@
 #define RectifiedTransport_ParticleQuality_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

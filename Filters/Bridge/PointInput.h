@@ -5,6 +5,7 @@
 
 #include "../Core/Executor.h"
 #include "HostMonitor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -16,7 +17,9 @@
 #include <cstdint>
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

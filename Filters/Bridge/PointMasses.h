@@ -4,14 +4,17 @@
 #define RectifiedTransport_PointMasses_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -9,6 +9,7 @@
 #include "HostMonitor.h"
 #include "ImageFrame.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
@@ -18,8 +19,10 @@
 #include <cstdint>
 #include <type_traits>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 class vtkPoints;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
