@@ -28,6 +28,11 @@ struct SplatTarget
   bool DivideByVolume; // densities, else masses
 };
 
+// Throws Failure where the density of a cell that holds all of a mass, of which `what` is the
+// subject of the message, would be no number; `rule` completes "make the masses smaller, ...".
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule);
+
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
 // component and a tuple for each, as the work of the current stage. Points have 3 finite
 // coordinates each. Returns how many of them are outside of the domain (see SplatReport). Throws

@@ -28,6 +28,10 @@ namespace RectifiedTransport
 // which no executive refuses.
 vtkPointSet* pointSetOf(vtkInformationVector* port);
 
+// The bounds of all points of a set, those of no cell too. VTK's own are kept, and do not follow
+// coordinates that are written in place.
+void findBounds(vtkPointSet* points, double bounds[6]);
+
 // Points whose coordinates are not finite, as several threads find them.
 class NotFinitePoints
 {
