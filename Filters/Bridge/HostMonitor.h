@@ -53,6 +53,7 @@ private:
   std::thread::id HostThread;
   double Begin = 0.0;
   double End = 0.0;
+  double Said = 0.0;
 };
 
 } // namespace RectifiedTransport
