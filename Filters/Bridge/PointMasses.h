@@ -33,7 +33,8 @@ class PointMasses
 public:
   PointMasses() = default;
   // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
-  // Ghosts have no mass. Throws Failure for values that are not finite, and Aborted.
+  // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of
+  // another length, and Aborted.
   PointMasses(
     vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host);
 

@@ -19,20 +19,14 @@
 namespace RectifiedTransport
 {
 
-bool SiteLabels::IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const
+bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, HostMonitor& host)
 {
-  return this->Labels && this->Sites == sites && this->Time == sites->GetMTime() &&
-    this->Frame == frame && this->Options == options;
-}
-
-void SiteLabels::Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
-  vtkSmartPointer<SiteIdArray> labels)
-{
-  this->Labels = std::move(labels);
-  this->Sites = sites;
-  this->Time = sites->GetMTime();
-  this->Frame = frame;
-  this->Options = options;
+  vtkPoints* points = sites->GetPoints();
+  const std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> key{ points, points->GetMTime() };
+  const auto time = static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+  return this->Stamp.IsOf(key, time) || this->Stamp.Renew(key, time, [&]() {
+    return fingerprint({ points->GetData() }, executor, host);
+  });
 }
 
 template <int D>
