@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lengths of a domain in units of about its size: squares and products of them are then numbers
-// wherever the lengths are.
+// Lengths of a domain in units of about its size: their squares are then numbers wherever they are.
 #ifndef RectifiedTransport_LengthScale_h
 #define RectifiedTransport_LengthScale_h
 
@@ -26,12 +25,6 @@ public:
 
   double ToUnits(double length) const { return length * this->UnitsALength; }
   double FromUnits(double units) const { return units * this->LengthOfUnit; }
-
-  // A measure of a domain of that dimension.
-  double MeasureToUnits(double measure, int dimension) const
-  {
-    return std::ldexp(measure, -dimension * this->Exponent);
-  }
 
   // The sum of the squares of a vector's components.
   double SquareInUnits(const double* vector) const

@@ -353,7 +353,7 @@ private:
     {
       aspect[a] = static_cast<double>(this->Size[a]) / this->Scale.ToUnits(aspect[a]);
     }
-    const double cell = this->Scale.MeasureToUnits(this->Geometry.CellMeasure(), D);
+    const double side = this->Scale.ToUnits(root<D>(this->Geometry.CellMeasure()));
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
     this->Host.Run(
@@ -373,7 +373,7 @@ private:
           Point<D> index;
           this->Geometry.template ToIndex<D>(x, index.data());
           this->Geometry.template ClampToDomain<D>(index.data());
-          spacing[i] /= largestSpacing<D>(this->Flow.MeasureOfShare(index, aspect, share) * cell);
+          spacing[i] /= largestSpacing<D>(this->Flow.MeasureOfShare(index, aspect, share)) * side;
         }
       },
       16 * smallGrain);
@@ -396,6 +396,11 @@ private:
         }
       }
     });
+    if (!std::isfinite(sum))
+    {
+      throw Failure("MeanSpacing passes the largest double; the spacings of the density along its "
+                    "axes must be more alike");
+    }
     if (related > 0)
     {
       this->Quality.SmallestSpacing = smallest;

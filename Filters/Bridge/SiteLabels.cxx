@@ -19,14 +19,33 @@
 namespace RectifiedTransport
 {
 
+namespace
+{
+
+std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
+{
+  return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
+}
+
+// Its own time, not that of its points.
+std::uint64_t timeOf(vtkPointSet* sites)
+{
+  return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+}
+
+} // namespace
+
+bool SiteLabels::IsFor(
+  vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const
+{
+  return this->Labels && this->Frame == frame && this->Options == options &&
+    this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+}
+
 bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, HostMonitor& host)
 {
-  vtkPoints* points = sites->GetPoints();
-  const std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> key{ points, points->GetMTime() };
-  const auto time = static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
-  return this->Stamp.IsOf(key, time) || this->Stamp.Renew(key, time, [&]() {
-    return fingerprint({ points->GetData() }, executor, host);
-  });
+  return this->Stamp.Renew(keyOf(sites), timeOf(sites),
+    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
 }
 
 template <int D>

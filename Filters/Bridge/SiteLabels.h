@@ -36,6 +36,9 @@ using SiteIdArray =
 class SiteLabels
 {
 public:
+  // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
+  bool IsFor(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const;
+
   // The labels of such sites on such a grid: those that are kept, or those that make() makes. The
   // work of the host's current stage is to look whether the sites are the same. Throws Aborted, and
   // what make() throws; then no labels are kept.
@@ -43,8 +46,12 @@ public:
   SiteIdArray* Update(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options,
     const Executor& executor, HostMonitor& host, const Make& make)
   {
+    if (this->IsFor(sites, frame, options))
+    {
+      return this->Labels;
+    }
     const bool sameSites = this->Renew(sites, executor, host);
-    if (!sameSites || !this->Labels || !(this->Frame == frame) || !(this->Options == options))
+    if (!sameSites || !this->IsFor(sites, frame, options))
     {
       this->Labels = nullptr; // what is outdated need not take memory meanwhile
       this->Labels = make();

@@ -218,6 +218,19 @@ void checkFigures(Checks& checks)
   }
   CHECK(checks, spacings[0] > 0.1);
 
+  // Needles: the distance of two particles is a number of times what a cube has room for, or past
+  // the largest double.
+  for (const double length : { 1e200, 1e300 })
+  {
+    auto needles = makeDensity({ 4, 3, 3 }, true, bumpy);
+    const double thickness = length == 1e200 ? 1e-100 : 1e-200;
+    needles->SetSpacing(length, thickness, thickness);
+    vtkNew<vtkTransportQuality> quality;
+    quality->SetInputData(makePoints({ 0, 0, 0, 2 * length, 0, 0 }));
+    quality->SetDensityData(needles);
+    CHECK(checks, expectFinite(checks, quality, length, __LINE__) == (length == 1e200));
+  }
+
   // Masses that are numbers, also their sum, but not what comes into one cell on the way.
   auto heavy = makePoints({ 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0 });
   vtkNew<vtkDoubleArray> masses;
