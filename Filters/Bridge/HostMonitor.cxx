@@ -7,6 +7,8 @@
 
 #include "vtkAlgorithm.h"
 
+#include <algorithm>
+
 namespace RectifiedTransport
 {
 
@@ -14,7 +16,9 @@ Monitor HostMonitor::GetMonitor()
 {
   Monitor monitor;
   monitor.Progress = [this](double fraction) {
-    this->Host->UpdateProgress(this->Begin + (this->End - this->Begin) * fraction);
+    // Several loops may be the work of one stage: what was said is not taken back.
+    this->Said = std::max(this->Said, this->Begin + (this->End - this->Begin) * fraction);
+    this->Host->UpdateProgress(this->Said);
   };
   monitor.Cancelled = [this]() { return this->IsCancelled(); };
   return monitor;

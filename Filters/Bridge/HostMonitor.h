@@ -4,11 +4,14 @@
 #define RectifiedTransport_HostMonitor_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 #include <thread>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -50,6 +53,7 @@ private:
   std::thread::id HostThread;
   double Begin = 0.0;
   double End = 0.0;
+  double Said = 0.0;
 };
 
 } // namespace RectifiedTransport

@@ -51,10 +51,16 @@ void checkTurned(Checks& checks)
   }
   CHECK_NEAR(checks, siteValue(cells, "CellMass", 0), 3.0 / 12.0, 1e-12);
   // The values and the resolution of a domain do not count, only its box.
-  auto fine = makeImage(9, 7, 1, false, bumpy);
+  auto fine = makeImage(9, 7, 1, true, bumpy);
   fine->SetSpacing(0.125, 0.125, 1.0);
   cells->SetDomainData(fine);
   cells->SetInputData(makePoints(flat));
+  CHECK(checks, runCells(cells) == expected);
+  // That of values on points is half a spacing larger on each side.
+  auto dual = makeImage(8, 6, 1, false, bumpy);
+  dual->SetSpacing(0.125, 0.125, 1.0);
+  dual->SetOrigin(0.0625, 0.0625, 0.0);
+  cells->SetDomainData(dual);
   CHECK(checks, runCells(cells) == expected);
 }
 
