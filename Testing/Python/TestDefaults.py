@@ -41,40 +41,44 @@ class Defaults(unittest.TestCase):
         for proxy in proxies():
             for name, prop in proxy.properties.items():
                 if prop.is_value:
-                    with self.subTest(proxy=proxy.label, property=name):
-                        yield proxy, prop
+                    yield self.subTest(proxy=proxy.label, property=name), proxy, prop
 
     def test_constructor(self):
-        for proxy, prop in self.each_value():
-            value = getattr(instance(proxy), getter(prop))()
-            value = list(value) if isinstance(value, tuple) else [value]
-            self.assertEqual(value, numbers(prop.default))
+        for case, proxy, prop in self.each_value():
+            with case:
+                value = getattr(instance(proxy), getter(prop))()
+                value = list(value) if isinstance(value, tuple) else [value]
+                self.assertEqual(value, numbers(prop.default))
 
     def test_enumeration_texts(self):
-        for proxy, prop in self.each_value():
-            for value, text in prop.texts.items():
-                filter_ = instance(proxy)
-                getattr(filter_, prop.command)(int(value))
-                self.assertEqual(getattr(filter_, getter(prop) + "AsString")(), text)
-                getattr(filter_, "%sTo%s" % (prop.command, text))()
-                self.assertEqual(getattr(filter_, getter(prop))(), int(value))
+        for case, proxy, prop in self.each_value():
+            with case:
+                for value, text in prop.texts.items():
+                    filter_ = instance(proxy)
+                    getattr(filter_, prop.command)(int(value))
+                    self.assertEqual(getattr(filter_, getter(prop) + "AsString")(), text)
+                    getattr(filter_, "%sTo%s" % (prop.command, text))()
+                    self.assertEqual(getattr(filter_, getter(prop))(), int(value))
 
     def test_panel_text(self):
-        for _, prop in self.each_value():
-            self.assertTrue(prop.documentation.endswith("Default: %s." % prop.shown_default),
-                            prop.documentation)
+        for case, _, prop in self.each_value():
+            with case:
+                self.assertTrue(prop.documentation.endswith("Default: %s." % prop.shown_default),
+                                prop.documentation)
 
     def test_header_text(self):
-        for proxy, prop in self.each_value():
-            comment = header_comment(proxy.class_name, prop.name)
-            self.assertTrue(says_default(comment, prop.shown_default), comment)
+        for case, proxy, prop in self.each_value():
+            with case:
+                comment = header_comment(proxy.class_name, prop.name)
+                self.assertTrue(says_default(comment, prop.shown_default), comment)
 
     def test_page(self):
-        for proxy, prop in self.each_value():
-            default, values = page_rows(proxy)[prop.name]
-            self.assertEqual(default, prop.shown_default)
-            if prop.texts:
-                self.assertEqual(values.split(", "), list(prop.texts.values()))
+        for case, proxy, prop in self.each_value():
+            with case:
+                default, values = page_rows(proxy)[prop.name]
+                self.assertEqual(default, prop.shown_default)
+                if prop.texts:
+                    self.assertEqual(values.split(", "), list(prop.texts.values()))
 
     def test_lists_are_empty(self):
         lists = [(proxy, prop) for proxy in proxies() for prop in proxy.properties.values()

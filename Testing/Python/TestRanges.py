@@ -46,6 +46,15 @@ def domain(prop):
                  if prop.element.find(tag) is not None), None)
 
 
+def number(value, whole):
+    return int(value) if whole else value
+
+
+def beside(value, whole, towards):
+    """The next whole number or double in a direction."""
+    return int(value + math.copysign(1, towards)) if whole else math.nextafter(value, towards)
+
+
 def run(proxy, prop, value):
     """A filter with small inputs and one property set; what it says, and its first output."""
     filter_ = instance(proxy)
@@ -67,35 +76,38 @@ class Ranges(unittest.TestCase):
         for proxy in proxies():
             for name, prop in proxy.properties.items():
                 if prop.is_value and not prop.texts and not prop.boolean and name not in WITHOUT:
-                    with self.subTest(proxy=proxy.label, property=name):
-                        yield proxy, prop
+                    yield self.subTest(proxy=proxy.label, property=name), proxy, prop
 
     def test_there_are_ranges_of_both_kinds(self):
-        tags = [prop.element.tag for _, prop in self.each_range()]
+        tags = [prop.element.tag for _, _, prop in self.each_range()]
         for tag in ("IntVectorProperty", "DoubleVectorProperty"):
             self.assertGreater(tags.count(tag), 5)
 
     def test_panel_text_and_domain(self):
-        for _, prop in self.each_range():
-            said = panel_range(prop)
-            self.assertIsNotNone(said, prop.documentation)
-            shown = domain(prop)
-            self.assertIsNotNone(shown, "a domain")
-            self.assertEqual(shown.tag[:3], prop.element.tag[:3])
-            self.assertEqual(float(shown.get("min", -math.inf)), said.lowest, prop.documentation)
-            self.assertEqual(float(shown.get("max", math.inf)), said.highest, prop.documentation)
+        for case, _, prop in self.each_range():
+            with case:
+                said = panel_range(prop)
+                self.assertIsNotNone(said, prop.documentation)
+                shown = domain(prop)
+                self.assertIsNotNone(shown, "a domain")
+                self.assertEqual(shown.tag[:3], prop.element.tag[:3])
+                self.assertEqual((float(shown.get("min", -math.inf)),
+                                  float(shown.get("max", math.inf))),
+                                 (said.lowest, said.highest), prop.documentation)
 
     def test_panel_text_and_page(self):
-        for proxy, prop in self.each_range():
-            self.assertEqual(range_of(page_rows(proxy)[prop.name][1].replace("−", "-")),
-                             panel_range(prop))
+        for case, proxy, prop in self.each_range():
+            with case:
+                self.assertEqual(range_of(page_rows(proxy)[prop.name][1].replace("−", "-")),
+                                 panel_range(prop))
 
     def test_default_is_inside(self):
-        for _, prop in self.each_range():
-            allowed = panel_range(prop)
-            for value in map(float, prop.default.split()):
-                self.assertLessEqual(allowed.lowest, value)
-                self.assertLessEqual(value, allowed.highest)
+        for case, _, prop in self.each_range():
+            with case:
+                allowed = panel_range(prop)
+                for value in map(float, prop.default.split()):
+                    self.assertLessEqual(allowed.lowest, value)
+                    self.assertLessEqual(value, allowed.highest)
 
     def assert_taken(self, proxy, prop, value):
         heard, output = run(proxy, prop, value)
@@ -109,32 +121,31 @@ class Ranges(unittest.TestCase):
         self.assertEqual(size_of(output), 0)
 
     def test_filter(self):
-        for proxy, prop in self.each_range():
-            allowed = panel_range(prop)
-            whole = prop.element.tag.startswith("Int")
-            before = (lambda x: int(x) - 1) if whole else (lambda x: math.nextafter(x, -math.inf))
-            after = (lambda x: int(x) + 1) if whole else (lambda x: math.nextafter(x, math.inf))
-            exact = int if whole else float
-            if allowed.lowest > -math.inf and allowed.excluded:
-                self.assert_taken(proxy, prop, allowed.lowest + 1e-6)
-                self.assert_refused(proxy, prop, exact(allowed.lowest))
-            elif allowed.lowest > -math.inf:
-                self.assert_taken(proxy, prop, exact(allowed.lowest))
-                self.assert_refused(proxy, prop, before(allowed.lowest))
-            if allowed.highest < math.inf:
-                self.assert_taken(proxy, prop, exact(allowed.highest))
-                self.assert_refused(proxy, prop, after(allowed.highest))
-            elif not whole:
-                self.assert_taken(proxy, prop, 50.0)
-            if not whole:
-                self.assert_refused(proxy, prop, math.nan)
+        for case, proxy, prop in self.each_range():
+            with case:
+                allowed = panel_range(prop)
+                whole = prop.element.tag == "IntVectorProperty"
+                if allowed.lowest > -math.inf and allowed.excluded:
+                    self.assert_taken(proxy, prop, allowed.lowest + 1e-6)
+                    self.assert_refused(proxy, prop, allowed.lowest)
+                elif allowed.lowest > -math.inf:
+                    self.assert_taken(proxy, prop, number(allowed.lowest, whole))
+                    self.assert_refused(proxy, prop, beside(allowed.lowest, whole, -math.inf))
+                if allowed.highest < math.inf:
+                    self.assert_taken(proxy, prop, number(allowed.highest, whole))
+                    self.assert_refused(proxy, prop, beside(allowed.highest, whole, math.inf))
+                elif not whole:
+                    self.assert_taken(proxy, prop, 50.0)
+                if not whole:
+                    self.assert_refused(proxy, prop, math.nan)
 
     def test_infinite(self):
         """The largest component is a norm; everything else is finite."""
-        for proxy, prop in self.each_range():
-            if prop.element.tag == "DoubleVectorProperty":
-                check = self.assert_taken if prop.name == "NormExponent" else self.assert_refused
-                check(proxy, prop, math.inf)
+        for case, proxy, prop in self.each_range():
+            with case:
+                if prop.element.tag == "DoubleVectorProperty":
+                    norm = prop.name == "NormExponent"
+                    (self.assert_taken if norm else self.assert_refused)(proxy, prop, math.inf)
 
 
 if __name__ == "__main__":

@@ -5,10 +5,9 @@ import unittest
 
 from rt_proxies import instance, proxies
 from rt_testing import density_image, digest, feed, main
-from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
-# The public names, which no version changes: class, inputs by port, outputs where there are several.
+# The public names, which no version changes: class, inputs by port, outputs if there are several.
 PUBLIC = {
     "Sample Density": ("vtkTransportSampler", ["Input", "Seeds"], []),
     "Transport Map": ("vtkTransportMap", ["Input"], []),
@@ -104,151 +103,165 @@ def result(proxy, values):
 class XML(unittest.TestCase):
     def each(self):
         for proxy in proxies():
-            with self.subTest(proxy=proxy.label):
-                yield proxy
+            yield self.subTest(proxy=proxy.label), proxy
 
     def each_property(self):
         for proxy in proxies():
             for name, prop in proxy.properties.items():
-                with self.subTest(proxy=proxy.label, property=name):
-                    yield proxy, prop
+                yield self.subTest(proxy=proxy.label, property=name), proxy, prop
 
     def test_public_names(self):
         self.assertEqual({proxy.label: proxy.class_name for proxy in proxies()},
                          {label: public[0] for label, public in PUBLIC.items()})
-        for proxy in self.each():
-            found = inputs(proxy)
-            self.assertEqual([found[port].name for port in sorted(found)], PUBLIC[proxy.label][1])
-            self.assertEqual(proxy.menu, "filters" if found else "sources")
-            self.assertEqual(proxy.element.get("multiprocess_support"), "single_process")
+        for case, proxy in self.each():
+            with case:
+                found = inputs(proxy)
+                names = [found[port].name for port in sorted(found)]
+                self.assertEqual(names, PUBLIC[proxy.label][1])
+                self.assertEqual(proxy.menu, "filters" if found else "sources")
+                self.assertEqual(proxy.element.get("multiprocess_support"), "single_process")
 
     def test_choices(self):
-        for _, prop in self.each_property():
-            if prop.texts:
-                expected = {str(i): text for i, text in enumerate(CHOICES[prop.name])}
-                self.assertEqual(prop.texts, expected)
-                self.assertEqual(prop.default, "0")
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.texts:
+                    expected = {str(i): text for i, text in enumerate(CHOICES[prop.name])}
+                    self.assertEqual(prop.texts, expected)
+                    self.assertEqual(prop.default, "0")
 
     def test_commands(self):
-        for proxy, prop in self.each_property():
-            commands = [prop.element.get(name) for name in (
-                "command", "clean_command", "set_number_command") if prop.element.get(name)]
-            self.assertTrue(commands or prop.element.get("information_only"))
-            for command in commands:
-                self.assertTrue(hasattr(instance(proxy), command), command)
+        for case, proxy, prop in self.each_property():
+            with case:
+                commands = [prop.element.get(name) for name in (
+                    "command", "clean_command", "set_number_command") if prop.element.get(name)]
+                self.assertTrue(commands or prop.element.get("information_only"))
+                for command in commands:
+                    self.assertTrue(hasattr(instance(proxy), command), command)
 
     def test_numbers_of_elements(self):
-        for proxy, prop in self.each_property():
-            if prop.is_value:
-                value = getattr(instance(proxy), "G" + prop.command[1:])()
-                count = len(value) if isinstance(value, tuple) else 1
-                self.assertEqual(prop.element.get("number_of_elements"), str(count))
-                self.assertEqual(len(prop.default.split()), count)
-                kind = "Double" if isinstance(value[0] if count > 1 else value, float) else "Int"
-                self.assertEqual(prop.element.tag, kind + "VectorProperty")
+        for case, proxy, prop in self.each_property():
+            with case:
+                if prop.is_value:
+                    value = getattr(instance(proxy), "G" + prop.command[1:])()
+                    values = value if isinstance(value, tuple) else (value,)
+                    count = len(values)
+                    self.assertEqual(prop.element.get("number_of_elements"), str(count))
+                    self.assertEqual(len(prop.default.split()), count)
+                    kind = "Double" if isinstance(values[0], float) else "Int"
+                    self.assertEqual(prop.element.tag, kind + "VectorProperty")
 
     def test_inputs(self):
         """Ports, types, and which may stay empty or have several, as the class has them."""
-        for proxy in self.each():
-            filter_ = instance(proxy)
-            found = inputs(proxy)
-            self.assertEqual(set(found), set(range(filter_.GetNumberOfInputPorts())))
-            for port, prop in found.items():
-                information = filter_.GetInputPortInformation(port)
-                optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
-                self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
-                self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
-                several = bool(information.Has(vtkAlgorithm.INPUT_IS_REPEATABLE()))
-                self.assertEqual(prop.element.get("multiple_input") == "1", several)
-                self.assertEqual(prop.element.get("clean_command") is not None, several)
-                types = [e.get("value") for e in prop.element.findall("DataTypeDomain/DataType")]
-                self.assertEqual(types[0], information.Get(
-                    vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0))
-                self.assertEqual({e.get("name") for e in prop.element.iter("Group")},
-                                 {"sources", "filters"})
+        for case, proxy in self.each():
+            with case:
+                filter_ = instance(proxy)
+                found = inputs(proxy)
+                self.assertEqual(set(found), set(range(filter_.GetNumberOfInputPorts())))
+                for port, prop in found.items():
+                    information = filter_.GetInputPortInformation(port)
+                    optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
+                    self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
+                    self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
+                    several = bool(information.Has(vtkAlgorithm.INPUT_IS_REPEATABLE()))
+                    self.assertEqual(prop.element.get("multiple_input") == "1", several)
+                    self.assertEqual(prop.element.get("clean_command") is not None, several)
+                    kind = prop.element.find("DataTypeDomain/DataType").get("value")
+                    self.assertEqual(kind, information.Get(
+                        vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0))
+                    self.assertEqual({e.get("name") for e in prop.element.iter("Group")},
+                                     {"sources", "filters"})
 
     def test_outputs(self):
-        for proxy in self.each():
-            ports = {}
-            for element in proxy.ports:
-                ports[int(element.get("index"))] = element.get("name")
-            self.assertEqual([ports[i] for i in sorted(ports)], PUBLIC[proxy.label][2])
-            count = instance(proxy).GetNumberOfOutputPorts()
-            self.assertEqual(count, max(1, len(PUBLIC[proxy.label][2])))
+        for case, proxy in self.each():
+            with case:
+                ports = {}
+                for element in proxy.ports:
+                    ports[int(element.get("index"))] = element.get("name")
+                self.assertEqual([ports[i] for i in sorted(ports)], PUBLIC[proxy.label][2])
+                count = instance(proxy).GetNumberOfOutputPorts()
+                self.assertEqual(count, max(1, len(PUBLIC[proxy.label][2])))
 
     def test_arrays(self):
         """An array is chosen from the input that it is read of."""
-        for proxy, prop in self.each_property():
-            listed = prop.element.find("ArrayListDomain")
-            if listed is None:
-                continue
-            self.assertEqual(prop.command, "SetInputArrayToProcess")
-            required = listed.find("RequiredProperties/Property")
-            self.assertEqual(required.get("function"), "Input")
-            owner = proxy.properties[required.get("name")]
-            names = [e.get("name") for e in owner.element.findall("InputArrayDomain")]
-            self.assertIn(listed.get("input_domain_name"), names)
-            if prop.default is not None:
-                port = prop.default.split(";")[1]
-                self.assertEqual(port, owner.element.get("port_index", "0"))
+        for case, proxy, prop in self.each_property():
+            with case:
+                listed = prop.element.find("ArrayListDomain")
+                if listed is None:
+                    continue
+                self.assertEqual(prop.command, "SetInputArrayToProcess")
+                required = listed.find("RequiredProperties/Property")
+                self.assertEqual(required.get("function"), "Input")
+                owner = proxy.properties[required.get("name")]
+                names = [e.get("name") for e in owner.element.findall("InputArrayDomain")]
+                self.assertIn(listed.get("input_domain_name"), names)
+                if prop.default is not None:
+                    port = prop.default.split(";")[1]
+                    self.assertEqual(port, owner.element.get("port_index", "0"))
 
     def test_animation(self):
-        for _, prop in self.each_property():
-            if prop.is_value or prop.is_list:
-                self.assertEqual(prop.element.get("animateable", "1") == "1",
-                                 prop.name in ANIMATEABLE)
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.is_value or prop.is_list:
+                    self.assertEqual(prop.element.get("animateable", "1") == "1",
+                                     prop.name in ANIMATEABLE)
 
     def test_integration_is_advanced(self):
-        for _, prop in self.each_property():
-            if prop.name in INTEGRATION:
-                self.assertEqual(prop.element.get("panel_visibility"), "advanced")
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.name in INTEGRATION:
+                    self.assertEqual(prop.element.get("panel_visibility"), "advanced")
 
     def test_groups(self):
         """A group has properties that there are, each in one group."""
-        for proxy in self.each():
-            names = [e.get("name") for group in proxy.groups for e in group.findall("Property")]
-            self.assertEqual(len(names), len(set(names)))
-            self.assertLessEqual(set(names), set(proxy.properties))
+        for case, proxy in self.each():
+            with case:
+                names = [e.get("name") for group in proxy.groups for e in group.findall("Property")]
+                self.assertEqual(len(names), len(set(names)))
+                self.assertLessEqual(set(names), set(proxy.properties))
 
     def test_hints(self):
-        for proxy in self.each():
-            hints = [(e.tag, dict(e.attrib)) for e in proxy.element.find("Hints")]
-            self.assertEqual(hints[0], ("ShowInMenu", {"category": "Transport"}))
-            self.assertEqual(hints[1:], SHOWN.get(proxy.label, []))
+        for case, proxy in self.each():
+            with case:
+                hints = [(e.tag, dict(e.attrib)) for e in proxy.element.find("Hints")]
+                self.assertEqual(hints[0], ("ShowInMenu", {"category": "Transport"}))
+                self.assertEqual(hints[1:], SHOWN.get(proxy.label, []))
 
     def test_decorators_name_what_there_is(self):
-        for proxy, prop in self.each_property():
-            found = decorators(prop)
-            self.assertEqual(len(found), 1 if prop.name in DEPENDENT else 0)
-            for decorator in found:
-                self.assertEqual(decorator.get("type"), "GenericDecorator")
-                self.assertEqual(
-                    decorator.get("mode"),
-                    "enabled_state" if prop.name == "Parameter" else "visibility")
-                self.assertIn(decorator.get("property"), DEPENDENT[prop.name][0])
-                owner = proxy.properties[decorator.get("property")]
-                values = (decorator.get("values") or decorator.get("value") or "").split()
-                if owner.texts or owner.boolean:
-                    self.assertTrue(values)
-                    self.assertLessEqual(set(values), set(owner.texts or {"0", "1"}))
+        for case, proxy, prop in self.each_property():
+            with case:
+                found = decorators(prop)
+                self.assertEqual(len(found), 1 if prop.name in DEPENDENT else 0)
+                for decorator in found:
+                    self.assertEqual(decorator.get("type"), "GenericDecorator")
+                    self.assertEqual(
+                        decorator.get("mode"),
+                        "enabled_state" if prop.name == "Parameter" else "visibility")
+                    self.assertIn(decorator.get("property"), DEPENDENT[prop.name][0])
+                    owner = proxy.properties[decorator.get("property")]
+                    values = (decorator.get("values") or decorator.get("value") or "").split()
+                    if owner.texts or owner.boolean:
+                        self.assertTrue(values)
+                        self.assertLessEqual(set(values), set(owner.texts or {"0", "1"}))
 
     def test_properties_are_shown_where_they_change_something(self):
-        for proxy, prop in self.each_property():
-            for decorator in decorators(prop):
-                owner = proxy.properties[decorator.get("property")]
-                for value in owner.texts or (("0", "1") if owner.boolean else ()):
-                    with self.subTest(**{owner.name: value}):
-                        one, other = (result(proxy, {owner.name: int(value), prop.name: number})
-                                      for number in DEPENDENT[prop.name][1])
-                        self.assertEqual(one != other, is_shown(decorator, value))
+        for case, proxy, prop in self.each_property():
+            with case:
+                for decorator in decorators(prop):
+                    owner = proxy.properties[decorator.get("property")]
+                    for value in owner.texts or (("0", "1") if owner.boolean else ()):
+                        with self.subTest(**{owner.name: value}):
+                            one, other = (result(proxy, {owner.name: int(value), prop.name: number})
+                                          for number in DEPENDENT[prop.name][1])
+                            self.assertEqual(one != other, is_shown(decorator, value))
 
     def test_component_is_shown_for_arrays_of_several(self):
-        for _, prop in self.each_property():
-            if prop.name == "Component":
-                attributes = dict(decorators(prop)[0].attrib)
-                # The array is not the one of a single component: fifth element, its name.
-                self.assertEqual((attributes["index"], attributes["number_of_components"],
-                                  attributes["inverse"]), ("4", "1", "1"))
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.name == "Component":
+                    attributes = dict(decorators(prop)[0].attrib)
+                    # The array is not the one of a single component: fifth element, its name.
+                    self.assertEqual((attributes["index"], attributes["number_of_components"],
+                                      attributes["inverse"]), ("4", "1", "1"))
 
 
 if __name__ == "__main__":
