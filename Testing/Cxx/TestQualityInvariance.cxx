@@ -139,6 +139,37 @@ void checkUnits(Checks& checks)
   }
 }
 
+// A particle on the upper border is in the last block, as one just before it.
+void checkBorder(Checks& checks)
+{
+  auto density = makeDensity({ 8, 12, 1 }, true, bumpy);
+  const Row before =
+    rowOf(makePoints({ 7.99, 1, 0, 3, 11.99, 0, 7.99, 11.99, 0, 2, 5, 0 }), density);
+  const Row on = rowOf(makePoints({ 8, 1, 0, 3, 12, 0, 8, 12, 0, 2, 5, 0 }), density);
+  checkSame(checks, on, before, { "DensityError", "Outside", "InEmptyCells" }, __LINE__);
+  CHECK(checks, on.at("Outside") == 0.0);
+}
+
+// Spacings are those of particles in the domain that have a mass, from any other particle.
+void checkSpacing(Checks& checks)
+{
+  auto density = makeDensity({ 10, 10, 1 }, true, [](vtkIdType) { return 3.0; });
+  // Two with a quarter of the mass each, one without, and half of it outside.
+  auto particles = makePoints({ 4, 5, 0, 6, 5, 0, 4, 6, 0, 13, 5, 0 });
+  vtkNew<vtkDoubleArray> masses;
+  masses->SetName("Mass");
+  for (const double mass : { 1.0, 1.0, 0.0, 2.0 })
+  {
+    masses->InsertNextValue(mass);
+  }
+  particles->GetPointData()->AddArray(masses);
+  const Row row = rowOf(particles, density);
+  const double room = std::sqrt(2.0 / std::sqrt(3.0) * 25.0);
+  CHECK(checks, row.at("Outside") == 1.0);
+  CHECK_NEAR(checks, row.at("SmallestSpacing"), 1.0 / room, 1e-9);
+  CHECK_NEAR(checks, row.at("MeanSpacing"), 1.5 / room, 1e-9);
+}
+
 } // namespace
 
 int TestQualityInvariance(int, char*[])
@@ -147,5 +178,7 @@ int TestQualityInvariance(int, char*[])
   checkRefined(checks, { 12, 10, 1 });
   checkRefined(checks, { 8, 6, 5 });
   checkUnits(checks);
+  checkBorder(checks);
+  checkSpacing(checks);
   return checks.Result();
 }
