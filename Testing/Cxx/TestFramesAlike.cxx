@@ -100,6 +100,39 @@ void checkDirections(Checks& checks)
   }
 }
 
+// Spacings that differ by rounding make no cells of their own; beyond it the box holds both
+// domains.
+void checkSpacings(Checks& checks)
+{
+  for (const double off : { 1e-10, -1e-10, 1e-6, -1e-6 })
+  {
+    auto source = makePlane(30.0);
+    auto target = makePlane(30.0 * (1.0 + off));
+    auto morph = makeMorph(source, target);
+    morph->Update();
+    vtkImageData* image = morph->GetDensity();
+    const bool isRounding = std::abs(off) < 1e-9;
+    CHECK(checks, image->GetDimensions()[0] == (isRounding ? 31 : 32));
+    const double end = isRounding ? 30.0 : 30.0 * std::max(1.0, 1.0 + off);
+    CHECK(checks, image->GetBounds()[1] >= end - 1e-12);
+    CHECK(checks, !isRounding || image->GetSpacing()[0] == source->GetSpacing()[0]);
+  }
+}
+
+// Axes may be far from right angles.
+void checkSheared(Checks& checks)
+{
+  for (const double height : { 0.5, 1e-4 })
+  {
+    const double sheared[9] = { 1, 1, 0, 0, height, 0, 0, 0, 1 };
+    auto source = makePlane(30.0);
+    source->SetDirectionMatrix(sheared);
+    auto target = makePlane(60.0);
+    target->SetDirectionMatrix(sheared);
+    CHECK(checks, isAccepted(checks, source, target, "", __LINE__));
+  }
+}
+
 } // namespace
 
 int TestFramesAlike(int, char*[])
@@ -107,5 +140,7 @@ int TestFramesAlike(int, char*[])
   Checks checks;
   checkPlanes(checks);
   checkDirections(checks);
+  checkSpacings(checks);
+  checkSheared(checks);
   return checks.Result();
 }
