@@ -37,13 +37,22 @@ int countOf(vtkAlgorithm* algorithm, const std::string& text)
 
 using SetPoints = std::function<void(vtkPolyData*)>;
 
-// On [0,4] x [0,3], z = 0, whose diagonal is 5.
-void checkOutside(Checks& checks, vtkAlgorithm* algorithm, const SetPoints& give, const char* what)
+// A density on [0,4] x [0,3] units, z = 0, whose diagonal is 5 units.
+vtkSmartPointer<vtkImageData> makeSmall(double unit)
+{
+  auto image = makeImage(5, 4, 1, true, bumpy);
+  image->SetSpacing(unit, unit, unit);
+  return image;
+}
+
+void checkOutside(Checks& checks, vtkAlgorithm* algorithm, const SetPoints& give, const char* what,
+  double unit = 1.0)
 {
   const std::vector<double> inside{ 1, 1, 0, 3, 2, 0, 0, 3, 0, 4, 0.5, 0 };
   const auto count = [&](const std::vector<double>& others) {
     std::vector<double> all = inside;
     all.insert(all.begin() + 3, others.begin(), others.end());
+    std::for_each(all.begin(), all.end(), [=](double& x) { x *= unit; });
     give(makePoints(all));
     return countOf(algorithm, " of " + std::to_string(all.size() / 3) + " " + what);
   };
@@ -64,27 +73,28 @@ void checkOutside(Checks& checks, vtkAlgorithm* algorithm, const SetPoints& give
   expect({ 1, -1e-4, 0 }, 1, __LINE__);
 }
 
-void checkSeeds(Checks& checks)
+void checkSeeds(Checks& checks, double unit)
 {
   vtkNew<vtkTransportSampler> sampler;
-  sampler->SetInputData(makeImage(5, 4, 1, true, bumpy));
+  sampler->SetInputData(makeSmall(unit));
   checkOutside(
-    checks, sampler, [&](vtkPolyData* seeds) { sampler->SetSeedsData(seeds); }, "seeds outside");
+    checks, sampler, [&](vtkPolyData* seeds) { sampler->SetSeedsData(seeds); }, "seeds outside",
+    unit);
 }
 
-void checkSites(Checks& checks)
+void checkSites(Checks& checks, double unit)
 {
   vtkNew<vtkEqualMassCells> cells;
-  cells->SetDomainData(makeDomain({ 0.0, 4.0, 0.0, 3.0, 0.0, 0.0 }));
+  cells->SetDomainData(makeDomain({ 0.0, 4.0 * unit, 0.0, 3.0 * unit, 0.0, 0.0 }));
   cells->SetResolution(16);
   checkOutside(
-    checks, cells, [&](vtkPolyData* sites) { cells->SetInputData(sites); }, "sites ");
+    checks, cells, [&](vtkPolyData* sites) { cells->SetInputData(sites); }, "sites ", unit);
 }
 
 void checkWarp(Checks& checks)
 {
   vtkNew<vtkDensityEqualizingWarp> warp;
-  warp->SetDensityData(makeImage(5, 4, 1, true, bumpy));
+  warp->SetDensityData(makeSmall(1.0));
   const auto give = [&](vtkPolyData* points) { warp->SetInputData(points); };
   // What lies across the plane of a flat density is kept, and is not outside.
   const auto count = [&](const std::vector<double>& x) {
@@ -100,17 +110,17 @@ void checkWarp(Checks& checks)
   CHECK(checks, count({ 1, 4, 0, -2, 2, 5, 1, 1, 0 }) == 2);
 }
 
-void checkSplat(Checks& checks)
+void checkSplat(Checks& checks, double unit)
 {
   vtkNew<vtkMassSplatter> splatter;
   splatter->SetAssociationToCells();
-  splatter->SetReferenceData(makeImage(5, 4, 1, true, bumpy));
+  splatter->SetReferenceData(makeSmall(unit));
   for (int boundary = 0; boundary < 2; ++boundary)
   {
     splatter->SetBoundary(boundary);
     checkOutside(
       checks, splatter, [&](vtkPolyData* points) { splatter->SetInputData(points); },
-      "points are outside the domain; their mass");
+      "points are outside the domain; their mass", unit);
   }
 }
 
@@ -217,10 +227,13 @@ void checkMaps(Checks& checks)
 int TestWarningCounts(int, char*[])
 {
   Checks checks;
-  checkSeeds(checks);
-  checkSites(checks);
+  for (const double unit : { 1.0, 1e-3, 500.0 })
+  {
+    checkSeeds(checks, unit);
+    checkSites(checks, unit);
+    checkSplat(checks, unit);
+  }
   checkWarp(checks);
-  checkSplat(checks);
   checkParticles(checks);
   checkMaps(checks);
   return checks.Result();
