@@ -129,6 +129,47 @@ void checkTypes(Checks& checks)
   checkType<vtkBitArray>(checks, [](int i) { return i % 3 == 0 ? 1.0 : 0.0; });
 }
 
+// In cells whose measure has no inverse not even a mass of zero has a density.
+void checkTinyCells(Checks& checks)
+{
+  auto points = makePoints({ 0, 0, 0, 1e-160, 1e-160, 0 });
+  vtkNew<vtkDoubleArray> masses;
+  masses->SetNumberOfValues(2);
+  masses->FillValue(0.0);
+  addMasses(points, masses);
+  vtkNew<vtkMassSplatter> splatter;
+  Messages messages(splatter);
+  splatter->SetInputData(points);
+  splatter->SetDimensions(1, 1, 1);
+  splatter->SetInputArrayToProcess(0, 0, 0, 0, "Weight");
+  splatter->Update();
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks, contains(messages.Errors.front(), "past the largest double"));
+  CHECK(checks, splatter->GetOutput()->GetNumberOfPoints() == 0);
+  splatter->DivideByVolumeOff();
+  CHECK(checks, splatValues(splatter) == std::vector<double>{ 0.0 });
+}
+
+// An array that is called None is one; without it that name stands for 1 each.
+void checkNone(Checks& checks)
+{
+  auto points = makePoints(halves(20));
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetInputData(points);
+  splatter->SetDimensions(3, 3, 3);
+  splatter->SetInputArrayToProcess(0, 0, 0, 0, "None");
+  splatter->Update();
+  CHECK_NEAR(checks, totalMass(splatter), 20.0, 1e-12);
+  vtkNew<vtkDoubleArray> masses;
+  masses->SetNumberOfValues(20);
+  masses->FillValue(0.5);
+  addMasses(points, masses);
+  masses->SetName("None");
+  points->Modified();
+  splatter->Update();
+  CHECK_NEAR(checks, totalMass(splatter), 10.0, 1e-12);
+}
+
 // All of them are counted, and the first is named, on any number of threads.
 void checkWrongMasses(Checks& checks)
 {
@@ -175,6 +216,8 @@ int TestSplatMasses(int, char*[])
   Checks checks;
   checkPoints(checks);
   checkTypes(checks);
+  checkNone(checks);
+  checkTinyCells(checks);
   checkWrongMasses(checks);
   return checks.Result();
 }

@@ -124,6 +124,33 @@ void checkSplat(Checks& checks, double unit)
   }
 }
 
+// Beside a line, to any side.
+void checkLine(Checks& checks)
+{
+  const double oblique[9] = { 0.6, 0, -0.8, 0, 1, 0, 0.8, 0, 0.6 };
+  for (const bool isOblique : { false, true })
+  {
+    auto line = makeImage(5, 1, 1, true, bumpy);
+    if (isOblique)
+    {
+      line->SetDirectionMatrix(oblique);
+    }
+    vtkNew<vtkMassSplatter> splatter;
+    splatter->SetAssociationToCells();
+    splatter->SetReferenceData(line);
+    const double across[][2] = { { 0, 0 }, { 0.5, 0 }, { -0.5, 0 }, { 0, 0.1 }, { 0, -0.1 },
+      { 0.3, -0.3 } };
+    for (const auto& [y, z] : across)
+    {
+      const double index[3] = { 1.0, y, z };
+      double x[3];
+      line->TransformContinuousIndexToPhysicalPoint(index, x);
+      splatter->SetInputData(makePoints({ x[0], x[1], x[2] }));
+      CHECK_NEAR(checks, countOf(splatter, " of 1 points"), y == 0.0 && z == 0.0 ? 0 : 1, 0.0);
+    }
+  }
+}
+
 // Mass in single cells, which one step misses.
 vtkSmartPointer<vtkImageData> makeDots(int rows)
 {
@@ -234,6 +261,7 @@ int TestWarningCounts(int, char*[])
     checkSplat(checks, unit);
   }
   checkWarp(checks);
+  checkLine(checks);
   checkParticles(checks);
   checkMaps(checks);
   return checks.Result();
