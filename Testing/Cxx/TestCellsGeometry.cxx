@@ -183,6 +183,33 @@ void checkOneSite(Checks& checks)
   CHECK(checks, messages.Errors.empty());
 }
 
+// A site for every pixel has that pixel; for one site more there is none.
+void checkSiteForEachPixel(Checks& checks)
+{
+  vtkNew<vtkEqualMassCells> cells;
+  Messages messages(cells);
+  cells->SetDomainData(makeDomain({ 0.0, 4.0, 0.0, 3.0, 0.0, 0.0 }));
+  cells->SetResolution(4);
+  std::vector<double> x;
+  std::vector<vtkIdType> expected;
+  for (int i = 0; i < 12; ++i)
+  {
+    x.insert(x.end(), { 0.5 + i % 4, 0.5 + i / 4, 0.0 });
+    expected.push_back(i);
+  }
+  cells->SetInputData(makePoints(x));
+  CHECK(checks, runCells(cells) == expected);
+  CHECK_NEAR(checks, siteValue(cells, "CellCost", 7), 0.0, 1e-15);
+  CHECK_NEAR(checks, siteValue(cells, "CellMass", 7), 1.0, 1e-15);
+  CHECK(checks, messages.Errors.empty());
+  x.insert(x.end(), { 1.1, 1.1, 0.0 });
+  cells->SetInputData(makePoints(x));
+  cells->Update();
+  CHECK(checks,
+    messages.Errors.size() == 1 && contains(messages.Errors[0], "13 sites for 4 x 3 pixels"));
+  CHECK(checks, cells->GetLabels()->GetNumberOfPoints() == 0);
+}
+
 // Sites in one pixel share the mass of one cell, to the last bit, and its pixels but for one.
 void checkDoubleSites(Checks& checks)
 {
@@ -256,6 +283,7 @@ int TestCellsGeometry(int, char*[])
   checkUnits(checks);
   checkOwnBounds(checks);
   checkOneSite(checks);
+  checkSiteForEachPixel(checks);
   checkDoubleSites(checks);
   checkOutside(checks);
   return checks.Result();
