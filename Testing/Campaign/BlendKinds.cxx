@@ -5,8 +5,9 @@
 #include "OutputChecks.h"
 
 #include "vtkCellData.h"
-#include "vtkMultiBlockDataSet.h"
+#include "vtkInformation.h"
 #include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransportBarycenter.h"
 #include "vtkTransportInterpolator.h"
 
@@ -23,16 +24,6 @@ using Blend = vtkTransportBlend;
 
 void drawBlend(Settings& settings)
 {
-  Dice& dice = settings.GetDice();
-  // Two boxes at a fine spacing may have a large one in common.
-  const int x = dice.Of({ 1, 2, 5, 9, 12, 12 });
-  const int y = dice.Of({ 1, 2, 5, 9, 12, 12 });
-  const int z = dice.Of({ 1, 1, 2, 5, 9 });
-  const bool wrong = dice.Chance(0.02);
-  settings.Add("Dimensions",
-    std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(wrong ? -1 : z),
-    [=](
-      vtkAlgorithm* filter) { Blend::SafeDownCast(filter)->SetDimensions(x, y, wrong ? -1 : z); });
   settings.Draw<Blend, int>("ParticlesPerCell", &Blend::SetParticlesPerCell, { 1, 2, 3, 4, 8 },
     { 0, -1, std::numeric_limits<int>::min() });
   settings.Draw<Blend, int>("MassMode", &Blend::SetMassMode, { 0, 1, 2, 3 }, { -1, 4 });
@@ -43,21 +34,34 @@ void drawBlend(Settings& settings)
   drawDensitySettings(settings);
 }
 
-// Images of one geometry keep it where no Dimensions are asked for.
-void keepGeometry(Settings& settings, const Inputs& inputs)
+// The grid of the output. Images that are not alike may have a large box in common at a fine
+// spacing: they never go without.
+void drawDimensions(Dice& dice, Settings& settings, const Inputs& inputs)
 {
+  bool alike = true;
   for (const auto& port : inputs)
   {
     for (const Input& input : port)
     {
-      if (input.Condition == State::Odd)
-      {
-        return;
-      }
+      alike = alike && input.Condition != State::Odd;
     }
   }
-  settings.Add("Dimensions", "0 0 0",
-    [](vtkAlgorithm* filter) { Blend::SafeDownCast(filter)->SetDimensions(0, 0, 0); });
+  const int* like = vtkImageData::SafeDownCast(inputs[0][0].Data)->GetDimensions();
+  int asked[3] = { 0, 0, 0 };
+  const bool any = !alike || dice.Chance(0.4);
+  for (int a = 0; a < 3 && any; ++a)
+  {
+    asked[a] = like[a] > 1 ? dice.Of({ 2, 5, 9, 12 }) : 0;
+  }
+  if (dice.Chance(0.03))
+  {
+    asked[dice.Whole(0, 2)] = dice.Of({ -1, 1, 2147483647 });
+  }
+  const int x = asked[0];
+  const int y = asked[1];
+  const int z = asked[2];
+  settings.Add("Dimensions", std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
+    [=](vtkAlgorithm* filter) { Blend::SafeDownCast(filter)->SetDimensions(x, y, z); });
 }
 
 // The densities of all inputs; what Dimensions asks for may not be had.
@@ -123,6 +127,7 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
 
 //------------------------------------------------------------------------------
 using Morph = vtkTransportInterpolator;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 void drawMorph(Settings& settings)
 {
@@ -131,6 +136,17 @@ void drawMorph(Settings& settings)
   settings.Draw<Morph, vtkTypeBool>("PublishTime", &Morph::SetPublishTime, { 0, 1 }, {}, 0.2);
   settings.Draw<Morph, int>(
     "NumberOfTimeSteps", &Morph::SetNumberOfTimeSteps, { 2, 11, 1000 }, { 1, 1000001, -5 }, 0.2);
+  Dice& dice = settings.GetDice();
+  if (dice.Chance(0.15))
+  {
+    const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity });
+    settings.Add("Time", textOf(time), [=](vtkAlgorithm* filter) {
+      for (int port = 0; port < 2; ++port)
+      {
+        filter->GetOutputInformation(port)->Set(Pipeline::UPDATE_TIME_STEP(), time);
+      }
+    });
+  }
   drawBlend(settings);
 }
 
@@ -140,17 +156,17 @@ Inputs feedMorph(Dice& dice, Settings& settings)
   inputs[0] = { drawDensityOn(dice, settings, 0) };
   inputs[1] = { drawPartner(dice, inputs[0][0], settings) };
   drawChoice(dice, settings, 1, 1, inputs[1][0]);
-  if (dice.Chance(0.5))
-  {
-    keepGeometry(settings, inputs);
-  }
+  drawDimensions(dice, settings, inputs);
   return inputs;
 }
 
 void checkMorph(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
 {
   auto* morph = Morph::SafeDownCast(filter);
-  const double t = morph->GetParameter();
+  vtkInformation* asked = morph->GetOutputInformation(0);
+  const bool byTime = morph->GetPublishTime() && asked->Has(Pipeline::UPDATE_TIME_STEP());
+  const double t =
+    byTime ? std::clamp(asked->Get(Pipeline::UPDATE_TIME_STEP()), 0.0, 1.0) : morph->GetParameter();
   checkBlend(filter, inputs, { 1.0 - t, t }, findings);
   vtkPolyData* particles = morph->GetParticles();
   for (const char* name : { "SourcePosition", "TargetPosition" })
@@ -223,10 +239,7 @@ Inputs feedBarycenter(Dice& dice, Settings& settings)
   }
   settings.Add("Weights", std::to_string(weights.size()) + " of them",
     [weights](vtkAlgorithm* filter) { setWeights(filter, weights); });
-  if (dice.Chance(0.5))
-  {
-    keepGeometry(settings, inputs);
-  }
+  drawDimensions(dice, settings, inputs);
   return inputs;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Case.h"
 
+#include "Behind.h"
 #include "FilterKind.h"
 #include "Kinds.h"
 #include "KnownDefects.h"
@@ -53,7 +54,7 @@ public:
   {
     this->Result.Filter = this->Kind.Name;
     this->Kind.DrawSettings(this->Properties);
-    this->Fed = this->Kind.DrawInputs(this->Luck, this->Properties);
+    this->Feed();
   }
 
   CaseResult Run()
@@ -81,15 +82,36 @@ public:
       {
         this->Same(before, "what a disturbed run leaves is whole");
       }
-      if (disturbed || (i > 0 && this->Luck.Chance(0.5)))
+      // Of inputs that VTK itself turns down, what was there before stays.
+      if (this->ArePlain && (disturbed || (i > 0 && this->Luck.Chance(0.5))))
       {
         this->CompareFresh();
       }
     }
+    this->RunBehind();
     return this->Result;
   }
 
 private:
+  void Feed()
+  {
+    this->Fed = this->Kind.DrawInputs(this->Luck, this->Properties);
+    this->ArePlain = true;
+    for (auto& port : this->Fed)
+    {
+      for (Input& input : port)
+      {
+        drawUnusual(this->Luck, input);
+        this->ArePlain = this->ArePlain && input.IsPlain;
+      }
+    }
+  }
+
+  State Expect() const
+  {
+    return this->ArePlain ? this->Kind.Expect(this->Filter, this->Fed) : State::Open;
+  }
+
   void Tell(const std::string& text) { this->Result.Story += text + "\n"; }
 
   void TellInputs()
@@ -125,7 +147,7 @@ private:
       case 1:
       {
         const std::size_t before = this->Properties.Count();
-        this->Fed = this->Kind.DrawInputs(this->Luck, this->Properties);
+        this->Feed();
         this->Tell("other inputs" + this->Properties.Describe(before));
         this->TellInputs();
         this->Properties.Apply(this->Filter);
@@ -180,13 +202,12 @@ private:
     if (this->Last.Aborted)
     {
       ++this->Result.Aborts;
-      const bool sound = this->Properties.OutOfRange().empty() &&
-        this->Kind.Expect(this->Filter, this->Fed) == State::Sound;
+      const bool sound = this->Properties.OutOfRange().empty() && this->Expect() == State::Sound;
       findings.That(errors == 0 || !sound, "an abort is no error");
     }
     this->Result.Limits += disturbance.Memory >= 0 && errors > 0 ? 1 : 0;
-    findings.That(errors <= 1, "at most one error");
-    findings.That(errors == 0 || this->Last.IsEmpty, "an error leaves nothing");
+    findings.That(errors <= 1 || !this->ArePlain, "at most one error");
+    findings.That(errors == 0 || this->Last.IsEmpty || !this->ArePlain, "an error leaves nothing");
     this->Take(findings);
     this->Filter->Modified();
   }
@@ -196,6 +217,35 @@ private:
     Findings findings;
     findings.That(other.Digest == this->Last.Digest, what);
     this->Take(findings);
+  }
+
+  // Something behind the filter asks it for what it has made already.
+  void RunBehind()
+  {
+    if (this->Last.IsEmpty || !this->ArePlain || !this->Luck.Chance(0.3))
+    {
+      return;
+    }
+    const vtkSmartPointer<vtkAlgorithm> behind = drawBehind(this->Luck, this->Filter);
+    if (!behind)
+    {
+      return;
+    }
+    this->Tell(std::string("behind it ") + behind->GetClassName());
+    Findings findings;
+    const Outcome outcome = update(behind, {}, findings);
+    for (const std::string& text : outcome.Others)
+    {
+      findings.That(false, "something else said: " + text);
+    }
+    std::uint64_t now = this->Last.Errors.size();
+    for (int port = 0; port < this->Filter->GetNumberOfOutputPorts(); ++port)
+    {
+      now = digest(this->Filter->GetOutputDataObject(port), now);
+    }
+    findings.That(now == this->Last.Digest, "what is behind changes nothing");
+    this->Take(findings);
+    this->Result.Digest = this->Result.Digest * 31 + outcome.Digest;
   }
 
   // Whatever a filter has kept from run to run must not show.
@@ -213,20 +263,20 @@ private:
   void Judge(const Outcome& outcome, Findings& findings)
   {
     const std::vector<std::string> wrong = this->Properties.OutOfRange();
-    const State ofInputs = this->Kind.Expect(this->Filter, this->Fed);
-    const State expected = wrong.empty() ? ofInputs : State::Faulty;
+    const State ofInputs = this->Expect();
+    const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {
       this->Tell("  said: " + text);
     }
     this->Result.Errors += outcome.Errors.empty() ? 0 : 1;
-    findings.That(outcome.Errors.size() <= 1, "at most one error");
+    findings.That(outcome.Errors.size() <= 1 || !this->ArePlain, "at most one error");
     for (const std::string& text : outcome.Others)
     {
       findings.That(false, "something else said: " + text);
     }
     const bool failed = !outcome.Errors.empty();
-    findings.That(!failed || outcome.IsEmpty, "an error leaves nothing");
+    findings.That(!failed || outcome.IsEmpty || !this->ArePlain, "an error leaves nothing");
     findings.That(!failed || (expected != State::Sound && expected != State::Empty), "no error");
     findings.That(failed || expected != State::Faulty, "an error");
     findings.That(outcome.IsEmpty || expected != State::Empty, "an empty output");
@@ -239,7 +289,7 @@ private:
                       }),
         "the error names " + wrong[0]);
     }
-    if (!failed && !outcome.IsEmpty)
+    if (!failed && !outcome.IsEmpty && this->ArePlain)
     {
       this->Kind.Check(this->Filter, this->Fed, findings);
     }
@@ -264,6 +314,7 @@ private:
   const FilterKind& Kind;
   Settings Properties;
   Inputs Fed;
+  bool ArePlain = true;
   vtkSmartPointer<vtkAlgorithm> Filter;
   Outcome Last;
   CaseResult Result;

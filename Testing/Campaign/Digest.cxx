@@ -145,6 +145,10 @@ std::uint64_t digest(vtkDataObject* data, std::uint64_t seed)
     }
     return mixer.Value;
   }
+  if (isEmpty(data))
+  {
+    return mixer.Value; // where an empty image lies is what was there before
+  }
   if (auto* image = vtkImageData::SafeDownCast(data))
   {
     mixer.Image(image);

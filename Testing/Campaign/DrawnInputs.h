@@ -39,7 +39,7 @@ void drawDensitySettings(Settings& settings);
 inline ImageRules rulesOf(const Settings& settings)
 {
   ImageRules rules;
-  rules.LargestAxis = settings.IsLarge() ? 160 : 40;
+  rules.LargestAxis = settings.IsLarge() ? 140 : 40;
   return rules;
 }
 

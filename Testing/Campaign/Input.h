@@ -48,6 +48,7 @@ struct Input
   // The array that the filter is to read and how it is chosen; nullptr for the default.
   vtkSmartPointer<vtkDataArray> Values;
   bool OnPoints = true;
+  bool IsPlain = true; // one data set of the right type
 
   void Worsen(State state) { this->Condition = worse(this->Condition, state); }
   void Say(const std::string& text) { this->Text += (this->Text.empty() ? "" : ", ") + text; }
@@ -75,6 +76,9 @@ vtkSmartPointer<vtkDataArray> drawArray(
 
 // Marks some of the points or cells.
 void drawGhosts(Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, Input& input);
+
+// In place of a plain input at times nothing, another type, or a composite data set.
+void drawUnusual(Dice& dice, Input& input);
 
 // Writes over some values or points of an input, in place.
 void changeInPlace(Dice& dice, Input& input);

@@ -58,13 +58,16 @@ public:
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  // What was printed, but for what executives say of the failure of an algorithm.
+  // What was printed, but for what executives say of a failure and of inputs. (What the filter says
+  // goes to its observer.)
   std::vector<std::string> Others() const
   {
     std::vector<std::string> others;
     for (const std::string& text : this->Window->Errors)
     {
-      if (text.find("returned failure for request") == std::string::npos)
+      const bool usual = isPartOf("returned failure for request", text) ||
+        isPartOf("is not optional", text) || isPartOf("is required.", text);
+      if (!usual)
       {
         others.push_back(text);
       }
@@ -78,6 +81,11 @@ public:
   bool HasAborted = false;
 
 private:
+  static bool isPartOf(const char* part, const std::string& text)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
   void Hear(unsigned long event, void* data)
   {
     if (event == vtkCommand::ProgressEvent)

@@ -33,7 +33,7 @@ using Cells = vtkEqualMassCells;
 void drawCells(Settings& settings)
 {
   settings.Draw<Cells, int>(
-    "Resolution", &Cells::SetResolution, { 1, 2, 5, 9, 14, 18 }, { 0, -3 }, 1.0);
+    "Resolution", &Cells::SetResolution, { 2, 5, 9, 14, 18, 18 }, { 0, -3 }, 1.0);
   settings.Draw<Cells, double>("NormExponent", &Cells::SetNormExponent,
     { 1.0, 2.0, 3.5, 1e300, Infinity }, { 0.5, -1.0, NaN }, 0.4);
   settings.Draw<Cells, double>("CostExponent", &Cells::SetCostExponent, { 5e-324, 0.5, 1.0, 3.0 },
@@ -50,7 +50,7 @@ Inputs feedCells(Dice& dice, Settings& settings)
     ignoreArrays(inputs[1][0]);
   }
   auto* domain = inputs[1].empty() ? nullptr : vtkImageData::SafeDownCast(inputs[1][0].Data);
-  inputs[0] = { drawPoints(dice, domain, dice.Of({ 5, 20, 60 })) };
+  inputs[0] = { drawPoints(dice, domain, dice.Of({ 5, 12, 30 })) };
   inputs[0][0].Values = nullptr;
   return inputs;
 }
@@ -158,7 +158,9 @@ Inputs feedSplatter(Dice& dice, Settings& settings)
   }
   auto* reference = inputs[1].empty() ? nullptr : vtkImageData::SafeDownCast(inputs[1][0].Data);
   inputs[0] = { drawPoints(dice, reference, settings.IsLarge() ? 20000 : 1500) };
-  const std::string name = dice.Of({ "", "", "Mass", "Mass", "None", "Displacement", "Nothing" });
+  const char* const usual = inputs[0][0].Values ? "Mass" : "";
+  const std::string name = dice.Chance(0.9) ? dice.Of({ "", usual, usual, "None" })
+                                            : dice.Of({ "Mass", "Displacement", "Nothing" });
   settings.Add("Array", name, [name](vtkAlgorithm* filter) {
     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
   });

@@ -30,7 +30,7 @@ class Settings
 public:
   explicit Settings(Dice& dice)
     : Luck(dice)
-    , Large(dice.Chance(0.05))
+    , Large(dice.Chance(0.04))
   {
   }
 

@@ -27,9 +27,12 @@ using Sampler = vtkTransportSampler;
 void drawSampler(Settings& settings)
 {
   settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
-    { 1, 2, 10, 100, 500, 500, 1000, 1500, 0, -1, 1000000000000,
-      std::numeric_limits<vtkIdType>::max() },
-    {}, 1.0);
+    { 1, 2, 10, 100, 500, 500, 1000, 1500 }, {}, 1.0);
+  if (settings.GetDice().Chance(0.03))
+  {
+    settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
+      { 0, -1, 1000000000000, std::numeric_limits<vtkIdType>::max() }, {}, 1.0);
+  }
   if (settings.IsLarge())
   {
     settings.Add("NumberOfParticles", "20000",
@@ -165,11 +168,11 @@ void drawMap(Settings& settings)
 {
   settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
   Dice& dice = settings.GetDice();
-  if (dice.Chance(0.4))
+  if (dice.Chance(0.3))
   {
-    const int x = dice.Of({ 0, 0, 1, 2, 9, 30, -1, 2147483647 });
-    const int y = dice.Of({ 0, 0, 1, 2, 9, 30 });
-    const int z = dice.Of({ 0, 0, 1, 2, 9 });
+    const int x = dice.Of({ 0, 0, 0, 2, 9, 30, dice.Of({ 1, -1, 2147483647 }) });
+    const int y = dice.Of({ 0, 0, 0, 2, 9, 30 });
+    const int z = dice.Of({ 0, 0, 0, 0, 2, 9 });
     settings.Add("SampleDimensions",
       std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
       [=](vtkAlgorithm* filter) { static_cast<Map*>(filter)->SetSampleDimensions(x, y, z); });
