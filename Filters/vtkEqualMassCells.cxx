@@ -9,6 +9,7 @@
 #include "Bridge/FlowSettings.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
+#include "Bridge/InputBlock.h"
 #include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SiteLabels.h"
@@ -224,8 +225,8 @@ int vtkEqualMassCells::RequestInformation(
   ImageFrame box;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    this->UpdateInputBeforeData(
-      1); // whether values are on points is not always announced, or not so
+    // Whether values are on points is not always announced, or not so.
+    this->UpdateInputBeforeData(1, inputVector, outputVector);
     vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
     box = domain && domain->GetNumberOfPoints() > 0
       ? frameOf(domain)
@@ -233,19 +234,12 @@ int vtkEqualMassCells::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);
   }
-  try
-  {
-    box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
-  }
-  catch (const Failure&)
-  {
-    box = ImageFrame(); // RequestData says it, once
-  }
+  box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
   box.Publish(outputVector->GetInformationObject(0));
   return 1;
 }
@@ -269,7 +263,8 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
+  auto* domain = requireBlock<vtkImageData>(
+    vtkDataObject::GetData(inputVector[1]), "The Domain", "a vtkImageData");
   if (!input || input->GetNumberOfPoints() == 0 || (domain && domain->GetNumberOfPoints() == 0))
   {
     return 1;
@@ -293,6 +288,10 @@ int vtkEqualMassCells::RequestData(
 
   const CellsOutput output{ vtkImageData::GetData(outputVector, 0),
     vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
+  if (!this->Internals->Labels.IsFor(input, frame, options))
+  {
+    SiteLabels::RequireMemory(frame);
+  }
   frame.CopyTo(output.Labels);
   frame.Publish(labelInformation); // without a Domain it is not known before the data
   output.Sites->CopyStructure(input);

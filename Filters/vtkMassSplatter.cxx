@@ -158,19 +158,12 @@ int vtkMassSplatter::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
-    try
-    {
-      requireDimensions(this->Dimensions);
-      const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
-      const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
-      frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
-    }
-    catch (const Failure&)
-    {
-      frame = ImageFrame(); // RequestData says it, once
-    }
+    requireDimensions(this->Dimensions);
+    const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
+    const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
+    frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
   }
   frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
   return 1;

@@ -52,9 +52,8 @@ std::array<std::int64_t, 3> gridOf(const ImageGeometry& geometry)
   return grid;
 }
 
-void requireMemoryFor(const PivotSettings& pivot, std::size_t inputs)
+void requireMemoryFor(double particles, std::size_t inputs)
 {
-  const double particles = numberOfParticles(pivot);
   // Positions for each input and between them, masses and vertices.
   const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
   std::ostringstream purpose;
@@ -94,10 +93,11 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   FlowCache& tables, const Executor& executor, HostMonitor& host, const BlendOutput& output)
 {
   const bool onPoints = inputs.front().Density->IsOnPoints();
-  frameOf(inputs, settings.Dimensions).CopyTo(output.Density);
+  const ImageFrame frame = frameOf(inputs, settings.Dimensions);
+  requireMemoryFor(frame.NumberOfValues(onPoints) * settings.ParticlesPerCell, inputs.size());
+  frame.CopyTo(output.Density);
   const ImageGeometry geometry(output.Density, onPoints);
   const PivotSettings pivot{ gridOf(geometry), settings.ParticlesPerCell, settings.Flow };
-  requireMemoryFor(pivot, inputs.size());
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot);
   if (newMaps > 0)

@@ -2,6 +2,7 @@
 #include "ImageFrame.h"
 
 #include "Failure.h"
+#include "Memory.h"
 #include "PropertyCheck.h"
 
 #include "vtkDataObject.h"
@@ -137,6 +138,12 @@ bool ImageFrame::operator==(const ImageFrame& other) const
 
 void ImageFrame::CopyTo(vtkImageData* image) const
 {
+  double planes = 0.0;
+  for (const int points : this->Values(true))
+  {
+    planes += points;
+  }
+  requireMemory("an image of " + this->DescribeValues(true) + " points", planes * sizeof(double));
   const auto& e = this->Extent;
   image->SetExtent(e[0], e[1], e[2], e[3], e[4], e[5]);
   image->SetOrigin(this->Origin.data());
@@ -175,6 +182,40 @@ std::array<int, 3> ImageFrame::Values(bool onPoints) const
     values[i] = onPoints || cells == 0 ? cells + 1 : cells;
   }
   return values;
+}
+
+int ImageFrame::NumberOfAxes() const
+{
+  int axes = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    axes += this->Extent[2 * i] != this->Extent[2 * i + 1] ? 1 : 0;
+  }
+  return axes;
+}
+
+double ImageFrame::NumberOfValues(bool onPoints) const
+{
+  double number = 1.0;
+  for (const int values : this->Values(onPoints))
+  {
+    number *= values;
+  }
+  return number;
+}
+
+std::string ImageFrame::DescribeValues(bool onPoints) const
+{
+  std::string text;
+  const std::array<int, 3> values = this->Values(onPoints);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (this->Extent[2 * i] != this->Extent[2 * i + 1])
+    {
+      text += (text.empty() ? "" : " x ") + std::to_string(values[i]);
+    }
+  }
+  return text;
 }
 
 ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char* property) const

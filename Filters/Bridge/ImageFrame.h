@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -50,6 +51,8 @@ public:
 
   bool operator==(const ImageFrame& other) const;
 
+  // Ask for the memory of what the image will hold before that: from VTK 9.3 on an image keeps the
+  // coordinates of its planes of points. Throws Failure where there is no memory for them.
   void CopyTo(vtkImageData* image) const;
   void Publish(vtkInformation* information) const;
   // And that the active scalars will be the array Density, of doubles.
@@ -59,6 +62,11 @@ public:
   bool HasOnePoint() const { return this->Values(true) == std::array<int, 3>{ 1, 1, 1 }; }
   // The numbers of values of a point or cell array along the axes, 1 where there is no axis.
   std::array<int, 3> Values(bool onPoints) const;
+
+  int NumberOfAxes() const;
+  double NumberOfValues(bool onPoints) const;
+  // "8 x 4", without the axes of one point.
+  std::string DescribeValues(bool onPoints) const;
 
   // The frame with other numbers of values, on the domain that the cells (or dual cells of the
   // points) cover; 0 for as many as there are. Throws Failure, which names `property`.

@@ -48,6 +48,23 @@ bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, HostMonitor
     [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
 }
 
+namespace
+{
+
+constexpr double recordBytes(int dimension)
+{
+  return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
+}
+
+} // namespace
+
+void SiteLabels::RequireMemory(const ImageFrame& frame)
+{
+  const double bytes = sizeof(std::int64_t) + recordBytes(frame.NumberOfAxes());
+  requireMemory("labels of " + frame.DescribeValues(false) + " pixels (see Resolution)",
+    frame.NumberOfValues(false) * bytes);
+}
+
 template <int D>
 SiteGrid<D>::SiteGrid(
   vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor, HostMonitor& host)
@@ -80,8 +97,6 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
   const GridSize<D> size = grid.Size();
   const double pixels = numberOfCells<D>(size);
   const std::string purpose = "labels of " + describeSize<D>(size) + " pixels";
-  constexpr double recordBytes = (D == 1 ? 2.5 : 4.0) * sizeof(double);
-  requireMemory(purpose, pixels * (sizeof(std::int64_t) + recordBytes));
   auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
   std::int64_t* labels = array->GetPointer(0);
   const double begin = host.Reached();
@@ -98,7 +113,7 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
   }
   else
   {
-    withMemory(purpose, pixels * recordBytes, [&]() {
+    withMemory(purpose, pixels * recordBytes(D), [&]() {
       beginStage(0.03);
       const RectifiedFlow<D> flow(grid, executor, host.GetMonitor());
       require(static_cast<bool>(flow));

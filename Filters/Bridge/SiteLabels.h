@@ -36,6 +36,9 @@ using SiteIdArray =
 class SiteLabels
 {
 public:
+  // Throws Failure if there is no memory to make labels.
+  static void RequireMemory(const ImageFrame& frame);
+
   // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
   bool IsFor(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const;
 
