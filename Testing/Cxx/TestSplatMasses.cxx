@@ -143,8 +143,8 @@ void checkTinyCells(Checks& checks)
   splatter->SetDimensions(1, 1, 1);
   splatter->SetInputArrayToProcess(0, 0, 0, 0, "Weight");
   splatter->Update();
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks, contains(messages.Errors.front(), "past the largest double"));
+  CHECK(
+    checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "past the largest double"));
   CHECK(checks, splatter->GetOutput()->GetNumberOfPoints() == 0);
   splatter->DivideByVolumeOff();
   CHECK(checks, splatValues(splatter) == std::vector<double>{ 0.0 });
