@@ -160,7 +160,9 @@ configure_and_build()
   rm -f "$folder/configure.log" "$folder/build.log"
   logged "$folder/configure.log" cmake -S "$root" -B "$folder" -G Ninja \
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
-  steps="$(cmake --build "$folder" -- -n | grep -c '^\[' || true)"
+  # In a file of its own: of build.ninja itself a dry run tells no more than that CMake may run again.
+  echo 'include build.ninja' > "$folder/count.ninja"
+  steps="$(cmake --build "$folder" -- -f count.ninja -n | grep -c '^\[' || true)"
   if [ "$steps" = 0 ]; then
     return 0
   fi
