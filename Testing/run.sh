@@ -6,11 +6,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 usage()
 {
   cat << 'TEXT'
-usage: bash Testing/run.sh [--long] [--gui] [--asan] [--vtk] [--all] [--suite SUITE]...
+usage: bash Testing/run.sh [--long] [--gui] [--asan] [--tsan] [--vtk] [--all] [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
+  --tsan   the core's parallel tests under ThreadSanitizer, with Clang's OpenMP, in build-tsan/
   --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
   --all    all of these
   --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
@@ -20,14 +21,15 @@ TEXT
 }
 
 arguments=() suites=()
-long=0 gui=0 asan=0 vtk=0
+long=0 gui=0 asan=0 tsan=0 vtk=0
 while [ $# -gt 0 ]; do
   case "$1" in
     --long) long=1 ;;
     --gui) gui=1 ;;
     --asan) asan=1 ;;
+    --tsan) tsan=1 ;;
     --vtk) vtk=1 ;;
-    --all) long=1 gui=1 asan=1 vtk=1 ;;
+    --all) long=1 gui=1 asan=1 tsan=1 vtk=1 ;;
     --suite)
       if ! [[ "${2:-}" =~ ^[a-z]+$ ]]; then
         echo "--suite needs the name of a suite of Debian: trixie or sid" >&2
@@ -75,6 +77,10 @@ run_suites()
   done
 }
 
+# Of the core, those that run on several threads.
+parallel_tests="Invariance*:SplatOrder*:SplatMonitor*:Monitor*:Lattice*:Tables*:CellSamples*"
+parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
+
 # run_tests FOLDER CTEST-ARGUMENT...
 run_tests()
 {
@@ -89,6 +95,20 @@ run_asan()
 {
   configure_and_build "$root/build-asan" --preset asan &&
     run_tests "$root/build-asan" -LE '^(long|gui|install)$'
+}
+
+# Archer tells the sanitizer what Clang's OpenMP guarantees; without it all is a race. Where one
+# thread does everything there is none: the tests that are left out have no threads.
+run_tsan()
+{
+  local folder="$root/build-tsan" archer
+  need clang libomp-dev || return 1
+  archer="$(dirname "$(readlink -f "$(command -v clang)")")/../lib/libarcher.so"
+  target=RectifiedTransportCoreTests configure_and_build "$folder" --preset tsan || return 1
+  say "Tests of $folder"
+  OMP_NUM_THREADS=3 OMP_TOOL_LIBRARIES="$archer" \
+    TSAN_OPTIONS="ignore_noninstrumented_modules=1 allocator_may_return_null=1 halt_on_error=1" \
+    "$folder/bin/RectifiedTransportCoreTests" --gtest_brief=1 --gtest_filter="$parallel_tests"
 }
 
 # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.
@@ -141,6 +161,9 @@ else
 fi
 if [ $asan = 1 ]; then
   run_asan || failed="$failed --asan"
+fi
+if [ $tsan = 1 ]; then
+  run_tsan || failed="$failed --tsan"
 fi
 if [ $vtk = 1 ]; then
   run_vtk || failed="$failed --vtk"
