@@ -160,12 +160,14 @@ configure_and_build()
   rm -f "$folder/configure.log" "$folder/build.log"
   logged "$folder/configure.log" cmake -S "$root" -B "$folder" -G Ninja \
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
-  steps="$(cmake --build "$folder" --target "${target:-all}" -- -n | grep -c '^\[' || true)"
-  if [ "$steps" = 0 ]; then
-    return 0
+  # In a file of its own: of build.ninja itself a dry run tells no more than that CMake may run again.
+  echo 'include build.ninja' > "$folder/count.ninja"
+  steps="$(cmake --build "$folder" --target "${target:-all}" -- -f count.ninja -n |
+    grep -c '^\[' || true)"
+  if [ "$steps" != 0 ]; then
+    say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
+    echo "What the compiler says is in $folder/build.log"
   fi
-  say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
-  echo "What the compiler says is in $folder/build.log"
   logged "$folder/build.log" \
     cmake --build "$folder" --target "${target:-all}" -j "$(nproc)"
 }
