@@ -3,6 +3,7 @@
 
 #include "Bridge/CellFigures.h"
 #include "Bridge/CellOutlines.h"
+#include "Bridge/DefaultArray.h"
 #include "Bridge/Failure.h"
 #include "Bridge/FieldValue.h"
 #include "Bridge/FlowSettings.h"
@@ -58,14 +59,9 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
 {
   run.Host.BeginStage(0.01);
   const SiteGrid<D> sites(run.Input, geometry, run.Threads, run.Host);
-  vtkPoints* points = run.Input->GetPoints();
-  if (!run.Labels.IsFor(points, run.Frame, run.Options))
-  {
-    run.Labels.Release();
-    run.Labels.Keep(
-      points, run.Frame, run.Options, sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95));
-  }
-  SiteIdArray* labels = run.Labels.Array();
+  run.Host.BeginStage(0.02);
+  SiteIdArray* labels = run.Labels.Update(run.Input, run.Frame, run.Options, run.Threads, run.Host,
+    [&]() { return sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95); });
   output.Labels->GetCellData()->SetScalars(labels);
   run.Host.BeginStage(0.98);
   const double cost = writeCellFigures<D>(run.Input, sites.Pixels(), geometry, labels, run.Norm,
@@ -75,6 +71,13 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
   run.Host.BeginStage(1.0);
   outlineCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
   return sites.NumberOutside();
+}
+
+// The box of a domain, as of a density: with values on its points that of their dual cells.
+ImageFrame frameOf(vtkImageData* domain)
+{
+  const ImageFrame frame(domain);
+  return hasPointValues(domain) ? frame.WithDualCells() : frame;
 }
 
 // The input's points in double precision.
@@ -204,7 +207,7 @@ ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
 {
   constexpr double margin = 0.05; // on each side
   double bounds[6];
-  sites->GetPoints()->GetBounds(bounds); // a data set may count only points that cells use
+  findBounds(sites, bounds);
   for (int a = 0; a < 3; ++a)
   {
     const double length = bounds[2 * a + 1] - bounds[2 * a];
@@ -221,7 +224,12 @@ int vtkEqualMassCells::RequestInformation(
   ImageFrame box;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    box = ImageFrame(inputVector[1]->GetInformationObject(0));
+    this->UpdateInputBeforeData(
+      1); // whether values are on points is not always announced, or not so
+    vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
+    box = domain && domain->GetNumberOfPoints() > 0
+      ? frameOf(domain)
+      : ImageFrame(inputVector[1]->GetInformationObject(0));
   }
   else
   {
@@ -272,7 +280,7 @@ int vtkEqualMassCells::RequestData(
     // Of such points there are no bounds.
     visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
   }
-  const ImageFrame box = domain ? ImageFrame(domain) : this->FrameAround(input);
+  const ImageFrame box = domain ? frameOf(domain) : this->FrameAround(input);
   if (box.HasOnePoint())
   {
     throw Failure(domain

@@ -3,10 +3,14 @@
 #ifndef RectifiedTransport_GuardedRun_h
 #define RectifiedTransport_GuardedRun_h
 
+#include "VTKCompatibility.h"
+
 #include <functional>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
 class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -209,15 +209,20 @@ ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char
     // Where the new index is 0, in the old one.
     const double ratio = static_cast<double>(values[i]) / count;
     const double start = this->Extent[2 * i] + (onPoints ? 0.5 * (ratio - 1.0) : 0.0);
-    for (std::size_t r = 0; r < 3; ++r)
-    {
-      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * start;
-    }
+    frame.SetAxis(i, start, onPoints ? count : count + 1);
     frame.Spacing[i] *= ratio;
-    frame.Extent[2 * i] = 0;
-    frame.Extent[2 * i + 1] = onPoints ? count - 1 : count;
   }
   return frame;
+}
+
+void ImageFrame::SetAxis(std::size_t axis, double first, int points)
+{
+  for (std::size_t r = 0; r < 3; ++r)
+  {
+    this->Origin[r] += this->Direction[3 * r + axis] * this->Spacing[axis] * first;
+  }
+  this->Extent[2 * axis] = 0;
+  this->Extent[2 * axis + 1] = points - 1;
 }
 
 ImageFrame ImageFrame::AtCellCentres() const
@@ -226,17 +231,24 @@ ImageFrame ImageFrame::AtCellCentres() const
   for (std::size_t i = 0; i < 3; ++i)
   {
     const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
-    if (cells <= 0)
+    if (cells > 0)
     {
-      continue;
+      frame.SetAxis(i, this->Extent[2 * i] + 0.5, cells);
     }
-    const double centre = this->Extent[2 * i] + 0.5;
-    for (std::size_t r = 0; r < 3; ++r)
+  }
+  return frame;
+}
+
+ImageFrame ImageFrame::WithDualCells() const
+{
+  ImageFrame frame = *this;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
+    if (cells > 0)
     {
-      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * centre;
+      frame.SetAxis(i, this->Extent[2 * i] - 0.5, cells + 2);
     }
-    frame.Extent[2 * i] = 0;
-    frame.Extent[2 * i + 1] = cells - 1;
   }
   return frame;
 }

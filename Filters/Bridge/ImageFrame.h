@@ -4,11 +4,15 @@
 #ifndef RectifiedTransport_ImageFrame_h
 #define RectifiedTransport_ImageFrame_h
 
+#include "VTKCompatibility.h"
+
 #include <array>
 #include <cstddef>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkInformation;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -67,6 +71,9 @@ public:
   // The frame that has a point at the centre of each of the cells, counted from 0.
   ImageFrame AtCellCentres() const;
 
+  // The frame whose cells are the dual cells of the points: half a spacing more on each side.
+  ImageFrame WithDualCells() const;
+
   // Whether the direction matrix has one, without which there is no GetSide. An axis of one point
   // need not have a direction of its own.
   bool HasInverse() const;
@@ -78,6 +85,9 @@ public:
   bool HasExtentOf(const ImageFrame& other) const { return this->Extent == other.Extent; }
 
 private:
+  // Lets an axis have `points` points, the first of them at an index that need not be a whole one.
+  void SetAxis(std::size_t axis, double first, int points);
+
   std::array<int, 6> Extent{ 0, -1, 0, -1, 0, -1 };
   std::array<double, 3> Origin{ 0.0, 0.0, 0.0 };
   std::array<double, 3> Spacing{ 1.0, 1.0, 1.0 };

@@ -19,20 +19,33 @@
 namespace RectifiedTransport
 {
 
-bool SiteLabels::IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const
+namespace
 {
-  return this->Labels && this->Sites == sites && this->Time == sites->GetMTime() &&
-    this->Frame == frame && this->Options == options;
+
+std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
+{
+  return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
 }
 
-void SiteLabels::Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
-  vtkSmartPointer<SiteIdArray> labels)
+// Its own time, not that of its points.
+std::uint64_t timeOf(vtkPointSet* sites)
 {
-  this->Labels = std::move(labels);
-  this->Sites = sites;
-  this->Time = sites->GetMTime();
-  this->Frame = frame;
-  this->Options = options;
+  return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+}
+
+} // namespace
+
+bool SiteLabels::IsFor(
+  vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const
+{
+  return this->Labels && this->Frame == frame && this->Options == options &&
+    this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+}
+
+bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, HostMonitor& host)
+{
+  return this->Stamp.Renew(keyOf(sites), timeOf(sites),
+    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
 }
 
 template <int D>
