@@ -147,7 +147,7 @@ need_meshes()
   )
 }
 
-# configure_and_build FOLDER CMAKE-ARGUMENT...
+# configure_and_build FOLDER CMAKE-ARGUMENT...: all, or the `target` that is set for the call.
 configure_and_build()
 {
   local folder="$1" steps
@@ -160,13 +160,14 @@ configure_and_build()
   rm -f "$folder/configure.log" "$folder/build.log"
   logged "$folder/configure.log" cmake -S "$root" -B "$folder" -G Ninja \
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
-  steps="$(cmake --build "$folder" -- -n | grep -c '^\[' || true)"
+  steps="$(cmake --build "$folder" --target "${target:-all}" -- -n | grep -c '^\[' || true)"
   if [ "$steps" = 0 ]; then
     return 0
   fi
   say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
   echo "What the compiler says is in $folder/build.log"
-  logged "$folder/build.log" cmake --build "$folder" -j "$(nproc)"
+  logged "$folder/build.log" \
+    cmake --build "$folder" --target "${target:-all}" -j "$(nproc)"
 }
 
 # The Release build that the examples and the tests share.

@@ -77,6 +77,10 @@ run_suites()
   done
 }
 
+# Of the core, those that run on several threads.
+parallel_tests="Invariance*:SplatOrder*:SplatMonitor*:Monitor*:Lattice*:Tables*:CellSamples*"
+parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
+
 # run_tests FOLDER CTEST-ARGUMENT...
 run_tests()
 {
@@ -98,17 +102,13 @@ run_asan()
 run_tsan()
 {
   local folder="$root/build-tsan" archer
-  local tests="Invariance*:SplatOrder*:SplatMonitor*:Monitor*:Lattice*:Tables*:CellSamples*"
-  tests="$tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*"
-  need clang libomp-dev && mkdir -p "$folder" || return 1
+  need clang libomp-dev || return 1
   archer="$(dirname "$(readlink -f "$(command -v clang)")")/../lib/libarcher.so"
-  cmake -S "$root" -B "$folder" -G Ninja --preset tsan -DPython3_EXECUTABLE=/usr/bin/python3 \
-    > "$folder/configure.log" && cmake --build "$folder" -j "$(nproc)" \
-    --target RectifiedTransportCoreTests || return 1
+  target=RectifiedTransportCoreTests configure_and_build "$folder" --preset tsan || return 1
   say "Tests of $folder"
   OMP_NUM_THREADS=3 OMP_TOOL_LIBRARIES="$archer" \
     TSAN_OPTIONS="ignore_noninstrumented_modules=1 allocator_may_return_null=1 halt_on_error=1" \
-    "$folder/bin/RectifiedTransportCoreTests" --gtest_brief=1 --gtest_filter="$tests"
+    "$folder/bin/RectifiedTransportCoreTests" --gtest_brief=1 --gtest_filter="$parallel_tests"
 }
 
 # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.
