@@ -139,7 +139,7 @@ void drawMorph(Settings& settings)
   Dice& dice = settings.GetDice();
   if (dice.Chance(0.15))
   {
-    const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity });
+    const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity, NaN });
     settings.Add("Time", textOf(time), [=](vtkAlgorithm* filter) {
       for (int port = 0; port < 2; ++port)
       {
@@ -160,13 +160,28 @@ Inputs feedMorph(Dice& dice, Settings& settings)
   return inputs;
 }
 
+bool hasTime(Morph* morph)
+{
+  return morph->GetPublishTime() &&
+    morph->GetOutputInformation(0)->Has(Pipeline::UPDATE_TIME_STEP());
+}
+
+double timeOf(Morph* morph)
+{
+  return morph->GetOutputInformation(0)->Get(Pipeline::UPDATE_TIME_STEP());
+}
+
+State expectMorph(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  auto* morph = Morph::SafeDownCast(filter);
+  const bool none = hasTime(morph) && std::isnan(timeOf(morph));
+  return worse(expectBlend(filter, inputs), none ? State::Faulty : State::Sound);
+}
+
 void checkMorph(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
 {
   auto* morph = Morph::SafeDownCast(filter);
-  vtkInformation* asked = morph->GetOutputInformation(0);
-  const bool byTime = morph->GetPublishTime() && asked->Has(Pipeline::UPDATE_TIME_STEP());
-  const double t =
-    byTime ? std::clamp(asked->Get(Pipeline::UPDATE_TIME_STEP()), 0.0, 1.0) : morph->GetParameter();
+  const double t = hasTime(morph) ? std::clamp(timeOf(morph), 0.0, 1.0) : morph->GetParameter();
   checkBlend(filter, inputs, { 1.0 - t, t }, findings);
   vtkPolyData* particles = morph->GetParticles();
   for (const char* name : { "SourcePosition", "TargetPosition" })
@@ -239,6 +254,15 @@ Inputs feedBarycenter(Dice& dice, Settings& settings)
   }
   settings.Add("Weights", std::to_string(weights.size()) + " of them",
     [weights](vtkAlgorithm* filter) { setWeights(filter, weights); });
+  if (dice.Chance(0.02))
+  {
+    settings.Add("Weights", "none, after ones that are refused", [](vtkAlgorithm* filter) {
+      auto* barycenter = Barycenter::SafeDownCast(filter);
+      barycenter->SetNumberOfWeights(std::numeric_limits<int>::max());
+      barycenter->SetWeight(std::numeric_limits<int>::max(), 1.0);
+      barycenter->SetNumberOfWeights(0);
+    });
+  }
   drawDimensions(dice, settings, inputs);
   return inputs;
 }
@@ -262,7 +286,7 @@ void checkBarycenter(vtkAlgorithm* filter, const Inputs& inputs, Findings& findi
 
 void addBlendKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Morph", make<Morph>, drawMorph, feedMorph, expectBlend, checkMorph });
+  kinds.push_back({ "Morph", make<Morph>, drawMorph, feedMorph, expectMorph, checkMorph });
   kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, feedBarycenter, expectBarycenter,
     checkBarycenter });
 }

@@ -18,18 +18,9 @@ struct KnownDefect
 inline bool isKnown(const std::string& filter, const std::string& finding)
 {
   static const KnownDefect defects[] = {
-    // Squares of lengths past the largest double.
-    { "Sampler", "TransportCost of", "inf" },
-    { "Map", "TransportCost of", "inf" },
-    // Mass over a cell's measure past the largest double.
-    { "Morph", "Density of", "inf" },
-    { "Barycenter", "Density of", "inf" },
     // The extent of a structured grid that was asked for before a failure outlives it.
     { "Warp", "something else said", "vtkStreamingDemandDrivenPipeline" },
     { "Warp", "something else said", "vtkTrivialProducer" },
-    // The copying of maps that are kept begins the stage anew.
-    { "Morph", "progress", "after" },
-    { "Barycenter", "progress", "after" },
   };
   for (const KnownDefect& defect : defects)
   {

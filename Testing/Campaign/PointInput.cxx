@@ -170,7 +170,15 @@ void changeInPlace(Dice& dice, Input& input)
   {
     const vtkIdType i = dice.Whole(0, array->GetNumberOfTuples() - 1);
     array->SetComponent(i, 0, dice.Chance(0.95) ? static_cast<double>(dice.Whole(0, 1)) : -1.0);
-    array->Modified();
+    // Who writes in place may say so of the array or of the data set.
+    if (dice.Chance(0.5))
+    {
+      array->Modified();
+    }
+    else
+    {
+      input.Data->Modified();
+    }
   }
 }
 
