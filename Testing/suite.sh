@@ -42,7 +42,7 @@ make_system()
   rm -rf "$folder" "$log"
   mkdir -p "$folder"
   logged "$log" debootstrap --variant=minbase "$suite" "$folder" "$(mirror)"
-  # Nobody mourns a system that a crash of the machine breaks: no waiting for the disk.
+  # If the machine crashes the system is made anew: dpkg need not wait for the disk.
   echo force-unsafe-io > "$folder/etc/dpkg/dpkg.cfg.d/unsafe-io"
   touch "$folder.complete"
 }
