@@ -16,7 +16,7 @@ if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
 endif ()
 
 set(vtk_components CommonCore CommonDataModel CommonExecutionModel FiltersCore)
-set(vtk_optional WrappingPythonCore WrappingTools)
+set(vtk_optional ParallelMPI WrappingPythonCore WrappingTools)
 if (RectifiedTransport_BUILD_TESTING)
   list(APPEND vtk_components
     FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)

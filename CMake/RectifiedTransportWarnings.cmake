@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # The warnings that hold for hand-written sources; what VTK's wrappers generate is not ours. Further
-# arguments are flags for GCC and Clang.
+# arguments are flags, too. Clang's -Wconversion warns of signs, GCC's does not.
 function (rectified_transport_warnings target)
   set(flags -Wall -Wextra -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual ${ARGN})
   target_compile_options("${target}" PRIVATE
-    "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:${flags}>"
-    "$<$<COMPILE_LANG_AND_ID:CXX,MSVC>:/W4>")
+    "$<$<COMPILE_LANGUAGE:CXX>:${flags}>"
+    "$<$<COMPILE_LANG_AND_ID:CXX,Clang,AppleClang,IntelLLVM>:-Wno-sign-conversion>")
 endfunction ()

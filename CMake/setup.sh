@@ -3,11 +3,12 @@
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="$root/build"
-packages_build="cmake ninja-build g++ paraview-dev python3-paraview libopenmpi-dev"
+apt_log="$build/apt.log"
+packages_build="cmake ninja-build g++ paraview-dev python3-paraview python3-dev libopenmpi-dev"
 packages_render="xvfb xauth"
 packages_test="libgtest-dev libbenchmark-dev python3-scipy"
 packages_gui="libqt5svg5 imagemagick xdotool"
-packages_vtk91="libtbb-dev"
+packages_vtk="libtbb-dev"
 
 say()
 {
@@ -26,6 +27,55 @@ as_root()
   fi
 }
 
+# logged LOG COMMAND...: what the command says goes to the log; if it fails, the log's end is shown.
+logged()
+{
+  local log="$1"
+  shift
+  mkdir -p "$(dirname "$log")"
+  if ! "$@" >> "$log" 2>&1 < /dev/null; then
+    printf 'Failed: %s\nThe end of %s:\n' "$*" "$log" >&2
+    tail -n 40 "$log" >&2
+    return 1
+  fi
+}
+
+apt_get()
+{
+  as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
+    apt-get -o DPkg::Lock::Timeout=300 "$@"
+}
+
+# What apt says that an installation will fetch and take, and about how many minutes that is: with
+# libraries of ParaView's size 150 MB a minute were fetched and unpacked.
+announce_installation()
+{
+  local bytes
+  bytes="$(apt_get install -qq --print-uris --no-install-recommends "$@" |
+    awk '{ sum += $3 } END { printf "%.0f", sum }')"
+  apt_get install --assume-no --no-install-recommends "$@" 2> /dev/null |
+    grep -E '^(Need to get|After this operation)' || true
+  echo "That is about $((1 + bytes / 150000000)) min. What apt says is in $apt_log"
+}
+
+# From Debian 13 on ParaView's CMake files name Python modules X.so where X.cpython-….so is installed,
+# and stop for it. Links, where that is so.
+link_python_modules()
+{
+  local name plain files links=()
+  while read -r name; do
+    plain="/usr/lib/python3/${name%.so}"
+    files=("$plain".cpython-*.so)
+    if [ ! -e "$plain.so" ] && [ -e "${files[0]}" ]; then
+      links+=("${files[0]}" "$plain.so")
+    fi
+  done < <(grep -rhoE 'dist-packages/[^"]*\.so' /usr/lib/*/cmake/paraview-* 2> /dev/null | sort -u)
+  if [ ${#links[@]} -gt 0 ]; then
+    say "Linking $((${#links[@]} / 2)) Python modules to the names that ParaView's CMake files have"
+    printf '%s\0' "${links[@]}" | as_root xargs -0 -n 2 ln -sfr
+  fi
+}
+
 # Installs those of the named packages that are missing; quick and without the network if none is.
 need()
 {
@@ -40,16 +90,40 @@ need()
     fi
   done
   if [ -z "$missing" ]; then
-    return 0
+    link_python_modules
+    return
   fi
   say "Installing by apt:$missing"
-  local wait="-o DPkg::Lock::Timeout=300"
   # An interrupted installation leaves packages unpacked that nothing can be installed beside.
-  as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get $wait update -q
+  logged "$apt_log" as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a || return 1
+  logged "$apt_log" apt_get update -q || return 1
   # shellcheck disable=SC2086
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get $wait install -qy --no-install-recommends \
-    $missing < /dev/null
+  announce_installation $missing
+  # shellcheck disable=SC2086
+  logged "$apt_log" apt_get install -qy --no-install-recommends $missing || return 1
+  link_python_modules
+}
+
+# What both commands build with, and other packages.
+need_to_build()
+{
+  need $packages_build "$@"
+  # ParaView with a VTK of its own brings that one's headers; Debian's ParaView 6 is made with
+  # libvtk9, and paraview-dev does not ask for its headers.
+  local files
+  if files="$(dpkg -L paraview-dev 2> /dev/null)" && [[ "$files" != */vtk-config.cmake* ]]; then
+    need libvtk9-dev
+  fi
+}
+
+# download PACKAGE...: into the current folder, which apt's own user must be able to write to.
+download()
+{
+  # Without package lists there is nothing to download from.
+  logged "$apt_log" apt-get download "$@" 2> /dev/null || {
+    logged "$apt_log" apt_get update -q
+    logged "$apt_log" apt-get download "$@"
+  }
 }
 
 # Unpacks the meshes of libcgal-demo (24 MB), without the packages that it depends on, into
@@ -60,16 +134,12 @@ need_meshes()
   if [ -f "$folder/complete" ]; then
     return 0
   fi
-  say "Fetching meshes (libcgal-demo)"
+  say "Fetching meshes (libcgal-demo, 24 MB)"
   rm -rf "$folder"
   mkdir -p "$folder" && chmod 777 "$folder"
   (
     cd "$folder"
-    # Without package lists there is nothing to download from.
-    apt-get download libcgal-demo || {
-      as_root apt-get -o DPkg::Lock::Timeout=300 update -q
-      apt-get download libcgal-demo
-    }
+    download libcgal-demo
     dpkg --fsys-tarfile libcgal-demo_*.deb | tar -xO --wildcards '*/data.tar.gz' |
       tar -xz --strip-components=2 data/meshes
     rm libcgal-demo_*.deb
@@ -77,24 +147,29 @@ need_meshes()
   )
 }
 
-# configure_and_build FOLDER CMAKE-ARGUMENT...
+# configure_and_build FOLDER CMAKE-ARGUMENT...: all, or the `target` that is set for the call.
 configure_and_build()
 {
-  local folder="$1"
+  local folder="$1" steps
   shift
   # A copied or moved clone brings a cache that names the place it was made for.
   if [ -f "$folder/CMakeCache.txt" ] &&
     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
-    rm -rf "$folder"
+    find "$folder" -mindepth 1 -maxdepth 1 ! -name '*.log' -exec rm -rf {} +
   fi
-  mkdir -p "$folder"
-  say "Building in $folder (the first time takes minutes)"
-  if ! cmake -S "$root" -B "$folder" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 "$@" \
-    > "$folder/configure.log" 2>&1; then
-    tail -n 40 "$folder/configure.log" >&2
-    return 1
+  rm -f "$folder/configure.log" "$folder/build.log"
+  logged "$folder/configure.log" cmake -S "$root" -B "$folder" -G Ninja \
+    -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
+  # In a file of its own: of build.ninja itself a dry run tells no more than that CMake may run again.
+  echo 'include build.ninja' > "$folder/count.ninja"
+  steps="$(cmake --build "$folder" --target "${target:-all}" -- -f count.ninja -n |
+    grep -c '^\[' || true)"
+  if [ "$steps" != 0 ]; then
+    say "Building in $folder: $steps steps, about $((1 + steps * 2 / 60 / $(nproc))) min"
+    echo "What the compiler says is in $folder/build.log"
   fi
-  cmake --build "$folder" -j "$(nproc)"
+  logged "$folder/build.log" \
+    cmake --build "$folder" --target "${target:-all}" -j "$(nproc)"
 }
 
 # The Release build that the examples and the tests share.
@@ -112,5 +187,5 @@ build_release()
 # Runs a command on a virtual display: the same pictures with and without a screen.
 with_display()
 {
-  xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" "$@"
+  xvfb-run -a -n "${first_display:-99}" -s "-screen 0 1600x1200x24 -noreset" "$@"
 }

@@ -9,7 +9,7 @@ if [ $# -gt 0 ]; then
   exit
 fi
 
-need $packages_build $packages_render
+need_to_build $packages_render
 need_meshes
 build_release
 

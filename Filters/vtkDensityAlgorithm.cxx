@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/DefaultArray.h"
 #include "Bridge/DensityImage.h"
 #include "Bridge/InputBlock.h"
 #include "Bridge/PropertyCheck.h"
@@ -37,33 +38,11 @@ std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
   return list.empty() ? std::string("no ") + owner + " arrays" : list + " (" + owner + ")";
 }
 
-// What is meant where no name is given, as by a host that has not seen the data yet: the active
-// scalars of the points, else of the cells, else the only array that there is.
-vtkDataArray* defaultArray(vtkImageData* image, int& association)
+bool isAssociation(int association)
 {
-  vtkDataArray* only = nullptr;
-  int count = 0;
-  for (const int owner :
-    { vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataObject::FIELD_ASSOCIATION_CELLS })
-  {
-    vtkDataSetAttributes* attributes = image->GetAttributes(owner);
-    if (vtkDataArray* scalars = attributes->GetScalars())
-    {
-      association = owner;
-      return scalars;
-    }
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      vtkDataArray* array = attributes->GetArray(i);
-      if (array && array != attributes->GetArray(vtkDataSetAttributes::GhostArrayName()))
-      {
-        association = owner;
-        only = array;
-        ++count;
-      }
-    }
-  }
-  return count == 1 ? only : nullptr;
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 }
 } // namespace
 
@@ -107,9 +86,7 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   }
   vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
   int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS &&
-    association != vtkDataObject::FIELD_ASSOCIATION_CELLS &&
-    association != vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
+  if (!isAssociation(association))
   {
     throw RectifiedTransport::Failure("The field association of the density array is " +
       std::to_string(association) + "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
@@ -140,9 +117,13 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
 {
   vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
   association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (!isAssociation(association))
+  {
+    return nullptr; // VTK would say so too
+  }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
-  return chosen || (name && *name) ? chosen : defaultArray(image, association);
+  return chosen || (name && *name) ? chosen : RectifiedTransport::defaultArray(image, association);
 }
 
 //------------------------------------------------------------------------------
@@ -157,12 +138,9 @@ bool vtkDensityAlgorithm::IsDensityOnPoints(vtkInformation* inputInformation, in
   }
   if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
   {
-    const auto hasScalars = [inputInformation](int owner) {
-      return vtkDataObject::GetActiveFieldInformation(
-               inputInformation, owner, vtkDataSetAttributes::SCALARS) != nullptr;
-    };
-    return hasScalars(vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
-      !hasScalars(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+    using RectifiedTransport::announcesScalars;
+    return announcesScalars(inputInformation, vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
+      !announcesScalars(inputInformation, vtkDataObject::FIELD_ASSOCIATION_CELLS);
   }
   return association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
 }

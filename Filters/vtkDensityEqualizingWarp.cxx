@@ -253,11 +253,9 @@ int vtkDensityEqualizingWarp::RequestDataObject(
 
 //------------------------------------------------------------------------------
 // Where a point goes depends on that point alone: the pieces that are asked for will do.
-int vtkDensityEqualizingWarp::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+bool vtkDensityEqualizingWarp::NeedsWhole(int port)
 {
-  vtkGuardedAlgorithm::RequestWhole(inputVector[1]);
-  return 1;
+  return port == 1;
 }
 
 //------------------------------------------------------------------------------

@@ -3,11 +3,13 @@
 
 #include "Bridge/CellFigures.h"
 #include "Bridge/CellOutlines.h"
+#include "Bridge/DefaultArray.h"
 #include "Bridge/Failure.h"
 #include "Bridge/FieldValue.h"
 #include "Bridge/FlowSettings.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ImageFrame.h"
+#include "Bridge/InputBlock.h"
 #include "Bridge/PointInput.h"
 #include "Bridge/PropertyCheck.h"
 #include "Bridge/SiteLabels.h"
@@ -58,14 +60,9 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
 {
   run.Host.BeginStage(0.01);
   const SiteGrid<D> sites(run.Input, geometry, run.Threads, run.Host);
-  vtkPoints* points = run.Input->GetPoints();
-  if (!run.Labels.IsFor(points, run.Frame, run.Options))
-  {
-    run.Labels.Release();
-    run.Labels.Keep(
-      points, run.Frame, run.Options, sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95));
-  }
-  SiteIdArray* labels = run.Labels.Array();
+  run.Host.BeginStage(0.02);
+  SiteIdArray* labels = run.Labels.Update(run.Input, run.Frame, run.Options, run.Threads, run.Host,
+    [&]() { return sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95); });
   output.Labels->GetCellData()->SetScalars(labels);
   run.Host.BeginStage(0.98);
   const double cost = writeCellFigures<D>(run.Input, sites.Pixels(), geometry, labels, run.Norm,
@@ -75,6 +72,13 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
   run.Host.BeginStage(1.0);
   outlineCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
   return sites.NumberOutside();
+}
+
+// The box of a domain, as of a density: with values on its points that of their dual cells.
+ImageFrame frameOf(vtkImageData* domain)
+{
+  const ImageFrame frame(domain);
+  return hasPointValues(domain) ? frame.WithDualCells() : frame;
 }
 
 // The input's points in double precision.
@@ -204,7 +208,7 @@ ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
 {
   constexpr double margin = 0.05; // on each side
   double bounds[6];
-  sites->GetPoints()->GetBounds(bounds); // a data set may count only points that cells use
+  findBounds(sites, bounds);
   for (int a = 0; a < 3; ++a)
   {
     const double length = bounds[2 * a + 1] - bounds[2 * a];
@@ -221,23 +225,21 @@ int vtkEqualMassCells::RequestInformation(
   ImageFrame box;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    box = ImageFrame(inputVector[1]->GetInformationObject(0));
+    // Whether values are on points is not always announced, or not so.
+    this->UpdateInputBeforeData(1, inputVector, outputVector);
+    vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
+    box = domain && domain->GetNumberOfPoints() > 0
+      ? frameOf(domain)
+      : ImageFrame(inputVector[1]->GetInformationObject(0));
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);
   }
-  try
-  {
-    box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
-  }
-  catch (const Failure&)
-  {
-    box = ImageFrame(); // RequestData says it, once
-  }
+  box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
   box.Publish(outputVector->GetInformationObject(0));
   return 1;
 }
@@ -261,7 +263,8 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
+  auto* domain = requireBlock<vtkImageData>(
+    vtkDataObject::GetData(inputVector[1]), "The Domain", "a vtkImageData");
   if (!input || input->GetNumberOfPoints() == 0 || (domain && domain->GetNumberOfPoints() == 0))
   {
     return 1;
@@ -272,7 +275,7 @@ int vtkEqualMassCells::RequestData(
     // Of such points there are no bounds.
     visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
   }
-  const ImageFrame box = domain ? ImageFrame(domain) : this->FrameAround(input);
+  const ImageFrame box = domain ? frameOf(domain) : this->FrameAround(input);
   if (box.HasOnePoint())
   {
     throw Failure(domain
@@ -285,6 +288,10 @@ int vtkEqualMassCells::RequestData(
 
   const CellsOutput output{ vtkImageData::GetData(outputVector, 0),
     vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
+  if (!this->Internals->Labels.IsFor(input, frame, options))
+  {
+    SiteLabels::RequireMemory(frame);
+  }
   frame.CopyTo(output.Labels);
   frame.Publish(labelInformation); // without a Domain it is not known before the data
   output.Sites->CopyStructure(input);

@@ -12,8 +12,10 @@
  * that is an upper bound on the optimal one.
  *
  * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain, a vtkImageData of which
- * only the box counts (its bounds in its own axes; arrays are not read). Without it the domain is
- * the bounds of the sites, a tenth longer, about their centre. Sides of no length are no axes:
+ * only the box counts: its bounds in its own axes, and where its values (the active scalars, those
+ * of points first, else any array of the points) are on points half a spacing more on each side, as
+ * of a density. Without it the domain is the bounds of the sites, a tenth longer, about their
+ * centre. Sides of no length are no axes:
  * domains are 1D, 2D or 3D. The uniform measure has the density 1, so that masses are lengths,
  * areas or volumes.
  *

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGuardedAlgorithm.h"
 
+#include "Bridge/Failure.h"
 #include "Bridge/GuardedRun.h"
+#include "Bridge/ImageFrame.h"
+#include "Bridge/WholeInput.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -14,6 +17,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -100,6 +104,14 @@ void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  return RectifiedTransport::runGuarded(
+    this, outputVector, [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::AnswerRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
     return this->RequestDataObject(request, inputVector, outputVector);
@@ -108,7 +120,11 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   {
     publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
     forgetArrays(outputVector);
-    return this->RequestInformation(request, inputVector, outputVector);
+    return this->Inform(request, inputVector, outputVector);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
+  {
+    return this->InformOfTime(request, inputVector, outputVector);
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
@@ -117,10 +133,47 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     emptyImages(outputVector);
-    return RectifiedTransport::runGuarded(
-      this, outputVector, [&]() { return this->RequestData(request, inputVector, outputVector); });
+    this->RequireWhole(request, inputVector, outputVector);
+    const int result = this->RequestData(request, inputVector, outputVector);
+    return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
   }
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::Inform(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  try
+  {
+    return this->RequestInformation(request, inputVector, outputVector);
+  }
+  catch (const RectifiedTransport::Failure&)
+  {
+    RectifiedTransport::withdrawExtents(outputVector); // RequestData says it, once
+    return 1;
+  }
+}
+
+//------------------------------------------------------------------------------
+// The inputs' times are those that were asked for, which they were not in RequestInformation.
+int vtkGuardedAlgorithm::InformOfTime(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->Updated)
+  {
+    return 1;
+  }
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  const RectifiedTransport::ImageFrame before(output);
+  this->Updated = nullptr;
+  const int result = this->Inform(request, inputVector, outputVector);
+  if (result && !(RectifiedTransport::ImageFrame(output) == before))
+  {
+    this->Modified();
+    RectifiedTransport::renewConsumers(output);
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -157,8 +210,15 @@ int vtkGuardedAlgorithm::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::UpdateInputBeforeData(int port)
+void vtkGuardedAlgorithm::UpdateInputBeforeData(
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* input = inputVector[port]->GetInformationObject(0);
+  if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
+  {
+    outputVector->GetInformationObject(0)->Set(Pipeline::TIME_DEPENDENT_INFORMATION(), 1);
+  }
   int outputPort = 0;
   vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort);
   auto* pipeline =
@@ -187,9 +247,72 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+    if (this->NeedsWhole(port))
+    {
+      vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+    }
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGuardedAlgorithm::NeedsWhole(int)
+{
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::RequireWhole(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using RectifiedTransport::RankAgreement;
+  std::vector<std::vector<vtkDataObject*>> inputs(
+    static_cast<std::size_t>(this->GetNumberOfInputPorts()));
+  vtkMTimeType newest = 0;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    const int connections =
+      this->NeedsWhole(port) ? inputVector[port]->GetNumberOfInformationObjects() : 0;
+    for (int i = 0; i < connections; ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      RectifiedTransport::requireWholeExtent(input, "Input port " + std::to_string(port));
+      if (vtkDataObject* data = vtkDataObject::GetData(input))
+      {
+        newest = std::max({ newest, data->GetMTime(), data->GetUpdateTime() });
+        inputs[static_cast<std::size_t>(port)].push_back(data);
+      }
+    }
+  }
+  if (newest == this->Compared)
+  {
+    return;
+  }
+  const int asked = std::max(0, request->Get(vtkStreamingDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  for (std::size_t port = 0; port < inputs.size(); ++port)
+  {
+    const std::string name = "input port " + std::to_string(port);
+    int rank = 0;
+    const RankAgreement agreement = inputs[port].empty()
+      ? RankAgreement::Same
+      : RectifiedTransport::compareRanks(outputVector->GetInformationObject(asked),
+          this->GetClassName() + name, inputs[port], rank);
+    if (agreement == RankAgreement::Differs)
+    {
+      throw RectifiedTransport::Failure("The data on " + name +
+        " are not the same here and on rank " + std::to_string(rank) +
+        "; what lies on several ranks must be gathered on the first one, or be whole on each "
+        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)");
+    }
+    if (agreement == RankAgreement::NoAnswer)
+    {
+      vtkWarningMacro(<< "Rank " << rank << " has not run this filter for ten seconds; whether the "
+                      << "data on " << name << " lie on several ranks, which would make the result "
+                      << "wrong, is not known");
+      return;
+    }
+  }
+  this->Compared = newest;
 }
 
 //------------------------------------------------------------------------------

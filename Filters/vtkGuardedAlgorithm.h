@@ -3,8 +3,8 @@
  * @class   vtkGuardedAlgorithm
  * @brief   what all filters of the module share as algorithms
  *
- * Passes the executive's requests to virtual methods. What RequestData throws becomes one error of
- * the filter; after an error or an abort all outputs are empty.
+ * Passes the executive's requests to virtual methods. What they throw becomes one error of the
+ * filter; after an error or an abort all outputs are empty, and images announce no extent.
  *
  * @sa vtkDensityAlgorithm vtkEqualMassCells
  */
@@ -55,7 +55,8 @@ protected:
     vtkInformationVector* input, vtkInformationVector* outputVector, int port);
 
   /**
-   * Publish what is known before the data, beside the times of all inputs. By default nothing.
+   * Publish what is known before the data, beside the times of all inputs. By default nothing. What
+   * the user can put right is left to RequestData to say: the images are then announced as empty.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -63,12 +64,21 @@ protected:
   /**
    * Bring what is connected to a port up to date, from RequestInformation: where the extent of an
    * image follows from points, image filters behind it would otherwise get nothing, or read past
-   * the end of an image that is smaller than announced.
+   * the end of an image that is smaller than announced. Where the points change with time,
+   * RequestInformation is called again for the time that a consumer asks for.
    */
-  void UpdateInputBeforeData(int port);
+  void UpdateInputBeforeData(
+    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
-   * Ask for whole images, because a transport is global, and for all points of other inputs.
+   * Whether the filter needs all of an input port: whole images, because a transport is global, and
+   * all points. By default yes; if not, the pieces that are asked for are passed on.
+   */
+  virtual bool NeedsWhole(int port);
+
+  /**
+   * Ask for the whole of the ports that NeedsWhole names. Data that are less all the same, as those
+   * that lie on several ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -92,6 +102,17 @@ protected:
     vtkInformationVector* outputVector) = 0;
 
 private:
+  int AnswerRequest(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  int Inform(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  int InformOfTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  void RequireWhole(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
   int UpdatedPort = 0;
   vtkMTimeType UpdatedTime = 0;

@@ -24,8 +24,6 @@
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -44,19 +42,6 @@ void requireDimensions(const int dimensions[3])
     throw Failure("Dimensions is " + std::to_string(dimensions[0]) + " " +
       std::to_string(dimensions[1]) + " " + std::to_string(dimensions[2]) +
       "; it must be at least 1 along every axis");
-  }
-}
-
-// A cell may hold all the mass.
-void requireFinite(double mass, double measure)
-{
-  if (!std::isfinite(1.0 / measure) || !std::isfinite(mass / measure))
-  {
-    std::ostringstream message;
-    message << "The points' masses of " << mass << " in all make densities past the largest double "
-            << "in cells of " << measure
-            << "; make the masses smaller, the cells larger, or switch DivideByVolume off";
-    throw Failure(message.str());
   }
 }
 } // namespace
@@ -151,7 +136,7 @@ int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
 ImageFrame vtkMassSplatter::CellsAround(vtkPointSet* points)
 {
   double bounds[6];
-  points->GetPoints()->GetBounds(bounds); // a data set may count only points that cells use
+  findBounds(points, bounds);
   const ImageFrame box(bounds);
   const std::array<int, 3> most = box.Values(true);
   int dimensions[3];
@@ -173,19 +158,12 @@ int vtkMassSplatter::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0);
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
-    try
-    {
-      requireDimensions(this->Dimensions);
-      const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
-      const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
-      frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
-    }
-    catch (const Failure&)
-    {
-      frame = ImageFrame(); // RequestData says it, once
-    }
+    requireDimensions(this->Dimensions);
+    const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
+    const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
+    frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
   }
   frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
   return 1;
@@ -264,16 +242,15 @@ int vtkMassSplatter::RequestData(
   }
   cells.CopyTo(output);
   const ImageGeometry geometry(output, reference && onPoints);
-  if (this->DivideByVolume)
-  {
-    requireFinite(masses.TotalSize(), geometry.CellMeasure());
-  }
+  const SplatTarget target{ geometry, options, this->DivideByVolume != 0 };
+  requireFiniteDensity(masses.TotalSize(), target, "The points' masses",
+    this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
+                         : "so that the sum of their sizes is a double");
   const ImageFrame frame = onPoints && !reference ? cells.AtCellCentres() : cells;
   frame.CopyTo(output);
   frame.Publish(information); // without a Reference it is not known before the data
 
   const auto density = newArray<vtkDoubleArray>("Density", 1, geometry.NumberOfCells());
-  const SplatTarget target{ geometry, options, this->DivideByVolume != 0 };
   const double* noPoints = nullptr;
   host.BeginStage(0.95);
   const std::int64_t outside = count > 0

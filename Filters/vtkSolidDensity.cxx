@@ -111,20 +111,13 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->UpdateInputBeforeData(0);
+  this->UpdateInputBeforeData(0, inputVector, outputVector);
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   ImageFrame frame;
-  try
+  if (surface && surface->GetNumberOfPoints() > 0)
   {
-    if (surface && surface->GetNumberOfPoints() > 0)
-    {
-      const SolidGrid grid(polygonBounds(surface), this->Resolution, this->Padding);
-      frame = grid.Frame(this->Association == POINTS);
-    }
-  }
-  catch (const Failure&)
-  {
-    // RequestData says it, once.
+    const SolidGrid grid(polygonBounds(surface), this->Resolution, this->Padding);
+    frame = grid.Frame(this->Association == POINTS);
   }
   frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
   return 1;
@@ -132,7 +125,7 @@ int vtkSolidDensity::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkSolidDensity::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
@@ -141,6 +134,11 @@ int vtkSolidDensity::RequestData(
     FlowSettings::OfThreading(this->Threading).MakeExecutor();
   SolidGrid::RequireRanges(this->Resolution, this->Padding);
 
+  // All is in the first piece, whatever pieces a consumer asks for.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  {
+    return 1;
+  }
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
     "a vtkPolyData, as Extract Surface makes one of it");

@@ -16,6 +16,12 @@
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportBarycenter);
 
+namespace
+{
+// Many more than there are inputs: each takes memory when it is set, before anything is checked.
+constexpr int mostWeights = 1000000;
+} // namespace
+
 struct vtkTransportBarycenter::vtkWeights
 {
   std::vector<double> List;
@@ -34,9 +40,10 @@ vtkTransportBarycenter::~vtkTransportBarycenter() = default;
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetNumberOfWeights(int count)
 {
-  if (count < 0)
+  if (count < 0 || count > mostWeights)
   {
-    vtkErrorMacro(<< "The number of weights is " << count << "; it must be at least 0");
+    vtkErrorMacro(<< "The number of weights is " << count << "; it must be from 0 to "
+                  << mostWeights);
     return;
   }
   if (count != this->GetNumberOfWeights())
@@ -55,9 +62,10 @@ int vtkTransportBarycenter::GetNumberOfWeights()
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetWeight(int index, double weight)
 {
-  if (index < 0)
+  if (index < 0 || index >= mostWeights)
   {
-    vtkErrorMacro(<< "The index of a weight is " << index << "; it must be at least 0");
+    vtkErrorMacro(<< "The index of a weight is " << index << "; it must be from 0 to "
+                  << mostWeights - 1);
     return;
   }
   this->SetNumberOfWeights(std::max(index + 1, this->GetNumberOfWeights()));

@@ -37,7 +37,7 @@ public:
   /**
    * The weights of the inputs, in their order: one for each, none negative, with a sum above 0, by
    * which they are divided. Without any (default) all inputs weigh the same. SetWeight makes the
-   * list as long as it needs to be, with 0 for what has not been given.
+   * list as long as it needs to be, with 0 for what has not been given; it has 1000000 at most.
    */
   void SetNumberOfWeights(int count);
   int GetNumberOfWeights();

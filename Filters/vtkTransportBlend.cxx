@@ -190,15 +190,8 @@ int vtkTransportBlend::RequestInformation(
   {
     return 1;
   }
-  try
-  {
-    commonFrame(parts, this->Dimensions)
-      .PublishDensity(outputVector->GetInformationObject(0), parts.front().OnPoints);
-  }
-  catch (const Failure&)
-  {
-    return 1; // RequestData says it, once
-  }
+  commonFrame(parts, this->Dimensions)
+    .PublishDensity(outputVector->GetInformationObject(0), parts.front().OnPoints);
   return 1;
 }
 

@@ -10,6 +10,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -168,7 +169,9 @@ int vtkTransportInterpolator::RequestData(
   vtkInformation* asked = outputVector->GetInformationObject(port);
   if (asked->Has(Pipeline::UPDATE_TIME_STEP()))
   {
-    this->RunParameter = std::clamp(asked->Get(Pipeline::UPDATE_TIME_STEP()), 0.0, 1.0);
+    const double time = asked->Get(Pipeline::UPDATE_TIME_STEP());
+    requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
+    this->RunParameter = std::clamp(time, 0.0, 1.0);
   }
   const int result = this->Superclass::RequestData(request, inputVector, outputVector);
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)

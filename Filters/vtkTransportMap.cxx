@@ -40,7 +40,9 @@ struct MapRun
   FlowCache& Cache;
   FlowOptions Options;
   bool Backward;
-  std::array<int, 3> Values; // along the image's axes, 1 where there is none
+  vtkImageData* Input;
+  const ImageFrame& Frame;
+  vtkImageData* Output;
 };
 
 struct MapResult
@@ -88,15 +90,28 @@ GridSize<D> latticeOf(const std::array<int, 3>& values, vtkImageData* input)
   return lattice;
 }
 
-template <int D>
-MapResult makeMap(const MapRun& run, vtkImageData* input, vtkDataSetAttributes* output)
+// The output without its map.
+void shapeOutput(const MapRun& run)
 {
-  const GridSize<D> lattice = latticeOf<D>(run.Values, input);
+  run.Frame.CopyTo(run.Output);
+  if (run.Frame.HasExtentOf(ImageFrame(run.Input)))
+  {
+    run.Output->GetPointData()->PassData(run.Input->GetPointData());
+    run.Output->GetCellData()->PassData(run.Input->GetCellData());
+  }
+}
+
+template <int D>
+MapResult makeMap(const MapRun& run)
+{
+  const bool onPoints = run.Density.IsOnPoints();
+  const GridSize<D> lattice = latticeOf<D>(run.Frame.Values(onPoints), run.Input);
   const std::string purpose =
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)";
   const double samples = numberOfCells<D>(lattice);
   const MapStages stages = planStages(run, samples);
   MapField<D> field(run.Density.Geometry(), lattice, purpose);
+  shapeOutput(run);
 
   run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
   run.Host.BeginStage(stages.Flow);
@@ -109,8 +124,10 @@ MapResult makeMap(const MapRun& run, vtkImageData* input, vtkDataSetAttributes* 
   {
     throw Aborted();
   }
+  vtkDataSetAttributes* attributes =
+    run.Output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
   const double cost =
-    field.Write(run.Backward ? &flow : nullptr, run.Threads, run.Host, 1.0, output);
+    field.Write(run.Backward ? &flow : nullptr, run.Threads, run.Host, 1.0, attributes);
   return { cost, field.Count(), report.MovedToMass };
 }
 } // namespace
@@ -165,26 +182,19 @@ int vtkTransportMap::RequestInformation(
   {
     return 1;
   }
-  try
+  const ImageFrame frame = inputFrame.WithValues(
+    this->SampleDimensions, this->IsDensityOnPoints(inputInformation), "SampleDimensions");
+  frame.Publish(outputInformation);
+  if (frame.HasExtentOf(inputFrame))
   {
-    const ImageFrame frame = inputFrame.WithValues(
-      this->SampleDimensions, this->IsDensityOnPoints(inputInformation), "SampleDimensions");
-    frame.Publish(outputInformation);
-    if (frame.HasExtentOf(inputFrame))
+    // The input's scalars are passed on.
+    for (auto* key : { vtkDataObject::POINT_DATA_VECTOR(), vtkDataObject::CELL_DATA_VECTOR() })
     {
-      // The input's scalars are passed on.
-      for (auto* key : { vtkDataObject::POINT_DATA_VECTOR(), vtkDataObject::CELL_DATA_VECTOR() })
+      if (inputInformation->Has(key))
       {
-        if (inputInformation->Has(key))
-        {
-          outputInformation->CopyEntry(inputInformation, key, 1);
-        }
+        outputInformation->CopyEntry(inputInformation, key, 1);
       }
     }
-  }
-  catch (const Failure&)
-  {
-    return 1; // RequestData says it, once
   }
   return 1;
 }
@@ -209,28 +219,18 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const bool onPoints = density->IsOnPoints();
-  const ImageFrame inputFrame(input);
   const ImageFrame frame =
-    inputFrame.WithValues(this->SampleDimensions, onPoints, "SampleDimensions");
+    ImageFrame(input).WithValues(this->SampleDimensions, density->IsOnPoints(), "SampleDimensions");
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  frame.CopyTo(output);
   frame.Publish(outputInformation); // which array it is, is not always known before the data
-  if (frame.HasExtentOf(inputFrame))
-  {
-    output->GetPointData()->PassData(input->GetPointData());
-    output->GetCellData()->PassData(input->GetCellData());
-  }
-  vtkDataSetAttributes* attributes =
-    output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
 
   HostMonitor host(this);
   const MapRun run{ host, *executor, *density, this->GetFlowCache(), options,
-    this->Direction == DENSITY_TO_UNIFORM, frame.Values(onPoints) };
+    this->Direction == DENSITY_TO_UNIFORM, input, frame, output };
   const int dimension = density->Geometry().Dimension();
-  const MapResult result = dimension == 1 ? makeMap<1>(run, input, attributes)
-    : dimension == 2                      ? makeMap<2>(run, input, attributes)
-                                          : makeMap<3>(run, input, attributes);
+  const MapResult result = dimension == 1 ? makeMap<1>(run)
+    : dimension == 2                      ? makeMap<2>(run)
+                                          : makeMap<3>(run);
   addFieldValue(output, "TotalMass", run.Cache.TotalMass());
   addFieldValue(output, "TransportCost", result.Cost);
   if (result.MovedToMass > 0)

@@ -3,6 +3,7 @@
 
 #include "Bridge/DensityImage.h"
 #include "Bridge/FlowCache.h"
+#include "Bridge/GhostFlags.h"
 #include "Bridge/HostMonitor.h"
 #include "Bridge/ParticleQuality.h"
 #include "Bridge/PointInput.h"
@@ -108,10 +109,15 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
+  const CountedPoints counted(particles, "input point set");
+  if (counted.Count() == 0)
+  {
+    return 1;
+  }
   const auto executor = makeExecutor(Threading::Auto);
   HostMonitor host(this);
-  const ParticleQuality quality =
-    measureQuality(particles, *density, this->BlockSize, this->Internals->Cache, *executor, host);
+  const ParticleQuality quality = measureQuality(
+    particles, counted, *density, this->BlockSize, this->Internals->Cache, *executor, host);
 
   vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));

@@ -5,7 +5,8 @@
  *
  * Input 0 is the particles, any vtkPointSet, input 1 the density, a vtkImageData (see
  * vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). Particles weigh by their
- * point array `Mass` if they have it, else equally; weights count as shares of their sum.
+ * point array `Mass` if they have it, else equally; weights count as shares of their sum. Points
+ * that the ghost array marks as duplicate or hidden count neither as particles nor as neighbours.
  *
  * The output is a vtkTable of one row with the columns
  * - `Particles`, their number, and `TotalMass`, the density times cell measure, summed;
@@ -29,7 +30,7 @@
  *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
  *   the domain has a neighbour.
  *
- * An input without points gives a table without rows, and so does every piece but the first.
+ * An input without points, or of ghosts alone, gives a table without rows, and so does every piece but the first.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
  * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables

@@ -6,28 +6,80 @@ source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 usage()
 {
   cat << 'TEXT'
-usage: bash Testing/run.sh [--long] [--gui] [--asan] [--vtk91] [--all]
+usage: bash Testing/run.sh [--long] [--gui] [--asan] [--tsan] [--vtk] [--all] [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
-  --vtk91  the tests against a plain VTK 9.1, unpacked into build-vtk91/
+  --tsan   the core's parallel tests under ThreadSanitizer, with Clang's OpenMP, in build-tsan/
+  --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
   --all    all of these
+  --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
+           Debian (trixie, sid) instead of here: a bare system made by debootstrap, which is kept
+           in build-suites/. Needs root or sudo, and up to 6 GB a suite.
 TEXT
 }
 
-long=0 gui=0 asan=0 vtk91=0
-for argument in "$@"; do
-  case "$argument" in
+arguments=() suites=()
+long=0 gui=0 asan=0 tsan=0 vtk=0
+while [ $# -gt 0 ]; do
+  case "$1" in
     --long) long=1 ;;
     --gui) gui=1 ;;
     --asan) asan=1 ;;
-    --vtk91) vtk91=1 ;;
-    --all) long=1 gui=1 asan=1 vtk91=1 ;;
+    --tsan) tsan=1 ;;
+    --vtk) vtk=1 ;;
+    --all) long=1 gui=1 asan=1 tsan=1 vtk=1 ;;
+    --suite)
+      if ! [[ "${2:-}" =~ ^[a-z]+$ ]]; then
+        echo "--suite needs the name of a suite of Debian: trixie or sid" >&2
+        exit 2
+      fi
+      suites+=("$2")
+      shift 2
+      continue
+      ;;
     --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
+  arguments+=("$1")
+  shift
 done
+
+# The files that git tracks, as they are now; without git, all but what is built.
+pack_source()
+{
+  if git -C "$root" rev-parse --verify -q HEAD > /dev/null 2>&1; then
+    (cd "$root" && git ls-files | while read -r file; do [ ! -e "$file" ] || echo "$file"; done |
+      tar --files-from - -cf "$1")
+  else
+    tar -C "$root" --exclude './build*' --exclude './install*' --exclude ./Examples/output -cf "$1" .
+  fi
+}
+
+run_suites()
+{
+  local suite source="$root/build-suites/source.tar" commit
+  if [ "$(id -u)" != 0 ] && ! command -v sudo > /dev/null; then
+    echo "--suite makes a system by debootstrap, for which it needs root or sudo" >&2
+    failed=" --suite"
+    return
+  fi
+  need debootstrap debian-archive-keyring
+  mkdir -p "$root/build-suites"
+  pack_source "$source"
+  commit="$(git -C "$root" describe --always --dirty 2> /dev/null || echo 'no commit')"
+  for suite in "${suites[@]}"; do
+    as_root bash "$root/Testing/suite.sh" "$suite" "$source" "$commit" "${arguments[@]}" || {
+      [ $? != 130 ] || exit 130 # interrupted
+      failed="$failed $suite"
+    }
+  done
+}
+
+# Of the core, those that run on several threads.
+parallel_tests="Invariance*:SplatOrder*:SplatMonitor*:Monitor*:Lattice*:Tables*:CellSamples*"
+parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
 
 # run_tests FOLDER CTEST-ARGUMENT...
 run_tests()
@@ -45,37 +97,59 @@ run_asan()
     run_tests "$root/build-asan" -LE '^(long|gui|install)$'
 }
 
+# Archer tells the sanitizer what Clang's OpenMP guarantees; without it all is a race. Where one
+# thread does everything there is none: the tests that are left out have no threads.
+run_tsan()
+{
+  local folder="$root/build-tsan" archer
+  need clang libomp-dev || return 1
+  archer="$(dirname "$(readlink -f "$(command -v clang)")")/../lib/libarcher.so"
+  target=RectifiedTransportCoreTests configure_and_build "$folder" --preset tsan || return 1
+  say "Tests of $folder"
+  OMP_NUM_THREADS=3 OMP_TOOL_LIBRARIES="$archer" \
+    TSAN_OPTIONS="ignore_noninstrumented_modules=1 allocator_may_return_null=1 halt_on_error=1" \
+    "$folder/bin/RectifiedTransportCoreTests" --gtest_brief=1 --gtest_filter="$parallel_tests"
+}
+
 # ParaView and libvtk9-dev exclude each other as packages; unpacked they do not meet.
-unpack_vtk91()
+unpack_vtk()
 {
   local prefix="$1" package
   if [ -f "$prefix/complete" ]; then
     return 0
   fi
+  say "Fetching the plain VTK (libvtk9-dev, 40 MB)"
   rm -rf "$prefix"
   mkdir -p "$prefix/debs" && chmod 777 "$prefix/debs" && cd "$prefix/debs" &&
-    apt-get download libvtk9-dev libvtk9.1 libvtk9.1-qt vtk9 python3-vtk9 libvtk9-java || return 1
+    download libvtk9-dev vtk9 python3-vtk9 libvtk9-java \
+      $(apt-cache depends python3-vtk9 | sed -n 's/.*Depends: \(libvtk9\.[0-9a-z.-]*\)$/\1/p') ||
+    return 1
   for package in *.deb; do
     dpkg -x "$package" "$prefix" || return 1
   done
   touch "$prefix/complete"
 }
 
-run_vtk91()
+run_vtk()
 {
-  local folder="$root/build-vtk91" prefix="$root/build-vtk91/prefix" arch
+  local folder="$root/build-vtk" prefix="$root/build-vtk-prefix" arch
   arch="$(gcc -print-multiarch)"
-  need $packages_vtk91 && (unpack_vtk91 "$prefix") &&
+  need $packages_vtk && (unpack_vtk "$prefix") &&
     configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Release \
       -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=OFF \
-      -DVTK_DIR="$prefix/usr/lib/$arch/cmake/vtk-9.1" &&
+      -DVTK_DIR="$(echo "$prefix/usr/lib/$arch/cmake"/vtk-9.*)" &&
     LD_LIBRARY_PATH="$prefix/usr/lib/$arch" PYTHONPATH="$prefix/usr/lib/python3/dist-packages" \
       run_tests "$folder" -LE '^(long|gui)$'
 }
 
 failed=""
 skipped=""
-need $packages_build $packages_render $packages_test
+if [ ${#suites[@]} -gt 0 ]; then
+  run_suites
+  [ -z "$failed" ]
+  exit
+fi
+need_to_build $packages_render $packages_test
 need_meshes
 if [ $long = 0 ]; then
   skipped="$skipped|long"
@@ -88,8 +162,11 @@ fi
 if [ $asan = 1 ]; then
   run_asan || failed="$failed --asan"
 fi
-if [ $vtk91 = 1 ]; then
-  run_vtk91 || failed="$failed --vtk91"
+if [ $tsan = 1 ]; then
+  run_tsan || failed="$failed --tsan"
+fi
+if [ $vtk = 1 ]; then
+  run_vtk || failed="$failed --vtk"
 fi
 build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
 if [ -n "$failed" ]; then

@@ -34,7 +34,8 @@ def flat_view(sources, size, pixels):
     for column, source in enumerate(sources):
         shown = simple.Show(source, view, "UniformGridRepresentation")
         shown.SetRepresentationType("Slice")
-        shown.Position = [1.05 * size * column, 0, 0]
+        place = "Translation" if hasattr(shown, "Translation") else "Position"  # of 5.11
+        setattr(shown, place, [1.05 * size * column, 0, 0])
         simple.ColorBy(shown, ("POINTS", "Density"))
         shown.SetScalarBarVisibility(view, False)
     colours = simple.GetColorTransferFunction("Density")

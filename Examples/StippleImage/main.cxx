@@ -11,6 +11,9 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <cstdlib>
+#include <iostream>
+
 int main(int argc, char* argv[])
 {
   auto reader = vtkSmartPointer<vtkImageReader2>::Take(

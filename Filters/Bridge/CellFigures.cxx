@@ -22,20 +22,22 @@ namespace
 // How many pixels are summed before the host is asked.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
 
-// What is summed over the pixels of a cell; lengths are from the site.
+// What is summed over the pixels of a cell. Their places are sums of halves: exact, however far
+// from the cell its site is.
+template <int D>
 struct CellSum
 {
   double Pixels = 0.0;
-  double Offset[3] = { 0.0, 0.0, 0.0 };
+  double Index[D] = {};
   double Cost = 0.0;
 
   void Add(const CellSum& other)
   {
     this->Pixels += other.Pixels;
     this->Cost += other.Cost;
-    for (int r = 0; r < 3; ++r)
+    for (int a = 0; a < D; ++a)
     {
-      this->Offset[r] += other.Offset[r];
+      this->Index[a] += other.Index[a];
     }
   }
 };
@@ -89,13 +91,14 @@ public:
 
   // The sums of fixed chunks make the result the same for every executor. Their number keeps the
   // memory for them below that of the labels.
-  std::vector<CellSum> Run(const CostNorm& norm, const Executor& executor, HostMonitor& host) const
+  std::vector<CellSum<D>> Run(
+    const CostNorm& norm, const Executor& executor, HostMonitor& host) const
   {
     const auto sites = static_cast<std::int64_t>(this->Sites.size() / 3);
     const auto pixels = static_cast<std::int64_t>(numberOfCells<D>(this->Size));
     const std::int64_t chunks = std::clamp<std::int64_t>(pixels / (16 * sites), 1, 1024);
     const std::int64_t chunk = (pixels + chunks - 1) / chunks;
-    std::vector<std::vector<CellSum>> parts(static_cast<std::size_t>(chunks));
+    std::vector<std::vector<CellSum<D>>> parts(static_cast<std::size_t>(chunks));
     for (auto& part : parts)
     {
       part.resize(static_cast<std::size_t>(sites));
@@ -104,7 +107,7 @@ public:
     host.Run(executor, pixels, chunk, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t begin = first; begin < last; begin += chunk)
       {
-        CellSum* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
+        CellSum<D>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
         const std::int64_t end = std::min(begin + chunk, last);
         // With many sites there are few chunks, and long ones.
         for (std::int64_t slice = begin; slice < end && !host.IsCancelled(); slice += sliceOfPixels)
@@ -121,7 +124,7 @@ public:
         }
       }
     });
-    std::vector<CellSum> all(static_cast<std::size_t>(sites));
+    std::vector<CellSum<D>> all(static_cast<std::size_t>(sites));
     for (const auto& part : parts)
     {
       for (std::size_t i = 0; i < all.size(); ++i)
@@ -134,7 +137,7 @@ public:
 
 private:
   template <class Cost>
-  void Sum(std::int64_t first, std::int64_t last, CellSum* sums, const Cost& cost) const
+  void Sum(std::int64_t first, std::int64_t last, CellSum<D>* sums, const Cost& cost) const
   {
     double index[D];
     std::int64_t rest = first;
@@ -150,11 +153,11 @@ private:
       const std::int64_t label = this->Labels[pixel];
       const double* site = this->Sites.data() + 3 * label;
       const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
-      CellSum& sum = sums[label];
+      CellSum<D>& sum = sums[label];
       sum.Pixels += 1.0;
-      for (int r = 0; r < 3; ++r)
+      for (int a = 0; a < D; ++a)
       {
-        sum.Offset[r] += d[r];
+        sum.Index[a] += index[a];
       }
       sum.Cost += cost(d);
       for (int a = 0; a < D; ++a)
@@ -191,8 +194,8 @@ double writeCellFigures(vtkPointSet* sites, const SitePixels<D>& grid,
   double* cost = costs->GetPointer(0);
   const double pixels = numberOfCells<D>(grid.Size());
   const std::string purpose = "the sums of the " + std::to_string(count) + " cells";
-  const std::vector<CellSum> sums =
-    withMemory(purpose, static_cast<double>(count) * 2.0 * sizeof(CellSum), [&]() {
+  const std::vector<CellSum<D>> sums =
+    withMemory(purpose, static_cast<double>(count) * 2.0 * sizeof(CellSum<D>), [&]() {
       // Only GetPointer wants an array that is not const.
       auto* array = const_cast<SiteIdArray*>(labels);
       return CellSums<D>(sites, geometry, array->GetPointer(0)).Run(norm, executor, host);
@@ -201,13 +204,13 @@ double writeCellFigures(vtkPointSet* sites, const SitePixels<D>& grid,
   double total = 0.0;
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const CellSum& sum = sums[static_cast<std::size_t>(i)];
-    double site[3];
-    sites->GetPoint(i, site);
-    for (int r = 0; r < 3; ++r)
+    const CellSum<D>& sum = sums[static_cast<std::size_t>(i)];
+    double mean[D];
+    for (int a = 0; a < D; ++a)
     {
-      centroid[3 * i + r] = site[r] + sum.Offset[r] / sum.Pixels;
+      mean[a] = sum.Index[a] / sum.Pixels;
     }
+    geometry.ToPhysical<D>(mean, centroid + 3 * i);
     cost[i] = sum.Cost / pixels;
     total += cost[i];
   }

@@ -6,9 +6,12 @@
 #include "HostMonitor.h"
 #include "ImageGeometry.h"
 #include "SiteLabels.h"
+#include "VTKCompatibility.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointData;
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

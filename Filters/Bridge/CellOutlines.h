@@ -5,10 +5,13 @@
 
 #include "HostMonitor.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

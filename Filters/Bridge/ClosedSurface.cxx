@@ -45,20 +45,43 @@ std::int64_t countTriangles(vtkCellArray* cells)
   return triangles;
 }
 
+using DispatchIds = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
+
+// VTK's own range of the ids is kept, and does not follow what is written in place.
+struct FindWrongId
+{
+  std::int64_t Points; // the ids are those below
+  std::int64_t Wrong = -1;
+  bool IsFound = false;
+
+  template <class ArrayT>
+  void operator()(ArrayT* ids)
+  {
+    for (const auto id : vtk::DataArrayValueRange<1>(ids))
+    {
+      const auto point = static_cast<std::int64_t>(id);
+      if (point < 0 || point >= this->Points)
+      {
+        this->Wrong = point;
+        this->IsFound = true;
+        return;
+      }
+    }
+  }
+};
+
 void requireIds(vtkCellArray* cells, std::int64_t points)
 {
-  if (cells->GetNumberOfConnectivityIds() == 0)
+  vtkDataArray* ids = cells->GetConnectivityArray();
+  FindWrongId find{ points };
+  if (!DispatchIds::Execute(ids, find))
   {
-    return;
+    find(ids);
   }
-  double range[2];
-  cells->GetConnectivityArray()->GetRange(range, 0);
-  const double wrong = range[0] < 0.0 ? range[0] : range[1];
-  if (wrong < 0.0 || wrong >= static_cast<double>(points))
+  if (find.IsFound)
   {
-    throw Failure("A polygon of the input surface has the point " +
-      std::to_string(static_cast<std::int64_t>(wrong)) + "; there are points 0 to " +
-      std::to_string(points - 1));
+    throw Failure("A polygon of the input surface has the point " + std::to_string(find.Wrong) +
+      "; there are points 0 to " + std::to_string(points - 1));
   }
 }
 
@@ -160,10 +183,9 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   std::vector<unsigned char> used(static_cast<std::size_t>(surface->GetNumberOfPoints()), 0);
   for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
   {
-    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
     const MarkUsed mark;
     vtkDataArray* ids = cells->GetConnectivityArray();
-    if (!Dispatch::Execute(ids, mark, used))
+    if (!DispatchIds::Execute(ids, mark, used))
     {
       mark(ids, used);
     }
@@ -273,9 +295,8 @@ void ClosedSurface::ReadTriangles(
   this->Count = triangles->GetNumberOfCells();
   this->Triangles = LargeBuffer<std::int64_t>(3 * this->Count);
   vtkDataArray* ids = triangles->GetConnectivityArray();
-  using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
   const CopyIds copy;
-  if (!Dispatch::Execute(ids, copy, this->Triangles.data(), executor, host))
+  if (!DispatchIds::Execute(ids, copy, this->Triangles.data(), executor, host))
   {
     copy(ids, this->Triangles.data(), executor, host);
   }

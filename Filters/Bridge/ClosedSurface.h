@@ -8,6 +8,7 @@
 #include "../Core/SolidCoverage.h"
 #include "../Core/SurfaceEdges.h"
 #include "HostMonitor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 
@@ -15,8 +16,10 @@
 #include <cstdint>
 #include <memory>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -52,9 +52,8 @@ std::array<std::int64_t, 3> gridOf(const ImageGeometry& geometry)
   return grid;
 }
 
-void requireMemoryFor(const PivotSettings& pivot, std::size_t inputs)
+void requireMemoryFor(double particles, std::size_t inputs)
 {
-  const double particles = numberOfParticles(pivot);
   // Positions for each input and between them, masses and vertices.
   const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
   std::ostringstream purpose;
@@ -94,10 +93,11 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   FlowCache& tables, const Executor& executor, HostMonitor& host, const BlendOutput& output)
 {
   const bool onPoints = inputs.front().Density->IsOnPoints();
-  frameOf(inputs, settings.Dimensions).CopyTo(output.Density);
+  const ImageFrame frame = frameOf(inputs, settings.Dimensions);
+  requireMemoryFor(frame.NumberOfValues(onPoints) * settings.ParticlesPerCell, inputs.size());
+  frame.CopyTo(output.Density);
   const ImageGeometry geometry(output.Density, onPoints);
   const PivotSettings pivot{ gridOf(geometry), settings.ParticlesPerCell, settings.Flow };
-  requireMemoryFor(pivot, inputs.size());
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot);
   if (newMaps > 0)
@@ -111,15 +111,16 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   this->TakeMeans(inputs, executor, host);
   const std::int64_t count = this->Means->GetNumberOfTuples();
   const double mass = this->TotalMass(inputs, settings.Mode);
+  const SplatTarget target{ geometry, settings.Splat, true };
+  requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
-  host.BeginStage(maps + partOfParticles * (1.0 - maps));
-  this->WriteParticles(inputs, massEach, executor, host, output.Particles);
+  const double particles = maps + partOfParticles * (1.0 - maps);
+  this->WriteParticles(inputs, massEach, executor, host, particles, output.Particles);
   addFieldValue(output.Particles, "TotalMass", mass);
 
   host.BeginStage(1.0);
   renew(this->Density, "Density", 1, geometry.NumberOfCells());
-  splatPoints(this->Means->GetPointer(0), count, massEach, { geometry, settings.Splat, true },
-    executor, host, this->Density);
+  splatPoints(this->Means->GetPointer(0), count, massEach, target, executor, host, this->Density);
   output.Density->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
@@ -211,7 +212,7 @@ double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode m
 }
 
 void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
-  const Executor& executor, HostMonitor& host, vtkPolyData* output)
+  const Executor& executor, HostMonitor& host, double progress, vtkPolyData* output)
 {
   const std::int64_t count = this->Means->GetNumberOfTuples();
   vtkNew<vtkPoints> points;
@@ -220,6 +221,7 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
   output->SetPoints(points);
   if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
   {
+    host.BeginStage(0.5 * (host.Reached() + progress));
     this->Vertices = newParticleCells(count, 1, executor, host);
   }
   output->SetVerts(this->Vertices);
@@ -235,6 +237,7 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
       output->GetPointData()->AddArray(named);
     }
   }
+  host.BeginStage(progress);
   renew(this->Masses, "Mass", 1, count);
   double* mass = this->Masses->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;

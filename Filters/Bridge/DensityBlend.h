@@ -7,14 +7,17 @@
 #include "../Core/FlowOptions.h"
 #include "../Core/Splat.h"
 #include "PivotMap.h"
+#include "VTKCompatibility.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
 class vtkImageData;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -69,7 +72,7 @@ private:
     const std::vector<BlendInput>& inputs, const Executor& executor, HostMonitor& host);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
-    const Executor& executor, HostMonitor& host, vtkPolyData* output);
+    const Executor& executor, HostMonitor& host, double progress, vtkPolyData* output);
 
   std::vector<PivotMap> Maps;
   vtkSmartPointer<vtkCellArray> Vertices; // the same for as many particles

@@ -3,9 +3,12 @@
 
 #include "DensityReader.h"
 #include "Failure.h"
+#include "Fingerprint.h"
+#include "GhostFlags.h"
 #include "HostMonitor.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkUnsignedCharArray.h"
@@ -47,38 +50,6 @@ void requireComponent(const std::string& name, int component, int count)
     message << count - 1;
   }
   throw Failure(message.str());
-}
-
-// Not meant to be hard to forge. Four lanes, so that multiplications need not wait for each other.
-std::uint64_t mixBytes(const unsigned char* bytes, std::int64_t count)
-{
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
-  const auto mix = [](std::uint64_t state, std::uint64_t word) {
-    state = (state ^ word) * odd;
-    return state ^ (state >> 32);
-  };
-  constexpr std::int64_t lanes = 4;
-  std::uint64_t words[lanes];
-  std::uint64_t state[lanes] = { 1, 2, 3, 4 };
-  std::int64_t at = 0;
-  for (; at + std::int64_t{ sizeof(words) } <= count; at += sizeof(words))
-  {
-    std::memcpy(words, bytes + at, sizeof(words));
-    for (std::int64_t lane = 0; lane < lanes; ++lane)
-    {
-      state[lane] = mix(state[lane], words[lane]);
-    }
-  }
-  std::uint64_t mixed = static_cast<std::uint64_t>(count);
-  for (const std::uint64_t lane : state)
-  {
-    mixed = mix(mixed, lane);
-  }
-  for (; at < count; ++at)
-  {
-    mixed = mix(mixed, bytes[at]);
-  }
-  return mixed;
 }
 
 } // namespace
@@ -126,64 +97,21 @@ DensityImage::~DensityImage() = default;
 
 std::uint64_t DensityImage::Fingerprint(const Executor& executor, HostMonitor& host) const
 {
-  constexpr std::int64_t chunk = std::int64_t{ 1 } << 16;
-  struct Piece
-  {
-    const unsigned char* Bytes;
-    std::int64_t Count;
-  };
-  std::vector<Piece> pieces;
-  for (const vtkSmartPointer<vtkDataArray>& source : this->Sources)
-  {
-    if (!source)
-    {
-      continue;
-    }
-    if (!source->HasStandardMemoryLayout())
-    {
-      return 0;
-    }
-    const auto* bytes = static_cast<const unsigned char*>(source->GetVoidPointer(0));
-    const std::int64_t count =
-      std::int64_t{ source->GetNumberOfValues() } * source->GetDataTypeSize();
-    for (std::int64_t begin = 0; begin < count; begin += chunk)
-    {
-      pieces.push_back({ bytes + begin, std::min(chunk, count - begin) });
-    }
-  }
-  // All arrays are one stage, so that progress does not begin again with each.
-  std::vector<std::uint64_t> parts(pieces.size());
-  const auto all = static_cast<std::int64_t>(pieces.size()) * chunk;
-  host.Run(executor, all, chunk, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first / chunk; i < last / chunk; ++i)
-    {
-      const Piece& piece = pieces[static_cast<std::size_t>(i)];
-      parts[static_cast<std::size_t>(i)] = mixBytes(piece.Bytes, piece.Count);
-    }
-  });
-  const std::uint64_t mixed = mixBytes(reinterpret_cast<const unsigned char*>(parts.data()),
-    static_cast<std::int64_t>(parts.size() * sizeof(std::uint64_t)));
-  return mixed == 0 ? 1 : mixed;
+  return fingerprint({ this->Sources.begin(), this->Sources.end() }, executor, host);
 }
 
 void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
 {
-  constexpr unsigned char blankCell = vtkDataSetAttributes::DUPLICATECELL |
-    vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
-  constexpr unsigned char blankPoint =
-    vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
-  const auto flags = [](vtkUnsignedCharArray* array, vtkIdType count) -> const unsigned char* {
-    return array && array->GetNumberOfValues() == count ? array->GetPointer(0) : nullptr;
-  };
-  const unsigned char* points = flags(image->GetPointGhostArray(), image->GetNumberOfPoints());
+  constexpr const char* what = "input image";
+  const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
   if (onPoints)
   {
     this->Flags = points;
-    this->FlagMask = blankPoint;
+    this->FlagMask = ghostPoint;
     return;
   }
-  this->Flags = flags(image->GetCellGhostArray(), image->GetNumberOfCells());
-  this->FlagMask = blankCell;
+  this->Flags = ghostFlags(image, vtkDataObject::CELL, what);
+  this->FlagMask = ghostCell;
   this->HiddenPoints = points;
 }
 

@@ -5,6 +5,7 @@
 
 #include "../Core/Density.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -15,8 +16,10 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkImageData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -48,12 +51,9 @@ public:
 
   const ImageGeometry& Geometry() const { return this->Place; }
   const Identity& GetIdentity() const { return this->Key; }
-  // When the image itself last changed. Who writes into an array often says so to the image alone;
-  // but hosts also make the image anew around the same array at every run, as ParaView does.
+  // When the image itself last changed.
   std::uint64_t ImageTime() const { return this->Time; }
-  // A number that follows from the bits of the array's values and of the ghost arrays; 0 if they
-  // are not in one piece.
-  // Throws Aborted.
+  // Of the array's values and the ghost arrays, as the function of that name gives it.
   std::uint64_t Fingerprint(const Executor& executor, HostMonitor& host) const;
   // Whether its values are those of points.
   bool IsOnPoints() const { return this->OnPoints; }

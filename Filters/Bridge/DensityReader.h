@@ -3,11 +3,15 @@
 #ifndef RectifiedTransport_DensityReader_h
 #define RectifiedTransport_DensityReader_h
 
+#include "VTKCompatibility.h"
+
 #include "vtkType.h"
 
 #include <memory>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -4,33 +4,37 @@
 #define RectifiedTransport_DensityStamp_h
 
 #include "DensityImage.h"
-
-#include <cstdint>
+#include "Fingerprint.h"
 
 namespace RectifiedTransport
 {
-
-class Executor;
-class HostMonitor;
 
 class DensityStamp
 {
 public:
   // Whether it is plainly the same density. Else Renew tells.
-  bool IsOf(const DensityImage& density) const;
+  bool IsOf(const DensityImage& density) const
+  {
+    return this->Stamp.IsOf(density.GetIdentity(), density.ImageTime());
+  }
 
   // Whether it may be the same density, in another image.
-  bool IsLike(const DensityImage& density) const { return this->Key == density.GetIdentity(); }
+  bool IsLike(const DensityImage& density) const
+  {
+    return this->Stamp.IsLike(density.GetIdentity());
+  }
 
   // Takes the stamp of a density, as the work of the host's current stage. Returns whether it is
   // the one that was stamped before, down to its values where only its image is another. Throws
   // Aborted, and is then of no density.
-  bool Renew(const DensityImage& density, const Executor& executor, HostMonitor& host);
+  bool Renew(const DensityImage& density, const Executor& executor, HostMonitor& host)
+  {
+    return this->Stamp.Renew(density.GetIdentity(), density.ImageTime(),
+      [&]() { return density.Fingerprint(executor, host); });
+  }
 
 private:
-  DensityImage::Identity Key{};
-  std::uint64_t ImageTime = 0;
-  std::uint64_t Fingerprint = 0; // of the values; 0 if there is none
+  DataStamp<DensityImage::Identity> Stamp;
 };
 
 } // namespace RectifiedTransport

@@ -7,6 +7,8 @@
 
 #include "vtkAlgorithm.h"
 
+#include <algorithm>
+
 namespace RectifiedTransport
 {
 
@@ -14,7 +16,9 @@ Monitor HostMonitor::GetMonitor()
 {
   Monitor monitor;
   monitor.Progress = [this](double fraction) {
-    this->Host->UpdateProgress(this->Begin + (this->End - this->Begin) * fraction);
+    // Several loops may be the work of one stage: what was said is not taken back.
+    this->Said = std::max(this->Said, this->Begin + (this->End - this->Begin) * fraction);
+    this->Host->UpdateProgress(this->Said);
   };
   monitor.Cancelled = [this]() { return this->IsCancelled(); };
   return monitor;
@@ -26,7 +30,10 @@ void HostMonitor::Run(const Executor& executor, std::int64_t count, std::int64_t
   const Monitor monitor = this->GetMonitor();
   Pacer pacer(monitor);
   pacer.BeginStage(1.0, count);
-  const std::int64_t smallest = (units + grain - 1) / grain * grain;
+  // Ranges for all threads, however few units of work there are.
+  const std::int64_t ranges =
+    std::max<std::int64_t>((units + grain - 1) / grain, executor.Concurrency());
+  const std::int64_t smallest = ranges * grain;
   for (std::int64_t begin = 0; begin < count;)
   {
     const std::int64_t slice = std::min(count - begin, pacer.NextSlice(smallest));

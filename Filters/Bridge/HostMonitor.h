@@ -4,11 +4,14 @@
 #define RectifiedTransport_HostMonitor_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 #include <thread>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -37,8 +40,8 @@ public:
   Monitor GetMonitor();
 
   // Runs a kernel over [0, count), cut at multiples of `grain`, as the work of the current stage.
-  // The first slice has `units`, which should take a few milliseconds: by default for work that is
-  // bound by memory. Throws Aborted.
+  // The first slice has `units`, which should take a few milliseconds (by default for work that is
+  // bound by memory), and a range for every thread. Throws Aborted, and what the kernel throws.
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain, RangeKernel kernel,
     std::int64_t units = std::int64_t{ 1 } << 18);
 
@@ -50,6 +53,7 @@ private:
   std::thread::id HostThread;
   double Begin = 0.0;
   double End = 0.0;
+  double Said = 0.0;
 };
 
 } // namespace RectifiedTransport

@@ -2,6 +2,7 @@
 #include "ImageFrame.h"
 
 #include "Failure.h"
+#include "Memory.h"
 #include "PropertyCheck.h"
 
 #include "vtkDataObject.h"
@@ -137,6 +138,12 @@ bool ImageFrame::operator==(const ImageFrame& other) const
 
 void ImageFrame::CopyTo(vtkImageData* image) const
 {
+  double planes = 0.0;
+  for (const int points : this->Values(true))
+  {
+    planes += points;
+  }
+  requireMemory("an image of " + this->DescribeValues(true) + " points", planes * sizeof(double));
   const auto& e = this->Extent;
   image->SetExtent(e[0], e[1], e[2], e[3], e[4], e[5]);
   image->SetOrigin(this->Origin.data());
@@ -177,6 +184,40 @@ std::array<int, 3> ImageFrame::Values(bool onPoints) const
   return values;
 }
 
+int ImageFrame::NumberOfAxes() const
+{
+  int axes = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    axes += this->Extent[2 * i] != this->Extent[2 * i + 1] ? 1 : 0;
+  }
+  return axes;
+}
+
+double ImageFrame::NumberOfValues(bool onPoints) const
+{
+  double number = 1.0;
+  for (const int values : this->Values(onPoints))
+  {
+    number *= values;
+  }
+  return number;
+}
+
+std::string ImageFrame::DescribeValues(bool onPoints) const
+{
+  std::string text;
+  const std::array<int, 3> values = this->Values(onPoints);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (this->Extent[2 * i] != this->Extent[2 * i + 1])
+    {
+      text += (text.empty() ? "" : " x ") + std::to_string(values[i]);
+    }
+  }
+  return text;
+}
+
 ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char* property) const
 {
   if (*std::min_element(wanted, wanted + 3) < 0)
@@ -209,15 +250,20 @@ ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char
     // Where the new index is 0, in the old one.
     const double ratio = static_cast<double>(values[i]) / count;
     const double start = this->Extent[2 * i] + (onPoints ? 0.5 * (ratio - 1.0) : 0.0);
-    for (std::size_t r = 0; r < 3; ++r)
-    {
-      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * start;
-    }
+    frame.SetAxis(i, start, onPoints ? count : count + 1);
     frame.Spacing[i] *= ratio;
-    frame.Extent[2 * i] = 0;
-    frame.Extent[2 * i + 1] = onPoints ? count - 1 : count;
   }
   return frame;
+}
+
+void ImageFrame::SetAxis(std::size_t axis, double first, int points)
+{
+  for (std::size_t r = 0; r < 3; ++r)
+  {
+    this->Origin[r] += this->Direction[3 * r + axis] * this->Spacing[axis] * first;
+  }
+  this->Extent[2 * axis] = 0;
+  this->Extent[2 * axis + 1] = points - 1;
 }
 
 ImageFrame ImageFrame::AtCellCentres() const
@@ -226,17 +272,24 @@ ImageFrame ImageFrame::AtCellCentres() const
   for (std::size_t i = 0; i < 3; ++i)
   {
     const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
-    if (cells <= 0)
+    if (cells > 0)
     {
-      continue;
+      frame.SetAxis(i, this->Extent[2 * i] + 0.5, cells);
     }
-    const double centre = this->Extent[2 * i] + 0.5;
-    for (std::size_t r = 0; r < 3; ++r)
+  }
+  return frame;
+}
+
+ImageFrame ImageFrame::WithDualCells() const
+{
+  ImageFrame frame = *this;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const int cells = this->Extent[2 * i + 1] - this->Extent[2 * i];
+    if (cells > 0)
     {
-      frame.Origin[r] += this->Direction[3 * r + i] * this->Spacing[i] * centre;
+      frame.SetAxis(i, this->Extent[2 * i] - 0.5, cells + 2);
     }
-    frame.Extent[2 * i] = 0;
-    frame.Extent[2 * i + 1] = cells - 1;
   }
   return frame;
 }

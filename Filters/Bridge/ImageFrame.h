@@ -4,11 +4,16 @@
 #ifndef RectifiedTransport_ImageFrame_h
 #define RectifiedTransport_ImageFrame_h
 
+#include "VTKCompatibility.h"
+
 #include <array>
 #include <cstddef>
+#include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkInformation;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -46,6 +51,8 @@ public:
 
   bool operator==(const ImageFrame& other) const;
 
+  // Ask for the memory of what the image will hold before that: from VTK 9.3 on an image keeps the
+  // coordinates of its planes of points. Throws Failure where there is no memory for them.
   void CopyTo(vtkImageData* image) const;
   void Publish(vtkInformation* information) const;
   // And that the active scalars will be the array Density, of doubles.
@@ -55,6 +62,11 @@ public:
   bool HasOnePoint() const { return this->Values(true) == std::array<int, 3>{ 1, 1, 1 }; }
   // The numbers of values of a point or cell array along the axes, 1 where there is no axis.
   std::array<int, 3> Values(bool onPoints) const;
+
+  int NumberOfAxes() const;
+  double NumberOfValues(bool onPoints) const;
+  // "8 x 4", without the axes of one point.
+  std::string DescribeValues(bool onPoints) const;
 
   // The frame with other numbers of values, on the domain that the cells (or dual cells of the
   // points) cover; 0 for as many as there are. Throws Failure, which names `property`.
@@ -67,6 +79,9 @@ public:
   // The frame that has a point at the centre of each of the cells, counted from 0.
   ImageFrame AtCellCentres() const;
 
+  // The frame whose cells are the dual cells of the points: half a spacing more on each side.
+  ImageFrame WithDualCells() const;
+
   // Whether the direction matrix has one, without which there is no GetSide. An axis of one point
   // need not have a direction of its own.
   bool HasInverse() const;
@@ -78,6 +93,9 @@ public:
   bool HasExtentOf(const ImageFrame& other) const { return this->Extent == other.Extent; }
 
 private:
+  // Lets an axis have `points` points, the first of them at an index that need not be a whole one.
+  void SetAxis(std::size_t axis, double first, int points);
+
   std::array<int, 6> Extent{ 0, -1, 0, -1, 0, -1 };
   std::array<double, 3> Origin{ 0.0, 0.0, 0.0 };
   std::array<double, 3> Spacing{ 1.0, 1.0, 1.0 };

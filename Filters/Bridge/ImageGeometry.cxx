@@ -35,9 +35,11 @@ double measure(const double vectors[3][3], int count)
   double spacing[3];
   image->GetSpacing(spacing);
   std::ostringstream message;
-  message << "The image's spacing is (" << spacing[0] << ", " << spacing[1] << ", " << spacing[2]
-          << "); origin, spacing and direction must be finite, and every axis of more than one "
-             "point needs a spacing that is not 0 and a direction of its own";
+  message
+    << "The image's spacing is (" << spacing[0] << ", " << spacing[1] << ", " << spacing[2]
+    << "); origin, spacing and direction must be finite, and every axis of more than one "
+       "point needs a spacing that is not 0 and a direction of its own, none so large or small "
+       "that a corner of the image or a cell's measure is no number";
   throw Failure(message.str());
 }
 
@@ -89,8 +91,17 @@ ImageGeometry::ImageGeometry(vtkImageData* image, bool onPoints)
   this->Measure = measure(axes, this->AxisCount);
   const double zero[3] = { 0.0, 0.0, 0.0 };
   this->ToPhysical<3>(zero, this->Corner);
-  const bool finite = std::isfinite(this->Measure) && std::isfinite(this->Corner[0]) &&
-    std::isfinite(this->Corner[1]) && std::isfinite(this->Corner[2]);
+  double sums[3]; // no coordinate of the domain is larger
+  for (int r = 0; r < 3; ++r)
+  {
+    sums[r] = std::abs(this->Corner[r]) + std::abs(this->Matrix[r][3]);
+    for (int a = 0; a < this->AxisCount; ++a)
+    {
+      sums[r] += std::abs(axes[a][r]) * static_cast<double>(this->Cells[a]);
+    }
+  }
+  const bool finite =
+    std::isfinite(this->Measure) && std::isfinite(std::hypot(sums[0], sums[1], sums[2]));
   for (int a = 0; a < this->AxisCount; ++a)
   {
     vtkMath::MultiplyScalar(axes[a], 1.0 / this->Spacing[a]);

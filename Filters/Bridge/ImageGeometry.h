@@ -6,11 +6,14 @@
 
 #include "../Core/Density.h"
 #include "../Core/Splat.h"
+#include "VTKCompatibility.h"
 
 #include <algorithm>
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

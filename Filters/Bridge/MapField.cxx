@@ -5,6 +5,7 @@
 #include "../Core/MapDerivatives.h"
 #include "../Core/RectifiedFlow.h"
 #include "HostMonitor.h"
+#include "LengthScale.h"
 #include "Memory.h"
 
 #include "vtkDataSetAttributes.h"
@@ -102,6 +103,7 @@ double MapField<D>::WriteDisplacement(
   };
   const std::int64_t count = this->NumberOfSamples;
   const Point<D> step = stepOf<D>(this->Lattice, this->Size);
+  const LengthScale scale(this->Geometry);
   double* displacement = this->Displacement->GetPointer(0);
   const double* positions = this->Positions();
   const auto write = [&](std::int64_t i, Sums& sums) {
@@ -120,7 +122,7 @@ double MapField<D>::WriteDisplacement(
     double* d = displacement + 3 * i; // in 3D the same memory as the position
     this->Geometry.template VectorToPhysical<D>(moved, d);
     const double weight = flow ? flow->Share(low, high) : 1.0;
-    sums.Cost += weight * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    sums.Cost += weight * scale.SquareInUnits(d);
     sums.Weight += weight;
   };
   std::vector<Sums> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
@@ -140,7 +142,7 @@ double MapField<D>::WriteDisplacement(
     all.Cost += part.Cost;
     all.Weight += part.Weight;
   }
-  return all.Cost / all.Weight;
+  return scale.CostFromUnits(all.Cost / all.Weight);
 }
 
 template class MapField<1>;

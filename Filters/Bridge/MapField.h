@@ -7,14 +7,17 @@
 #include "../Core/Executor.h"
 #include "../Core/LargeBuffer.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSetAttributes;
 class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

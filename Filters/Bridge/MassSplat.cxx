@@ -8,6 +8,8 @@
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDoubleArray.h"
 
+#include <cmath>
+#include <sstream>
 #include <vector>
 
 namespace RectifiedTransport
@@ -57,6 +59,20 @@ std::int64_t splatAll(const MassPoints<Real>& input, const SplatTarget& target,
 }
 
 } // namespace
+
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule)
+{
+  const double measure = target.DivideByVolume ? target.Geometry.CellMeasure() : 1.0;
+  if (!std::isfinite(1.0 / measure) || !std::isfinite(mass / measure))
+  {
+    std::ostringstream message;
+    message << what << " of " << mass
+            << " in all make densities past the largest double in cells of " << measure
+            << "; make the masses smaller, " << rule;
+    throw Failure(message.str());
+  }
+}
 
 std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
   const SplatTarget& target, const Executor& executor, HostMonitor& host, vtkDoubleArray* cells)

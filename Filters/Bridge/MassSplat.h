@@ -6,11 +6,14 @@
 #include "../Core/Executor.h"
 #include "../Core/Splat.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -24,6 +27,11 @@ struct SplatTarget
   SplatOptions Options;
   bool DivideByVolume; // densities, else masses
 };
+
+// Throws Failure where the density of a cell that holds all of a mass, of which `what` is the
+// subject of the message, would be no number; `rule` completes "make the masses smaller, ...".
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule);
 
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
 // component and a tuple for each, as the work of the current stage. Points have 3 finite

@@ -55,8 +55,8 @@ vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdT
   auto array = vtkSmartPointer<ArrayT>::New();
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
-  array->SetArray(
-    static_cast<Value*>(memory), tuples * components, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  array->SetArray(static_cast<Value*>(memory), tuples * components, 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_ALIGNED_FREE); // as freeLarge
   return array;
 }
 

@@ -4,11 +4,14 @@
 #define RectifiedTransport_ParticleCells_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

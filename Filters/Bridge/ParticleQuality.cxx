@@ -6,7 +6,9 @@
 #include "DensityImage.h"
 #include "Failure.h"
 #include "FlowCache.h"
+#include "GhostFlags.h"
 #include "HostMonitor.h"
+#include "LengthScale.h"
 #include "Memory.h"
 #include "PointInput.h"
 
@@ -28,6 +30,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr double farOutside = 1e150; // sizes of the domain; the square is a number
 
 // A numeric array of the particles, nullptr if there is none of that name.
 vtkDataArray* findArray(vtkPointSet* particles, const char* name, int components)
@@ -86,15 +89,17 @@ template <int D>
 class QualityRun
 {
 public:
-  QualityRun(vtkPointSet* particles, const ImageGeometry& geometry, std::int64_t blockSize,
-    const FlowCache& cache, const Executor& executor, HostMonitor& host)
+  QualityRun(vtkPointSet* particles, const CountedPoints& counted, const ImageGeometry& geometry,
+    std::int64_t blockSize, const FlowCache& cache, const Executor& executor, HostMonitor& host)
     : Input(particles)
+    , Counted(counted)
     , Geometry(geometry)
+    , Scale(geometry)
     , BlockSize(blockSize)
     , Flow(cache.Flow<D>())
     , Threads(executor)
     , Host(host)
-    , Count(particles->GetNumberOfPoints())
+    , Count(counted.Count())
     , Size(geometry.Size<D>())
     , Blocks(1)
   {
@@ -150,15 +155,22 @@ private:
     this->Host.Run(SerialExecutor(), count, grain, kernel);
   }
 
-  // Finds the points, and which block each is in: -1 if it is outside of the domain.
+  // Finds the points that count, and which block each is in: -1 if it is outside of the domain.
   void Place()
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
     const double tolerance = this->Geometry.BorderTolerance();
     visitPoints(this->Input, "input point set", this->Threads, this->Host,
-      [&](std::int64_t i, const double* x) {
-        std::copy_n(x, 3, this->Points.data() + 3 * i);
+      [&](std::int64_t point, const double* x) {
+        const std::int64_t i = this->Counted.NumberOf(point);
+        if (i < 0)
+        {
+          return;
+        }
+        std::transform(x, x + 3, this->Points.data() + 3 * i, [this](double coordinate) {
+          return std::clamp(this->Scale.ToUnits(coordinate), -farOutside, farOutside);
+        });
         Point<D> index;
         this->Geometry.template ToIndex<D>(x, index.data());
         this->Geometry.template ClampToDomain<D>(index.data());
@@ -201,7 +213,7 @@ private:
     this->InOrder(this->Count, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        share[i] = masses->GetComponent(i, 0);
+        share[i] = masses->GetComponent(this->Counted.Point(i), 0);
         total += share[i];
       }
     });
@@ -209,7 +221,8 @@ private:
     {
       if (!(share[i] >= 0.0) || std::isinf(share[i]))
       {
-        failValue("Mass", share[i], i, "every mass must be finite and not negative");
+        failValue(
+          "Mass", share[i], this->Counted.Point(i), "every mass must be finite and not negative");
       }
     }
     if (!(total > 0.0) || std::isinf(total))
@@ -241,7 +254,7 @@ private:
         double squared = 0.0;
         for (int r = 0; r < 3; ++r)
         {
-          const double component = displacements->GetComponent(i, r);
+          const double component = displacements->GetComponent(this->Counted.Point(i), r);
           squared += component * component;
           if (wrong < 0 && !std::isfinite(squared))
           {
@@ -254,7 +267,8 @@ private:
     });
     if (wrong >= 0)
     {
-      failValue("Displacement", wrongComponent, wrong, "its square must be finite");
+      failValue(
+        "Displacement", wrongComponent, this->Counted.Point(wrong), "its square must be finite");
     }
     this->Quality.TransportCost = cost;
   }
@@ -337,8 +351,9 @@ private:
     Point<D> aspect = this->Geometry.template Lengths<D>();
     for (int a = 0; a < D; ++a)
     {
-      aspect[a] = static_cast<double>(this->Size[a]) / aspect[a];
+      aspect[a] = static_cast<double>(this->Size[a]) / this->Scale.ToUnits(aspect[a]);
     }
+    const double side = this->Scale.ToUnits(root<D>(this->Geometry.CellMeasure()));
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
     this->Host.Run(
@@ -352,12 +367,13 @@ private:
             spacing[i] = -1.0;
             continue;
           }
+          double x[3];
+          std::transform(this->Points.data() + 3 * i, this->Points.data() + 3 * (i + 1), x,
+            [this](double units) { return this->Scale.FromUnits(units); });
           Point<D> index;
-          this->Geometry.template ToIndex<D>(this->Points.data() + 3 * i, index.data());
+          this->Geometry.template ToIndex<D>(x, index.data());
           this->Geometry.template ClampToDomain<D>(index.data());
-          const double measure =
-            this->Flow.MeasureOfShare(index, aspect, share) * this->Geometry.CellMeasure();
-          spacing[i] /= largestSpacing<D>(measure);
+          spacing[i] /= largestSpacing<D>(this->Flow.MeasureOfShare(index, aspect, share)) * side;
         }
       },
       16 * smallGrain);
@@ -380,6 +396,11 @@ private:
         }
       }
     });
+    if (!std::isfinite(sum))
+    {
+      throw Failure("MeanSpacing passes the largest double; the spacings of the density along its "
+                    "axes must be more alike");
+    }
     if (related > 0)
     {
       this->Quality.SmallestSpacing = smallest;
@@ -388,7 +409,9 @@ private:
   }
 
   vtkPointSet* Input;
+  const CountedPoints& Counted;
   const ImageGeometry& Geometry;
+  const LengthScale Scale;
   const std::int64_t BlockSize;
   const RectifiedFlow<D>& Flow;
   const Executor& Threads;
@@ -397,7 +420,7 @@ private:
   const GridSize<D> Size;
   GridSize<D> BlockCounts;
   std::int64_t Blocks;
-  LargeBuffer<double> Points;
+  LargeBuffer<double> Points; // in units of Scale
   LargeBuffer<std::int64_t> Block;
   LargeBuffer<double> Share;
   LargeBuffer<double> Spacing;
@@ -407,10 +430,11 @@ private:
 };
 
 template <int D>
-ParticleQuality measure(vtkPointSet* particles, const DensityImage& density, int blockSize,
-  const FlowCache& cache, const Executor& executor, HostMonitor& host, double tablesDone)
+ParticleQuality measure(vtkPointSet* particles, const CountedPoints& counted,
+  const DensityImage& density, int blockSize, const FlowCache& cache, const Executor& executor,
+  HostMonitor& host, double tablesDone)
 {
-  QualityRun<D> run(particles, density.Geometry(), blockSize, cache, executor, host);
+  QualityRun<D> run(particles, counted, density.Geometry(), blockSize, cache, executor, host);
   ParticleQuality quality = run.Measure(tablesDone);
   quality.TotalMass = cache.TotalMass();
   return quality;
@@ -418,23 +442,24 @@ ParticleQuality measure(vtkPointSet* particles, const DensityImage& density, int
 
 } // namespace
 
-ParticleQuality measureQuality(vtkPointSet* particles, DensityImage& density, int blockSize,
-  FlowCache& cache, const Executor& executor, HostMonitor& host)
+ParticleQuality measureQuality(vtkPointSet* particles, const CountedPoints& counted,
+  DensityImage& density, int blockSize, FlowCache& cache, const Executor& executor,
+  HostMonitor& host)
 {
   // Nanoseconds, as measured.
   const double tables =
     cache.IsOutdated(density) ? 10.0 * static_cast<double>(density.Geometry().NumberOfCells()) : 0;
-  const double rest = 4000.0 * static_cast<double>(particles->GetNumberOfPoints());
+  const double rest = 4000.0 * static_cast<double>(counted.Count());
   const double tablesDone = tables / (tables + rest);
   cache.Update(density, executor, host, tablesDone);
   switch (density.Geometry().Dimension())
   {
     case 1:
-      return measure<1>(particles, density, blockSize, cache, executor, host, tablesDone);
+      return measure<1>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
     case 2:
-      return measure<2>(particles, density, blockSize, cache, executor, host, tablesDone);
+      return measure<2>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
     default:
-      return measure<3>(particles, density, blockSize, cache, executor, host, tablesDone);
+      return measure<3>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
   }
 }
 

@@ -4,14 +4,18 @@
 #define RectifiedTransport_ParticleQuality_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include <cstdint>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
 
+class CountedPoints;
 class DensityImage;
 class FlowCache;
 class HostMonitor;
@@ -28,10 +32,11 @@ struct ParticleQuality
   double MeanSpacing = 0.0;
 };
 
-// Compares particles with a density; the density's tables are those of the cache, which is brought
-// up to date. Throws Failure and Aborted.
-ParticleQuality measureQuality(vtkPointSet* particles, DensityImage& density, int blockSize,
-  FlowCache& cache, const Executor& executor, HostMonitor& host);
+// Compares the particles that count, of which there must be some, with a density; the density's
+// tables are those of the cache, which is brought up to date. Throws Failure and Aborted.
+ParticleQuality measureQuality(vtkPointSet* particles, const CountedPoints& counted,
+  DensityImage& density, int blockSize, FlowCache& cache, const Executor& executor,
+  HostMonitor& host);
 
 } // namespace RectifiedTransport
 

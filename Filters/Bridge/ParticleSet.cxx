@@ -2,6 +2,7 @@
 #include "ParticleSet.h"
 
 #include "HostMonitor.h"
+#include "LengthScale.h"
 #include "Memory.h"
 #include "ParticleCells.h"
 
@@ -23,10 +24,10 @@ namespace
 
 constexpr double partOfPoints = 0.8; // of the time to write, the rest is for cells
 
-double squaredDistance(const double* a, const double* b)
+double squaredDistance(const LengthScale& scale, const double* a, const double* b)
 {
   const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  return scale.SquareInUnits(d);
 }
 
 } // namespace
@@ -162,9 +163,10 @@ double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor
   const double* seeds = this->Seeds();
   const double* positions = this->Positions();
   const double share = totalMass / static_cast<double>(count);
+  const LengthScale scale(this->Geometry);
 
   host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
-  const double cost = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
     double* seed = physicalSeeds + i * 3;
@@ -177,9 +179,10 @@ double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor
     }
     id[i] = i;
     mass[i] = share;
-    return squaredDistance(x, seed);
+    return squaredDistance(scale, x, seed);
   });
 
+  const double cost = scale.CostFromUnits(squares);
   host.BeginStage(progress);
   output->SetVerts(newParticleCells(count, 1, executor, host));
   this->SetPoints(output);
@@ -207,9 +210,10 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   const double* seeds = this->Seeds();
   const double* positions = this->Positions();
   const double share = totalMass / static_cast<double>(count);
+  const LengthScale scale(this->Geometry);
 
   host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
-  const double cost = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
     const double* index = seeds + i * D;
     double seed[3];
     this->ToPhysicalSeed(i, index, seed);
@@ -220,9 +224,10 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
       time[p] = times[static_cast<std::size_t>(p - i * each)];
       mass[p] = share;
     }
-    return squaredDistance(points + ((i + 1) * each - 1) * 3, seed);
+    return squaredDistance(scale, points + ((i + 1) * each - 1) * 3, seed);
   });
 
+  const double cost = scale.CostFromUnits(squares);
   host.BeginStage(progress);
   output->SetLines(newParticleCells(count, each, executor, host));
   this->SetPoints(output);

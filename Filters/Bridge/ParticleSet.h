@@ -7,6 +7,7 @@
 #include "../Core/Executor.h"
 #include "../Core/LargeBuffer.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
 
@@ -14,8 +15,10 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDoubleArray;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -125,9 +125,4 @@ std::int64_t PivotMap::Move(DensityImage& density, FlowCache& tables, const Exec
   return moved;
 }
 
-double numberOfParticles(const PivotSettings& settings)
-{
-  return numberOfCells<3>(settings.Grid) * static_cast<double>(settings.PerCell);
-}
-
 } // namespace RectifiedTransport

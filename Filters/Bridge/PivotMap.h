@@ -66,9 +66,6 @@ private:
   double Mass = 0.0;
 };
 
-// Particles along all axes. Not an integer: it may be more than fits into one.
-double numberOfParticles(const PivotSettings& settings);
-
 } // namespace RectifiedTransport
 
 #endif

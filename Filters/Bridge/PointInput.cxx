@@ -4,6 +4,7 @@
 #include "Failure.h"
 #include "InputBlock.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 
 #include <sstream>
@@ -16,6 +17,11 @@ vtkPointSet* pointSetOf(vtkInformationVector* port)
 {
   return requireBlock<vtkPointSet>(
     vtkDataObject::GetData(port), "The input", "a vtkPointSet, as Extract Surface makes one of it");
+}
+
+void findBounds(vtkPointSet* points, double bounds[6])
+{
+  vtkBoundingBox::ComputeBounds(points->GetPoints(), bounds);
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)

@@ -5,6 +5,7 @@
 
 #include "../Core/Executor.h"
 #include "HostMonitor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -16,7 +17,9 @@
 #include <cstdint>
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -24,6 +27,10 @@ namespace RectifiedTransport
 // The point set of a port, nullptr if there is none. Throws Failure for a block of another type,
 // which no executive refuses.
 vtkPointSet* pointSetOf(vtkInformationVector* port);
+
+// The bounds of all points of a set, those of no cell too. VTK's own are kept, and do not follow
+// coordinates that are written in place.
+void findBounds(vtkPointSet* points, double bounds[6]);
 
 // Points whose coordinates are not finite, as several threads find them.
 class NotFinitePoints

@@ -2,15 +2,16 @@
 #include "PointMasses.h"
 
 #include "Failure.h"
+#include "GhostFlags.h"
 #include "HostMonitor.h"
 #include "Memory.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-constexpr int withoutMass =
-  vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 
 std::string listArrays(vtkPointSet* points)
 {
@@ -103,7 +102,7 @@ private:
     {
       RangeOfMasses& range = this->Ranges[static_cast<std::size_t>(i / grain)];
       const double value = next();
-      const bool isGhost = this->Ghosts && (this->Ghosts[i] & withoutMass) != 0;
+      const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
       if (!isGhost && !std::isfinite(value))
       {
         range.First = range.NotFinite++ == 0 ? i : range.First;
@@ -175,7 +174,7 @@ PointMasses::PointMasses(
   vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host)
 {
   const vtkIdType count = points->GetNumberOfPoints();
-  vtkUnsignedCharArray* ghosts = points->GetPointGhostArray();
+  const unsigned char* ghosts = ghostFlags(points, vtkDataObject::POINT, "input point set");
   if (!array && !ghosts)
   {
     this->Sum = static_cast<double>(count);
@@ -183,7 +182,7 @@ PointMasses::PointMasses(
     return;
   }
   this->Array = newArray<vtkDoubleArray>("Mass", 1, count);
-  ReadMasses read(ghosts ? ghosts->GetPointer(0) : nullptr, this->Array->GetPointer(0), count);
+  ReadMasses read(ghosts, this->Array->GetPointer(0), count);
   using Dispatch = vtkArrayDispatch::Dispatch;
   if (!array)
   {

@@ -4,14 +4,17 @@
 #define RectifiedTransport_PointMasses_h
 
 #include "../Core/Executor.h"
+#include "VTKCompatibility.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -30,7 +33,8 @@ class PointMasses
 public:
   PointMasses() = default;
   // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
-  // Ghosts have no mass. Throws Failure for values that are not finite, and Aborted.
+  // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of
+  // another length, and Aborted.
   PointMasses(
     vtkPointSet* points, vtkDataArray* array, const Executor& executor, HostMonitor& host);
 

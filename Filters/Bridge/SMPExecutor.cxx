@@ -16,18 +16,22 @@ void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel
   constexpr std::int64_t tasksPerThread = 8;
   const std::int64_t rangesPerTask =
     std::max<std::int64_t>(1, ranges / (tasksPerThread * this->Concurrency()));
+  KernelGuard guarded(kernel);
   auto task = [&](vtkIdType first, vtkIdType last) {
     for (std::int64_t range = first; range < last; ++range)
     {
-      kernel(range * grain, std::min((range + 1) * grain, count));
+      guarded(range * grain, std::min((range + 1) * grain, count));
     }
   };
   if (ranges <= 1)
   {
     task(0, ranges);
-    return;
   }
-  vtkSMPTools::For(0, ranges, rangesPerTask, task);
+  else
+  {
+    vtkSMPTools::For(0, ranges, rangesPerTask, task);
+  }
+  guarded.Rethrow();
 }
 
 int SMPExecutor::Concurrency() const

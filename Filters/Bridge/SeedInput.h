@@ -5,8 +5,11 @@
 
 #include "../Core/Executor.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

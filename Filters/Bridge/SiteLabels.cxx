@@ -19,20 +19,50 @@
 namespace RectifiedTransport
 {
 
-bool SiteLabels::IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const
+namespace
 {
-  return this->Labels && this->Sites == sites && this->Time == sites->GetMTime() &&
-    this->Frame == frame && this->Options == options;
+
+std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
+{
+  return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
 }
 
-void SiteLabels::Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
-  vtkSmartPointer<SiteIdArray> labels)
+// Its own time, not that of its points.
+std::uint64_t timeOf(vtkPointSet* sites)
 {
-  this->Labels = std::move(labels);
-  this->Sites = sites;
-  this->Time = sites->GetMTime();
-  this->Frame = frame;
-  this->Options = options;
+  return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+}
+
+} // namespace
+
+bool SiteLabels::IsFor(
+  vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const
+{
+  return this->Labels && this->Frame == frame && this->Options == options &&
+    this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+}
+
+bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, HostMonitor& host)
+{
+  return this->Stamp.Renew(keyOf(sites), timeOf(sites),
+    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
+}
+
+namespace
+{
+
+constexpr double recordBytes(int dimension)
+{
+  return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
+}
+
+} // namespace
+
+void SiteLabels::RequireMemory(const ImageFrame& frame)
+{
+  const double bytes = sizeof(std::int64_t) + recordBytes(frame.NumberOfAxes());
+  requireMemory("labels of " + frame.DescribeValues(false) + " pixels (see Resolution)",
+    frame.NumberOfValues(false) * bytes);
 }
 
 template <int D>
@@ -67,8 +97,6 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
   const GridSize<D> size = grid.Size();
   const double pixels = numberOfCells<D>(size);
   const std::string purpose = "labels of " + describeSize<D>(size) + " pixels";
-  constexpr double recordBytes = (D == 1 ? 2.5 : 4.0) * sizeof(double);
-  requireMemory(purpose, pixels * (sizeof(std::int64_t) + recordBytes));
   auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
   std::int64_t* labels = array->GetPointer(0);
   const double begin = host.Reached();
@@ -85,7 +113,7 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
   }
   else
   {
-    withMemory(purpose, pixels * recordBytes, [&]() {
+    withMemory(purpose, pixels * recordBytes(D), [&]() {
       beginStage(0.03);
       const RectifiedFlow<D> flow(grid, executor, host.GetMonitor());
       require(static_cast<bool>(flow));

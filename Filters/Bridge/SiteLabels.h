@@ -6,20 +6,25 @@
 #include "../Core/FlowOptions.h"
 #include "../Core/LargeBuffer.h"
 #include "../Core/SitePixels.h"
+#include "Fingerprint.h"
 #include "HostMonitor.h"
 #include "ImageFrame.h"
 #include "ImageGeometry.h"
+#include "VTKCompatibility.h"
 
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
+#include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
-class vtkPoints;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -31,18 +36,40 @@ using SiteIdArray =
 class SiteLabels
 {
 public:
-  // Whether these are the labels of such sites on such a grid.
-  bool IsFor(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options) const;
-  // What is outdated need not take memory while new labels are made.
-  void Release() { this->Labels = nullptr; }
-  void Keep(vtkPoints* sites, const ImageFrame& frame, const FlowOptions& options,
-    vtkSmartPointer<SiteIdArray> labels);
-  SiteIdArray* Array() const { return this->Labels; }
+  // Throws Failure if there is no memory to make labels.
+  static void RequireMemory(const ImageFrame& frame);
+
+  // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
+  bool IsFor(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const;
+
+  // The labels of such sites on such a grid: those that are kept, or those that make() makes. The
+  // work of the host's current stage is to look whether the sites are the same. Throws Aborted, and
+  // what make() throws; then no labels are kept.
+  template <class Make>
+  SiteIdArray* Update(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options,
+    const Executor& executor, HostMonitor& host, const Make& make)
+  {
+    if (this->IsFor(sites, frame, options))
+    {
+      return this->Labels;
+    }
+    const bool sameSites = this->Renew(sites, executor, host);
+    if (!sameSites || !this->IsFor(sites, frame, options))
+    {
+      this->Labels = nullptr; // what is outdated need not take memory meanwhile
+      this->Labels = make();
+      this->Frame = frame;
+      this->Options = options;
+    }
+    return this->Labels;
+  }
 
 private:
+  // Returns whether the sites are those of the run before.
+  bool Renew(vtkPointSet* sites, const Executor& executor, HostMonitor& host);
+
   vtkSmartPointer<SiteIdArray> Labels;
-  vtkSmartPointer<vtkPoints> Sites;
-  vtkMTimeType Time = 0;
+  DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
   ImageFrame Frame;
   FlowOptions Options;
 };

@@ -41,6 +41,10 @@ inline void check(const FlowOptions& options)
   }
 }
 
+// A step's error is told from rounding down to about this part of the domain's longest side; less
+// would take ever more steps for nothing.
+constexpr double finestTolerance = 0x1p-40;
+
 // The width of the box in cells of a level from which that level is used: coarse levels are faster
 // and add an error that a larger number of steps does not remove. In 3D they gain less, as the sums
 // on the finest level are simpler.
@@ -345,7 +349,8 @@ public:
     this->Job.Method = options.Method;
     this->Job.Backward = backward;
     this->Job.Nearest = options.Lookup == TableLookup::Nearest;
-    this->Job.Tolerance = options.Tolerance;
+    const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
+    this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
     this->Job.Steps = options.NumberOfSteps;
     this->Job.CoarseRatio = coarseRatio<Dimension>(options, toPoints);
     this->Job.Output = positions;

@@ -46,8 +46,7 @@ class DensitySource
 public:
   virtual ~DensitySource() = default;
   virtual GridSize<Dimension> Size() const = 0;
-  // Writes the values of cells [first, first + count) of a row. Called from several threads; must
-  // not throw.
+  // Writes the values of cells [first, first + count) of a row. Called from several threads.
   virtual void ReadRow(
     std::int64_t row, std::int64_t first, std::int64_t count, double* values) const = 0;
 };

@@ -3,8 +3,11 @@
 #ifndef RectifiedTransport_Executor_h
 #define RectifiedTransport_Executor_h
 
+#include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -33,8 +36,28 @@ private:
   void (*Call)(void*, std::int64_t, std::int64_t);
 };
 
+// For executors: no exception may leave a thread that the executor runs, or the program ends. The
+// first one is kept, and ranges after it are left out.
+class KernelGuard
+{
+public:
+  explicit KernelGuard(const RangeKernel& kernel)
+    : Kernel(kernel)
+  {
+  }
+  void operator()(std::int64_t first, std::int64_t last) noexcept;
+  // Once all threads are done: throws what the kernel threw.
+  void Rethrow() const;
+
+private:
+  const RangeKernel& Kernel;
+  std::atomic<bool> Failed{ false };
+  std::exception_ptr First;
+};
+
 // Runs a kernel over [0, count) in ranges that are cut at multiples of `grain` only, so that what
-// a range computes cannot depend on the number of threads. Kernels must not throw.
+// a range computes cannot depend on the number of threads. What a kernel throws comes out of For,
+// when no thread runs it any more; some ranges have not run then.
 class Executor
 {
 public:

@@ -188,8 +188,10 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
   constexpr double shrinkage = 0.25;
   constexpr double safety = 0.9;
   constexpr double firstStep = 0.02; // of what lies ahead
-  constexpr double shortest = 1e-6;  // of what lies ahead: taken whatever its error
-  constexpr double earliest = 1e-6;  // time at which going backward ends
+  // Of what lies ahead: taken whatever its error. None is shorter than half of it, so that no
+  // tolerance makes steps that come to nothing.
+  constexpr double shortest = 1e-6;
+  constexpr double earliest = 1e-6; // time at which going backward ends
 
   AdaptiveLanes<Dimension> lanes;
   MultistepLanes<Dimension>& steps = lanes.Steps;
@@ -277,7 +279,8 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       const double ratio = tolerance / larger(lanes.Error[i], 1e-300);
       const double factor = safety * __builtin_sqrt(__builtin_sqrt(smaller(ratio, 1e6)));
       const double length = lanes.Step[i];
-      lanes.Step[i] = length * smaller(larger(factor, shrinkage), growth);
+      const double next = length * smaller(larger(factor, shrinkage), growth);
+      lanes.Step[i] = larger(next, 0.5 * shortest * ahead);
       if (ratio < 1.0 && length > shortest * ahead)
       {
         continue;

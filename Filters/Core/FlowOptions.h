@@ -25,8 +25,9 @@ enum class TableLookup
 struct FlowOptions
 {
   Integrator Method = Integrator::Multistep;
-  int NumberOfSteps = 32;  // of the fixed-step methods, 1 to 10000
-  double Tolerance = 0.01; // cells, Adaptive only, > 0
+  int NumberOfSteps = 32; // of the fixed-step methods, 1 to 10000
+  // Cells, Adaptive only, > 0. Less than 2^-40 of the domain's longest side is taken to be that.
+  double Tolerance = 0.01;
   TableLookup Lookup = TableLookup::Interpolated;
 
   bool operator==(const FlowOptions& other) const

@@ -13,14 +13,16 @@
 #include <new>
 #include <type_traits>
 
-#ifdef __linux__
+#if defined(__linux__)
 #include <sys/mman.h>
+#elif defined(_WIN32)
+#include <malloc.h>
 #endif
 
 namespace RectifiedTransport
 {
 
-// Memory that std::free gives back; null if there is none.
+// Memory that freeLarge gives back; null if there is none.
 inline void* allocateLarge(std::size_t bytes)
 {
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
@@ -30,7 +32,11 @@ inline void* allocateLarge(std::size_t bytes)
     return nullptr;
   }
   const std::size_t alignment = bytes >= 2 * hugePage ? hugePage : line;
+#ifdef _WIN32
+  void* memory = _aligned_malloc(bytes + 1, alignment);
+#else
   void* memory = std::aligned_alloc(alignment, (bytes + alignment) / alignment * alignment);
+#endif
 #ifdef __linux__
   if (memory && alignment == hugePage)
   {
@@ -40,6 +46,15 @@ inline void* allocateLarge(std::size_t bytes)
   }
 #endif
   return memory;
+}
+
+inline void freeLarge(void* memory)
+{
+#ifdef _WIN32
+  _aligned_free(memory);
+#else
+  std::free(memory);
+#endif
 }
 
 template <class T>
@@ -70,7 +85,7 @@ public:
 private:
   struct Free
   {
-    void operator()(T* memory) const { std::free(memory); }
+    void operator()(T* memory) const { freeLarge(memory); }
   };
   std::unique_ptr<T, Free> Memory;
   std::int64_t Count = 0;

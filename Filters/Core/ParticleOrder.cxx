@@ -17,7 +17,7 @@ template <int Dimension>
 std::uint32_t spreadBits(std::uint32_t value)
 {
   std::uint32_t spread = 0;
-  for (int bit = 0; bit * Dimension < 32 && bit < 16; ++bit)
+  for (int bit = 0; bit * Dimension < 32; ++bit)
   {
     spread |= ((value >> bit) & 1u) << (bit * Dimension);
   }

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
-#include <new>
 
 namespace RectifiedTransport
 {
@@ -146,19 +145,18 @@ struct Crossing
   int Side; // 1 or -1
 };
 
-// Memory for one layer that only grows. Kernels must not throw: false if there is no more.
+// Memory for one layer that only grows.
 template <class T>
 class Scratch
 {
 public:
-  bool Reserve(Index count)
+  void Reserve(Index count)
   {
     if (count > this->Count)
     {
-      this->Memory.reset(new (std::nothrow) T[static_cast<std::size_t>(count)]);
-      this->Count = this->Memory ? count : 0;
+      this->Memory.reset(new T[static_cast<std::size_t>(count)]);
+      this->Count = count;
     }
-    return count <= this->Count;
   }
   T* data() { return this->Memory.get(); }
 
@@ -204,15 +202,12 @@ public:
   void CoverLayers(Index first, Index last)
   {
     LayerScratch scratch;
-    const bool ready = scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1) &&
-      scratch.Parts.Reserve(this->Cells[0] + 1) && scratch.Whole.Reserve(this->Cells[0] + 1);
+    scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1);
+    scratch.Parts.Reserve(this->Cells[0] + 1);
+    scratch.Whole.Reserve(this->Cells[0] + 1);
     for (Index layer = first; layer < last && !this->Pace.ShouldStop(); ++layer)
     {
-      if (!ready || !this->FindCrossings(layer, scratch))
-      {
-        this->OutOfMemory = true;
-        return;
-      }
+      this->FindCrossings(layer, scratch);
       if (this->Pace.IsCancelled()) // then crossings may be missing
       {
         return;
@@ -221,7 +216,6 @@ public:
     }
   }
 
-  bool IsOutOfMemory() const { return this->OutOfMemory; }
   Index OpenLines() const { return this->NumberOfOpenLines; }
 
 private:
@@ -234,8 +228,8 @@ private:
     Scratch<int> Whole;    // how many lines cover a whole cell, as differences along the row
   };
 
-  // The crossings of all lines of a layer, by lines. False without memory.
-  bool FindCrossings(Index layer, LayerScratch& scratch)
+  // The crossings of all lines of a layer, by lines.
+  void FindCrossings(Index layer, LayerScratch& scratch)
   {
     const Index lines = this->Cells[1] * this->LinesPerCell;
     Index* first = scratch.First.data();
@@ -252,10 +246,7 @@ private:
     {
       first[line] += first[line - 1];
     }
-    if (!scratch.Crossings.Reserve(first[lines]))
-    {
-      return false;
-    }
+    scratch.Crossings.Reserve(first[lines]);
     Crossing* crossings = scratch.Crossings.data();
     this->ForSegments(layer,
       [this, first, crossings](
@@ -274,7 +265,6 @@ private:
             up ? 1 : -1 };
         }
       });
-    return true;
   }
 
   Index LineOf(Index j, Index row) const
@@ -435,7 +425,6 @@ private:
   Index Lines; // of a row
   double* Coverage;
   Pacer& Pace;
-  std::atomic<bool> OutOfMemory{ false };
   std::atomic<Index> NumberOfOpenLines{ 0 };
 };
 
@@ -466,10 +455,6 @@ CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cel
     const Index slice = std::min(cells[2] - begin, pace.NextSlice(executor.Concurrency()));
     executor.For(slice, 1,
       [&run, begin](Index first, Index last) { run.CoverLayers(begin + first, begin + last); });
-    if (run.IsOutOfMemory())
-    {
-      throw std::bad_alloc();
-    }
     begin += slice;
     if (!pace.EndSlice(slice))
     {

@@ -130,7 +130,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& de
   for (int axis = 0; axis < Dimension; ++axis)
   {
     node += tables.Cells[axis] *
-      (axis == 0 ? std::int64_t{ TableView<Dimension>::Record } : tables.Levels[0].Stride[axis]);
+      (axis == 0 ? TableView<Dimension>::Record : tables.Levels[0].Stride[axis]);
   }
   const double* last = this->Memory.Nodes.data() + node;
   for (int axis = 0; axis < Dimension; ++axis)

@@ -37,7 +37,7 @@ RowInspection inspectRow(const double* values, std::int64_t count)
       largest[lane] = value > largest[lane] ? value : largest[lane];
       smallest[lane] = value < smallest[lane] ? value : smallest[lane];
       // Also true of what is not a number.
-      wrong[lane] += !(value >= 0.0) | !(value <= limit) ? 1.0 : 0.0;
+      wrong[lane] += (!(value >= 0.0) | !(value <= limit)) ? 1.0 : 0.0;
     }
   }
   for (std::int64_t i = whole; i < count; ++i)
@@ -48,7 +48,7 @@ RowInspection inspectRow(const double* values, std::int64_t count)
     moment[lane] += value * (static_cast<double>(i) + 0.5);
     largest[lane] = value > largest[lane] ? value : largest[lane];
     smallest[lane] = value < smallest[lane] ? value : smallest[lane];
-    wrong[lane] += !(value >= 0.0) | !(value <= limit) ? 1.0 : 0.0;
+    wrong[lane] += (!(value >= 0.0) | !(value <= limit)) ? 1.0 : 0.0;
   }
   RowInspection found = { addLanes(sum), addLanes(moment), largest[0], smallest[0], 0 };
   for (int lane = 0; lane < sumLanes; ++lane)

@@ -19,7 +19,8 @@ constexpr int levelShift = 2;
 template <int Dimension>
 struct TableView
 {
-  static constexpr int Record = Dimension == 1 ? 2 : 4; // doubles a node
+  // Doubles a node. In 64 bits, and so is all that is counted in them.
+  static constexpr std::int64_t Record = Dimension == 1 ? 2 : 4;
   static constexpr int MaximumLevels = 16;
 
   struct Level

@@ -4,6 +4,6 @@
 # Arguments go to run.py.
 source "$(dirname "${BASH_SOURCE[0]}")/../../CMake/setup.sh"
 
-need $packages_build $packages_render $packages_test
+need_to_build $packages_render $packages_test
 build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
 /usr/bin/python3 "$root/Testing/Benchmarks/run.py" "$build/bin/RectifiedTransportBenchmarks" "$@"

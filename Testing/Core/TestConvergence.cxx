@@ -83,14 +83,18 @@ TEST(Convergence, DiscWithHole)
   EXPECT_LT(truth.Errors(steps(64)).Mean, 0.03);
 }
 
-// Tables with coarse levels cost no more than a twentieth of a cell.
+// Coarse levels of the tables cost no more than a twentieth of a cell. With few steps boxes of 64
+// cells and more use them in the plane, of 128 in space; with 128 steps none does.
 TEST(Convergence, CoarseLevels)
 {
   const Truth<2> large(twoGaussians<2>({ 700, 530 }), 200);
-  EXPECT_LT(large.Errors(steps(128)).Mean, 0.05);
-  const Truth<3> volume(twoGaussians<3>({ 70, 110, 83 }), 150);
-  EXPECT_LT(volume.Errors(steps(32)).Mean, 0.05);
-  EXPECT_LT(volume.Errors(steps(128)).Mean, 0.02);
+  EXPECT_LT(large.Errors(steps(32)).Mean, 0.12);
+  EXPECT_LT(large.Errors(steps(128)).Mean, 0.005);
+  const Truth<3> small(twoGaussians<3>({ 70, 110, 83 }), 150);
+  EXPECT_LT(small.Errors(steps(32)).Mean, 0.05);
+  EXPECT_LT(small.Errors(steps(128)).Mean, 0.02);
+  const Truth<3> volume(twoGaussians<3>({ 140, 151, 143 }), 100);
+  EXPECT_LT(volume.Errors(steps(32)).Mean, 0.045);
 }
 
 // Many steps leave no error that the coarse levels would put below them.

@@ -169,6 +169,46 @@ TEST(Errors, Tolerance)
   expectRefused(adaptive(Infinity), "inf");
 }
 
+// No number of steps makes an error smaller than rounding does: what asks for that gets about what
+// the smallest tolerance of use gets, and ends.
+template <int Dimension>
+void expectTinyTolerancesEnd(const TestDensity<Dimension>& density)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, 64);
+  constexpr double most = 20000.0; // evaluations of a particle
+  for (const bool backward : { false, true })
+  {
+    const auto run = [&](double tolerance) {
+      Points<Dimension> positions(seeds.size());
+      int asked = 0;
+      const Monitor patient{ {}, [&asked]() { return ++asked > 2.0 * most / 64.0; } };
+      const double* from = seeds.data()->data();
+      double* to = positions.data()->data();
+      const FlowReport report = backward
+        ? flow.Backward(from, 64, to, adaptive(tolerance), SerialExecutor(), patient)
+        : flow.Forward(from, 64, to, adaptive(tolerance), SerialExecutor(), patient);
+      EXPECT_FALSE(report.Cancelled) << tolerance << " has no end";
+      EXPECT_LT(static_cast<double>(report.Evaluations) / 64.0, most) << tolerance;
+      return positions;
+    };
+    const Points<Dimension> fine = run(1e-6);
+    for (const double tolerance :
+      { 1e-15, 1e-30, 1e-300, 1e-301, std::numeric_limits<double>::denorm_min() })
+    {
+      EXPECT_LT(largestDistance<Dimension>(run(tolerance), fine), 1e-3) << tolerance;
+    }
+  }
+}
+
+TEST(Errors, TinyTolerancesEnd)
+{
+  expectTinyTolerancesEnd(twoGaussians<1>({ 300 }));
+  expectTinyTolerancesEnd(twoGaussians<2>({ 90, 120 }));
+  expectTinyTolerancesEnd(randomCells<2>({ 60, 45 }, 0.2));
+  expectTinyTolerancesEnd(twoGaussians<3>({ 20, 26, 31 }));
+}
+
 TEST(Errors, Times)
 {
   const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -341,6 +342,47 @@ TEST(BlueNoise, HasABlueAndIsotropicSpectrum)
   {
     // A lattice's would be hundreds.
     EXPECT_LT(radial[r] / radialWaves[r], 6.0) << "frequency " << r;
+  }
+}
+
+// The box of `count` points ends half way between the last of them and the first outside: the one
+// that the box of count + 1 has besides, in another unit. Returns where the two are, in the first
+// box's unit.
+template <int Dimension>
+std::array<double, 2> lastAndNext(
+  const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed)
+{
+  double unit = 1.0;
+  std::array<double, 2> largest{};
+  for (int more = 0; more < 2; ++more)
+  {
+    const auto points = seeds<Dimension>(SeedPattern::BlueNoise, lengths, count + more, randomSeed);
+    largest[more] = *std::max_element(points.begin(), points.end());
+    // The same point is the nearest to the corner in both.
+    double nearest = Dimension;
+    for (std::size_t i = 0; i < points.size(); i += Dimension)
+    {
+      nearest =
+        std::min(nearest, std::accumulate(points.begin() + i, points.begin() + i + Dimension, 0.0));
+    }
+    unit = more == 0 ? nearest : unit / nearest;
+  }
+  return { largest[0], largest[1] * unit };
+}
+
+TEST(BlueNoise, EndsHalfWayToTheNextPoint)
+{
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  {
+    for (const std::int64_t count : { 100, 101, 1000 })
+    {
+      for (const auto& [last, next] : { lastAndNext<2>({ 4.0, 3.0 }, count, seed),
+             lastAndNext<3>({ 1.0, 2.0, 1.5 }, count, seed) })
+      {
+        EXPECT_LT(last, 1.0) << count << ", seed " << seed;
+        EXPECT_NEAR(1.0 - last, next - 1.0, 1e-11) << count << ", seed " << seed;
+      }
+    }
   }
 }
 

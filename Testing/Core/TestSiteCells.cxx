@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace RectifiedTransport
@@ -187,12 +188,23 @@ TEST(SiteCells, FlowGivesNearlyEqualCells)
   }
 }
 
+// Boxes at nodes give cells nearly as equal, of which every fiftieth pixel is another's.
 TEST(SiteCells, NearestLookupFindsSitesToo)
 {
-  const GridSize<2> size{ 64, 64 };
+  const GridSize<2> size{ 128, 128 };
+  const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 16, 5));
   FlowOptions options;
   options.Lookup = TableLookup::Nearest;
-  flowToSites(pixelsOf<2>(size, randomPoints<2>(size, 20)), options);
+  const Labels labels = flowToSites(sites, options);
+  const Labels exact = flowToSites(sites);
+  const std::int64_t same =
+    std::inner_product(labels.begin(), labels.end(), exact.begin(), std::int64_t{ 0 },
+      std::plus<>(), [](std::int64_t a, std::int64_t b) { return a == b ? 1 : 0; });
+  EXPECT_NEAR(static_cast<double>(same) / static_cast<double>(labels.size()), 0.98, 0.008);
+  for (const std::int64_t count : countLabels(labels, 16))
+  {
+    EXPECT_NEAR(static_cast<double>(count), 1024.0, 30.0);
+  }
 }
 
 template <int Dimension>
@@ -263,6 +275,47 @@ TEST(SiteCells, BalanceDoesNotDependOnTheUnit)
     Labels labels = flow;
     ASSERT_TRUE(balanceCells<2>(sites, { unit, 2.0 * unit }, labels.data(), {}));
     EXPECT_EQ(labels, usual) << unit;
+  }
+}
+
+// Of pixels that may move, the one whose way grows least in physical length. The border is so rough
+// that this is another one than on square pixels.
+TEST(SiteCells, BalanceMovesTheCheapestPixel)
+{
+  const GridSize<2> size{ 10, 8 };
+  const auto sites = pixelsOf<2>(size, { { 0.5, 0.5 }, { 9.5, 7.5 } });
+  Labels labels(80);
+  const std::size_t widths[] = { 8, 7, 7, 7, 7, 2, 2, 1 }; // of the first cell, one too many
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    labels[i] = i % 10 < widths[i / 10] ? 0 : 1;
+  }
+  const auto cheapest = [&labels](const Point<2>& spacing) {
+    std::pair<double, std::size_t> best(HUGE_VAL, 0);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      const bool touches =
+        (i % 10 < 9 && labels[i + 1] == 1) || (i / 10 < 7 && labels[i + 10] == 1);
+      if (labels[i] == 0 && touches)
+      {
+        const double x = static_cast<double>(i % 10);
+        const double y = static_cast<double>(i / 10);
+        const double old = std::hypot(x * spacing[0], y * spacing[1]);
+        const double now = std::hypot((9.0 - x) * spacing[0], (7.0 - y) * spacing[1]);
+        best = std::min(best, { now * now - old * old, i });
+      }
+    }
+    return best.second;
+  };
+  const Point<2> even{ 1.0, 1.0 };
+  for (const Point<2>& spacing : { Point<2>{ 1.0, 2.0 }, Point<2>{ 2.0, 1.0 } })
+  {
+    Labels expected = labels;
+    expected[cheapest(spacing)] = 1;
+    EXPECT_NE(cheapest(spacing), cheapest(even));
+    Labels found = labels;
+    ASSERT_TRUE(balanceCells<2>(sites, spacing, found.data(), {}));
+    EXPECT_EQ(found, expected);
   }
 }
 
@@ -341,6 +394,21 @@ TEST(SiteCells, SitesInOnePixelDivideItsCell)
   {
     const std::size_t x = i % 12;
     EXPECT_EQ(found[i], x < 3 ? 1 : x < 6 ? 3 : x < 9 ? 0 : 2) << i;
+  }
+}
+
+// The axis along which sites differ most is that of the physical length, too.
+TEST(SiteCells, SitesOnUnevenPixelsDivideTheirCell)
+{
+  const GridSize<2> size{ 6, 4 };
+  const Points<2> places{ { 2.2, 2.3 }, { 2.8, 2.7 } };
+  const auto sites = pixelsOf<2>(size, places);
+  const Labels even = shared<2>(sites, places, Labels(24, 0), { 1.0, 1.0 });
+  const Labels tall = shared<2>(sites, places, Labels(24, 0), { 1.0, 2.0 });
+  for (std::size_t i = 0; i < 24; ++i)
+  {
+    EXPECT_EQ(even[i], i % 6 < 3 ? 0 : 1) << i;
+    EXPECT_EQ(tall[i], i / 6 < 2 ? 0 : 1) << i;
   }
 }
 

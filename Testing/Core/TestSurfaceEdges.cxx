@@ -141,6 +141,33 @@ TEST(SurfaceOrientation, MostOfTheArea)
   }
 }
 
+// A few large triangles have more of the area than many small ones.
+TEST(SurfaceOrientation, AreaIsNotCount)
+{
+  constexpr std::int64_t around = 12;
+  constexpr std::int64_t across = 4;
+  // A square tube that closes; its last ring is far from all others.
+  const Mesh right = makeTorus(around, across, [](double u, double v) {
+    const double x = u > 0.9 ? 10.0 : 0.01 * u;
+    return Point<3>{ x, v < 0.5 ? 0.0 : 1.0, v > 0.2 && v < 0.7 ? 1.0 : 0.0 };
+  });
+  const std::size_t small = 2 * across * (around - 2);
+  ASSERT_EQ(right.Triangles.size(), small + 4 * across);
+  for (const bool turnSmall : { true, false })
+  {
+    Mesh mesh = right;
+    for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+    {
+      if ((i < small) == turnSmall)
+      {
+        std::swap(mesh.Triangles[i][1], mesh.Triangles[i][2]);
+      }
+    }
+    EXPECT_TRUE(orient(mesh, 7));
+    EXPECT_EQ(mesh.Triangles, turnSmall ? right.Triangles : right.Turned().Triangles);
+  }
+}
+
 TEST(SurfaceOrientation, KleinBottle)
 {
   const std::int64_t around = 12;

@@ -137,11 +137,27 @@ void checkList(Checks& checks)
   CHECK(checks, hear.Errors.empty());
   barycenter->SetWeight(-1, 2.0);
   CHECK(checks,
-    hear.Errors.size() == 1 && contains(hear.Errors[0], "weight is -1; it must be at least 0"));
+    hear.Errors.size() == 1 &&
+      contains(hear.Errors[0], "weight is -1; it must be from 0 to 999999"));
   barycenter->SetNumberOfWeights(-4);
   CHECK(checks,
-    hear.Errors.size() == 2 && contains(hear.Errors[1], "weights is -4; it must be at least 0"));
+    hear.Errors.size() == 2 &&
+      contains(hear.Errors[1], "weights is -4; it must be from 0 to 1000000"));
+  // As many as an int counts, and past it.
+  constexpr int most = std::numeric_limits<int>::max();
+  for (const int index : { most, most - 1, 1000000 })
+  {
+    hear.Clear();
+    barycenter->SetWeight(index, 1.0);
+    CHECK(checks,
+      hear.Errors.size() == 1 && contains(hear.Errors[0], "weight is " + std::to_string(index)));
+  }
+  hear.Clear();
+  barycenter->SetNumberOfWeights(most);
+  CHECK(checks, hear.Errors.size() == 1 && contains(hear.Errors[0], "weights is 2147483647"));
   CHECK(checks, barycenter->GetNumberOfWeights() == 2);
+  barycenter->SetWeight(999999, 0.5);
+  CHECK(checks, barycenter->GetNumberOfWeights() == 1000000);
 }
 
 } // namespace

@@ -51,10 +51,16 @@ void checkTurned(Checks& checks)
   }
   CHECK_NEAR(checks, siteValue(cells, "CellMass", 0), 3.0 / 12.0, 1e-12);
   // The values and the resolution of a domain do not count, only its box.
-  auto fine = makeImage(9, 7, 1, false, bumpy);
+  auto fine = makeImage(9, 7, 1, true, bumpy);
   fine->SetSpacing(0.125, 0.125, 1.0);
   cells->SetDomainData(fine);
   cells->SetInputData(makePoints(flat));
+  CHECK(checks, runCells(cells) == expected);
+  // That of values on points is half a spacing larger on each side.
+  auto dual = makeImage(8, 6, 1, false, bumpy);
+  dual->SetSpacing(0.125, 0.125, 1.0);
+  dual->SetOrigin(0.0625, 0.0625, 0.0);
+  cells->SetDomainData(dual);
   CHECK(checks, runCells(cells) == expected);
 }
 
@@ -177,6 +183,33 @@ void checkOneSite(Checks& checks)
   CHECK(checks, messages.Errors.empty());
 }
 
+// A site for every pixel has that pixel; for one site more there is none.
+void checkSiteForEachPixel(Checks& checks)
+{
+  vtkNew<vtkEqualMassCells> cells;
+  Messages messages(cells);
+  cells->SetDomainData(makeDomain({ 0.0, 4.0, 0.0, 3.0, 0.0, 0.0 }));
+  cells->SetResolution(4);
+  std::vector<double> x;
+  std::vector<vtkIdType> expected;
+  for (int i = 0; i < 12; ++i)
+  {
+    x.insert(x.end(), { 0.5 + i % 4, 0.5 + i / 4, 0.0 });
+    expected.push_back(i);
+  }
+  cells->SetInputData(makePoints(x));
+  CHECK(checks, runCells(cells) == expected);
+  CHECK_NEAR(checks, siteValue(cells, "CellCost", 7), 0.0, 1e-15);
+  CHECK_NEAR(checks, siteValue(cells, "CellMass", 7), 1.0, 1e-15);
+  CHECK(checks, messages.Errors.empty());
+  x.insert(x.end(), { 1.1, 1.1, 0.0 });
+  cells->SetInputData(makePoints(x));
+  cells->Update();
+  CHECK(checks,
+    messages.Errors.size() == 1 && contains(messages.Errors[0], "13 sites for 4 x 3 pixels"));
+  CHECK(checks, cells->GetLabels()->GetNumberOfPoints() == 0);
+}
+
 // Sites in one pixel share the mass of one cell, to the last bit, and its pixels but for one.
 void checkDoubleSites(Checks& checks)
 {
@@ -219,6 +252,23 @@ void checkOutside(Checks& checks)
   CHECK(checks, contains(messages.Warnings.front(), "3 of 3 sites are outside the domain"));
   CHECK(checks, cells->GetSites()->GetPoint(0)[0] == -3.0);
   CHECK(checks, siteValue(cells, "CellCost", 2) > 4.0 / 3.0); // two below the plane, a third
+  // However far away they are, the middles of their cells are those of the pixels.
+  std::vector<double> middles;
+  for (vtkIdType site = 0; site < 3; ++site)
+  {
+    middles.push_back(siteValue(cells, "CellCentroid", site, 0));
+    middles.push_back(siteValue(cells, "CellCentroid", site, 1));
+    CHECK(checks, siteValue(cells, "CellCentroid", site, 2) == 0.0);
+  }
+  cells->SetInputData(makePoints({ -3e17, 0.5, 0, 0.6, 1e20, 0, 0.7, 0.3, 2e17 }));
+  CHECK(checks, runCells(cells) == inside);
+  for (vtkIdType site = 0; site < 3; ++site)
+  {
+    const double* middle = middles.data() + 2 * site;
+    CHECK_NEAR(checks, siteValue(cells, "CellCentroid", site, 0), middle[0], 1e-14);
+    CHECK_NEAR(checks, siteValue(cells, "CellCentroid", site, 1), middle[1], 1e-14);
+    CHECK(checks, siteValue(cells, "CellCentroid", site, 2) == 0.0);
+  }
 }
 
 } // namespace
@@ -233,6 +283,7 @@ int TestCellsGeometry(int, char*[])
   checkUnits(checks);
   checkOwnBounds(checks);
   checkOneSite(checks);
+  checkSiteForEachPixel(checks);
   checkDoubleSites(checks);
   checkOutside(checks);
   return checks.Result();

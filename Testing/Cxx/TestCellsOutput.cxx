@@ -126,6 +126,10 @@ void checkOutlines(Checks& checks, vtkEqualMassCells* cells)
   vtkPolyData* outlines = cells->GetOutlines();
   vtkDataArray* ids = outlines->GetCellData()->GetScalars();
   CHECK(checks, ids && ids->GetName() == std::string("SiteId"));
+  if (!ids)
+  {
+    return;
+  }
   CHECK(checks, outlines->GetNumberOfLines() == outlines->GetNumberOfCells());
   CHECK(checks, outlines->GetPoints()->GetDataType() == VTK_DOUBLE);
   std::map<vtkIdType, int> found;

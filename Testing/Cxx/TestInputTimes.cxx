@@ -2,6 +2,7 @@
 // Filters of two inputs follow the time of either.
 #include "WarpTest.h"
 
+#include "vtkEqualMassCells.h"
 #include "vtkImageAlgorithm.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -9,6 +10,7 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
+#include "vtkTransportInterpolator.h"
 #include "vtkTransportQuality.h"
 #include "vtkVariant.h"
 
@@ -89,18 +91,21 @@ void expectTimes(
   Checks& checks, vtkAlgorithm* filter, const std::vector<double>& expected, int line)
 {
   filter->UpdateInformation();
-  vtkInformation* output = filter->GetOutputInformation(0);
-  std::vector<double> times(static_cast<std::size_t>(output->Length(Pipeline::TIME_STEPS())));
-  if (!times.empty())
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
   {
-    output->Get(Pipeline::TIME_STEPS(), times.data());
+    vtkInformation* output = filter->GetOutputInformation(port);
+    std::vector<double> times(static_cast<std::size_t>(output->Length(Pipeline::TIME_STEPS())));
+    if (!times.empty())
+    {
+      output->Get(Pipeline::TIME_STEPS(), times.data());
+    }
+    checks.That(times == expected, "time steps", line);
+    const double* range = output->Get(Pipeline::TIME_RANGE());
+    checks.That(expected.empty()
+        ? range == nullptr
+        : range && range[0] == expected.front() && range[1] == expected.back(),
+      "time range", line);
   }
-  checks.That(times == expected, "time steps", line);
-  const double* range = output->Get(Pipeline::TIME_RANGE());
-  checks.That(expected.empty()
-      ? range == nullptr
-      : range && range[0] == expected.front() && range[1] == expected.back(),
-    "time range", line);
 }
 
 // A density that changes under points that do not, and the reverse.
@@ -172,6 +177,30 @@ void checkSampler(Checks& checks)
   CHECK(checks, coordinates(sampler->GetOutput()) != last);
 }
 
+// Every output follows, whichever is asked.
+void checkOutputs(Checks& checks)
+{
+  vtkNew<TimedImage> images;
+  vtkNew<TimedPoints> points;
+  vtkNew<vtkTransportInterpolator> morph;
+  morph->SetInputData(makeImage(9, 7, 1, true, bumpy));
+  morph->SetTargetConnection(images->GetOutputPort());
+  expectTimes(checks, morph, { 0.0, 1.0, 3.0 }, __LINE__);
+  vtkNew<vtkEqualMassCells> cells;
+  cells->SetInputConnection(points->GetOutputPort());
+  cells->SetDomainConnection(images->GetOutputPort());
+  cells->SetResolution(16);
+  expectTimes(checks, cells, { 0.0, 0.5, 1.0, 3.0 }, __LINE__);
+  for (const double time : { 0.5, 1.0 })
+  {
+    vtkStreamingDemandDrivenPipeline::SafeDownCast(cells->GetExecutive())
+      ->GetOutputInformation(1)
+      ->Set(Pipeline::UPDATE_TIME_STEP(), time);
+    cells->Update(1);
+    CHECK(checks, cells->GetSites()->GetPoint(0)[0] == 3.0 + time);
+  }
+}
+
 } // namespace
 
 int TestInputTimes(int, char*[])
@@ -180,5 +209,6 @@ int TestInputTimes(int, char*[])
   checkWarp(checks);
   checkQuality(checks);
   checkSampler(checks);
+  checkOutputs(checks);
   return checks.Result();
 }

@@ -142,7 +142,9 @@ void checkPointsAndCells(Checks& checks)
   }
 }
 
-// The sampler takes seeds at the samples' places to where the map says.
+// The sampler takes seeds at the samples' places to where the map says, up to rounding: VTK's
+// versions invert the image's matrix to other last bits, and the flow's last boxes are so small
+// that seeds moved by 1e-14 arrive up to 2e-9 away (measured here; when moved by 1e-10, 4e-9).
 void checkAgainstSampler(Checks& checks, vtkImageData* image, std::array<int, 3> samples)
 {
   const Map map = mapOf(image, 0, samples);
@@ -172,7 +174,7 @@ void checkAgainstSampler(Checks& checks, vtkImageData* image, std::array<int, 3>
   CHECK_NEAR(checks,
     largestDifference(
       arrayValues(pointArray(sampler->GetOutput(), "Displacement")), map.Displacement),
-    0.0, 1e-9);
+    0.0, 1e-8);
   CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "TransportCost") / map.Cost, 1.0, 1e-9);
   CHECK(checks, messages.Warnings.empty()); // all lie in the domain
 }

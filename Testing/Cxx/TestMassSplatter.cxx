@@ -132,6 +132,9 @@ void checkReference(Checks& checks)
   splatter->SetInputData(makePoints({ 0.5, 0.6, 37.0, 50.0, 0.6, 37.0, 0.5, 0.6, 37.1 }));
   splatter->Update();
   CHECK(checks, messages.Warnings.size() == 1 && contains(messages.Warnings[0], "2 of 3 points"));
+  CHECK(checks,
+    !messages.Warnings.empty() &&
+      contains(messages.Warnings[0], "went to the nearest points of its border"));
   CHECK_NEAR(checks, totalMass(splatter), 3.0, 1e-12);
   splatter->SetBoundaryToDrop();
   splatter->Update();

@@ -70,6 +70,10 @@ public:
     const Values expected = runDensity(fresh);
     checks.That(!expected.empty() && densityValues(this->Morph) == expected, "as anew", line);
     checks.That(particlePlaces(this->Morph) == particlePlaces(fresh), "places as anew", line);
+    vtkPolyData* particles = this->Morph->GetParticles();
+    checks.That(particles->GetNumberOfVerts() == particles->GetNumberOfPoints() &&
+        particles->GetNumberOfCells() == particles->GetNumberOfPoints(),
+      "a vertex each", line);
   }
 
   vtkSmartPointer<vtkImageData> Source;

@@ -290,7 +290,7 @@ void checkArrays(Checks& checks)
 
     vtkPolyData* particles = morph->GetParticles();
     const vtkIdType count = particles->GetNumberOfPoints();
-    CHECK(checks, count == density->GetNumberOfTuples());
+    CHECK(checks, density && count == density->GetNumberOfTuples());
     CHECK(checks, particles->GetNumberOfVerts() == count && particles->GetNumberOfCells() == count);
     for (vtkIdType i = 0; i < count; ++i)
     {

@@ -12,10 +12,11 @@ namespace
 
 constexpr unsigned char duplicateCell = vtkDataSetAttributes::DUPLICATECELL;
 constexpr unsigned char hiddenCell = vtkDataSetAttributes::HIDDENCELL;
+constexpr unsigned char refinedCell = vtkDataSetAttributes::REFINEDCELL;
 constexpr unsigned char duplicatePoint = vtkDataSetAttributes::DUPLICATEPOINT;
 constexpr unsigned char hiddenPoint = vtkDataSetAttributes::HIDDENPOINT;
 
-void mark(
+vtkUnsignedCharArray* mark(
   vtkDataSetAttributes* data, vtkIdType count, const std::function<unsigned char(vtkIdType)>& flag)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -26,6 +27,7 @@ void mark(
     ghosts->SetValue(i, flag(i));
   }
   data->AddArray(ghosts);
+  return ghosts;
 }
 
 // A density that is worthless where it is blank.
@@ -55,7 +57,10 @@ void checkSame(Checks& checks, vtkImageData* marked, vtkImageData* expected, boo
 void checkCells(Checks& checks, int depth)
 {
   const auto flag = [](vtkIdType i) {
-    return i % 5 == 1 ? duplicateCell : i % 7 == 2 ? hiddenCell : static_cast<unsigned char>(0);
+    return i % 5 == 1 ? duplicateCell
+      : i % 7 == 2    ? hiddenCell
+      : i % 11 == 3   ? refinedCell
+                      : static_cast<unsigned char>(0);
   };
   const auto blank = [&](vtkIdType i) { return flag(i) != 0; };
   auto marked = makeImage(14, 9, depth, true, [&](vtkIdType i) { return hostile(i, blank(i)); });
@@ -102,6 +107,47 @@ void checkCellsOfHiddenPoints(Checks& checks, int ny, int nz)
   checkSame(checks, marked, expected, false, __LINE__);
 }
 
+// vtkImageData itself says which flags of a cell blank it: at the border of a level of refinement,
+// and at the outside of the whole, cells have their mass.
+void checkEveryFlag(Checks& checks)
+{
+  for (int bit = 1; bit < 8; ++bit) // the first is that of duplicates, which are visible
+  {
+    const auto flag = static_cast<unsigned char>(1 << bit);
+    auto marked = makeImage(14, 9, 1, true, bumpy);
+    mark(marked->GetCellData(), marked->GetNumberOfCells(),
+      [=](vtkIdType i) { return i % 4 == 1 ? flag : static_cast<unsigned char>(0); });
+    auto expected = makeImage(
+      14, 9, 1, true, [&](vtkIdType i) { return marked->IsCellVisible(i) ? bumpy(i) : 0.0; });
+    checkSame(checks, marked, expected, false, __LINE__);
+  }
+}
+
+// Ghosts that are edited in place count at the next update, also where the ghost array alone is
+// told that it has changed.
+void checkEditedInPlace(Checks& checks, bool cells, bool ofCells, unsigned char flag, int line)
+{
+  auto image = makeImage(14, 9, 1, cells, bumpy);
+  vtkDataSetAttributes* data =
+    image->GetAttributes(ofCells ? vtkDataObject::CELL : vtkDataObject::POINT);
+  vtkUnsignedCharArray* ghosts =
+    mark(data, ofCells ? image->GetNumberOfCells() : image->GetNumberOfPoints(),
+      [](vtkIdType) { return static_cast<unsigned char>(0); });
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(400);
+  std::vector<double> before = sampleCoordinates(sampler);
+  for (const bool tellImage : { false, true })
+  {
+    ghosts->SetValue(tellImage ? 40 : 70, flag);
+    tellImage ? image->Modified() : ghosts->Modified();
+    const std::vector<double> now = sampleCoordinates(sampler);
+    checks.That(now != before, "other particles", line);
+    checks.That(now == samplePoints(image, 400), "as anew", line);
+    before = now;
+  }
+}
+
 // Nothing is left.
 void checkAllBlank(Checks& checks)
 {
@@ -127,6 +173,10 @@ int TestSamplerGhosts(int, char*[])
   checkCellsOfHiddenPoints(checks, 9, 1);
   checkCellsOfHiddenPoints(checks, 1, 9);
   checkCellsOfHiddenPoints(checks, 6, 5);
+  checkEveryFlag(checks);
+  checkEditedInPlace(checks, true, true, hiddenCell, __LINE__);
+  checkEditedInPlace(checks, true, false, hiddenPoint, __LINE__);
+  checkEditedInPlace(checks, false, false, hiddenPoint, __LINE__);
   checkAllBlank(checks);
   return checks.Result();
 }

@@ -33,7 +33,8 @@ void checkAbsurdNumbers(Checks& checks)
 {
   vtkNew<vtkTransportSampler> sampler;
   Messages messages(sampler);
-  sampler->SetInputData(makeImage(12, 9, 1, true, bumpy));
+  auto image = makeImage(12, 9, 1, true, bumpy);
+  sampler->SetInputData(image);
   sampler->SetNumberOfParticles(100);
   sampler->Update();
   const vtkMTimeType built = sampler->GetTableBuildTime();
@@ -41,6 +42,12 @@ void checkAbsurdNumbers(Checks& checks)
   sampler->SetNumberOfParticles(1000000000000);
   expectError(checks, sampler, messages, "1000000000000 particles", __LINE__);
   CHECK(checks, contains(messages.Errors[0], "TB were asked for"));
+  // A particle of a volume takes the bytes of its arrays: three of 3 doubles, Mass, SeedId, and its
+  // vertex of two ids.
+  sampler->SetInputData(makeImage(12, 9, 5, true, bumpy));
+  sampler->Update();
+  CHECK(checks, contains(messages.Errors.back(), ": 104 TB were asked for"));
+  sampler->SetInputData(image);
   for (int pattern = 0; pattern < 5; ++pattern)
   {
     sampler->SetSeedPattern(pattern);

@@ -9,7 +9,9 @@
 #include "vtkTransportSampler.h"
 #include "vtkVariant.h"
 
+#include <array>
 #include <limits>
+#include <map>
 
 namespace
 {
@@ -181,49 +183,98 @@ void checkBlocks(Checks& checks)
   CHECK_NEAR(checks, measured(quality, "TransportCost"), (70 * 9 + 150 * 25) / all, 1e-12);
 }
 
+// The DensityError to expect of particles at random, and of evenly spread ones.
+struct ExpectedErrors
+{
+  double Chance;
+  double Uniform;
+};
+
+// The variance of a share m of n independent particles is m (1 - m) / n.
+ExpectedErrors expectedErrors(vtkImageData* image, int blockSize, int particles)
+{
+  std::map<std::array<int, 3>, std::pair<double, double>> blocks; // mass and cells
+  double all = 0.0;
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+  {
+    const int at = static_cast<int>(i);
+    const int nx = std::max(1, dimensions[0] - 1);
+    const int ny = std::max(1, dimensions[1] - 1);
+    auto& [mass, cells] =
+      blocks[{ at % nx / blockSize, at / nx % ny / blockSize, at / nx / ny / blockSize }];
+    mass += image->GetCellData()->GetScalars()->GetTuple1(i);
+    cells += 1.0;
+    all += image->GetCellData()->GetScalars()->GetTuple1(i);
+  }
+  double variance = 0.0;
+  double difference = 0.0;
+  double norm = 0.0;
+  for (const auto& [place, block] : blocks)
+  {
+    const double share = block.first / all;
+    const double off = block.second / static_cast<double>(image->GetNumberOfCells()) - share;
+    variance += share * (1.0 - share) / particles / block.second;
+    difference += off * off / block.second;
+    norm += share * share / block.second;
+  }
+  return { std::sqrt(variance / norm), std::sqrt(difference / norm) };
+}
+
 // What a sampler makes is good, and its own figures agree.
+void checkSampler(Checks& checks, const std::array<int, 3>& points, double spacingOfChance)
+{
+  const double all = static_cast<double>(points[0]) * points[1] * points[2];
+  auto image = makeImage(points[0], points[1], points[2], true, [=](vtkIdType i) {
+    return i % 40 < 4 ? 0.0 : bumpy(i) * (1.0 + 9.0 * static_cast<double>(i) / all);
+  });
+  image->SetSpacing(0.4, 1.5, 0.9);
+  constexpr int count = 3000;
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(count);
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputConnection(sampler->GetOutputPort());
+  quality->SetDensityData(image);
+  quality->SetBlockSize(4);
+  quality->Update();
+  vtkPolyData* particles = sampler->GetOutput();
+  CHECK_NEAR(checks, value(quality, "TotalMass") / fieldValue(particles, "TotalMass"), 1.0, 1e-12);
+  CHECK_NEAR(
+    checks, value(quality, "TransportCost") / fieldValue(particles, "TransportCost"), 1.0, 1e-12);
+  CHECK(checks, value(quality, "Particles") == count);
+  CHECK(checks, value(quality, "InEmptyCells") == 0);
+  CHECK(checks, value(quality, "Outside") == 0);
+  // Blue noise is much better than chance, which gives what it must.
+  const auto [chance, uniform] = expectedErrors(image, 4, count);
+  const double error = value(quality, "DensityError");
+  const double mean = value(quality, "MeanSpacing");
+  const double smallest = value(quality, "SmallestSpacing");
+  sampler->SetSeedPatternToRandom();
+  quality->Update();
+  CHECK_NEAR(checks, value(quality, "DensityError") / chance, 1.0, 0.15);
+  CHECK_NEAR(checks, value(quality, "MeanSpacing"), spacingOfChance, 0.04);
+  CHECK_NEAR(checks, value(quality, "SmallestSpacing"), 0.0, 0.06);
+  CHECK(checks, error < 0.6 * chance);
+  CHECK(checks, mean > spacingOfChance + 0.15 && mean < 1.0);
+  CHECK(checks, smallest < mean && (points[1] == 1 || smallest > 0.1));
+  // The seeds do not follow the density, and as many are where there is no mass as that has cells.
+  sampler->SetSeedPatternToBlueNoise();
+  sampler->SetFlowTime(0.0);
+  quality->Update();
+  CHECK_NEAR(checks, value(quality, "DensityError") / uniform, 1.0, 0.1);
+  CHECK_NEAR(checks, value(quality, "InEmptyCells") / count, 0.1, 0.01);
+}
+
 void checkSampler(Checks& checks)
 {
-  for (const int depth : { 0, 1, 2 })
-  {
-    const int nx = depth == 0 ? 401 : depth == 1 ? 61 : 17;
-    const int ny = depth == 0 ? 1 : 17;
-    const int nz = depth == 2 ? 15 : 1;
-    const double all = static_cast<double>(nx) * ny * nz;
-    auto image = makeImage(nx, ny, nz, true, [=](vtkIdType i) {
-      return i % 40 < 4 ? 0.0 : bumpy(i) * (1.0 + 9.0 * static_cast<double>(i) / all);
-    });
-    image->SetSpacing(0.4, 1.5, 0.9);
-    vtkNew<vtkTransportSampler> sampler;
-    sampler->SetInputData(image);
-    sampler->SetNumberOfParticles(3000);
-    vtkNew<vtkTransportQuality> quality;
-    quality->SetInputConnection(sampler->GetOutputPort());
-    quality->SetDensityData(image);
-    quality->Update();
-    vtkPolyData* particles = sampler->GetOutput();
-    CHECK_NEAR(
-      checks, value(quality, "TotalMass") / fieldValue(particles, "TotalMass"), 1.0, 1e-12);
-    CHECK_NEAR(
-      checks, value(quality, "TransportCost") / fieldValue(particles, "TransportCost"), 1.0, 1e-12);
-    CHECK(checks, value(quality, "Particles") == 3000);
-    CHECK(checks, value(quality, "InEmptyCells") == 0);
-    CHECK(checks, value(quality, "Outside") == 0);
-    CHECK_NEAR(checks, value(quality, "DensityError"), 0.0, 0.2);
-    const double mean = value(quality, "MeanSpacing");
-    CHECK(checks, mean > 0.4 && mean < 1.0);
-    CHECK(checks, value(quality, "SmallestSpacing") <= mean);
-    // The seeds do not follow the density, and many are where there is no mass.
-    sampler->SetFlowTime(0.0);
-    quality->Update();
-    CHECK(checks, value(quality, "DensityError") > 0.2);
-    CHECK(checks, value(quality, "InEmptyCells") > 150);
-    sampler->SetFlowTime(1.0);
-    // Random seeds make clumps.
-    sampler->SetSeedPatternToRandom();
-    quality->Update();
-    CHECK(checks, value(quality, "MeanSpacing") < mean - 0.1);
-  }
+  // Of points at random the nearest other one is 1 / 2 n away on a line of n a unit, 1 / 2 sqrt(n)
+  // in a plane and 0.554 / n^(1/3) in a volume; the densest lattices have 1 / n, 1.0746 / sqrt(n)
+  // and 1.1225 / n^(1/3).
+  checkSampler(checks, { 401, 1, 1 }, 0.5);
+  checkSampler(checks, { 61, 41, 1 }, 0.5 / 1.0746);
+  checkSampler(checks, { 17, 17, 15 }, 0.554 / 1.1225);
 }
 
 void checkOutside(Checks& checks)

@@ -196,7 +196,7 @@ void checkBlend(Checks& checks)
   warp->SetDensityData(image);
   const std::vector<double> whole = warpCoordinates(warp);
   CHECK(checks, largestDifference(whole, x) > 0.5);
-  for (const double blend : { 0.0, 0.25, 1.0 })
+  for (const double blend : { 0.0, 1e-3, 0.25, 1.0 })
   {
     warp->SetBlend(blend);
     const std::vector<double> found = warpCoordinates(warp);

@@ -8,6 +8,7 @@ import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+from paraview.simple import GetParaViewSourceVersion
 from rt_testing import OUTPUT, SOURCE, main, need_display
 
 OPEN = """
@@ -62,9 +63,9 @@ class Gui(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.home)
         settings = os.path.join(self.home, ".config", "ParaView")
         os.makedirs(settings)
-        for version in ("5.11.0", "5.13.2"):
-            with open(os.path.join(settings, "ParaView%s.ini" % version), "w") as file:
-                file.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+        version = str(GetParaViewSourceVersion()).split()[-1]
+        with open(os.path.join(settings, "ParaView%s.ini" % version), "w") as file:
+            file.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
 
     def play(self, script, recording, picture):
         """Starts ParaView, plays a recording, keeps a picture of the screen, ends ParaView."""

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the plugin's XML: every concrete proxy with the properties that it takes over."""
+"""Reads the plugin's XML: every concrete proxy with what it takes over, its class and its page."""
 import glob
 import os
+import re
 import xml.etree.ElementTree as ElementTree
 
 from rt_testing import SOURCE
@@ -44,14 +45,18 @@ class Property:
 
 
 class Proxy:
-    """A concrete proxy: its own element, and all its properties by name."""
+    """A concrete proxy: its own element, and with what it takes over its properties by name, its
+    output ports and its groups."""
 
-    def __init__(self, element, menu, properties):
-        self.element = element
+    def __init__(self, menu, elements):
+        self.element = elements[-1]
         self.menu = menu
-        self.label = element.get("label")
-        self.class_name = element.get("class")
-        self.properties = properties
+        self.label = self.element.get("label")
+        self.class_name = self.element.get("class")
+        every = [e for element in elements for e in element]
+        self.properties = {e.get("name"): Property(e) for e in every if e.tag.endswith("Property")}
+        self.ports = [e for e in every if e.tag == "OutputPort"]
+        self.groups = [e for e in every if e.tag == "PropertyGroup"]
 
 
 def proxies():
@@ -61,11 +66,23 @@ def proxies():
             for element in group:
                 elements[group.get("name"), element.get("name")] = element
 
-    def properties(element):
+    def chain(element):
         base = element.get("base_proxygroup"), element.get("base_proxyname")
-        found = properties(elements[base]) if base[0] else {}
-        found.update((e.get("name"), Property(e)) for e in element if e.tag.endswith("Property"))
-        return found
+        return (chain(elements[base]) if base[0] else []) + [element]
 
-    return [Proxy(element, group, properties(element))
+    return [Proxy(group, chain(element))
             for (group, _), element in elements.items() if not group.startswith("internal")]
+
+
+def instance(proxy):
+    """A new object of a proxy's class."""
+    import rectifiedtransport
+    return getattr(rectifiedtransport, proxy.class_name)()
+
+
+def page_rows(proxy):
+    """The tables of properties on a proxy's page: name, default and range."""
+    name = proxy.label.replace(" ", "").replace("-", "") + ".md"
+    with open(os.path.join(SOURCE, "Documentation", name), encoding="utf-8") as file:
+        return {row[0]: row[1:] for row in re.findall(
+            r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|[^|]*\|$", file.read(), re.MULTILINE)}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Behind.h"
+
+#include "vtkCleanPolyData.h"
+#include "vtkContourFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkElevationFilter.h"
+#include "vtkImageData.h"
+#include "vtkImageExtractComponents.h"
+#include "vtkImageShrink3D.h"
+#include "vtkMassSplatter.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTransportMap.h"
+#include "vtkTransportSampler.h"
+
+namespace Campaign
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
+{
+  // VTK's image filters do not look whether there are scalars, or points enough to shrink.
+  const bool hasScalars = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetScalars()) &&
+    image->GetDimensions()[0] > 2;
+  switch (dice.Whole(hasScalars ? 0 : 2, 4))
+  {
+    case 0:
+    {
+      const auto shrink = vtkSmartPointer<vtkImageShrink3D>::New();
+      shrink->SetShrinkFactors(2, 1, 1);
+      return shrink;
+    }
+    case 1:
+      return vtkSmartPointer<vtkImageExtractComponents>::New();
+    case 2:
+    {
+      const auto contour = vtkSmartPointer<vtkContourFilter>::New();
+      contour->SetValue(0, 0.5);
+      return contour;
+    }
+    case 3:
+    {
+      const auto sampler = vtkSmartPointer<vtkTransportSampler>::New();
+      sampler->SetNumberOfParticles(200);
+      return sampler;
+    }
+    default:
+      return vtkSmartPointer<vtkTransportMap>::New();
+  }
+}
+
+vtkSmartPointer<vtkAlgorithm> drawBehindPoints(Dice& dice)
+{
+  switch (dice.Whole(0, 2))
+  {
+    case 0:
+    {
+      const auto splatter = vtkSmartPointer<vtkMassSplatter>::New();
+      splatter->SetDimensions(9, 8, 7);
+      return splatter;
+    }
+    case 1:
+      return vtkSmartPointer<vtkCleanPolyData>::New();
+    default:
+      return vtkSmartPointer<vtkElevationFilter>::New();
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkAlgorithm> drawBehind(Dice& dice, vtkAlgorithm* filter)
+{
+  vtkDataObject* output = filter->GetOutputDataObject(0);
+  vtkSmartPointer<vtkAlgorithm> behind;
+  if (auto* image = vtkImageData::SafeDownCast(output))
+  {
+    behind = drawBehindImage(dice, image);
+  }
+  else if (vtkPolyData::SafeDownCast(output))
+  {
+    behind = drawBehindPoints(dice);
+  }
+  if (behind)
+  {
+    behind->SetInputConnection(0, filter->GetOutputPort(0));
+  }
+  return behind;
+}
+
+} // namespace Campaign

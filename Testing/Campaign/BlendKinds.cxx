@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Morph Densities and Density Barycenter.
+#include "DrawnInputs.h"
+#include "Kinds.h"
+#include "OutputChecks.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTransportBarycenter.h"
+#include "vtkTransportInterpolator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Campaign
+{
+
+namespace
+{
+
+using Blend = vtkTransportBlend;
+
+void drawBlend(Settings& settings)
+{
+  settings.Draw<Blend, int>("ParticlesPerCell", &Blend::SetParticlesPerCell, { 1, 2, 3, 4, 8 },
+    { 0, -1, std::numeric_limits<int>::min() });
+  settings.Draw<Blend, int>("MassMode", &Blend::SetMassMode, { 0, 1, 2, 3 }, { -1, 4 });
+  settings.Draw<Blend, int>("Kernel", &Blend::SetKernel, { 0, 1, 2, 3 }, { -1, 4 });
+  settings.Draw<Blend, double>("Radius", &Blend::SetRadius, { 1e-300, 0.3, 1.0, 2.5 },
+    { 0.0, -1.0, 10001.0, NaN, Infinity }, 0.3);
+  drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawDensitySettings(settings);
+}
+
+// The grid of the output. Images that are not alike may have a large box in common at a fine
+// spacing: they never go without.
+void drawDimensions(Dice& dice, Settings& settings, const Inputs& inputs)
+{
+  bool alike = true;
+  for (const auto& port : inputs)
+  {
+    for (const Input& input : port)
+    {
+      alike = alike && input.Condition != State::Odd;
+    }
+  }
+  const int* like = vtkImageData::SafeDownCast(inputs[0][0].Data)->GetDimensions();
+  int asked[3] = { 0, 0, 0 };
+  const bool any = !alike || dice.Chance(0.4);
+  for (int a = 0; a < 3 && any; ++a)
+  {
+    asked[a] = like[a] > 1 ? dice.Of({ 2, 5, 9, 12 }) : 0;
+  }
+  if (dice.Chance(0.03))
+  {
+    asked[dice.Whole(0, 2)] = dice.Of({ -1, 1, 2147483647 });
+  }
+  const int x = asked[0];
+  const int y = asked[1];
+  const int z = asked[2];
+  settings.Add("Dimensions", std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
+    [=](vtkAlgorithm* filter) { Blend::SafeDownCast(filter)->SetDimensions(x, y, z); });
+}
+
+// The densities of all inputs; what Dimensions asks for may not be had.
+State expectBlend(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  const int* asked = Blend::SafeDownCast(filter)->GetDimensions();
+  State state = asked[0] + asked[1] + asked[2] == 0 ? State::Sound : State::Odd;
+  for (const auto& port : inputs)
+  {
+    for (const Input& input : port)
+    {
+      state = worse(state, densityState(filter, input));
+    }
+  }
+  return state;
+}
+
+void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<double>& weights,
+  Findings& findings)
+{
+  auto* blend = Blend::SafeDownCast(filter);
+  vtkImageData* image = blend->GetDensity();
+  vtkPolyData* particles = blend->GetParticles();
+  const vtkIdType count = particles->GetNumberOfPoints();
+  requireFinitePoints(particles, findings);
+  requireVertices(particles, findings);
+  const bool onPoints = image->GetPointData()->GetArray("Density") != nullptr;
+  const vtkIdType values = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
+  findings.That(count == values * blend->GetParticlesPerCell(), "ParticlesPerCell");
+  vtkDataArray* density =
+    requireArray(image->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL),
+      "Density", 1, values, findings);
+  vtkDataArray* mass = requireArray(particles->GetPointData(), "Mass", 1, count, findings);
+  const double total = requireField(image, "TotalMass", findings);
+  findings.Near(requireField(particles, "TotalMass", findings), total, 0.0, "TotalMass of both");
+  if (expectBlend(filter, inputs) != State::Sound)
+  {
+    return;
+  }
+  findings.Near(sumOf(mass), total, 1e-9, "sum of Mass");
+  findings.Near(sumOf(density) * cellMeasure(image), total, 1e-9, "sum of Density");
+  double expected = blend->GetMassMode() == Blend::MASS_GEOMETRIC ? 1.0 : 0.0;
+  std::size_t at = 0;
+  for (const auto& port : inputs)
+  {
+    for (const Input& input : port)
+    {
+      if (blend->GetMassMode() == Blend::MASS_GEOMETRIC)
+      {
+        expected *= std::pow(massOf(input), weights[at]);
+      }
+      else if (blend->GetMassMode() == Blend::MASS_LINEAR)
+      {
+        expected += massOf(input) * weights[at];
+      }
+      ++at;
+    }
+  }
+  const bool source = blend->GetMassMode() == Blend::MASS_SOURCE;
+  const bool one = blend->GetMassMode() == Blend::MASS_NORMALIZE;
+  findings.Near(total, source ? massOf(inputs[0][0]) : one ? 1.0 : expected, 1e-9, "TotalMass");
+}
+
+//------------------------------------------------------------------------------
+using Morph = vtkTransportInterpolator;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+void drawMorph(Settings& settings)
+{
+  settings.Draw<Morph, double>(
+    "Parameter", &Morph::SetParameter, { 0.0, 0.2, 0.5, 1.0, 5e-324 }, { -0.1, 1.1, NaN });
+  settings.Draw<Morph, vtkTypeBool>("PublishTime", &Morph::SetPublishTime, { 0, 1 }, {}, 0.2);
+  settings.Draw<Morph, int>(
+    "NumberOfTimeSteps", &Morph::SetNumberOfTimeSteps, { 2, 11, 1000 }, { 1, 1000001, -5 }, 0.2);
+  Dice& dice = settings.GetDice();
+  if (dice.Chance(0.15))
+  {
+    const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity, NaN });
+    settings.Add("Time", textOf(time), [=](vtkAlgorithm* filter) {
+      for (int port = 0; port < 2; ++port)
+      {
+        filter->GetOutputInformation(port)->Set(Pipeline::UPDATE_TIME_STEP(), time);
+      }
+    });
+  }
+  drawBlend(settings);
+}
+
+Inputs feedMorph(Dice& dice, Settings& settings)
+{
+  Inputs inputs(2);
+  inputs[0] = { drawDensityOn(dice, settings, 0) };
+  inputs[1] = { drawPartner(dice, inputs[0][0], settings) };
+  drawChoice(dice, settings, 1, 1, inputs[1][0]);
+  drawDimensions(dice, settings, inputs);
+  return inputs;
+}
+
+bool hasTime(Morph* morph)
+{
+  return morph->GetPublishTime() &&
+    morph->GetOutputInformation(0)->Has(Pipeline::UPDATE_TIME_STEP());
+}
+
+double timeOf(Morph* morph)
+{
+  return morph->GetOutputInformation(0)->Get(Pipeline::UPDATE_TIME_STEP());
+}
+
+State expectMorph(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  auto* morph = Morph::SafeDownCast(filter);
+  const bool none = hasTime(morph) && std::isnan(timeOf(morph));
+  return worse(expectBlend(filter, inputs), none ? State::Faulty : State::Sound);
+}
+
+void checkMorph(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* morph = Morph::SafeDownCast(filter);
+  const double t = hasTime(morph) ? std::clamp(timeOf(morph), 0.0, 1.0) : morph->GetParameter();
+  checkBlend(filter, inputs, { 1.0 - t, t }, findings);
+  vtkPolyData* particles = morph->GetParticles();
+  for (const char* name : { "SourcePosition", "TargetPosition" })
+  {
+    requireArray(particles->GetPointData(), name, 3, particles->GetNumberOfPoints(), findings);
+  }
+}
+
+//------------------------------------------------------------------------------
+using Barycenter = vtkTransportBarycenter;
+
+void setWeights(vtkAlgorithm* filter, const std::vector<double>& weights)
+{
+  auto* barycenter = Barycenter::SafeDownCast(filter);
+  barycenter->SetNumberOfWeights(static_cast<int>(weights.size()));
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    barycenter->SetWeight(static_cast<int>(i), weights[i]);
+  }
+}
+
+// The weights of the inputs where they are as they should be, else none.
+std::vector<double> weightsOf(vtkAlgorithm* filter, std::size_t count)
+{
+  auto* barycenter = Barycenter::SafeDownCast(filter);
+  std::vector<double> weights(count, 1.0 / static_cast<double>(count));
+  if (barycenter->GetNumberOfWeights() == 0)
+  {
+    return weights;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    weights[i] = barycenter->GetWeight(static_cast<int>(i));
+    sum += weights[i];
+    if (!(weights[i] >= 0.0))
+    {
+      return {};
+    }
+  }
+  if (barycenter->GetNumberOfWeights() != static_cast<int>(count) || !(sum > 0.0) ||
+    !std::isfinite(sum))
+  {
+    return {};
+  }
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
+
+Inputs feedBarycenter(Dice& dice, Settings& settings)
+{
+  Inputs inputs(1);
+  inputs[0] = { drawDensityOn(dice, settings, 0) };
+  const std::int64_t others = dice.Whole(0, 3);
+  for (std::int64_t i = 0; i < others; ++i)
+  {
+    inputs[0].push_back(drawPartner(dice, inputs[0][0], settings));
+  }
+  std::vector<double> weights;
+  if (dice.Chance(0.6))
+  {
+    const std::int64_t count = dice.Chance(0.05) ? dice.Whole(0, 6) : others + 1;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      weights.push_back(dice.Chance(0.95) ? dice.Of({ 0.0, 1.0, dice.Unit() }) : drawStrange(dice));
+    }
+  }
+  settings.Add("Weights", std::to_string(weights.size()) + " of them",
+    [weights](vtkAlgorithm* filter) { setWeights(filter, weights); });
+  if (dice.Chance(0.02))
+  {
+    settings.Add("Weights", "none, after ones that are refused", [](vtkAlgorithm* filter) {
+      auto* barycenter = Barycenter::SafeDownCast(filter);
+      barycenter->SetNumberOfWeights(std::numeric_limits<int>::max());
+      barycenter->SetWeight(std::numeric_limits<int>::max(), 1.0);
+      barycenter->SetNumberOfWeights(0);
+    });
+  }
+  drawDimensions(dice, settings, inputs);
+  return inputs;
+}
+
+State expectBarycenter(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  const State state = expectBlend(filter, inputs);
+  return weightsOf(filter, inputs[0].size()).empty() ? worse(state, State::Odd) : state;
+}
+
+void checkBarycenter(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  const std::vector<double> weights = weightsOf(filter, inputs[0].size());
+  if (!weights.empty())
+  {
+    checkBlend(filter, inputs, weights, findings);
+  }
+}
+
+} // namespace
+
+void addBlendKinds(std::vector<FilterKind>& kinds)
+{
+  kinds.push_back({ "Morph", make<Morph>, drawMorph, feedMorph, expectMorph, checkMorph });
+  kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, feedBarycenter, expectBarycenter,
+    checkBarycenter });
+}
+
+} // namespace Campaign

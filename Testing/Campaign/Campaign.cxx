@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plays cases and prints a line for each: its number, a digest of what came out, the number of
+// findings and the filter. run.py compares the lines of several settings.
+#include "Case.h"
+
+#include "vtkLogger.h"
+#include "vtkSMPTools.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+
+#ifdef __linux__
+#include <sys/time.h>
+#endif
+
+namespace
+{
+
+const char* const usage =
+  "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
+  "  --case N   plays one case and tells its story\n";
+
+struct Arguments
+{
+  std::uint64_t First = 0;
+  std::uint64_t Count = 100;
+  std::uint64_t Seed = 1;
+  std::string Backend;
+  int Threads = 1;
+  bool Tell = false;
+};
+
+bool parse(int argc, char* argv[], Arguments& arguments)
+{
+  for (int i = 1; i < argc; i += 2)
+  {
+    if (i + 1 == argc)
+    {
+      return false;
+    }
+    const std::string name = argv[i];
+    const char* value = argv[i + 1];
+    if (name == "--backend")
+    {
+      arguments.Backend = value;
+      continue;
+    }
+    const std::uint64_t number = std::strtoull(value, nullptr, 10);
+    if (name == "--first" || name == "--case")
+    {
+      arguments.First = number;
+      arguments.Tell = name == "--case";
+    }
+    else if (name == "--count")
+    {
+      arguments.Count = number;
+    }
+    else if (name == "--seed")
+    {
+      arguments.Seed = number;
+    }
+    else if (name == "--threads")
+    {
+      arguments.Threads = static_cast<int>(number);
+    }
+    else
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// A case that does not end by itself is ended by a signal, by the time that its own threads use:
+// what else the machine does is no matter.
+void startWatch()
+{
+#ifdef __linux__
+  itimerval limit{};
+  limit.it_value.tv_sec = 60;
+  setitimer(ITIMER_PROF, &limit, nullptr);
+#endif
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  Arguments arguments;
+  if (!parse(argc, argv, arguments))
+  {
+    std::fputs(usage, stderr);
+    return 2;
+  }
+  if (!arguments.Backend.empty() && !vtkSMPTools::SetBackend(arguments.Backend.c_str()))
+  {
+    std::fprintf(stderr, "VTK has no backend %s\n", arguments.Backend.c_str());
+    return 2;
+  }
+  vtkSMPTools::Initialize(arguments.Threads);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  bool failed = false;
+  const std::uint64_t count = arguments.Tell ? 1 : arguments.Count;
+  for (std::uint64_t number = arguments.First; number < arguments.First + count; ++number)
+  {
+    startWatch();
+    const std::clock_t start = std::clock();
+    const Campaign::CaseResult result = Campaign::playCase(arguments.Seed, number);
+    const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    failed = failed || !result.Findings.empty();
+    std::printf("%llu %016llx %zu %s %d %d %d %d %d %.1f\n",
+      static_cast<unsigned long long>(number), static_cast<unsigned long long>(result.Digest),
+      result.Findings.size(), result.Filter.c_str(), result.Runs, result.Errors, result.Aborts,
+      result.Limits, result.Known, ms);
+    if (arguments.Tell)
+    {
+      std::printf("%s", result.Story.c_str());
+    }
+    else
+    {
+      for (const std::string& finding : result.Findings)
+      {
+        std::printf("! %s\n", finding.substr(0, finding.find('\n')).c_str());
+      }
+    }
+    std::fflush(stdout);
+  }
+  return failed ? 1 : 0;
+}

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Case.h"
+
+#include "Behind.h"
+#include "FilterKind.h"
+#include "Kinds.h"
+#include "KnownDefects.h"
+
+#include "vtkTrivialProducer.h"
+
+#include <algorithm>
+
+namespace Campaign
+{
+
+const std::vector<FilterKind>& filterKinds()
+{
+  static const std::vector<FilterKind> kinds = []() {
+    std::vector<FilterKind> all;
+    addTransportKinds(all);
+    addBlendKinds(all);
+    addOtherKinds(all);
+    return all;
+  }();
+  return kinds;
+}
+
+namespace
+{
+
+void connect(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  for (std::size_t port = 0; port < inputs.size(); ++port)
+  {
+    filter->RemoveAllInputConnections(static_cast<int>(port));
+    for (const Input& input : inputs[port])
+    {
+      if (input.Data)
+      {
+        filter->AddInputDataObject(static_cast<int>(port), input.Data);
+      }
+    }
+  }
+}
+
+class Play
+{
+public:
+  Play(std::uint64_t seed, std::uint64_t number)
+    : Luck(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95)
+    , Kind(filterKinds()[static_cast<std::size_t>(
+        this->Luck.Whole(0, static_cast<std::int64_t>(filterKinds().size()) - 1))])
+    , Properties(this->Luck)
+  {
+    this->Result.Filter = this->Kind.Name;
+    this->Kind.DrawSettings(this->Properties);
+    this->Feed();
+  }
+
+  CaseResult Run()
+  {
+    this->Tell(this->Properties.Describe());
+    this->TellInputs();
+    this->Filter = this->Kind.New();
+    this->Properties.Apply(this->Filter);
+    connect(this->Filter, this->Fed);
+    const std::int64_t runs = this->Luck.Of({ 1, 1, 2, 2, 3, 4 });
+    for (std::int64_t i = 0; i < runs; ++i)
+    {
+      if (i > 0)
+      {
+        this->Change();
+      }
+      const bool disturbed = this->Luck.Chance(0.1);
+      if (disturbed)
+      {
+        this->RunDisturbed();
+      }
+      const Outcome before = this->Last;
+      this->RunOnce();
+      if (disturbed && !before.IsEmpty)
+      {
+        this->Same(before, "what a disturbed run leaves is whole");
+      }
+      // Of inputs that VTK itself turns down, what was there before stays.
+      if (this->ArePlain && (disturbed || (i > 0 && this->Luck.Chance(0.5))))
+      {
+        this->CompareFresh();
+      }
+    }
+    this->RunBehind();
+    return this->Result;
+  }
+
+private:
+  void Feed()
+  {
+    this->Fed = this->Kind.DrawInputs(this->Luck, this->Properties);
+    this->ArePlain = true;
+    for (auto& port : this->Fed)
+    {
+      for (Input& input : port)
+      {
+        drawUnusual(this->Luck, input);
+        this->ArePlain = this->ArePlain && input.IsPlain;
+      }
+    }
+  }
+
+  State Expect() const
+  {
+    return this->ArePlain ? this->Kind.Expect(this->Filter, this->Fed) : State::Open;
+  }
+
+  void Tell(const std::string& text) { this->Result.Story += text + "\n"; }
+
+  void TellInputs()
+  {
+    for (std::size_t port = 0; port < this->Fed.size(); ++port)
+    {
+      for (const Input& input : this->Fed[port])
+      {
+        const char* const states[] = { "sound", "empty", "odd", "faulty", "open" };
+        this->Tell("  port " + std::to_string(port) + " (" +
+          states[static_cast<int>(input.Condition)] + "): " + input.Text);
+      }
+    }
+  }
+
+  // Something else from one run to the next, or nothing.
+  void Change()
+  {
+    if (this->Last.IsEmpty)
+    {
+      this->Filter->Modified(); // what has failed runs again only if it was changed
+    }
+    switch (this->Luck.Whole(0, 4))
+    {
+      case 0:
+      {
+        const std::size_t before = this->Properties.Count();
+        this->Kind.DrawSettings(this->Properties);
+        this->Tell("changed:" + this->Properties.Describe(before));
+        this->Properties.Apply(this->Filter);
+        break;
+      }
+      case 1:
+      {
+        const std::size_t before = this->Properties.Count();
+        this->Feed();
+        this->Tell("other inputs" + this->Properties.Describe(before));
+        this->TellInputs();
+        this->Properties.Apply(this->Filter);
+        connect(this->Filter, this->Fed);
+        break;
+      }
+      case 2:
+      case 3:
+        this->Tell("written in place");
+        for (auto& port : this->Fed)
+        {
+          for (Input& input : port)
+          {
+            changeInPlace(this->Luck, input);
+          }
+        }
+        break;
+      default:
+        this->Tell("run again");
+        this->Filter->Modified();
+    }
+  }
+
+  void RunOnce()
+  {
+    Findings findings;
+    this->Last = update(this->Filter, {}, findings);
+    this->Judge(this->Last, findings);
+    this->Take(findings);
+    this->Result.Digest = this->Result.Digest * 31 + this->Last.Digest;
+    ++this->Result.Runs;
+  }
+
+  // By an abort or by too little memory; the next run is a new one.
+  void RunDisturbed()
+  {
+    Disturbance disturbance;
+    if (this->Luck.Chance(0.7))
+    {
+      disturbance.AbortAt = static_cast<int>(this->Luck.Whole(0, 12));
+      this->Tell("aborted at progress " + std::to_string(disturbance.AbortAt));
+    }
+    else
+    {
+      disturbance.Memory = this->Luck.Whole(0, 1 << 20);
+      this->Tell("limited to " + std::to_string(disturbance.Memory) + " bytes more");
+    }
+    Findings findings;
+    this->Filter->Modified();
+    this->Last = update(this->Filter, disturbance, findings);
+    const std::size_t errors = this->Last.Errors.size();
+    if (this->Last.Aborted)
+    {
+      ++this->Result.Aborts;
+      const bool sound = this->Properties.OutOfRange().empty() && this->Expect() == State::Sound;
+      findings.That(errors == 0 || !sound, "an abort is no error");
+    }
+    this->Result.Limits += disturbance.Memory >= 0 && errors > 0 ? 1 : 0;
+    findings.That(errors <= 1 || !this->ArePlain, "at most one error");
+    findings.That(errors == 0 || this->Last.IsEmpty || !this->ArePlain, "an error leaves nothing");
+    this->Take(findings);
+    this->Filter->Modified();
+  }
+
+  void Same(const Outcome& other, const std::string& what)
+  {
+    Findings findings;
+    findings.That(other.Digest == this->Last.Digest, what);
+    this->Take(findings);
+  }
+
+  // Something behind the filter asks it for what it has made already.
+  void RunBehind()
+  {
+    if (this->Last.IsEmpty || !this->ArePlain || !this->Luck.Chance(0.3))
+    {
+      return;
+    }
+    const vtkSmartPointer<vtkAlgorithm> behind = drawBehind(this->Luck, this->Filter);
+    if (!behind)
+    {
+      return;
+    }
+    this->Tell(std::string("behind it ") + behind->GetClassName());
+    Findings findings;
+    const Outcome outcome = update(behind, {}, findings);
+    for (const std::string& text : outcome.Others)
+    {
+      findings.That(false, "something else said: " + text);
+    }
+    std::uint64_t now = this->Last.Errors.size();
+    for (int port = 0; port < this->Filter->GetNumberOfOutputPorts(); ++port)
+    {
+      now = digest(this->Filter->GetOutputDataObject(port), now);
+    }
+    findings.That(now == this->Last.Digest, "what is behind changes nothing");
+    this->Take(findings);
+    this->Result.Digest = this->Result.Digest * 31 + outcome.Digest;
+  }
+
+  // Whatever a filter has kept from run to run must not show.
+  void CompareFresh()
+  {
+    const vtkSmartPointer<vtkAlgorithm> fresh = this->Kind.New();
+    this->Properties.Apply(fresh);
+    connect(fresh, this->Fed);
+    Findings findings;
+    const Outcome other = update(fresh, {}, findings);
+    this->Take(findings);
+    this->Same(other, "another filter gives the same");
+  }
+
+  void Judge(const Outcome& outcome, Findings& findings)
+  {
+    const std::vector<std::string> wrong = this->Properties.OutOfRange();
+    const State ofInputs = this->Expect();
+    const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
+    for (const std::string& text : outcome.Errors)
+    {
+      this->Tell("  said: " + text);
+    }
+    this->Result.Errors += outcome.Errors.empty() ? 0 : 1;
+    findings.That(outcome.Errors.size() <= 1 || !this->ArePlain, "at most one error");
+    for (const std::string& text : outcome.Others)
+    {
+      findings.That(false, "something else said: " + text);
+    }
+    const bool failed = !outcome.Errors.empty();
+    findings.That(!failed || outcome.IsEmpty || !this->ArePlain, "an error leaves nothing");
+    findings.That(!failed || (expected != State::Sound && expected != State::Empty), "no error");
+    findings.That(failed || expected != State::Faulty, "an error");
+    findings.That(outcome.IsEmpty || expected != State::Empty, "an empty output");
+    findings.That(failed || !outcome.IsEmpty || expected != State::Sound, "an output");
+    if (failed && !wrong.empty() && ofInputs == State::Sound)
+    {
+      findings.That(std::any_of(wrong.begin(), wrong.end(),
+                      [&](const std::string& name) {
+                        return outcome.Errors[0].find(name) != std::string::npos;
+                      }),
+        "the error names " + wrong[0]);
+    }
+    if (!failed && !outcome.IsEmpty && this->ArePlain)
+    {
+      this->Kind.Check(this->Filter, this->Fed, findings);
+    }
+  }
+
+  void Take(const Findings& findings)
+  {
+    for (const std::string& text : findings.All)
+    {
+      if (isKnown(this->Kind.Name, text))
+      {
+        this->Tell("  known: " + text);
+        ++this->Result.Known;
+        continue;
+      }
+      this->Tell("  WRONG: " + text);
+      this->Result.Findings.push_back(text);
+    }
+  }
+
+  Dice Luck;
+  const FilterKind& Kind;
+  Settings Properties;
+  Inputs Fed;
+  bool ArePlain = true;
+  vtkSmartPointer<vtkAlgorithm> Filter;
+  Outcome Last;
+  CaseResult Result;
+};
+
+} // namespace
+
+CaseResult playCase(std::uint64_t seed, std::uint64_t number)
+{
+  return Play(seed, number).Run();
+}
+
+} // namespace Campaign

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DrawnInputs.h"
+
+#include "vtkDataSetAttributes.h"
+
+namespace Campaign
+{
+
+void drawDensitySettings(Settings& settings)
+{
+  using T = vtkDensityAlgorithm;
+  settings.Draw<T, int>("Component", &T::SetComponent, { -1, 0, 0, 1, 3, 4, -2, 100 }, {}, 0.2);
+  settings.Draw<T, vtkTypeBool>("InvertDensity", &T::SetInvertDensity, { 0, 1 }, {}, 0.2);
+  settings.Draw<T, int>("NegativeValues", &T::SetNegativeValues, { 0, 1 }, { -1, 2 }, 0.3);
+}
+
+void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& input)
+{
+  const bool named = dice.Chance(0.3);
+  if (!named)
+  {
+    settings.Add("Array", "scalars", [=](vtkAlgorithm* filter) {
+      filter->SetInputArrayToProcess(index, port, 0,
+        vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+    });
+    return;
+  }
+  const std::string name = dice.Chance(0.95) ? "Values" : "Nothing";
+  const int association = dice.Chance(0.97) ? 3 : dice.Of({ 0, 1, 2, 7, -1 });
+  settings.Add("Array", name + " of " + std::to_string(association), [=](vtkAlgorithm* filter) {
+    filter->SetInputArrayToProcess(index, port, 0, association, name.c_str());
+  });
+  if (name == "Nothing" || (input.Values && !input.Values->GetName()))
+  {
+    input.Worsen(State::Faulty);
+  }
+  else if (association != 3)
+  {
+    input.Worsen(State::Odd);
+  }
+}
+
+Input drawDensityOn(Dice& dice, Settings& settings, int port, int index)
+{
+  Input input = drawImage(dice, rulesOf(settings));
+  drawChoice(dice, settings, port, index, input);
+  return input;
+}
+
+Input drawPartner(Dice& dice, const Input& first, const Settings& settings)
+{
+  auto* like = vtkImageData::SafeDownCast(first.Data);
+  if (dice.Chance(0.3))
+  {
+    ImageRules rules = rulesOf(settings);
+    rules.OrientedLikes = dice.Chance(0.8);
+    rules.Dimension = like->GetDataDimension();
+    Input input = drawImage(dice, rules);
+    input.Worsen(State::Odd);
+    return input;
+  }
+  Input input;
+  input.Condition = first.Condition;
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->CopyStructure(like);
+  input.Data = image;
+  input.OnPoints = first.OnPoints;
+  std::string text;
+  const vtkIdType tuples = input.OnPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
+  input.Values = drawArray(dice, tuples, 1, text);
+  input.Values->SetName("Values");
+  image->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
+    ->SetScalars(input.Values);
+  input.Say("like the first, " + text);
+  return input;
+}
+
+} // namespace Campaign

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Properties and inputs that several kinds of filters share.
+#ifndef Campaign_DrawnInputs_h
+#define Campaign_DrawnInputs_h
+
+#include "FilterKind.h"
+
+#include "vtkTransportAlgorithm.h"
+
+#include <limits>
+
+namespace Campaign
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+template <class T>
+void drawThreading(Settings& settings)
+{
+  settings.Draw<T, int>("Threading", &T::SetThreading, { 0, 1, 2, 3 }, { -1, 4 });
+}
+
+template <class T>
+void drawFlowSettings(Settings& settings)
+{
+  settings.Draw<T, int>("Integrator", &T::SetIntegrator, { 0, 1, 2, 3 }, { -1, 4 });
+  settings.Draw<T, int>("NumberOfSteps", &T::SetNumberOfSteps,
+    { 1, 2, 3, 8, 16, 31, 33, 127, 128, 200 }, { 0, -5, 10001, std::numeric_limits<int>::max() });
+  settings.Draw<T, double>("Tolerance", &T::SetTolerance, { 0.1, 1.0, 1e-4, 1e300, 1e-305 },
+    { 0.0, -1.0, NaN, Infinity }, 0.3);
+  settings.Draw<T, int>("TableLookup", &T::SetTableLookup, { 0, 1 }, { -1, 2 }, 0.3);
+  drawThreading<T>(settings);
+}
+
+void drawDensitySettings(Settings& settings);
+
+// Large cases have enough cells for the work to be cut in parts.
+inline ImageRules rulesOf(const Settings& settings)
+{
+  ImageRules rules;
+  rules.LargestAxis = settings.IsLarge() ? 140 : 40;
+  return rules;
+}
+
+// An image as the density of input array `index` on a port, chosen somehow.
+Input drawDensityOn(Dice& dice, Settings& settings, int port, int index = 0);
+
+// How the density is chosen that another input has, too.
+void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& input);
+
+// An image of the geometry of another, of other values, or another image.
+Input drawPartner(Dice& dice, const Input& first, const Settings& settings);
+
+} // namespace Campaign
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input.h"
+
+#include "vtkCellData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkStringArray.h"
+
+#include <array>
+#include <limits>
+
+namespace Campaign
+{
+
+namespace
+{
+
+void drawExtent(Dice& dice, const ImageRules& rules, vtkImageData* image, Input& input)
+{
+  const int dimension = rules.Dimension > 0 ? rules.Dimension : dice.Of({ 1, 2, 2, 2, 2, 3, 3 });
+  const int most = dimension == 1 ? rules.LargestAxis * rules.LargestAxis / 4
+    : dimension == 2              ? rules.LargestAxis
+                                  : 2 + rules.LargestAxis / 4;
+  // Which axes are flat: of a plane the one across, of a line the two others.
+  const auto odd = static_cast<std::size_t>(dimension == 3 ? 0 : dice.Of({ 2, 2, 0, 1 }));
+  int extent[6];
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const bool real = dimension == 3 || (dimension == 2 ? a != odd : a == odd);
+    const auto start = static_cast<int>(dice.Chance(0.6) ? 0
+        : dice.Chance(0.97)                              ? dice.Whole(-20, 20)
+                                                         : dice.Of({ -2000000000, 2000000000 }));
+    const auto points = static_cast<int>(real ? dice.Whole(2, most) : 1);
+    extent[2 * a] = start;
+    extent[2 * a + 1] = start + points - 1;
+    if (std::abs(start) > 20)
+    {
+      input.Worsen(State::Odd);
+    }
+  }
+  if (rules.Dimension == 0 && dice.Chance(0.02))
+  {
+    const bool point = dice.Chance(0.5);
+    for (int a = 0; a < 3; ++a)
+    {
+      extent[2 * a + 1] = extent[2 * a] - (point || a > 0 ? 0 : 1);
+    }
+    input.Worsen(point ? State::Faulty : State::Empty);
+  }
+  image->SetExtent(extent);
+  std::string text = "extent";
+  for (const int end : extent)
+  {
+    text += " " + std::to_string(end);
+  }
+  input.Say(text);
+}
+
+double drawSpacing(Dice& dice, Input& input)
+{
+  if (dice.Chance(0.9))
+  {
+    return dice.Of({ 1.0, 1.0, 0.1, dice.Real(0.2, 3.0) });
+  }
+  input.Worsen(State::Odd);
+  if (dice.Chance(0.5))
+  {
+    return dice.Of({ -1.0, -dice.Real(0.2, 3.0), 1e-5, 1e6 });
+  }
+  return dice.Of({ 1e-103, 1e-160, 1e-300, 5e-324, 1e100, 1e160, 1e300, 0.0,
+    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() });
+}
+
+void drawDirection(Dice& dice, vtkImageData* image, Input& input)
+{
+  // Rational rotations, so that no library's sine decides.
+  const auto matrix = dice.Of<std::array<double, 9>>({
+    { 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1 },
+    { 1, 0, 0, 0, 0.28, -0.96, 0, 0.96, 0.28 },
+    { 0, 0, 1, 1, 0, 0, 0, 1, 0 },
+    { -1, 0, 0, 0, 1, 0, 0, 0, 1 },
+    { 2.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3, 2.0 / 3, -1.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3 },
+  });
+  image->SetDirectionMatrix(matrix.data());
+  if (dice.Chance(0.05))
+  {
+    const double singular[9] = { 1, 1, 0, 1, 1, 0, 0, 0, dice.Of({ 0.0, 1.0 }) };
+    image->SetDirectionMatrix(singular);
+    input.Worsen(State::Odd);
+  }
+  input.Say("direction " + textOf(image->GetDirectionMatrix()->GetElement(0, 0)));
+}
+
+void drawPlace(Dice& dice, const ImageRules& rules, vtkImageData* image, Input& input)
+{
+  if (dice.Chance(0.6))
+  {
+    const double same = drawSpacing(dice, input);
+    const bool even = dice.Chance(0.5);
+    const double y = even ? same : drawSpacing(dice, input);
+    const double z = even ? same : drawSpacing(dice, input);
+    image->SetSpacing(same, y, z);
+    input.Say("spacing " + textOf(same) + " " + textOf(y) + " " + textOf(z));
+  }
+  if (dice.Chance(0.4))
+  {
+    double origin[3];
+    for (double& x : origin)
+    {
+      x = dice.Real(-10.0, 10.0);
+      if (dice.Chance(0.03))
+      {
+        x = dice.Of({ 1e9, 1e16, -1e300, std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::quiet_NaN() });
+        input.Worsen(State::Odd);
+      }
+    }
+    image->SetOrigin(origin);
+    input.Say("origin " + textOf(origin[0]) + " " + textOf(origin[1]) + " " + textOf(origin[2]));
+  }
+  if (!rules.OrientedLikes && dice.Chance(0.15))
+  {
+    drawDirection(dice, image, input);
+  }
+}
+
+void drawDensity(Dice& dice, vtkImageData* image, Input& input)
+{
+  input.OnPoints = dice.Chance(0.5);
+  vtkDataSetAttributes* attributes =
+    image->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+  vtkIdType tuples = input.OnPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
+  if (dice.Chance(0.01) && tuples > 0)
+  {
+    tuples = dice.Of<vtkIdType>({ 0, tuples - 1, tuples + 1, 2 * tuples });
+    input.Worsen(State::Faulty);
+  }
+  const int components = dice.Of({ 1, 1, 1, 1, 1, 1, 2, 3, 4, 5 });
+  std::string text;
+  const vtkSmartPointer<vtkDataArray> array = drawArray(dice, tuples, components, text);
+  input.Say((input.OnPoints ? "points " : "cells ") + text);
+  if (!dice.Chance(0.02))
+  {
+    array->SetName("Values");
+  }
+  attributes->SetScalars(array);
+  input.Values = array;
+  if (components != 1)
+  {
+    input.Worsen(State::Odd); // it depends on Component
+  }
+}
+
+// Arrays that nobody asked for, of names that an output may have.
+void drawOthers(Dice& dice, vtkImageData* image)
+{
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    if (!dice.Chance(0.15))
+    {
+      continue;
+    }
+    const vtkIdType tuples =
+      owner == vtkDataObject::POINT ? image->GetNumberOfPoints() : image->GetNumberOfCells();
+    std::string text;
+    const vtkSmartPointer<vtkDataArray> array =
+      drawArray(dice, tuples, static_cast<int>(dice.Whole(1, 3)), text);
+    array->SetName(
+      dice.Of({ "Other", "Displacement", "Density", "Mass", "SiteId", "TotalMass", "Divergence" }));
+    image->GetAttributes(owner)->AddArray(array);
+    if (dice.Chance(0.2))
+    {
+      vtkNew<vtkStringArray> words;
+      words->SetName("Words");
+      words->SetNumberOfValues(tuples);
+      image->GetAttributes(owner)->AddArray(words);
+    }
+  }
+}
+
+} // namespace
+
+Input drawImage(Dice& dice, const ImageRules& rules)
+{
+  Input input;
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  input.Data = image;
+  drawExtent(dice, rules, image, input);
+  drawPlace(dice, rules, image, input);
+  drawDensity(dice, image, input);
+  drawOthers(dice, image);
+  if (dice.Chance(0.06))
+  {
+    drawGhosts(dice, image->GetPointData(), image->GetNumberOfPoints(), input);
+  }
+  if (dice.Chance(0.06))
+  {
+    drawGhosts(dice, image->GetCellData(), image->GetNumberOfCells(), input);
+  }
+  return input;
+}
+
+} // namespace Campaign

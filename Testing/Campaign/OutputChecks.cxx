@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutputChecks.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkDensityAlgorithm.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Campaign
+{
+
+State densityState(vtkAlgorithm* filter, const Input& input)
+{
+  auto* reader = vtkDensityAlgorithm::SafeDownCast(filter);
+  vtkDataArray* array = input.Values;
+  if (input.Condition != State::Sound || !array || reader->GetInvertDensity())
+  {
+    return worse(input.Condition, reader->GetInvertDensity() ? State::Odd : State::Sound);
+  }
+  if (reader->GetComponent() < -1 || reader->GetComponent() > 0)
+  {
+    return State::Faulty;
+  }
+  double sum = 0.0;
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    if (!std::isfinite(value) ||
+      (value < 0.0 && reader->GetNegativeValues() == vtkDensityAlgorithm::NEGATIVE_VALUES_ERROR))
+    {
+      return State::Faulty;
+    }
+    sum += std::max(value, 0.0);
+    largest = std::max(largest, value);
+  }
+  if (sum == 0.0)
+  {
+    return State::Faulty;
+  }
+  const bool usual = sum < 1e290 && largest > 1e-280;
+  return usual ? State::Sound : State::Odd;
+}
+
+double massOf(const Input& input)
+{
+  double sum = 0.0;
+  for (vtkIdType i = 0; i < input.Values->GetNumberOfTuples(); ++i)
+  {
+    sum += std::max(input.Values->GetComponent(i, 0), 0.0);
+  }
+  return sum * cellMeasure(vtkImageData::SafeDownCast(input.Data));
+}
+
+double cellMeasure(vtkImageData* image)
+{
+  double measure = 1.0;
+  for (int a = 0; a < 3; ++a)
+  {
+    measure *= image->GetDimensions()[a] > 1 ? std::abs(image->GetSpacing()[a]) : 1.0;
+  }
+  return measure;
+}
+
+vtkDataArray* requireArray(
+  vtkFieldData* data, const char* name, int components, vtkIdType tuples, Findings& findings)
+{
+  vtkDataArray* array = data->GetArray(name);
+  if (!array)
+  {
+    findings.That(false, std::string("no array ") + name);
+    return nullptr;
+  }
+  const bool shape =
+    array->GetNumberOfComponents() == components && array->GetNumberOfTuples() == tuples;
+  findings.That(shape, std::string("shape of ") + name);
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+    {
+      if (!std::isfinite(array->GetComponent(i, c)))
+      {
+        findings.That(false,
+          std::string(name) + " of " + std::to_string(i) + " is " +
+            textOf(array->GetComponent(i, c)));
+        return nullptr;
+      }
+    }
+  }
+  return shape ? array : nullptr;
+}
+
+double requireField(vtkDataObject* data, const char* name, Findings& findings)
+{
+  vtkDataArray* array = requireArray(data->GetFieldData(), name, 1, 1, findings);
+  return array ? array->GetComponent(0, 0) : 0.0;
+}
+
+void requireFinitePoints(vtkPointSet* set, Findings& findings)
+{
+  double x[3];
+  for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i)
+  {
+    set->GetPoint(i, x);
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+    {
+      findings.That(false, "point " + std::to_string(i) + " is not finite");
+      return;
+    }
+  }
+  findings.That(set->GetPoints()->GetDataType() == VTK_DOUBLE, "points are double");
+}
+
+void requireVertices(vtkPolyData* particles, Findings& findings)
+{
+  findings.That(particles->GetNumberOfVerts() == particles->GetNumberOfPoints() &&
+      particles->GetNumberOfCells() == particles->GetNumberOfPoints(),
+    "one vertex a particle");
+}
+
+double sumOf(vtkDataArray* array, int component)
+{
+  double sum = 0.0;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    sum += array->GetComponent(i, component);
+  }
+  return sum;
+}
+
+void requireInside(vtkPointSet* set, const Input& density, Findings& findings)
+{
+  auto* image = vtkImageData::SafeDownCast(density.Data);
+  const int* extent = image->GetExtent();
+  const double margin = (density.OnPoints ? 0.5 : 0.0) + 1e-6;
+  for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    double index[3];
+    set->GetPoint(i, x);
+    image->TransformPhysicalPointToContinuousIndex(x, index);
+    for (int a = 0; a < 3; ++a)
+    {
+      const double grown = extent[2 * a] < extent[2 * a + 1] ? margin : 1e-6;
+      if (!(index[a] >= extent[2 * a] - grown && index[a] <= extent[2 * a + 1] + grown))
+      {
+        findings.That(false,
+          "particle " + std::to_string(i) + " is at " + textOf(index[a]) + " of axis " +
+            std::to_string(a));
+        return;
+      }
+    }
+  }
+}
+
+void requirePassed(
+  vtkFieldData* from, vtkFieldData* to, std::initializer_list<const char*> own, Findings& findings)
+{
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    const char* name = from->GetAbstractArray(i)->GetName();
+    const bool isOwn = name && std::any_of(own.begin(), own.end(), [name](const char* other) {
+      return std::string(name) == other;
+    });
+    if (name && !isOwn)
+    {
+      findings.That(to->GetAbstractArray(name) == from->GetAbstractArray(i),
+        std::string("array ") + name + " is passed on");
+    }
+  }
+}
+
+} // namespace Campaign

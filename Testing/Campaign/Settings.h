@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The properties of a filter as a case draws them: most as they are by default, some from inside
+// of their range, its ends among it, few from outside.
+#ifndef Campaign_Settings_h
+#define Campaign_Settings_h
+
+#include "Dice.h"
+#include "Input.h"
+
+#include "vtkAlgorithm.h"
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace Campaign
+{
+
+struct Setting
+{
+  std::string Name;
+  std::string Text; // of the value
+  std::function<void(vtkAlgorithm*)> Apply;
+  bool InRange = true;
+};
+
+class Settings
+{
+public:
+  explicit Settings(Dice& dice)
+    : Luck(dice)
+    , Large(dice.Chance(0.04))
+  {
+  }
+
+  bool IsLarge() const { return this->Large; }
+
+  Dice& GetDice() { return this->Luck; }
+
+  // `used` of the properties are set, one in 70 of them to what is not allowed.
+  template <class T, class Value>
+  void Draw(const char* name, void (T::*set)(Value), std::initializer_list<Value> inside,
+    std::initializer_list<Value> outside, double used = 0.5)
+  {
+    if (!this->Luck.Chance(used))
+    {
+      return;
+    }
+    const bool inRange = outside.size() == 0 || !this->Luck.Chance(0.015);
+    const Value value = this->Luck.Of(inRange ? inside : outside);
+    this->Add(
+      name, std::to_string(value),
+      [set, value](vtkAlgorithm* filter) { (static_cast<T*>(filter)->*set)(value); }, inRange);
+  }
+
+  void Add(const std::string& name, const std::string& text,
+    std::function<void(vtkAlgorithm*)> apply, bool inRange = true)
+  {
+    this->All.push_back({ name, text, std::move(apply), inRange });
+  }
+
+  void Apply(vtkAlgorithm* filter) const
+  {
+    for (const Setting& setting : this->All)
+    {
+      setting.Apply(filter);
+    }
+  }
+
+  // What the last word on each property leaves out of range.
+  std::vector<std::string> OutOfRange() const
+  {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < this->All.size(); ++i)
+    {
+      bool last = true;
+      for (std::size_t j = i + 1; j < this->All.size(); ++j)
+      {
+        last = last && this->All[j].Name != this->All[i].Name;
+      }
+      if (last && !this->All[i].InRange)
+      {
+        names.push_back(this->All[i].Name);
+      }
+    }
+    return names;
+  }
+
+  std::string Describe(std::size_t from = 0) const
+  {
+    std::string text;
+    for (std::size_t i = from; i < this->All.size(); ++i)
+    {
+      text += " " + this->All[i].Name + "=" + this->All[i].Text;
+    }
+    return text;
+  }
+
+  std::size_t Count() const { return this->All.size(); }
+
+private:
+  Dice& Luck;
+  bool Large;
+  std::vector<Setting> All;
+};
+
+} // namespace Campaign
+
+#endif

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sample Density, Transport Map, Density-Equalizing Warp and Transport Quality.
+#include "DrawnInputs.h"
+#include "Kinds.h"
+#include "OutputChecks.h"
+
+#include "vtkCellData.h"
+#include "vtkDensityEqualizingWarp.h"
+#include "vtkPointData.h"
+#include "vtkTable.h"
+#include "vtkTransportMap.h"
+#include "vtkTransportQuality.h"
+#include "vtkTransportSampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Campaign
+{
+
+namespace
+{
+
+//------------------------------------------------------------------------------
+using Sampler = vtkTransportSampler;
+
+void drawSampler(Settings& settings)
+{
+  settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
+    { 1, 2, 10, 100, 500, 500, 1000, 1500 }, {}, 1.0);
+  if (settings.GetDice().Chance(0.03))
+  {
+    settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
+      { 0, -1, 1000000000000, std::numeric_limits<vtkIdType>::max() }, {}, 1.0);
+  }
+  if (settings.IsLarge())
+  {
+    settings.Add("NumberOfParticles", "20000",
+      [](vtkAlgorithm* filter) { Sampler::SafeDownCast(filter)->SetNumberOfParticles(20000); });
+  }
+  settings.Draw<Sampler, int>(
+    "SeedPattern", &Sampler::SetSeedPattern, { 0, 1, 2, 3, 4 }, { -1, 5 });
+  settings.Draw<Sampler, int>("RandomSeed", &Sampler::SetRandomSeed,
+    { 0, 1, -1, 77, std::numeric_limits<int>::max(), std::numeric_limits<int>::min() }, {}, 0.3);
+  settings.Draw<Sampler, int>(
+    "SamplesPerCell", &Sampler::SetSamplesPerCell, { 0, 1, 2 }, { -1 }, 0.2);
+  settings.Draw<Sampler, double>(
+    "FlowTime", &Sampler::SetFlowTime, { 0.0, 0.25, 0.999, 1.0, 5e-324 }, { -0.1, 1.1, NaN }, 0.4);
+  settings.Draw<Sampler, vtkTypeBool>(
+    "OutputPaths", &Sampler::SetOutputPaths, { 0, 1 }, {}, settings.IsLarge() ? 0.0 : 0.15);
+  drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawDensitySettings(settings);
+}
+
+Inputs feedSampler(Dice& dice, Settings& settings)
+{
+  Inputs inputs(2);
+  inputs[0] = { drawDensityOn(dice, settings, 0) };
+  if (dice.Chance(0.3))
+  {
+    inputs[1] = { drawPoints(
+      dice, vtkImageData::SafeDownCast(inputs[0][0].Data), settings.IsLarge() ? 20000 : 500) };
+  }
+  return inputs;
+}
+
+bool usesGrid(Sampler* sampler)
+{
+  return sampler->GetSamplesPerCell() > 0 &&
+    (sampler->GetSeedPattern() == Sampler::LATTICE ||
+      sampler->GetSeedPattern() == Sampler::JITTERED);
+}
+
+State expectSampler(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  auto* sampler = Sampler::SafeDownCast(filter);
+  State state = densityState(filter, inputs[0][0]);
+  if (!inputs[1].empty())
+  {
+    return worse(state, inputs[1][0].Condition);
+  }
+  const vtkIdType count = sampler->GetNumberOfParticles();
+  if (!usesGrid(sampler) && (count < 1 || count > 1000000))
+  {
+    state = worse(state, State::Faulty);
+  }
+  return state;
+}
+
+void checkPaths(Sampler* sampler, Findings& findings)
+{
+  vtkPolyData* output = sampler->GetOutput();
+  const vtkIdType points = output->GetNumberOfPoints();
+  const vtkIdType paths = output->GetNumberOfCells();
+  findings.That(
+    points == paths * (sampler->GetNumberOfSteps() + 1), "a point for each time of each path");
+  requireArray(output->GetPointData(), "SeedId", 1, points, findings);
+  requireArray(output->GetPointData(), "Time", 1, points, findings);
+  vtkDataArray* mass = requireArray(output->GetPointData(), "Mass", 1, points, findings);
+  findings.Near(sumOf(mass),
+    requireField(output, "TotalMass", findings) * (sampler->GetNumberOfSteps() + 1), 1e-9,
+    "mass of paths");
+}
+
+void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* sampler = Sampler::SafeDownCast(filter);
+  vtkPolyData* output = sampler->GetOutput();
+  requireFinitePoints(output, findings);
+  const double total = requireField(output, "TotalMass", findings);
+  findings.That(requireField(output, "TransportCost", findings) >= 0.0, "TransportCost >= 0");
+  const bool sound = densityState(filter, inputs[0][0]) == State::Sound;
+  if (sound)
+  {
+    findings.Near(total, massOf(inputs[0][0]), 1e-9, "TotalMass");
+    requireInside(output, inputs[0][0], findings);
+  }
+  if (sampler->GetOutputPaths())
+  {
+    checkPaths(sampler, findings);
+    return;
+  }
+  const vtkIdType count = output->GetNumberOfPoints();
+  requireVertices(output, findings);
+  vtkPointData* data = output->GetPointData();
+  vtkDataArray* ids = requireArray(data, "SeedId", 1, count, findings);
+  for (vtkIdType i = 0; ids && i < count; ++i)
+  {
+    if (ids->GetComponent(i, 0) != static_cast<double>(i))
+    {
+      findings.That(false, "SeedId of " + std::to_string(i));
+      break;
+    }
+  }
+  vtkDataArray* seeds = requireArray(data, "SeedPosition", 3, count, findings);
+  vtkDataArray* displacements = requireArray(data, "Displacement", 3, count, findings);
+  vtkDataArray* mass = requireArray(data, "Mass", 1, count, findings);
+  findings.Near(sumOf(mass), total, 1e-9, "sum of Mass");
+  if (!inputs[1].empty())
+  {
+    auto* given = vtkPointSet::SafeDownCast(inputs[1][0].Data);
+    findings.That(count == given->GetNumberOfPoints(), "a particle for each seed");
+    requirePassed(
+      given->GetPointData(), data, { "SeedId", "SeedPosition", "Displacement", "Mass" }, findings);
+  }
+  else if (!usesGrid(sampler) && sampler->GetSeedPattern() != Sampler::LATTICE)
+  {
+    findings.That(count == sampler->GetNumberOfParticles(), "NumberOfParticles");
+  }
+  double way = 0.0;
+  for (vtkIdType i = 0; seeds && displacements && sound && i < count; ++i)
+  {
+    double x[3];
+    output->GetPoint(i, x);
+    for (int a = 0; a < 3; ++a)
+    {
+      way = std::max(
+        way, std::abs(x[a] - seeds->GetComponent(i, a) - displacements->GetComponent(i, a)));
+    }
+  }
+  findings.That(way <= 1e-9, "Displacement is off by " + textOf(way));
+}
+
+//------------------------------------------------------------------------------
+using Map = vtkTransportMap;
+
+void drawMap(Settings& settings)
+{
+  settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
+  Dice& dice = settings.GetDice();
+  if (dice.Chance(0.3))
+  {
+    const int x = dice.Of({ 0, 0, 0, 2, 9, 30, dice.Of({ 1, -1, 2147483647 }) });
+    const int y = dice.Of({ 0, 0, 0, 2, 9, 30 });
+    const int z = dice.Of({ 0, 0, 0, 0, 2, 9 });
+    settings.Add("SampleDimensions",
+      std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
+      [=](vtkAlgorithm* filter) { static_cast<Map*>(filter)->SetSampleDimensions(x, y, z); });
+  }
+  drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawDensitySettings(settings);
+}
+
+Inputs feedMap(Dice& dice, Settings& settings)
+{
+  Inputs inputs(1);
+  inputs[0] = { drawDensityOn(dice, settings, 0) };
+  return inputs;
+}
+
+State expectMap(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  const int* asked = Map::SafeDownCast(filter)->GetSampleDimensions();
+  const bool any = asked[0] != 0 || asked[1] != 0 || asked[2] != 0;
+  return worse(densityState(filter, inputs[0][0]), any ? State::Odd : State::Sound);
+}
+
+void checkMap(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* map = Map::SafeDownCast(filter);
+  vtkImageData* output = map->GetOutput();
+  const Input& input = inputs[0][0];
+  auto* image = vtkImageData::SafeDownCast(input.Data);
+  const vtkIdType count = input.OnPoints ? output->GetNumberOfPoints() : output->GetNumberOfCells();
+  vtkDataSetAttributes* data =
+    output->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+  if (!data->GetArray("JacobianDeterminant"))
+  {
+    return; // an odd choice of the array took one of the other kind
+  }
+  vtkDataArray* displacements = requireArray(data, "Displacement", 3, count, findings);
+  requireArray(data, "Divergence", 1, count, findings);
+  requireArray(data, "JacobianDeterminant", 1, count, findings);
+  const double total = requireField(output, "TotalMass", findings);
+  const double cost = requireField(output, "TransportCost", findings);
+  const State state = densityState(filter, input);
+  if (state == State::Sound)
+  {
+    findings.Near(total, massOf(input), 1e-9, "TotalMass");
+  }
+  const int* asked = map->GetSampleDimensions();
+  if (asked[0] == 0 && asked[1] == 0 && asked[2] == 0)
+  {
+    findings.That(std::equal(output->GetExtent(), output->GetExtent() + 6, image->GetExtent()),
+      "the extent is the input's");
+    requirePassed(image->GetPointData(), output->GetPointData(),
+      { "Displacement", "Divergence", "JacobianDeterminant" }, findings);
+  }
+  double sum = 0.0;
+  for (vtkIdType i = 0; displacements && i < count; ++i)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      sum += displacements->GetComponent(i, a) * displacements->GetComponent(i, a);
+    }
+  }
+  if (state == State::Sound && map->GetDirection() == Map::UNIFORM_TO_DENSITY)
+  {
+    findings.That(std::abs(cost - sum / static_cast<double>(count)) <= 1e-9 * cost + 1e-18,
+      "TransportCost is the mean square of Displacement");
+  }
+}
+
+//------------------------------------------------------------------------------
+using Warp = vtkDensityEqualizingWarp;
+
+void drawWarp(Settings& settings)
+{
+  settings.Draw<Warp, double>("Blend", &Warp::SetBlend, { 0.0, 0.3, 1.0 }, { -0.1, 1.5, NaN });
+  drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawDensitySettings(settings);
+}
+
+Inputs feedPointsAndDensity(Dice& dice, Settings& settings)
+{
+  Inputs inputs(2);
+  inputs[1] = { drawDensityOn(dice, settings, 1) };
+  inputs[0] = { drawPoints(
+    dice, vtkImageData::SafeDownCast(inputs[1][0].Data), settings.IsLarge() ? 20000 : 600) };
+  return inputs;
+}
+
+State expectWarp(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  return worse(densityState(filter, inputs[1][0]), inputs[0][0].Condition);
+}
+
+void checkWarp(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  vtkPointSet* output = Warp::SafeDownCast(filter)->GetOutput();
+  auto* input = vtkPointSet::SafeDownCast(inputs[0][0].Data);
+  requireFinitePoints(output, findings);
+  const vtkIdType count = input->GetNumberOfPoints();
+  findings.That(output->GetNumberOfPoints() == count &&
+      output->GetNumberOfCells() == input->GetNumberOfCells() &&
+      output->GetDataObjectType() == input->GetDataObjectType(),
+    "as many points and cells as before");
+  vtkDataArray* displacements =
+    requireArray(output->GetPointData(), "Displacement", 3, count, findings);
+  requirePassed(input->GetPointData(), output->GetPointData(), { "Displacement" }, findings);
+  double way = 0.0;
+  for (vtkIdType i = 0; displacements && i < count; ++i)
+  {
+    double x[3];
+    double before[3];
+    output->GetPoint(i, x);
+    input->GetPoint(i, before);
+    for (int a = 0; a < 3; ++a)
+    {
+      way = std::max(way, std::abs(x[a] - before[a] - displacements->GetComponent(i, a)));
+    }
+  }
+  findings.That(expectWarp(filter, inputs) != State::Sound || way <= 1e-9,
+    "Displacement is off by " + textOf(way));
+}
+
+//------------------------------------------------------------------------------
+using Quality = vtkTransportQuality;
+
+void drawQuality(Settings& settings)
+{
+  settings.Draw<Quality, int>("BlockSize", &Quality::SetBlockSize,
+    { 1, 2, 8, 100, std::numeric_limits<int>::max() }, { 0, -3 });
+  drawDensitySettings(settings);
+}
+
+State expectQuality(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  auto* set = vtkPointSet::SafeDownCast(inputs[0][0].Data);
+  const bool weighed =
+    set->GetPointData()->GetArray("Mass") || set->GetPointData()->GetArray("Displacement");
+  return worse(expectWarp(filter, inputs), weighed ? State::Odd : State::Sound);
+}
+
+void checkQuality(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  vtkTable* table = Quality::SafeDownCast(filter)->GetOutput();
+  vtkDataSetAttributes* row = table->GetRowData();
+  const auto value = [&](const char* name) {
+    vtkDataArray* column = requireArray(row, name, 1, 1, findings);
+    return column ? column->GetComponent(0, 0) : 0.0;
+  };
+  const auto count =
+    static_cast<double>(vtkPointSet::SafeDownCast(inputs[0][0].Data)->GetNumberOfPoints());
+  const double particles = value("Particles");
+  findings.That(particles >= 0.0 && particles <= count, "Particles");
+  findings.That(value("Outside") >= 0.0 && value("InEmptyCells") >= 0.0 &&
+      value("Outside") + value("InEmptyCells") <= particles,
+    "Outside and InEmptyCells");
+  findings.That(value("DensityError") >= 0.0 && value("TransportCost") >= 0.0, "no negative value");
+  findings.That(value("SmallestSpacing") >= 0.0 &&
+      value("SmallestSpacing") <= value("MeanSpacing") * (1.0 + 1e-12),
+    "SmallestSpacing <= MeanSpacing");
+  if (densityState(filter, inputs[1][0]) == State::Sound)
+  {
+    findings.Near(value("TotalMass"), massOf(inputs[1][0]), 1e-9, "TotalMass");
+  }
+}
+
+} // namespace
+
+void addTransportKinds(std::vector<FilterKind>& kinds)
+{
+  kinds.push_back(
+    { "Sampler", make<Sampler>, drawSampler, feedSampler, expectSampler, checkSampler });
+  kinds.push_back({ "Map", make<Map>, drawMap, feedMap, expectMap, checkMap });
+  kinds.push_back({ "Warp", make<Warp>, drawWarp, feedPointsAndDensity, expectWarp, checkWarp });
+  kinds.push_back(
+    { "Quality", make<Quality>, drawQuality, feedPointsAndDensity, expectQuality, checkQuality });
+}
+
+} // namespace Campaign

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input.h"
+
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkTable.h"
+
+namespace Campaign
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkDataObject> drawComposite(Dice& dice, vtkDataObject* block)
+{
+  if (dice.Chance(0.3))
+  {
+    const auto parts = vtkSmartPointer<vtkPartitionedDataSet>::New();
+    parts->SetPartition(0, block);
+    return parts;
+  }
+  const auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  const auto count = static_cast<unsigned int>(dice.Whole(0, 3));
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    const bool same = dice.Chance(0.6);
+    blocks->SetBlock(i, same ? block : nullptr);
+    if (!same && dice.Chance(0.5))
+    {
+      blocks->SetBlock(i, drawImage(dice).Data);
+    }
+  }
+  return blocks;
+}
+
+} // namespace
+
+void drawUnusual(Dice& dice, Input& input)
+{
+  if (!dice.Chance(0.03))
+  {
+    return;
+  }
+  input.IsPlain = false;
+  input.Values = nullptr;
+  input.Condition = State::Open;
+  switch (dice.Whole(0, 5))
+  {
+    case 0:
+      input.Data = nullptr;
+      break;
+    case 1:
+      input.Data = vtkSmartPointer<vtkTable>::New();
+      break;
+    case 2:
+      input.Data = vtkSmartPointer<vtkRectilinearGrid>::New();
+      break;
+    default:
+      input.Data = drawComposite(dice, input.Data);
+      break;
+  }
+  input.Say(input.Data ? input.Data->GetClassName() : "nothing");
+}
+
+} // namespace Campaign

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random pipelines through all filters, each case under several numbers of threads, threading
+backends and instruction sets.
+
+usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] PROGRAM
+
+PROGRAM (Campaign.cxx) plays the cases and looks at each output. This script compares what comes out
+under every setting, to the last bit, and survives what PROGRAM does not: a case that crashes or
+hangs is told, and the next one follows. `PROGRAM --case N --seed S` tells the story of a case.
+"""
+import argparse
+import collections
+import concurrent.futures
+import os
+import signal
+import subprocess
+import sys
+
+# (name, instruction set, VTK's backend, threads). Auto and OpenMP run on OMP_NUM_THREADS threads,
+# VTK on its backend. Where a machine lacks an instruction set it runs the widest that it has.
+SETTINGS = [
+    ("SSE2, one thread", "SSE2", "Sequential", 1),
+    ("AVX2, two threads of OpenMP", "AVX2", "Sequential", 2),
+    ("AVX512, two threads of VTK", "AVX512", "STDThread", 2),
+]
+BLOCK = 250
+
+
+class Case:
+    def __init__(self, line):
+        fields = line.split()
+        self.number = int(fields[0])
+        self.digest = fields[1]
+        self.filter = fields[3]
+        self.counts = [int(field) for field in fields[4:9]]
+        self.milliseconds = float(fields[9])
+        self.findings = []
+
+
+def play(program, setting, seed, first, count, limit):
+    """The cases of a block, and the ends of processes: [(case, text)]."""
+    _, instructions, backend, threads = setting
+    environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
+                       OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false")
+    cases, ends = [], []
+    end = first + count
+    while first < end:
+        command = [program, "--first", str(first), "--count", str(end - first), "--seed", str(seed),
+                   "--backend", backend, "--threads", str(threads)]
+        process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        try:
+            output, errors = process.communicate(timeout=limit)
+            code = process.returncode
+        except subprocess.TimeoutExpired:
+            process.kill()
+            output, errors = process.communicate()
+            code = None
+        for line in output.splitlines():
+            if line.startswith("!"):
+                cases[-1].findings.append(line[2:])
+            elif line:
+                cases.append(Case(line))
+                first = cases[-1].number + 1
+        if code in (0, 1) and first == end:
+            break
+        if code is None or code == -signal.SIGPROF:
+            how = "did not end"
+        else:
+            how = f"ended the program with {code}"
+        ends.append((first, f"{how}: {errors.strip()[-2000:]}"))
+        first += 1
+    return cases, ends
+
+
+def available(program):
+    """VTK has not always all of the backends."""
+    settings = []
+    for setting in SETTINGS:
+        probe = subprocess.run([program, "--count", "0", "--backend", setting[2]],
+                               stderr=subprocess.DEVNULL)
+        if probe.returncode == 0:
+            settings.append(setting)
+        else:
+            print(f"left out, VTK has no backend {setting[2]}: {setting[0]}")
+    return settings
+
+
+class Campaign:
+    def __init__(self, settings):
+        self.settings = settings
+        self.played = 0
+        self.wrong = 0
+        self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0, 0.0])
+
+    def tell(self, number, text):
+        print(f"case {number}: {text}", flush=True)
+
+    def judge(self, results):
+        """The block's results of all settings."""
+        failed = set()
+        for setting, (cases, ends) in zip(self.settings, results):
+            for number, text in ends:
+                failed.add(number)
+                self.tell(number, f"{setting[0]}: {text}")
+            for case in cases:
+                for finding in case.findings:
+                    failed.add(case.number)
+                    self.tell(case.number, f"{case.filter}, {setting[0]}: {finding}")
+        digests = collections.defaultdict(set)
+        for cases, _ in results:
+            for case in cases:
+                digests[case.number].add(case.digest)
+        for number, found in sorted(digests.items()):
+            if len(found) > 1:
+                failed.add(number)
+                self.tell(number, f"{len(found)} results that differ")
+        for case in results[0][0]:
+            row = self.by_filter[case.filter]
+            row[0] += 1
+            for i, count in enumerate(case.counts):
+                row[i + 1] += count
+            row[6] += case.milliseconds
+        self.wrong += len(failed)
+
+    def summarize(self):
+        head = ["filter", "cases", "runs", "errors", "aborts", "out of memory", "known", "ms a case"]
+        print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
+        rows = sorted(self.by_filter.items())
+        totals = [sum(row[i] for _, row in rows) for i in range(7)]
+        for name, row in rows + [("all", totals)]:
+            mean = f"{row[6] / max(1, row[0]):.1f}"
+            print("| " + " | ".join([name] + [str(value) for value in row[:6]] + [mean]) + " |")
+        print(f"{totals[0]} cases under {len(self.settings)} settings each, {self.wrong} of them wrong")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--limit", type=int, default=600, help="seconds for a block of cases")
+    parser.add_argument("program")
+    arguments = parser.parse_args()
+    settings = available(arguments.program)
+    campaign = Campaign(settings)
+    end = arguments.first + arguments.count
+    blocks = [(first, min(BLOCK, end - first)) for first in range(arguments.first, end, BLOCK)]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        jobs = [[pool.submit(play, arguments.program, setting, arguments.seed, first, count,
+                             arguments.limit) for setting in settings] for first, count in blocks]
+        for block in jobs:
+            campaign.judge([job.result() for job in block])
+    campaign.summarize()
+    return 1 if campaign.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

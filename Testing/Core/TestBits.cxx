@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The results' very bits: the same from every compiler, on every processor and with every
+// instruction set (the tests run once with each). A change that means to alter results states its
+// new digests here, and in the changelog.
+#include "CellBalance.h"
+#include "CellShares.h"
+#include "MapDerivatives.h"
+#include "NearestNeighbours.h"
+#include "Seeds.h"
+#include "SolidSurfaces.h"
+#include "TestFlow.h"
+#include "TestSplat.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+// Fowler, Noll and Vo's hash of bytes.
+class Digest
+{
+public:
+  template <class T>
+  void Add(const std::vector<T>& values)
+  {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i)
+    {
+      this->Hash = (this->Hash ^ bytes[i]) * 0x100000001b3u;
+    }
+  }
+  std::uint64_t Value() const { return this->Hash; }
+
+private:
+  std::uint64_t Hash = 0xcbf29ce484222325u;
+};
+
+void expectDigest(const std::string& what, const Digest& digest)
+{
+  static const std::map<std::string, std::uint64_t> known = {
+    { "1D Multistep", 0xaf9b9685df4aea66u },
+    { "1D RungeKutta4", 0x29b787eb195f4102u },
+    { "1D Euler", 0x24d0d16e57951994u },
+    { "1D Adaptive", 0x4472fd3390f8d38fu },
+    { "1D lattice", 0x916a40e5229fe6c4u },
+    { "2D Multistep", 0xd361601696147192u },
+    { "2D RungeKutta4", 0x54c8c44d583eb003u },
+    { "2D Euler", 0xe9d12fe1b7fc73b1u },
+    { "2D Adaptive", 0x439f2ed3f211c1c9u },
+    { "2D lattice", 0x6b9f96f2b51e6827u },
+    { "3D Multistep", 0x71c72b1bcb4792f0u },
+    { "3D RungeKutta4", 0xf6297220318b606du },
+    { "3D Euler", 0x2770eb9ea33e134du },
+    { "3D Adaptive", 0x19618df03942d44bu },
+    { "3D lattice", 0x19d6d67191368a85u },
+    { "seeds 0", 0xbab802996f7d2b17u },
+    { "seeds 2", 0x6a2ae7ea9cf04cbdu },
+    { "seeds 3", 0xff610da7df8f9d6bu },
+    { "seeds 4", 0xb95ce7f46a72569u },
+    { "cells", 0xa93428379b788350u },
+    { "splat 0", 0x6bab6d9ec114aa2u },
+    { "splat 1", 0xb044657a91783cd5u },
+    { "splat 2", 0x9445002a37b3e017u },
+    { "splat 3", 0xde6e3006ec464fb8u },
+    { "solid", 0x83907ac18cecc6feu },
+    { "neighbours", 0xdcdd9212c32fb8b8u },
+  };
+  const auto found = known.find(what);
+  EXPECT_TRUE(found != known.end() && found->second == digest.Value())
+    << "it is { \"" << what << "\", 0x" << std::hex << digest.Value() << "u },";
+}
+
+// Inputs are made of the engine's bits alone, without arithmetic that a compiler may do otherwise.
+template <int Dimension>
+TestDensity<Dimension> patchyCells(const GridSize<Dimension>& size)
+{
+  TestDensity<Dimension> density = randomCells<Dimension>(size);
+  for (double& value : density.Values)
+  {
+    value = value < 0.25 ? 0.0 : value;
+  }
+  return density;
+}
+
+template <int Dimension>
+void expectFlow(const GridSize<Dimension>& size)
+{
+  const std::string name = std::to_string(Dimension) + "D ";
+  const RectifiedFlow<Dimension> flow = makeFlow(patchyCells<Dimension>(size));
+  constexpr std::size_t count = 500;
+  const Points<Dimension> seeds = randomPoints<Dimension>(size, count);
+  const auto valuesOf = [](const Points<Dimension>& points) {
+    return std::vector<double>(
+      points.data()->data(), points.data()->data() + points.size() * Dimension);
+  };
+  for (const Integrator method : AllIntegrators)
+  {
+    FlowOptions options = steps(20, method);
+    Digest digest;
+    for (const TableLookup lookup : { TableLookup::Interpolated, TableLookup::Nearest })
+    {
+      options.Lookup = lookup;
+      digest.Add(valuesOf(runForward(flow, seeds, options)));
+      digest.Add(valuesOf(runBackward(flow, seeds, options)));
+    }
+    std::vector<double> paths(count * 3 * Dimension);
+    options.Lookup = TableLookup::Interpolated;
+    flow.ForwardAt(seeds.data()->data(), count, { 0.25, 0.75, 1.0 }, paths.data(), options);
+    digest.Add(paths);
+    expectDigest(name + nameOf(method), digest);
+  }
+
+  GridSize<Dimension> lattice;
+  lattice.fill(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
+  std::vector<double> positions(
+    static_cast<std::size_t>(cellCount<Dimension>(lattice)) * Dimension);
+  std::vector<std::int64_t> cells(static_cast<std::size_t>(cellCount<Dimension>(lattice)));
+  flow.ForwardLattice(lattice, positions.data());
+  flow.ForwardLatticeToCells(lattice, cells.data());
+  std::vector<double> divergence(cells.size());
+  std::vector<double> determinant(cells.size());
+  Point<Dimension> step;
+  step.fill(0.5);
+  MapDerivatives<Dimension>(lattice, step, positions.data())
+    .Write(0, cellCount<Dimension>(lattice), divergence.data(), determinant.data());
+  const Point<Dimension> centroid = flow.Centroid();
+  Digest digest;
+  digest.Add(positions);
+  digest.Add(cells);
+  digest.Add(divergence);
+  digest.Add(determinant);
+  digest.Add(std::vector<double>{ flow.Total(), flow.Share(seeds[0], seeds[1]) });
+  digest.Add(std::vector<double>(centroid.begin(), centroid.end()));
+  expectDigest(name + "lattice", digest);
+}
+
+// With coarse levels of the tables in each dimension.
+TEST(Bits, Flow)
+{
+  expectFlow<1>({ 700 });
+  expectFlow<2>({ 150, 131 });
+  expectFlow<3>({ 130, 133, 129 });
+}
+
+TEST(Bits, Seeds)
+{
+  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
+         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  {
+    constexpr std::int64_t count = 1500;
+    Digest digest;
+    std::vector<double> points(3 * count);
+    generateSeeds<1>(pattern, { 2.0 }, count, 5, points.data());
+    digest.Add(points);
+    generateSeeds<2>(pattern, { 2.0, 3.0 }, count, 5, points.data());
+    digest.Add(points);
+    generateSeeds<3>(pattern, { 2.0, 3.0, 1.0 }, count, 5, points.data());
+    digest.Add(points);
+    expectDigest("seeds " + std::to_string(static_cast<int>(pattern)), digest);
+  }
+}
+
+template <int Dimension>
+void addCells(const GridSize<Dimension>& size, Digest& digest)
+{
+  Points<Dimension> places = randomPoints<Dimension>(size, 30, 3);
+  places.push_back(places[4]);
+  const SitePixels<Dimension> sites(size, places.data()->data(), 31);
+  Point<Dimension> spacing;
+  spacing.fill(1.0);
+  spacing[0] = 1.25;
+  std::vector<std::int64_t> labels(static_cast<std::size_t>(cellCount<Dimension>(size)));
+  const RectifiedFlow<Dimension> flow(sites);
+  flow.ForwardLatticeToCells(size, labels.data());
+  for (std::int64_t& label : labels)
+  {
+    label = sites.Find(label);
+  }
+  digest.Add(labels);
+  EXPECT_TRUE(balanceCells<Dimension>(sites, spacing, labels.data(), {}));
+  EXPECT_TRUE(shareCells<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
+  digest.Add(labels);
+}
+
+TEST(Bits, SiteCells)
+{
+  Digest digest;
+  addCells<1>({ 400 }, digest);
+  addCells<2>({ 60, 45 }, digest);
+  addCells<3>({ 12, 11, 14 }, digest);
+  expectDigest("cells", digest);
+}
+
+template <int Dimension, class Real>
+void addSplat(const GridSize<Dimension>& size, const SplatOptions& options, Digest& digest)
+{
+  std::mt19937_64 engine(11);
+  constexpr std::int64_t count = 4000;
+  std::vector<Real> points(3 * count);
+  std::vector<double> masses(count);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      points[3 * i + axis] =
+        static_cast<Real>(uniformNumber(engine) * static_cast<double>(size[axis]));
+    }
+    masses[i] = uniformNumber(engine);
+  }
+  const SplatParticles<Dimension, Real> particles{ points.data(), count, masses.data(), 1.0,
+    identityMap<Dimension>() };
+  std::vector<double> cells(static_cast<std::size_t>(cellCount<Dimension>(size)));
+  splatMass<Dimension, Real>(particles, size, options, 1.5, cells.data(), OpenMPExecutor(), {});
+  digest.Add(cells);
+}
+
+TEST(Bits, Splat)
+{
+  for (const SplatKernel kernel : allKernels)
+  {
+    Digest digest;
+    for (const SplatBoundary boundary : { SplatBoundary::Renormalize, SplatBoundary::Drop })
+    {
+      SplatOptions options;
+      options.Kernel = kernel;
+      options.Radius = 1.375;
+      options.Boundary = boundary;
+      addSplat<1, double>({ 90 }, options, digest);
+      addSplat<2, double>({ 30, 41 }, options, digest);
+      addSplat<2, float>({ 30, 41 }, options, digest);
+      addSplat<3, double>({ 13, 17, 12 }, options, digest);
+    }
+    expectDigest("splat " + std::to_string(static_cast<int>(kernel)), digest);
+  }
+}
+
+TEST(Bits, Solid)
+{
+  const GridSize<3> cells{ 16, 15, 14 };
+  const Points<3> corners = randomPoints<3>(cells, 40, 21);
+  Mesh mesh = makeBox({ 2.3, 3.1, 4.7 }, { 11.9, 9.2, 10.4 });
+  for (std::size_t i = 0; i < corners.size(); i += 4)
+  {
+    mesh.Add(Mesh{ { corners[i], corners[i + 1], corners[i + 2], corners[i + 3] },
+      { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } } });
+  }
+  Digest digest;
+  digest.Add(cover(mesh, cells, 3, OpenMPExecutor()));
+  expectDigest("solid", digest);
+}
+
+TEST(Bits, Neighbours)
+{
+  const Points<3> points = randomPoints<3>({ 5, 4, 3 }, 3000);
+  std::vector<double> distances(points.size());
+  nearestDistances(points.data()->data(), 3000, distances.data(), OpenMPExecutor(), {});
+  Digest digest;
+  digest.Add(distances);
+  expectDigest("neighbours", digest);
+}
+
+} // namespace
+} // namespace RectifiedTransport

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a kernel throws comes out of For; above all where memory runs out in the middle of a range.
+#include "CellBalance.h"
+#include "CellShares.h"
+#include "NearestNeighbours.h"
+#include "SolidSurfaces.h"
+#include "TestFlow.h"
+#include "TestSplat.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+namespace
+{
+
+// How many more allocations there is memory for.
+std::atomic<std::int64_t> allocationsLeft{ std::numeric_limits<std::int64_t>::max() };
+
+} // namespace
+
+void* operator new(std::size_t bytes)
+{
+  void* memory = allocationsLeft-- > 0 ? std::malloc(bytes > 0 ? bytes : 1) : nullptr;
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+void operator delete(void* memory) noexcept
+{
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+struct Thrown
+{
+  std::int64_t Range;
+};
+
+template <class ExecutorT>
+void expectThrown(const ExecutorT& executor)
+{
+  for (const std::int64_t count : { 1, 7, 1000 })
+  {
+    std::atomic<std::int64_t> ranges{ 0 };
+    try
+    {
+      executor.For(count, 1, [&](std::int64_t first, std::int64_t) {
+        ++ranges;
+        if (first % 5 == 0)
+        {
+          throw Thrown{ first };
+        }
+      });
+      ADD_FAILURE() << "nothing came out";
+    }
+    catch (const Thrown& thrown)
+    {
+      EXPECT_EQ(thrown.Range % 5, 0);
+    }
+    EXPECT_GE(ranges, 1);
+    EXPECT_LE(ranges, count);
+  }
+  // And none is left over for the next call.
+  std::atomic<std::int64_t> sum{ 0 };
+  executor.For(100, 7, [&sum](std::int64_t first, std::int64_t last) { sum += last - first; });
+  EXPECT_EQ(sum, 100);
+}
+
+TEST(Executors, WhatAKernelThrowsComesOut)
+{
+  expectThrown(SerialExecutor());
+  expectThrown(OpenMPExecutor());
+}
+
+// Runs work again and again, each time with one allocation more, until there is memory for all of
+// it. Before that it must throw bad_alloc, on whatever thread the memory ran out.
+template <class Work>
+void expectBadAlloc(const char* what, const Work& work)
+{
+  constexpr std::int64_t most = 20000;
+  std::int64_t memory = 0;
+  for (bool complete = false; !complete && memory < most; ++memory)
+  {
+    allocationsLeft = memory;
+    try
+    {
+      work();
+      complete = true;
+    }
+    catch (const std::bad_alloc&)
+    {
+    }
+    allocationsLeft = std::numeric_limits<std::int64_t>::max();
+  }
+  EXPECT_GT(memory, 1) << what << " allocates nothing";
+  EXPECT_LT(memory, most) << what;
+}
+
+TEST(Executors, NoMemoryForTheFlow)
+{
+  const TestDensity<2> density = discWithHole<2>({ 40, 30 });
+  const Points<2> seeds = randomPoints<2>(density.Size, 3000);
+  Points<2> positions(3 * seeds.size());
+  const double* from = seeds.data()->data();
+  double* to = positions.data()->data();
+  const std::vector<double> times{ 0.2, 0.7, 1.0 };
+  expectBadAlloc("the tables", [&]() { makeFlow(density); });
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const FlowOptions few = steps(8);
+  expectBadAlloc("forward", [&]() { flow.Forward(from, 3000, to, few); });
+  expectBadAlloc("at times", [&]() { flow.ForwardAt(from, 3000, times, to, few); });
+  expectBadAlloc("backward", [&]() { flow.Backward(from, 3000, to, few); });
+  expectBadAlloc("a lattice", [&]() { flow.ForwardLattice({ 60, 50 }, to, few); });
+  std::vector<std::int64_t> cells(3000);
+  expectBadAlloc("cells", [&]() { flow.ForwardLatticeToCells({ 60, 50 }, cells.data(), few); });
+}
+
+TEST(Executors, NoMemoryForTheRest)
+{
+  const GridSize<3> cells{ 9, 8, 7 };
+  const Mesh solid = makeTetrahedron({ 1, 1, 1 }, { 8, 2, 2 }, { 3, 7, 2 }, { 4, 4, 6 });
+  std::vector<double> values(504);
+  expectBadAlloc(
+    "a solid", [&]() { coverSolid(solid.Surface(), cells, 3, values.data(), OpenMPExecutor()); });
+
+  const Points<3> points = randomPoints<3>(cells, 4000);
+  std::vector<double> distances(points.size());
+  expectBadAlloc("neighbours", [&]() {
+    nearestDistances(points.data()->data(), 4000, distances.data(), OpenMPExecutor(), {});
+  });
+  for (const SplatKernel kernel : allKernels)
+  {
+    const SplatParticles<3, double> particles{ points.data()->data(), 4000, nullptr, 1.0,
+      identityMap<3>() };
+    SplatOptions options;
+    options.Kernel = kernel;
+    expectBadAlloc("a splat", [&]() {
+      splatMass<3, double>(particles, cells, options, 1.0, values.data(), OpenMPExecutor(), {});
+    });
+  }
+
+  const GridSize<2> size{ 40, 30 };
+  const Points<2> places = randomPoints<2>(size, 50);
+  const SitePixels<2> sites(size, places.data()->data(), 50);
+  std::vector<std::int64_t> owners(1200, 0);
+  expectBadAlloc("a balance", [&]() {
+    std::fill(owners.begin(), owners.end(), 0);
+    balanceCells<2>(sites, { 1.0, 1.0 }, owners.data(), {});
+  });
+}
+
+} // namespace
+} // namespace RectifiedTransport

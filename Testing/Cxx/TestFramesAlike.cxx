@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images that one blend may have: in planes and with directions that are the same up to rounding,
+// and not beyond it.
+#include "BlendTest.h"
+
+namespace
+{
+
+// 30 x 20 cells in the plane z = 3.
+vtkSmartPointer<vtkImageData> makePlane(double longest)
+{
+  auto image = makeDensity({ 30, 20, 1 }, true, bumpy);
+  image->SetSpacing(longest / 30.0, longest / 50.0, 1.0);
+  image->SetOrigin(0.0, 0.0, 3.0);
+  return image;
+}
+
+// Whether a morph runs; else its one error begins with the words.
+bool isAccepted(
+  Checks& checks, vtkImageData* source, vtkImageData* target, const std::string& words, int line)
+{
+  auto morph = makeMorph(source, target);
+  morph->SetDimensions(6, 5, 1);
+  Messages messages(morph);
+  morph->Update();
+  if (messages.Errors.empty())
+  {
+    checks.That(!isEmpty(morph), "an output", line);
+    return true;
+  }
+  checks.That(messages.Errors.size() == 1 && contains(messages.Errors[0], words), words.c_str(),
+    line, messages.Errors[0]);
+  checks.That(isEmpty(morph), "no output", line);
+  return false;
+}
+
+// Single precision is rounding, by the longest side of both; above and below.
+void checkPlanes(Checks& checks)
+{
+  for (const double longest : { 1e-3, 1.0, 500.0 })
+  {
+    auto source = makePlane(longest);
+    for (const double share : { 1.0, 0.1 })
+    {
+      auto target = makePlane(share * longest);
+      for (const double sign : { 1.0, -1.0 })
+      {
+        const auto moved = [&](double off) {
+          target->SetOrigin(0.0, 0.0, 3.0 + sign * off * longest);
+        };
+        for (const bool swap : { false, true })
+        {
+          vtkImageData* from = swap ? target : source;
+          vtkImageData* to = swap ? source : target;
+          moved(1e-7);
+          CHECK(checks, isAccepted(checks, from, to, "", __LINE__));
+          moved(1e-5);
+          CHECK(checks, !isAccepted(checks, from, to, "must lie in one plane", __LINE__));
+        }
+      }
+    }
+  }
+}
+
+// Turned by an angle about an axis of the image or across it.
+void checkDirections(Checks& checks)
+{
+  auto source = makePlane(30.0);
+  source->SetOrigin(0.0, 0.0, 0.0);
+  auto target = makePlane(30.0);
+  target->SetOrigin(0.0, 0.0, 0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto turn = [&](double angle) {
+      double matrix[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+      const std::size_t a = (axis + 1) % 3;
+      const std::size_t b = (axis + 2) % 3;
+      matrix[3 * a + a] = matrix[3 * b + b] = std::cos(angle);
+      matrix[3 * a + b] = -std::sin(angle);
+      matrix[3 * b + a] = std::sin(angle);
+      target->SetDirectionMatrix(matrix);
+    };
+    for (const double sign : { 1.0, -1.0 })
+    {
+      const std::string words = "have different direction matrices";
+      turn(sign * 1e-10);
+      CHECK(checks, isAccepted(checks, source, target, words, __LINE__));
+      turn(sign * 1e-8);
+      CHECK(checks, !isAccepted(checks, source, target, words, __LINE__));
+      turn(sign * 0.1);
+      CHECK(checks, !isAccepted(checks, source, target, words, __LINE__));
+    }
+  }
+  // One element alone, below and above that of the other.
+  for (const double stretch : { 0.9, 1.1 })
+  {
+    double matrix[9] = { stretch, 0, 0, 0, 1, 0, 0, 0, 1 };
+    target->SetDirectionMatrix(matrix);
+    CHECK(checks, !isAccepted(checks, source, target, "different direction matrices", __LINE__));
+  }
+}
+
+// Spacings that differ by rounding make no cells of their own; beyond it the box holds both
+// domains.
+void checkSpacings(Checks& checks)
+{
+  for (const double off : { 1e-10, -1e-10, 1e-6, -1e-6 })
+  {
+    auto source = makePlane(30.0);
+    auto target = makePlane(30.0 * (1.0 + off));
+    auto morph = makeMorph(source, target);
+    morph->Update();
+    vtkImageData* image = morph->GetDensity();
+    const bool isRounding = std::abs(off) < 1e-9;
+    CHECK(checks, image->GetDimensions()[0] == (isRounding ? 31 : 32));
+    const double end = isRounding ? 30.0 : 30.0 * std::max(1.0, 1.0 + off);
+    CHECK(checks, image->GetBounds()[1] >= end - 1e-12);
+    CHECK(checks, !isRounding || image->GetSpacing()[0] == source->GetSpacing()[0]);
+  }
+}
+
+// Axes may be far from right angles.
+void checkSheared(Checks& checks)
+{
+  for (const double height : { 0.5, 1e-4 })
+  {
+    const double sheared[9] = { 1, 1, 0, 0, height, 0, 0, 0, 1 };
+    auto source = makePlane(30.0);
+    source->SetDirectionMatrix(sheared);
+    auto target = makePlane(60.0);
+    target->SetDirectionMatrix(sheared);
+    CHECK(checks, isAccepted(checks, source, target, "", __LINE__));
+  }
+}
+
+} // namespace
+
+int TestFramesAlike(int, char*[])
+{
+  Checks checks;
+  checkPlanes(checks);
+  checkDirections(checks);
+  checkSpacings(checks);
+  checkSheared(checks);
+  return checks.Result();
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who writes into an array may say so to the data set alone: nothing that was made of the values
+// before stays, in our caches or in VTK's.
+#include "CellsTest.h"
+#include "SolidTest.h"
+#include "SplatTest.h"
+
+#include "vtkBitArray.h"
+#include "vtkCellArray.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkTypeInt64Array.h"
+
+namespace
+{
+
+// New values in the array of a density, of which the image alone hears.
+template <class ArrayT>
+void checkDensity(Checks& checks, int line)
+{
+  auto image = makeImage<ArrayT>(12, 9, 1, true, [](vtkIdType i) { return i % 3 == 0 ? 1 : 0; });
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->SetNumberOfParticles(100);
+  const std::vector<double> before = sampleCoordinates(sampler);
+  vtkDataArray* values = image->GetCellData()->GetScalars();
+  const vtkMTimeType time = values->GetMTime();
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    values->SetComponent(i, 0, i % 3 == 1 ? 1 : 0);
+  }
+  image->Modified();
+  checks.That(values->GetMTime() == time, "the array does not say so", line);
+  const std::vector<double> after = sampleCoordinates(sampler);
+  checks.That(after != before && after == samplePoints(image, 100), "new particles", line);
+
+  image->Modified();
+  const vtkMTimeType built = sampler->GetTableBuildTime();
+  checks.That(sampleCoordinates(sampler) == after, "the same values", line);
+  const bool isInMemory = values->HasStandardMemoryLayout();
+  checks.That((sampler->GetTableBuildTime() == built) == isInMemory, "no new tables", line);
+}
+
+// As vtkPoints, but of the data set alone.
+void writePoint(vtkPointSet* set, vtkIdType point, const std::vector<double>& x)
+{
+  auto* coordinates = vtkDoubleArray::SafeDownCast(set->GetPoints()->GetData());
+  std::copy(x.begin(), x.end(), coordinates->GetPointer(3 * point));
+  set->Modified();
+}
+
+void checkSites(Checks& checks)
+{
+  const std::array<double, 6> square = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
+  vtkNew<vtkEqualMassCells> cells;
+  auto sites = makeSites(square, 9);
+  cells->SetInputData(sites);
+  cells->SetResolution(30);
+  for (const bool hasDomain : { true, false })
+  {
+    cells->SetDomainData(hasDomain ? makeDomain(square).Get() : nullptr);
+    const std::vector<vtkIdType> before = runCells(cells);
+    writePoint(sites, 4, { hasDomain ? 0.01 : 1.7, 0.99, 0.0 });
+    const std::vector<vtkIdType> after = runCells(cells);
+    CHECK(checks, !after.empty() && after != before);
+    vtkNew<vtkEqualMassCells> fresh;
+    auto copy = vtkSmartPointer<vtkPolyData>::New();
+    copy->DeepCopy(sites);
+    copy->GetPoints()->Modified();
+    fresh->SetInputData(copy);
+    fresh->SetDomainData(hasDomain ? makeDomain(square).Get() : nullptr);
+    fresh->SetResolution(30);
+    CHECK(checks, runCells(fresh) == after);
+  }
+  // Nothing written, or a data set that a host has made anew around the same points.
+  vtkDataArray* labels = cells->GetLabels()->GetCellData()->GetArray("SiteId");
+  sites->Modified();
+  cells->Update();
+  CHECK(checks, cells->GetLabels()->GetCellData()->GetArray("SiteId") == labels);
+  vtkNew<vtkPolyData> around;
+  around->ShallowCopy(sites);
+  cells->SetInputData(around);
+  cells->Update();
+  CHECK(checks, cells->GetLabels()->GetCellData()->GetArray("SiteId") == labels);
+}
+
+void checkSplat(Checks& checks)
+{
+  auto points = makePoints({ 0, 0, 0, 1, 1, 0, 2, 3, 0 });
+  vtkNew<vtkMassSplatter> splatter;
+  Messages messages(splatter);
+  splatter->SetInputData(points);
+  splatter->SetDimensions(8, 8, 8);
+  splatter->SetAssociationToCells();
+  splatter->Update();
+  writePoint(points, 2, { 8, 3, 0 });
+  CHECK(checks, splatValues(splatter).size() == 64);
+  CHECK(checks, splatter->GetOutput()->GetBounds()[1] == 8.0);
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.empty());
+}
+
+void checkSurface(Checks& checks)
+{
+  auto box = makeBox(0, 1, 0, 1, 0, 1);
+  vtkNew<vtkSolidDensity> solid;
+  Messages messages(solid);
+  solid->SetInputData(box);
+  solid->SetResolution(8);
+  solid->SetPadding(0.0);
+  solid->Update();
+  CHECK_NEAR(checks, massOf(solid), 1.0, 1e-9);
+  for (const vtkIdType point : { 1, 2, 5, 6 })
+  {
+    double x[3];
+    box->GetPoint(point, x);
+    writePoint(box, point, { 2.0, x[1], x[2] });
+  }
+  solid->Update();
+  CHECK_NEAR(checks, massOf(solid), 2.0, 1e-9);
+  CHECK(checks, messages.Errors.empty());
+
+  auto* ids = vtkTypeInt64Array::SafeDownCast(box->GetPolys()->GetConnectivityArray());
+  CHECK(checks, ids != nullptr);
+  *ids->GetPointer(3) = 8;
+  box->Modified();
+  solid->Update();
+  CHECK(checks, messages.Errors.size() == 1);
+  CHECK(checks, contains(messages.Errors.at(0), "has the point 8; there are points 0 to 7"));
+}
+
+} // namespace
+
+int TestWrittenInPlace(int, char*[])
+{
+  Checks checks;
+  checkDensity<vtkDoubleArray>(checks, __LINE__);
+  checkDensity<vtkBitArray>(checks, __LINE__);
+  checkDensity<vtkSOADataArrayTemplate<float>>(checks, __LINE__);
+  checkSites(checks);
+  checkSplat(checks);
+  checkSurface(checks);
+  return checks.Result();
+}

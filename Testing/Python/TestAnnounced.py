@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What pipelines announce and what they hold: extents that follow from points that move with time,
+images that are less than announced, and blocks of other types."""
+import unittest
+
+import rectifiedtransport as rt
+from rt_testing import Listener, closed_surface, density_image, main, points_in
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkImagingCore import vtkImageShiftScale
+
+
+class Growing(VTKPythonAlgorithmBase):
+    """A sphere that is as high as the time says."""
+
+    def __init__(self):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
+        self.times = []
+
+    def RequestInformation(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        times = [1.0, 2.0, 3.0, 5.0]
+        info.Set(Pipeline.TIME_STEPS(), times, 4)
+        info.Set(Pipeline.TIME_RANGE(), [1.0, 5.0], 2)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        info = outputs.GetInformationObject(0)
+        key = Pipeline.UPDATE_TIME_STEP()
+        time = info.Get(key) if info.Has(key) else 1.0
+        self.times.append(time)
+        sphere = closed_surface()
+        points = sphere.GetPoints()
+        for i in range(points.GetNumberOfPoints()):
+            x, y, z = points.GetPoint(i)
+            points.SetPoint(i, x, y, z * time)
+        vtkPolyData.GetData(outputs).ShallowCopy(sphere)
+        return 1
+
+
+class Part(VTKPythonAlgorithmBase):
+    """An image that is half of what it announces."""
+
+    def __init__(self, image):
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkImageData")
+        self.image = image
+
+    def RequestInformation(self, request, inputs, outputs):
+        extent = list(self.image.GetExtent())
+        extent[1] = 2 * extent[1] + 1
+        outputs.GetInformationObject(0).Set(Pipeline.WHOLE_EXTENT(), extent, 6)
+        return 1
+
+    def RequestData(self, request, inputs, outputs):
+        vtkImageData.GetData(outputs).ShallowCopy(self.image)
+        return 1
+
+
+class Announced(unittest.TestCase):
+    def timed(self, filter_):
+        source = Growing()
+        filter_.SetInputConnection(source.GetOutputPort())
+        behind = vtkImageShiftScale()
+        behind.SetInputConnection(filter_.GetOutputPort())
+        last = vtkImageShiftScale()
+        last.SetInputConnection(behind.GetOutputPort())
+        heights = []
+        for time in (3.0, 1.0, 5.0, 2.0, 2.0, 1.0):
+            last.UpdateTimeStep(time)
+            self.assertEqual(source.times[-1], time)
+            made = filter_.GetOutput()
+            self.assertEqual(last.GetOutput().GetExtent(), made.GetExtent(), time)
+            self.assertEqual(last.GetOutput().GetBounds(), made.GetBounds(), time)
+            heights.append(made.GetDimensions()[0])
+        runs = len(source.times)
+        last.UpdateTimeStep(1.0)
+        self.assertEqual(len(source.times), runs)
+        return heights
+
+    def test_solid_of_a_growing_surface(self):
+        solid = rt.vtkSolidDensity()
+        solid.SetResolution(30)
+        widths = self.timed(solid)
+        self.assertEqual(widths[1], 30)
+        self.assertLess(widths[2], widths[0])
+
+    def test_splat_of_growing_points(self):
+        splat = rt.vtkMassSplatter()
+        splat.SetDimensions(6, 7, 8)
+        self.timed(splat)
+
+    def expect(self, filter_, text):
+        heard = Listener(filter_)
+        filter_.Update()
+        self.assertTrue(heard.errors and text in heard.errors[0], heard.errors)
+        self.assertEqual(filter_.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+
+    def test_less_than_announced(self):
+        part = Part(density_image((4, 3)))
+        whole = density_image((4, 3))
+        points = points_in(whole)
+        text = " is an image of the extent 0 4 0 3 0 0 out of 0 9 0 3 0 0; it must be whole"
+        for make, port, others in (
+                (rt.vtkTransportSampler, 0, {}), (rt.vtkTransportMap, 0, {}),
+                (rt.vtkTransportInterpolator, 1, {0: whole}),
+                (rt.vtkTransportBarycenter, 0, {}),
+                (rt.vtkMassSplatter, 1, {0: points}), (rt.vtkEqualMassCells, 1, {0: points}),
+                (rt.vtkDensityEqualizingWarp, 1, {0: points})):
+            filter_ = make()
+            for other, data in others.items():
+                filter_.SetInputDataObject(other, data)
+            filter_.SetInputConnection(port, part.GetOutputPort())
+            with self.subTest(filter=filter_.GetClassName()):
+                self.expect(filter_, "Input port %d" % port + text)
+
+    def test_domain_with_a_block_that_is_no_image(self):
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, closed_surface())
+        cells = rt.vtkEqualMassCells()
+        cells.SetInputData(points_in(density_image((4, 3))))
+        cells.SetDomainData(blocks)
+        heard = Listener(cells)
+        cells.Update()
+        self.assertIn("The Domain has a block of type vtkPolyData; it must be a vtkImageData",
+                      heard.errors[0])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Filters behind an image of ours that failed, was aborted or is a later piece: they would read all
+that was announced, so that they must be asked for nothing. A crash is a failure here."""
+import unittest
+
+import rectifiedtransport as rt
+from rt_testing import Listener, closed_surface, density_image, main, points_in
+from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkFlyingEdges2D, vtkFlyingEdges3D
+from vtkmodules.vtkImagingCore import vtkImageShiftScale
+from vtkmodules.vtkImagingGeneral import vtkImageGradient
+
+
+def splatter():
+    splat = rt.vtkMassSplatter()
+    splat.SetInputData(points_in(density_image((4, 3, 2)), 20000))
+    splat.SetDimensions(20, 20, 20)
+    return splat, splat.SetRadius, 0, 1
+
+
+def solid():
+    made = rt.vtkSolidDensity()
+    made.SetInputData(closed_surface())
+    made.SetResolution(20)
+    return made, made.SetSupersampling, 99, 2
+
+
+def cells():
+    divided = rt.vtkEqualMassCells()
+    divided.SetInputData(points_in(density_image((4, 3, 2))))
+    divided.SetResolution(20)
+    return divided, divided.SetNormExponent, 0, 2
+
+
+def transport_map():
+    made = rt.vtkTransportMap()
+    made.SetInputData(density_image((12, 9, 8), cells=False))
+    return made, made.SetNumberOfSteps, 0, 4
+
+
+def morph():
+    blend = rt.vtkTransportInterpolator()
+    blend.SetInputData(density_image((12, 9, 8), cells=False))
+    blend.SetTargetData(density_image((12, 9, 8), cells=False, seed=1))
+    return blend, blend.SetParameter, 2, 0.5
+
+
+def barycenter():
+    blend = rt.vtkTransportBarycenter()
+    for seed in range(2):
+        source = rt.vtkTransportMap()  # any producer of an image
+        source.SetInputData(density_image((9, 8, 7), cells=False, seed=seed))
+        blend.AddInputConnection(source.GetOutputPort())
+    blend.SetInputArrayToProcess(0, 0, 0, 0, "Density")
+    return blend, blend.SetParticlesPerCell, 0, 1
+
+
+PRODUCERS = (splatter, solid, cells, transport_map, morph, barycenter)
+READERS = (vtkImageShiftScale, vtkImageGradient, vtkContourFilter, vtkFlyingEdges2D,
+           vtkFlyingEdges3D)
+
+
+class Downstream(unittest.TestCase):
+    def behind(self, producer):
+        """Each kind of reader, and each behind an image filter."""
+        readers = []
+        for kind in READERS:
+            first = kind()
+            first.SetInputConnection(producer.GetOutputPort())
+            between = vtkImageShiftScale()
+            between.SetInputConnection(producer.GetOutputPort())
+            second = kind()
+            second.SetInputConnection(between.GetOutputPort())
+            readers += [first, second]
+        return readers
+
+    def check(self, readers, empty):
+        """After an update."""
+        for reader in readers:
+            reader.Update()
+            points = reader.GetOutput().GetNumberOfPoints()
+            self.assertEqual(points == 0, empty, reader.GetClassName())
+
+    def test_failures(self):
+        for make in PRODUCERS:
+            with self.subTest(producer=make.__name__):
+                producer, turn, wrong, right = make()
+                turn(wrong)
+                heard = Listener(producer)
+                readers = self.behind(producer)
+                for _ in range(2):
+                    for reader in readers:
+                        reader.Update()
+                        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+                self.assertEqual(len(heard.errors), 2, heard.errors)  # one, and the executive's
+                self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+                turn(right)
+                if make is cells:
+                    continue  # its labels are on cells
+                images = [r for r in readers if r.IsA("vtkImageAlgorithm")]
+                self.check(images, False)
+                turn(wrong)
+                for reader in images:
+                    reader.Update()
+                self.check(images, True)
+                turn(right)
+                producer.Update()
+                self.assertGreater(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+
+    def test_aborts(self):
+        for make in PRODUCERS:
+            with self.subTest(producer=make.__name__):
+                producer, turn, _, right = make()
+                turn(right)
+                heard = Listener(producer)
+                readers = self.behind(producer)
+                for reader in readers:
+                    tag = producer.AddObserver(
+                        "ProgressEvent", lambda *_: producer.SetAbortExecute(1))
+                    producer.Modified()
+                    reader.Update()
+                    self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+                    self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+                    producer.RemoveObserver(tag)
+                    producer.SetAbortExecute(0)
+                self.assertEqual(heard.errors, [])
+                producer.Modified()
+                shifted = readers[0]
+                if make is not cells:
+                    shifted.Update()
+                    self.assertGreater(shifted.GetOutput().GetNumberOfPoints(), 0)
+
+    def test_later_pieces(self):
+        for make in PRODUCERS:
+            with self.subTest(producer=make.__name__):
+                producer, turn, _, right = make()
+                turn(right)
+                for reader in self.behind(producer):
+                    reader.UpdatePiece(1, 2, 0)
+                    self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+                    self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+
+    def test_deleted_readers(self):
+        """VTK does not forget them."""
+        for make in PRODUCERS:
+            with self.subTest(producer=make.__name__):
+                producer, turn, wrong, right = make()
+                turn(wrong)
+                reader = self.behind(producer)[0]
+                reader.Update()
+                reader.Update()
+                self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+                turn(right)
+                if make is not cells:
+                    self.check([reader], False)
+                producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
+                producer.Modified()
+                reader.Update()
+                self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+
+    def test_only_the_first_piece_of_a_solid(self):
+        made = solid()[0]
+        counts = []
+        for piece in range(3):
+            made.UpdatePiece(piece, 3, 0)
+            counts.append(made.GetOutput().GetNumberOfPoints() > 0)
+        self.assertEqual(counts, [True, False, False])
+
+
+if __name__ == "__main__":
+    main()

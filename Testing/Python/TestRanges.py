@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A property has one range: the panel's text, its domain and the page give the same, and the
+filter takes what is in it and refuses by name what is just outside."""
+import math
+import re
+import unittest
+from typing import NamedTuple
+
+from rt_proxies import instance, page_rows, proxies
+from rt_testing import Listener, density_image, feed, main, points_in, size_of
+
+# What a text on bounds or a choice of several numbers says is not a range of one number.
+WITHOUT = {"Bounds"}
+
+
+class Range(NamedTuple):
+    """From a lowest number, which may itself be excluded, to a highest one."""
+    lowest: float = -math.inf
+    excluded: bool = False
+    highest: float = math.inf
+
+
+def range_of(text):
+    """The range that words give: «0 to 1», «2 or 3», «1 and more», «above 0, at most 10000»."""
+    number = r"(-?\d+(?:\.\d+)?)"
+    found = re.match("any integer$", text)
+    if found:
+        return Range()
+    found = re.match("%s (?:to|or) %s(?=$|,)" % (number, number), text)
+    if found:
+        return Range(float(found[1]), False, float(found[2]))
+    found = re.match("(?:above|greater than) %s(?:, at most %s)?(?=$|,)" % (number, number), text)
+    if found:
+        return Range(float(found[1]), True, float(found[2] or math.inf))
+    found = re.match("(?:from )?%s(?: and more| to the number of|$)" % number, text)
+    return Range(float(found[1])) if found else None
+
+
+def panel_range(prop):
+    found = re.search(r"Range: (.*?)\. Default", prop.documentation)
+    return range_of(found[1]) if found else None
+
+
+def domain(prop):
+    return next((prop.element.find(tag) for tag in ("IntRangeDomain", "DoubleRangeDomain")
+                 if prop.element.find(tag) is not None), None)
+
+
+def number(value, whole):
+    return int(value) if whole else value
+
+
+def beside(value, whole, towards):
+    """The next whole number or double in a direction."""
+    return int(value + math.copysign(1, towards)) if whole else math.nextafter(value, towards)
+
+
+def run(proxy, prop, value):
+    """A filter with small inputs and one property set; what it says, and its first output."""
+    filter_ = instance(proxy)
+    feed(filter_)
+    if hasattr(filter_, "SetDomainData"):  # a pixel holds one site
+        image = density_image((4, 3))
+        filter_.SetInputData(points_in(image, 1))
+        filter_.SetDomainData(image)
+    if hasattr(filter_, "SetNumberOfParticles"):
+        filter_.SetNumberOfParticles(100)
+    heard = Listener(filter_)
+    getattr(filter_, prop.command)(*[value] * len(prop.default.split()))
+    filter_.Update()
+    return heard, filter_.GetOutputDataObject(0)
+
+
+class Ranges(unittest.TestCase):
+    def each_range(self):
+        for proxy in proxies():
+            for name, prop in proxy.properties.items():
+                if prop.is_value and not prop.texts and not prop.boolean and name not in WITHOUT:
+                    yield self.subTest(proxy=proxy.label, property=name), proxy, prop
+
+    def test_there_are_ranges_of_both_kinds(self):
+        tags = [prop.element.tag for _, _, prop in self.each_range()]
+        for tag in ("IntVectorProperty", "DoubleVectorProperty"):
+            self.assertGreater(tags.count(tag), 5)
+
+    def test_panel_text_and_domain(self):
+        for case, _, prop in self.each_range():
+            with case:
+                said = panel_range(prop)
+                self.assertIsNotNone(said, prop.documentation)
+                shown = domain(prop)
+                self.assertIsNotNone(shown, "a domain")
+                self.assertEqual(shown.tag[:3], prop.element.tag[:3])
+                self.assertEqual((float(shown.get("min", -math.inf)),
+                                  float(shown.get("max", math.inf))),
+                                 (said.lowest, said.highest), prop.documentation)
+
+    def test_panel_text_and_page(self):
+        for case, proxy, prop in self.each_range():
+            with case:
+                self.assertEqual(range_of(page_rows(proxy)[prop.name][1].replace("−", "-")),
+                                 panel_range(prop))
+
+    def test_default_is_inside(self):
+        for case, _, prop in self.each_range():
+            with case:
+                allowed = panel_range(prop)
+                for value in map(float, prop.default.split()):
+                    self.assertLessEqual(allowed.lowest, value)
+                    self.assertLessEqual(value, allowed.highest)
+
+    def assert_taken(self, proxy, prop, value):
+        heard, output = run(proxy, prop, value)
+        self.assertEqual(heard.errors, [], "%s = %r" % (prop.name, value))
+        self.assertGreater(size_of(output), 0)
+
+    def assert_refused(self, proxy, prop, value):
+        heard, output = run(proxy, prop, value)
+        self.assertTrue(heard.errors, "%s = %r" % (prop.name, value))
+        self.assertIn(prop.name + " is ", heard.errors[0])
+        self.assertEqual(size_of(output), 0)
+
+    def test_filter(self):
+        for case, proxy, prop in self.each_range():
+            with case:
+                allowed = panel_range(prop)
+                whole = prop.element.tag == "IntVectorProperty"
+                if allowed.lowest > -math.inf and allowed.excluded:
+                    self.assert_taken(proxy, prop, allowed.lowest + 1e-6)
+                    self.assert_refused(proxy, prop, allowed.lowest)
+                elif allowed.lowest > -math.inf:
+                    self.assert_taken(proxy, prop, number(allowed.lowest, whole))
+                    self.assert_refused(proxy, prop, beside(allowed.lowest, whole, -math.inf))
+                if allowed.highest < math.inf:
+                    self.assert_taken(proxy, prop, number(allowed.highest, whole))
+                    self.assert_refused(proxy, prop, beside(allowed.highest, whole, math.inf))
+                elif not whole:
+                    self.assert_taken(proxy, prop, 50.0)
+                if not whole:
+                    self.assert_refused(proxy, prop, math.nan)
+
+    def test_infinite(self):
+        """The largest component is a norm; everything else is finite."""
+        for case, proxy, prop in self.each_range():
+            with case:
+                if prop.element.tag == "DoubleVectorProperty":
+                    norm = prop.name == "NormExponent"
+                    (self.assert_taken if norm else self.assert_refused)(proxy, prop, math.inf)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two ranks: data that lie on both are an error and give nothing; what is whole on each, or on the
+first alone, gives a result. Nothing may hang."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+from rt_testing import SKIPPED, main
+
+MPIRUN = shutil.which("mpirun")
+PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
+SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_script.py")
+
+
+class Ranks(unittest.TestCase):
+    def check(self, *options):
+        run = subprocess.run(
+            [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", PVBATCH, *options,
+             SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=140)
+        said = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
+        expected = {}
+        for filter_ in ("splat", "cells", "seeds", "quality"):
+            for kind in ("whole", "gathered"):
+                expected["%s %s" % (filter_, kind)] = "some"
+            expected["%s shared" % filter_] = "none error"
+        expected.update({"map": "some", "warp": "some", "solid": "some"})
+        self.assertEqual(said, expected, run.stdout[-3000:])
+        self.assertEqual(run.returncode, 0)
+
+    def test_together(self):
+        self.check()
+
+    def test_symmetric(self):
+        self.check("--sym")
+
+
+if __name__ == "__main__":
+    if not MPIRUN or not os.path.exists(PVBATCH):
+        print("Needs mpirun and pvbatch")
+        sys.exit(SKIPPED)
+    main()

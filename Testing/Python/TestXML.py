@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the XML says of inputs, outputs, choices, hints and of when a property is shown is what the
+public names promise and what the classes do."""
+import unittest
+
+from rt_proxies import instance, proxies
+from rt_testing import density_image, digest, feed, main
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+
+# The public names, which no version changes: class, inputs by port, outputs if there are several.
+PUBLIC = {
+    "Sample Density": ("vtkTransportSampler", ["Input", "Seeds"], []),
+    "Transport Map": ("vtkTransportMap", ["Input"], []),
+    "Equal-Mass Cells": ("vtkEqualMassCells", ["Input", "Domain"],
+                         ["Labels", "Sites", "Outlines"]),
+    "Morph Densities": ("vtkTransportInterpolator", ["Input", "Target"],
+                        ["Density", "Particles"]),
+    "Density Barycenter": ("vtkTransportBarycenter", ["Input"], ["Density", "Particles"]),
+    "Splat Mass": ("vtkMassSplatter", ["Input", "Reference"], []),
+    "Solid Density": ("vtkSolidDensity", ["Input"], []),
+    "Uniform Seeds": ("vtkUniformSeedSource", [], []),
+    "Density-Equalizing Warp": ("vtkDensityEqualizingWarp", ["Input", "Density"], []),
+    "Transport Quality": ("vtkTransportQuality", ["Input", "Density"], []),
+}
+PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
+CHOICES = {  # the first is the default
+    "SeedPattern": PATTERNS, "Pattern": PATTERNS,
+    "NegativeValues": ["Error", "Clamp"],
+    "Integrator": ["Multistep", "RungeKutta4", "Euler", "Adaptive"],
+    "TableLookup": ["Interpolated", "Nearest"],
+    "Threading": ["Auto", "VTK", "OpenMP", "Serial"],
+    "Direction": ["UniformToDensity", "DensityToUniform"],
+    "MassMode": ["Linear", "Geometric", "Source", "Normalize"],
+    "Kernel": ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"],
+    "Boundary": ["Renormalize", "Drop"],
+    "Association": ["Points", "Cells"],
+}
+ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
+INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "Threading"}
+# The property that decides whether another one is shown (or enabled), and two values that differ.
+DEPENDENT = {
+    "NumberOfSteps": ({"Integrator"}, (32, 1)),
+    "Tolerance": ({"Integrator"}, (0.01, 2.0)),
+    "Radius": ({"Kernel"}, (1.0, 3.0)),
+    "SamplesPerCell": ({"SeedPattern"}, (0, 2)),
+    "RandomSeed": ({"SeedPattern", "Pattern"}, (1, 2)),
+    "NumberOfTimeSteps": ({"PublishTime"}, (11, 5)),
+    "Parameter": ({"PublishTime"}, (0.5, 0.25)),
+    "Component": ({"DensityArray"}, (-1, 0)),
+}
+POINTS = {"view": "RenderView", "type": "Point Gaussian"}
+BEHIND = [("View", {"type": "None", "port": "1"}), ("RepresentationType", {**POINTS, "port": "1"})]
+SHOWN = {  # how an output is shown at first, where it is not as ParaView shows all
+    "Sample Density": [("RepresentationType", POINTS)],
+    "Uniform Seeds": [("RepresentationType", POINTS)],
+    "Morph Densities": BEHIND,
+    "Density Barycenter": BEHIND,
+    "Equal-Mass Cells": [("RepresentationType",
+                          {"view": "RenderView", "type": "Surface", "port": "0"})],
+    "Transport Quality": [("View", {"type": "SpreadSheetView"})],
+}
+
+
+def inputs(proxy):
+    return {int(prop.element.get("port_index", 0)): prop for prop in proxy.properties.values()
+            if prop.element.tag == "InputProperty"}
+
+
+def decorators(prop):
+    return prop.element.findall("Hints/PropertyWidgetDecorator")
+
+
+def is_shown(decorator, value):
+    """What ParaView's GenericDecorator makes of a value, given as text."""
+    if decorator.get("values") is not None:
+        shown = value in decorator.get("values").split()
+    else:
+        shown = value == decorator.get("value")
+    return shown != (decorator.get("inverse") == "1")
+
+
+def result(proxy, values):
+    """All that comes out with some properties set."""
+    filter_ = instance(proxy)
+    feed(filter_)
+    if hasattr(filter_, "SetNumberOfParticles"):
+        filter_.SetNumberOfParticles(30)
+    if hasattr(filter_, "SetNumberOfPoints"):
+        filter_.SetNumberOfPoints(30)
+    if hasattr(filter_, "SetResolution"):
+        filter_.SetResolution(40)
+    if hasattr(filter_, "SetTargetData"):
+        filter_.SetTargetData(density_image((4, 3), seed=5))
+    for name, value in values.items():
+        getattr(filter_, proxy.properties[name].command)(value)
+    filter_.UpdateInformation()
+    filter_.UpdateTimeStep(0.125)
+    times = filter_.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    return times, [digest(filter_.GetOutputDataObject(port))
+                   for port in range(filter_.GetNumberOfOutputPorts())]
+
+
+class XML(unittest.TestCase):
+    def each(self):
+        for proxy in proxies():
+            yield self.subTest(proxy=proxy.label), proxy
+
+    def each_property(self):
+        for proxy in proxies():
+            for name, prop in proxy.properties.items():
+                yield self.subTest(proxy=proxy.label, property=name), proxy, prop
+
+    def test_public_names(self):
+        self.assertEqual({proxy.label: proxy.class_name for proxy in proxies()},
+                         {label: public[0] for label, public in PUBLIC.items()})
+        for case, proxy in self.each():
+            with case:
+                found = inputs(proxy)
+                names = [found[port].name for port in sorted(found)]
+                self.assertEqual(names, PUBLIC[proxy.label][1])
+                self.assertEqual(proxy.menu, "filters" if found else "sources")
+                self.assertEqual(proxy.element.get("multiprocess_support"), "single_process")
+
+    def test_choices(self):
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.texts:
+                    expected = {str(i): text for i, text in enumerate(CHOICES[prop.name])}
+                    self.assertEqual(prop.texts, expected)
+                    self.assertEqual(prop.default, "0")
+
+    def test_commands(self):
+        for case, proxy, prop in self.each_property():
+            with case:
+                commands = [prop.element.get(name) for name in (
+                    "command", "clean_command", "set_number_command") if prop.element.get(name)]
+                self.assertTrue(commands or prop.element.get("information_only"))
+                for command in commands:
+                    self.assertTrue(hasattr(instance(proxy), command), command)
+
+    def test_numbers_of_elements(self):
+        for case, proxy, prop in self.each_property():
+            with case:
+                if prop.is_value:
+                    value = getattr(instance(proxy), "G" + prop.command[1:])()
+                    values = value if isinstance(value, tuple) else (value,)
+                    count = len(values)
+                    self.assertEqual(prop.element.get("number_of_elements"), str(count))
+                    self.assertEqual(len(prop.default.split()), count)
+                    kind = "Double" if isinstance(values[0], float) else "Int"
+                    self.assertEqual(prop.element.tag, kind + "VectorProperty")
+
+    def test_inputs(self):
+        """Ports, types, and which may stay empty or have several, as the class has them."""
+        for case, proxy in self.each():
+            with case:
+                filter_ = instance(proxy)
+                found = inputs(proxy)
+                self.assertEqual(set(found), set(range(filter_.GetNumberOfInputPorts())))
+                for port, prop in found.items():
+                    information = filter_.GetInputPortInformation(port)
+                    optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
+                    self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
+                    self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
+                    several = bool(information.Has(vtkAlgorithm.INPUT_IS_REPEATABLE()))
+                    self.assertEqual(prop.element.get("multiple_input") == "1", several)
+                    self.assertEqual(prop.element.get("clean_command") is not None, several)
+                    kind = prop.element.find("DataTypeDomain/DataType").get("value")
+                    self.assertEqual(kind, information.Get(
+                        vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0))
+                    self.assertEqual({e.get("name") for e in prop.element.iter("Group")},
+                                     {"sources", "filters"})
+
+    def test_outputs(self):
+        for case, proxy in self.each():
+            with case:
+                ports = {}
+                for element in proxy.ports:
+                    ports[int(element.get("index"))] = element.get("name")
+                self.assertEqual([ports[i] for i in sorted(ports)], PUBLIC[proxy.label][2])
+                count = instance(proxy).GetNumberOfOutputPorts()
+                self.assertEqual(count, max(1, len(PUBLIC[proxy.label][2])))
+
+    def test_arrays(self):
+        """An array is chosen from the input that it is read of."""
+        for case, proxy, prop in self.each_property():
+            with case:
+                listed = prop.element.find("ArrayListDomain")
+                if listed is None:
+                    continue
+                self.assertEqual(prop.command, "SetInputArrayToProcess")
+                required = listed.find("RequiredProperties/Property")
+                self.assertEqual(required.get("function"), "Input")
+                owner = proxy.properties[required.get("name")]
+                names = [e.get("name") for e in owner.element.findall("InputArrayDomain")]
+                self.assertIn(listed.get("input_domain_name"), names)
+                if prop.default is not None:
+                    port = prop.default.split(";")[1]
+                    self.assertEqual(port, owner.element.get("port_index", "0"))
+
+    def test_animation(self):
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.is_value or prop.is_list:
+                    self.assertEqual(prop.element.get("animateable", "1") == "1",
+                                     prop.name in ANIMATEABLE)
+
+    def test_integration_is_advanced(self):
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.name in INTEGRATION:
+                    self.assertEqual(prop.element.get("panel_visibility"), "advanced")
+
+    def test_groups(self):
+        """A group has properties that there are, each in one group."""
+        for case, proxy in self.each():
+            with case:
+                names = [e.get("name") for group in proxy.groups for e in group.findall("Property")]
+                self.assertEqual(len(names), len(set(names)))
+                self.assertLessEqual(set(names), set(proxy.properties))
+
+    def test_hints(self):
+        for case, proxy in self.each():
+            with case:
+                hints = [(e.tag, dict(e.attrib)) for e in proxy.element.find("Hints")]
+                self.assertEqual(hints[0], ("ShowInMenu", {"category": "Transport"}))
+                self.assertEqual(hints[1:], SHOWN.get(proxy.label, []))
+
+    def test_decorators_name_what_there_is(self):
+        for case, proxy, prop in self.each_property():
+            with case:
+                found = decorators(prop)
+                self.assertEqual(len(found), 1 if prop.name in DEPENDENT else 0)
+                for decorator in found:
+                    self.assertEqual(decorator.get("type"), "GenericDecorator")
+                    self.assertEqual(
+                        decorator.get("mode"),
+                        "enabled_state" if prop.name == "Parameter" else "visibility")
+                    self.assertIn(decorator.get("property"), DEPENDENT[prop.name][0])
+                    owner = proxy.properties[decorator.get("property")]
+                    values = (decorator.get("values") or decorator.get("value") or "").split()
+                    if owner.texts or owner.boolean:
+                        self.assertTrue(values)
+                        self.assertLessEqual(set(values), set(owner.texts or {"0", "1"}))
+
+    def test_properties_are_shown_where_they_change_something(self):
+        for case, proxy, prop in self.each_property():
+            with case:
+                for decorator in decorators(prop):
+                    owner = proxy.properties[decorator.get("property")]
+                    for value in owner.texts or (("0", "1") if owner.boolean else ()):
+                        with self.subTest(**{owner.name: value}):
+                            one, other = (result(proxy, {owner.name: int(value), prop.name: number})
+                                          for number in DEPENDENT[prop.name][1])
+                            self.assertEqual(one != other, is_shown(decorator, value))
+
+    def test_component_is_shown_for_arrays_of_several(self):
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.name == "Component":
+                    attributes = dict(decorators(prop)[0].attrib)
+                    # The array is not the one of a single component: fifth element, its name.
+                    self.assertEqual((attributes["index"], attributes["number_of_components"],
+                                      attributes["inverse"]), ("4", "1", "1"))
+
+
+if __name__ == "__main__":
+    main()
