@@ -91,6 +91,14 @@ def look_down(view, middle, height, distance):
     view.CameraParallelScale = height / 2
 
 
+def apply_preset(colours, name):
+    """Gives a transfer function one of matplotlib's maps; from 6 on ParaView refuses its old name."""
+    try:
+        colours.ApplyPreset(name + " (matplotlib)", True)
+    except RuntimeError:
+        colours.ApplyPreset(name, True)
+
+
 def save_picture(path, view):
     """Draws a view at twice its size and averages: smooth edges for round points."""
     simple.SaveScreenshot(path, view, ImageResolution=[2 * n for n in view.ViewSize])

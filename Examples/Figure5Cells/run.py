@@ -61,7 +61,7 @@ def draw(path, sets, pixels):
                 # Neighbours in the list of sites are no neighbours in the plane.
                 simple.ColorBy(shown, ("CELLS", "SiteId"))
                 shown.SetScalarBarVisibility(view, False)
-                simple.GetColorTransferFunction("SiteId").ApplyPreset("Viridis (matplotlib)", True)
+                example.apply_preset(simple.GetColorTransferFunction("SiteId"), "Viridis")
             else:
                 shown.ColorArrayName = [None, ""]
                 shown.AmbientColor = shown.DiffuseColor = colour

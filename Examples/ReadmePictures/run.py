@@ -94,7 +94,7 @@ def draw_map(path):
     simple.ColorBy(shown, ("POINTS", "JacobianDeterminant"))
     shown.SetScalarBarVisibility(view, False)
     colours = simple.GetColorTransferFunction("JacobianDeterminant")
-    colours.ApplyPreset("Viridis (matplotlib)", True)
+    example.apply_preset(colours, "Viridis")
     colours.RescaleTransferFunction(0.5, 2.0)
     flat_picture(path, view, [511.5, 383.5], 384)
 
@@ -108,7 +108,7 @@ def draw_paths(path):
     shown.LineWidth = 2
     simple.ColorBy(shown, ("POINTS", "Time"))
     shown.SetScalarBarVisibility(view, False)
-    simple.GetColorTransferFunction("Time").ApplyPreset("Viridis (matplotlib)", True)
+    example.apply_preset(simple.GetColorTransferFunction("Time"), "Viridis")
     flat_picture(path, view, [511.5, 383.5], 384)
 
 

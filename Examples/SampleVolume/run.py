@@ -27,7 +27,7 @@ def draw(path, particles, bounds, radius, pixels):
     simple.ColorBy(shown, ("POINTS", name))
     shown.SetScalarBarVisibility(view, False)
     colors = simple.GetColorTransferFunction(name)
-    colors.ApplyPreset("Inferno (matplotlib)", True)
+    example.apply_preset(colors, "Inferno")
     lowest, highest = particles.PointData[name].GetRange(-1)
     colors.RescaleTransferFunction(lowest + 0.15 * (highest - lowest), highest)
 

@@ -4,12 +4,16 @@
 #ifndef RectifiedTransport_WholeInput_h
 #define RectifiedTransport_WholeInput_h
 
+#include "VTKCompatibility.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
 class vtkInformation;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -141,6 +141,7 @@ void drawMorph(Settings& settings)
   {
     const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity, NaN });
     settings.Add("Time", textOf(time), [=](vtkAlgorithm* filter) {
+      filter->UpdateInformation(); // the first drops a time that was asked for before
       for (int port = 0; port < 2; ++port)
       {
         filter->GetOutputInformation(port)->Set(Pipeline::UPDATE_TIME_STEP(), time);

@@ -5,6 +5,7 @@
 #include "FilterKind.h"
 #include "Kinds.h"
 #include "KnownDefects.h"
+#include "Listener.h"
 
 #include "vtkTrivialProducer.h"
 
@@ -62,8 +63,8 @@ public:
     this->Tell(this->Properties.Describe());
     this->TellInputs();
     this->Filter = this->Kind.New();
-    this->Properties.Apply(this->Filter);
     connect(this->Filter, this->Fed);
+    this->Properties.Apply(this->Filter);
     const std::int64_t runs = this->Luck.Of({ 1, 1, 2, 2, 3, 4 });
     for (std::int64_t i = 0; i < runs; ++i)
     {
@@ -150,8 +151,8 @@ private:
         this->Feed();
         this->Tell("other inputs" + this->Properties.Describe(before));
         this->TellInputs();
-        this->Properties.Apply(this->Filter);
         connect(this->Filter, this->Fed);
+        this->Properties.Apply(this->Filter);
         break;
       }
       case 2:
@@ -246,14 +247,35 @@ private:
     findings.That(now == this->Last.Digest, "what is behind changes nothing");
     this->Take(findings);
     this->Result.Digest = this->Result.Digest * 31 + outcome.Digest;
+    if (outcome.Errors.empty())
+    {
+      this->AbortBefore(behind, outcome);
+    }
+  }
+
+  // An abort leaves nothing to a filter that has read before; afterwards all is as it was.
+  void AbortBefore(vtkAlgorithm* behind, const Outcome& whole)
+  {
+    this->Filter->Modified();
+    {
+      const Listener aborting(this->Filter, static_cast<int>(this->Luck.Whole(0, 6)));
+      behind->Update();
+      this->Result.Aborts += aborting.HasAborted ? 1 : 0;
+    }
+    this->Filter->SetAbortExecute(0);
+    this->Filter->Modified();
+    Findings findings;
+    const Outcome again = update(behind, {}, findings);
+    findings.That(again.Digest == whole.Digest, "after an abort what is behind is as before");
+    this->Take(findings);
   }
 
   // Whatever a filter has kept from run to run must not show.
   void CompareFresh()
   {
     const vtkSmartPointer<vtkAlgorithm> fresh = this->Kind.New();
-    this->Properties.Apply(fresh);
     connect(fresh, this->Fed);
+    this->Properties.Apply(fresh);
     Findings findings;
     const Outcome other = update(fresh, {}, findings);
     this->Take(findings);

@@ -4,6 +4,7 @@
 #define Campaign_KnownDefects_h
 
 #include <string>
+#include <vector>
 
 namespace Campaign
 {
@@ -17,10 +18,7 @@ struct KnownDefect
 
 inline bool isKnown(const std::string& filter, const std::string& finding)
 {
-  static const KnownDefect defects[] = {
-    // The extent of a structured grid that was asked for before a failure outlives it.
-    { "Warp", "something else said", "vtkStreamingDemandDrivenPipeline" },
-    { "Warp", "something else said", "vtkTrivialProducer" },
+  static const std::vector<KnownDefect> defects = {
   };
   for (const KnownDefect& defect : defects)
   {

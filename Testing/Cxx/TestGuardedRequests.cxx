@@ -77,7 +77,9 @@ int TestGuardedRequests(int, char*[])
     behind->SetInputConnection(source->GetOutputPort());
     behind->Update();
     CHECK(checks, !messages.Errors.empty() && contains(messages.Errors[0], "Not enough memory"));
-    CHECK(checks, behind->GetOutput()->GetNumberOfPoints() == 0);
+    // What the first request is without is not there at all.
+    vtkImageData* read = behind->GetOutput();
+    CHECK(checks, !read || read->GetNumberOfPoints() == 0);
     source->Throws = 0;
     source->Modified();
     behind->Update();

@@ -19,7 +19,7 @@ class Ranks(unittest.TestCase):
     def check(self, *options):
         run = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", PVBATCH, *options,
-             SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=140)
+             SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=140)
         said = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
         expected = {}
         for filter_ in ("splat", "cells", "seeds", "quality"):
@@ -27,7 +27,7 @@ class Ranks(unittest.TestCase):
                 expected["%s %s" % (filter_, kind)] = "some"
             expected["%s shared" % filter_] = "none error"
         expected.update({"map": "some", "warp": "some", "solid": "some"})
-        self.assertEqual(said, expected, run.stdout[-3000:])
+        self.assertEqual(said, expected, run.stdout + run.stderr[-3000:])
         self.assertEqual(run.returncode, 0)
 
     def test_together(self):
