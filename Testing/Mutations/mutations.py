@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The wrong changes that the tests have to notice.
+
+Each names a file, a piece of text that stands there once, and what is wrong instead: an expression
+(E), whole statements (S), or, with MUTANT for the condition that switches it on, any text that has
+to compile both ways (T). X replaces text of the plugin's XML, which takes a build of its own. Where
+«» stand in the text, only what is between them is replaced.
+"""
+from collections import namedtuple
+
+Mutation = namedtuple("Mutation", "kind file right wrong")
+
+
+def E(file, right, wrong):
+    return Mutation("E", file, right, wrong)
+
+
+def S(file, right, wrong):
+    return Mutation("S", file, right, wrong)
+
+
+def T(file, right, wrong):
+    return Mutation("T", file, right, wrong)
+
+
+def X(file, right, wrong):
+    return Mutation("X", file, right, wrong)
+
+
+CORE = "Filters/Core/"
+BRIDGE = "Filters/Bridge/"
+
+# These once passed all tests.
+SURVIVED = [
+    E(CORE + "BoxMoments.txx", "linear[0] + linear[4]", "1.01 * (linear[0] + linear[4])"),
+    E(CORE + "FlowVelocity.txx", "truncated(smaller(larger(b, 0.0), size) + 0.5)",
+      "smaller(larger(b, 0.0), size)"),
+    E(BRIDGE + "DensityReader.cxx", "static_cast<double>(begin(i, alpha)) / white",
+      "static_cast<double>(begin(i, alpha)) / 255.0"),
+    E("Filters/vtkMassSplatter.cxx", "«masses.Values()», 1.0, target",
+      "(input->GetPoints()->GetDataType() == VTK_FLOAT ? nullptr : masses.Values())"),
+    E("Filters/vtkTransportSampler.cxx", "report.SeedsMoved > 0", "report.SeedsMoved > 1"),
+    E("Filters/vtkTransportSampler.cxx", "report.ParticlesMoved > 0", "report.ParticlesMoved > 1"),
+    E("Filters/vtkEqualMassCells.cxx", "outside > 0", "outside > 1"),
+    E("Filters/vtkDensityEqualizingWarp.cxx", "if («outside > 0»)", "outside > 1"),
+    E("Filters/vtkMassSplatter.cxx", "if («outside > 0»)", "outside > 1"),
+    E(BRIDGE + "DensityImage.cxx", "this->FlagMask = «ghostCell»",
+      "ghostCell & ~vtkDataSetAttributes::REFINEDCELL"),
+    E(BRIDGE + "DensityImage.cxx", "this->Key = { time(array), «time(image->GetPointGhostArray())»",
+      "std::uint64_t{ 0 }"),
+    E(BRIDGE + "ParticleQuality.cxx", "static_cast<double>(this->Size[a]) / this->Scale.ToUnits(aspect[a])",
+      "1.0"),
+    S(CORE + "SurfaceOrientation.cxx", "this->Area += turn * this->AreaOf(triangle);",
+      "this->Area += turn;"),
+    S(BRIDGE + "DensityBlend.cxx", "array->Modified();", ";"),
+    S(BRIDGE + "PivotMap.cxx", "moved += report.MovedToMass;", "moved = report.MovedToMass;"),
+    E(BRIDGE + "CommonFrame.cxx", "planeTolerance * longest", "1e3 * planeTolerance * longest"),
+    T(BRIDGE + "ImageFrame.cxx", "constexpr double rounding = 1e-9;\n  return std::equal("
+      "this->Direction.begin(), this->Direction.end(), other.Direction.begin(),\n"
+      "    [](double a, double b) {",
+      "const double rounding = MUTANT ? 1e-3 : 1e-9;\n  return std::equal("
+      "this->Direction.begin(), this->Direction.end(), other.Direction.begin(),\n"
+      "    [rounding](double a, double b) {"),
+    S(BRIDGE + "PointMasses.cxx", "all.First = all.NotFinite == 0 ? range.First : all.First;",
+      "all.First = range.First;"),
+    E(CORE + "CellShares.cxx", "const double spread = «this->Spacing[axis] * (high - low)»",
+      "high - low"),
+    E(CORE + "CellBalance.cxx", "this->Weight[axis] = «side * side»", "1.0"),
+    E(BRIDGE + "ImageFrame.cxx", "std::lround(resolution * (lengths[i] / longest))",
+      "std::lround(std::floor(resolution * (lengths[i] / longest)))"),
+    E(BRIDGE + "SolidGrid.cxx", "std::ceil(part * resolution - rounding)",
+      "std::ceil(part * resolution)"),
+    T(CORE + "FlowFixedSteps.txx", "constexpr double rounding = 1e-9;\n    alignas(64) Lanes mass;",
+      "const double rounding = MUTANT ? 1e-3 : 1e-9;\n    alignas(64) Lanes mass;"),
+    S(CORE + "FlowKernels.cxx", "c[0] = c[1] = 0.5;", "c[0] = 1.0; c[1] = 0.0;"),
+    E(CORE + "BlueNoise.cxx", "*last + 0.5 * (next - *last)", "*last + 0.999 * (next - *last)"),
+]
+
+# The same kinds of mistakes in other places: an operator, a bound, an index, a factor, a unit, a line
+# left out, drawn over all rooms of the house.
+OTHERS = [
+    # tables and flow
+    E(CORE + "FlowKernels.cxx", "p[1] = «(1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta))»",
+      "1.001 * (1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta))"),
+    E(CORE + "FlowFixedSteps.txx", "c[2] * (*lanes.V[1])[axis][i] - «c[0] * half»", "half"),
+    E(CORE + "FlowFixedSteps.txx", "«x[axis][lane] < t * size»)", "false"),
+    E(CORE + "FlowFixedSteps.txx", "const double weight = «stage < 3 ? 2.0 : 1.0»", "1.5"),
+    E(CORE + "FlowAdaptive.txx", "left -= «lanes.Active[i] ? 0 : 1»", "lanes.Active[i] ? 0 : 1"),
+    E(CORE + "FlowAdaptive.txx", "«0.1 * larger(distance, -distance)»",
+      "0.001 * larger(distance, -distance)"),
+    E(CORE + "FlowLanes.txx", "const double stop = «x1[axis][lane] - rest * length * v1[axis][lane]»",
+      "x1[axis][lane] + rest * length * v1[axis][lane]"),
+    E(CORE + "BoxMoments.txx", "boxes.Moment[1][lane] = «sums.Linear[2] + sums.Bent[0]»",
+      "sums.Linear[2]"),
+    E(CORE + "NearestMass.cxx", "return tables.Occupied + «row * tables.WordsPerRow»",
+      "row * ((tables.Cells[0] >> 6) + 1)"),
+    S(CORE + "SplatTiles.cxx", "visit(row * this->Tiles[0] + i);",
+      "if (i < high[0] || i == low[0]) { visit(row * this->Tiles[0] + i); }"),
+    E(CORE + "CellSamples.cxx", "placeInCell<Dimension>(«i», perCell)", "(i ^ 1) % perCell"),
+    # seeds
+    E(CORE + "BlueNoise.cxx", "«coordinates[a] * 0x1p-16»", "coordinates[a] * 0x1.01p-16"),
+    E(CORE + "Seeds.cxx", "«std::max(n / ideal, ideal / n)»", "n / ideal"),
+    # splats
+    E(CORE + "SplatBlock.txx", "mass[i] = «job.Scale * masses[first + begin + i]»",
+      "masses[first + begin + i]"),
+    E(CORE + "SplatGaussian.txx", "for (; __builtin_fabs(x) > «0.5»", "4.0"),
+    # cells, solids, quality
+    E(CORE + "CellFlow.cxx", "this->Capacity(from.Contact, «-from.Sign») > 0", "from.Sign"),
+    E(CORE + "SitePixels.cxx", "«*next < begin + count»", "*next <= begin + count - 2"),
+    E(CORE + "SolidCoverage.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
+    E(CORE + "SurfaceEdges.cxx", "«this->EndsOf(*begin).High == high»",
+      "this->EndsOf(*begin).High >= high"),
+    E(CORE + "BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",
+      "this->Centre[axis] + h * this->Aspect[axis]"),
+    E(CORE + "MapDerivatives.cxx", "«below && above» ? 2.0 * this->Step[axis]", "below || above"),
+    E(CORE + "NearestNeighbours.cxx", "const bool lowest = «!(pivot > box.Low[axis])»", "false"),
+    E(CORE + "WeightedMean.cxx", "begin += «block»", "block + 1"),
+    # the bridge
+    E(BRIDGE + "ImageFrame.cxx", "frame.SetAxis(i, this->Extent[2 * i] + «0.5», cells)", "0.0"),
+    E(BRIDGE + "Fingerprint.h", "«this->Bits != 0 && this->Bits == previous.Bits»",
+      "this->Bits == previous.Bits"),
+    E(BRIDGE + "CellFigures.cxx", "cost[i] = sum.Cost / «pixels»", "sum.Pixels"),
+    S(BRIDGE + "ParticleSet.cxx", "id[p] = i;", "id[p] = p;"),
+    E(BRIDGE + "ParticleQuality.cxx", "BlockCounts[a] + «cell / this->BlockSize»",
+      "(cell + 1) / (this->BlockSize + 1)"),
+    S(BRIDGE + "ParticleQuality.cxx", "difference += off * off / measure;",
+      "difference += off * off;"),
+    E(BRIDGE + "DensityBlend.cxx", "«this->Maps.front().TotalMass()» : 1.0",
+      "this->Maps.back().TotalMass()"),
+    E(BRIDGE + "CommonFrame.cxx", "finest = «std::min(finest, std::abs(side.Spacing))»",
+      "std::max(finest, std::abs(side.Spacing))"),
+    E(BRIDGE + "MapField.cxx", "const double weight = «flow ? flow->Share(low, high) : 1.0»", "1.0"),
+    S(BRIDGE + "ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
+    E(BRIDGE + "CellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Faces->InsertNextCell",
+      "below != nobody && above != nobody"),
+    # the filters
+    S("Filters/vtkTransportBarycenter.cxx",
+      "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
+      "this->Weights->List.resize(static_cast<std::size_t>(count));"),
+    S("Filters/vtkTransportMap.cxx",
+      "run.Output->GetCellData()->PassData(run.Input->GetCellData());", ";"),
+    E("Filters/vtkDensityEqualizingWarp.cxx", "«this->Run.Blend * (this->Index[i * D + a] - way[a])»",
+      "this->Index[i * D + a] - way[a]"),
+    E("Filters/vtkMassSplatter.cxx", "splatMassIn(density, target, *executor, host)",
+      "masses.Total()"),
+    E("Filters/vtkTransportSampler.cxx", "cells *= «run.SamplesPerCell»",
+      "(run.SamplesPerCell > 2 ? 2 : run.SamplesPerCell)"),
+    E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
+      "this->NumberOfPoints != 0"),
+    S("Filters/vtkGuardedAlgorithm.cxx", "image->GetPointData()->Initialize();", ";"),
+    # the plugin's XML: a domain, a range in the text, a decorator, a hint, an enumeration
+    X("Plugin/TransportSampler.xml", 'name="FlowTime" command="SetFlowTime" number_of_elements="1"\n'
+      '        default_values="1">\n        <DoubleRangeDomain name="range" min="0" max="«1»"/>', "2"),
+    X("Plugin/TransportCommon.xml", "Range: 1 to «10000». Default: 32", "1000"),
+    X("Plugin/TransportSampler.xml", 'property="SeedPattern" «values="1 2"»/>', 'values="1 3"'),
+    X("Plugin/TransportSampler.xml", '<RepresentationType view="RenderView" type="«Point Gaussian»"/>',
+      "Points"),
+    X("Plugin/TransportSampler.xml", '<Entry value="«2»" text="Jittered"/>', "3"),
+]
