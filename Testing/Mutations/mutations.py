@@ -85,7 +85,7 @@ OTHERS = [
     E(CORE + "FlowFixedSteps.txx", "c[2] * (*lanes.V[1])[axis][i] - «c[0] * half»", "half"),
     E(CORE + "FlowFixedSteps.txx", "«x[axis][lane] < t * size»)", "false"),
     E(CORE + "FlowFixedSteps.txx", "const double weight = «stage < 3 ? 2.0 : 1.0»", "1.5"),
-    E(CORE + "FlowAdaptive.txx", "left -= «lanes.Active[i] ? 0 : 1»", "lanes.Active[i] ? 0 : 1"),
+    E(CORE + "FlowAdaptive.txx", "smaller(lanes.History[i] + 1.0, «2.0»)", "1.0"),
     E(CORE + "FlowAdaptive.txx", "«0.1 * larger(distance, -distance)»",
       "0.001 * larger(distance, -distance)"),
     E(CORE + "FlowLanes.txx", "const double stop = «x1[axis][lane] - rest * length * v1[axis][lane]»",
