@@ -334,6 +334,9 @@ TEST(Lattice, HasTheKnownSizes)
   EXPECT_EQ(latticeSize<1>({ 3.0 }, 77), (GridSize<1>{ 77 }));
   EXPECT_EQ(latticeSize<2>({ 1.0, 1.0 }, 10000), (GridSize<2>{ 100, 100 }));
   EXPECT_EQ(latticeSize<2>({ 4.0, 3.0 }, 8192), (GridSize<2>{ 105, 78 }));
+  // Cells too short are as bad as cells too long.
+  EXPECT_EQ(latticeSize<2>({ 3.0, 2.0 }, 12), (GridSize<2>{ 4, 3 }));
+  EXPECT_EQ(latticeSize<2>({ 4.0, 3.0 }, 4), (GridSize<2>{ 2, 2 }));
   EXPECT_EQ(latticeSize<2>({ 40000.0, 4.0 }, 8192), (GridSize<2>{ 8192, 1 }));
   EXPECT_EQ(latticeSize<2>({ 1e-300, 1e300 }, 50), (GridSize<2>{ 1, 50 }));
   EXPECT_EQ(latticeSize<3>({ 1.0, 1.0, 1.0 }, 1000), (GridSize<3>{ 10, 10, 10 }));
