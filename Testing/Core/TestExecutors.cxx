@@ -23,7 +23,8 @@ std::atomic<std::int64_t> allocationsLeft{ std::numeric_limits<std::int64_t>::ma
 
 } // namespace
 
-void* operator new(std::size_t bytes)
+// Not inlined, or GCC sees std::free at the end of a new expression and warns of a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t bytes)
 {
   void* memory = allocationsLeft-- > 0 ? std::malloc(bytes > 0 ? bytes : 1) : nullptr;
   if (!memory)
@@ -33,12 +34,12 @@ void* operator new(std::size_t bytes)
   return memory;
 }
 
-void operator delete(void* memory) noexcept
+[[gnu::noinline]] void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }
