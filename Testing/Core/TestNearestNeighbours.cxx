@@ -81,6 +81,25 @@ TEST(NearestNeighbours, SamePlaces)
   EXPECT_EQ(*std::max_element(distances.begin(), distances.end()), 0.0);
 }
 
+// Where most points lie on the lowest face of their box a pivot between them has nothing below it.
+// They must be divided all the same: a search through all pairs of so many does not end.
+TEST(NearestNeighbours, MostOnTheLowestFace)
+{
+  constexpr std::size_t onFace = 600000;
+  Points<3> points = randomPoints<3>({ 10, 1, 1 }, 620000);
+  for (std::size_t i = 0; i < onFace; ++i)
+  {
+    points[i][0] = 0.0;
+  }
+  const std::vector<double> found = distancesOf(points);
+  // A disc as large as 30 points' share of the face is empty with a chance of e^-30.
+  EXPECT_LT(*std::max_element(found.begin(), found.begin() + onFace),
+    std::sqrt(30.0 * 4.0 / 3.14 / static_cast<double>(onFace)));
+  points.resize(1000);
+  points.insert(points.end(), 100, Point<3>{ 5.0, 0.5, 0.5 });
+  expectSearched(points);
+}
+
 TEST(NearestNeighbours, OneAndTwo)
 {
   EXPECT_EQ(distancesOf({ { 1.0, 2.0, 3.0 } })[0], std::numeric_limits<double>::infinity());
