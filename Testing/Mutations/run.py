@@ -64,8 +64,17 @@ def changed(text, mutation, number):
     return text.replace(place, before + new + after)
 
 
+def write(target, data):
+    """Leaves a file that would not change its time, for quick builds. Returns whether it wrote."""
+    if target.exists() and target.read_bytes() == data:
+        return False
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_bytes(data)
+    return True
+
+
 def plant(source, copy, chosen):
-    """Copies the tracked files; files that do not change keep their times, for quick builds."""
+    """Copies the tracked files, with the changes behind their switch."""
     names = subprocess.run(["git", "-C", source, "ls-files", "-z"], check=True,
                            capture_output=True, text=True).stdout.split("\0")[:-1]
     for name in names:
@@ -80,21 +89,18 @@ def plant(source, copy, chosen):
                 text = changed(text, mutation, number)
             data = text.encode()
         target = pathlib.Path(copy, name)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if not target.exists() or target.read_bytes() != data:
-            target.write_bytes(data)
+        if write(target, data):
             shutil.copymode(path, target)
-    pathlib.Path(copy, "mutation.h").write_text(HEADER) if not pathlib.Path(
-        copy, "mutation.h").exists() else None
+    write(pathlib.Path(copy, "mutation.h"), HEADER.encode())
 
 
-def build(copy, folder, jobs):
+def build(copy, folder, meshes, jobs):
     if not pathlib.Path(folder, "CMakeCache.txt").exists():
         subprocess.run(
             ["cmake", "-S", copy, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
              "-DPython3_EXECUTABLE=/usr/bin/python3", f"-DCMAKE_CXX_FLAGS=-include {copy}/mutation.h",
              "-DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON", "-DRectifiedTransport_BUILD_TESTING=ON",
-             f"-DRectifiedTransport_MESHES={MESHES}"],
+             f"-DRectifiedTransport_MESHES={meshes}"],
             check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder, "-j", str(jobs)], check=True,
                    stdout=subprocess.DEVNULL)
@@ -118,7 +124,6 @@ def first_failure(folder, file, number, jobs):
 
 
 def main():
-    global MESHES
     parser = argparse.ArgumentParser(description=__doc__)
     here = pathlib.Path(__file__).resolve().parent
     parser.add_argument("--source", default=str(here.parent.parent))
@@ -127,7 +132,7 @@ def main():
     parser.add_argument("--set", default="all", choices=["survived", "others", "all"])
     parser.add_argument("--only", type=int, nargs="+")
     options = parser.parse_args()
-    MESHES = f"{options.source}/build-meshes"
+    meshes = f"{options.source}/build-meshes"
 
     everything = list(enumerate(mutations.SURVIVED + mutations.OTHERS, 1))
     known = len(mutations.SURVIVED)
@@ -137,7 +142,7 @@ def main():
     copy = pathlib.Path(options.build, "source")
     folder = str(pathlib.Path(options.build, "build"))
     plant(options.source, str(copy), everything)
-    build(str(copy), folder, options.jobs)
+    build(str(copy), folder, meshes, options.jobs)
     if first_failure(folder, "Filters/Core/", 0, options.jobs):
         raise SystemExit("A test fails without any wrong change")
 
@@ -149,7 +154,7 @@ def main():
         before = target.read_text()
         if mutation.kind == "X":
             target.write_text(changed(before, mutation, number))
-            build(str(copy), folder, options.jobs)
+            build(str(copy), folder, meshes, options.jobs)
         try:
             failure = first_failure(folder, mutation.file, number, options.jobs)
         finally:
