@@ -137,12 +137,13 @@ vtkSmartPointer<vtkDataArray> drawArray(
   return array;
 }
 
-void drawGhosts(Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, Input& input)
+void drawGhosts(Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength,
+  Input& input)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   // One of the wrong length is none.
-  const vtkIdType marked = dice.Chance(0.1) ? tuples / 2 : tuples;
+  const vtkIdType marked = dice.Chance(0.1) && anyLength ? tuples / 2 : tuples;
   ghosts->SetNumberOfTuples(marked);
   const double share = dice.Of({ 0.02, 0.3, 1.0 });
   for (vtkIdType i = 0; i < marked; ++i)

@@ -110,10 +110,10 @@ int main(int argc, char* argv[])
     const Campaign::CaseResult result = Campaign::playCase(arguments.Seed, number);
     const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     failed = failed || !result.Findings.empty();
-    std::printf("%llu %016llx %zu %s %d %d %d %d %d %.1f\n",
+    std::printf("%llu %016llx %zu %s %d %d %d %d %.1f\n",
       static_cast<unsigned long long>(number), static_cast<unsigned long long>(result.Digest),
       result.Findings.size(), result.Filter.c_str(), result.Runs, result.Errors, result.Aborts,
-      result.Limits, result.Known, ms);
+      result.Limits, ms);
     if (arguments.Tell)
     {
       std::printf("%s", result.Story.c_str());

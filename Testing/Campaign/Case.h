@@ -20,7 +20,6 @@ struct CaseResult
   int Errors = 0;
   int Aborts = 0;
   int Limits = 0; // of memory that ended a run
-  int Known = 0;  // findings that KnownDefects.h lists
 };
 
 CaseResult playCase(std::uint64_t seed, std::uint64_t number);

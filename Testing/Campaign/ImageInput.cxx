@@ -192,11 +192,11 @@ Input drawImage(Dice& dice, const ImageRules& rules)
   drawOthers(dice, image);
   if (dice.Chance(0.06))
   {
-    drawGhosts(dice, image->GetPointData(), image->GetNumberOfPoints(), input);
+    drawGhosts(dice, image->GetPointData(), image->GetNumberOfPoints(), true, input);
   }
   if (dice.Chance(0.06))
   {
-    drawGhosts(dice, image->GetCellData(), image->GetNumberOfCells(), input);
+    drawGhosts(dice, image->GetCellData(), image->GetNumberOfCells(), true, input);
   }
   return input;
 }

@@ -122,7 +122,8 @@ void drawPointArrays(Dice& dice, vtkPointSet* data, Input& input)
   }
   if (dice.Chance(0.06))
   {
-    drawGhosts(dice, data->GetPointData(), count, input);
+    // VTK's own structured grids read past the end of a short one to tell their blanked cells.
+    drawGhosts(dice, data->GetPointData(), count, !data->IsA("vtkStructuredGrid"), input);
   }
 }
 
@@ -160,7 +161,11 @@ void changeInPlace(Dice& dice, Input& input)
     set->GetPoints()->SetPoint(dice.Whole(0, set->GetNumberOfPoints() - 1), x);
     set->GetPoints()->Modified();
     auto* surface = vtkPolyData::SafeDownCast(set);
-    if (set->GetNumberOfPoints() < 8 || (surface && surface->GetNumberOfPolys() > 0))
+    if (surface && surface->GetNumberOfPolys() > 0)
+    {
+      input.Condition = State::Odd; // coinciding points can tear a surface, or close an open one
+    }
+    else if (set->GetNumberOfPoints() < 8)
     {
       input.Worsen(State::Odd); // two in one place
     }

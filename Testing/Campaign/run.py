@@ -33,8 +33,8 @@ class Case:
         self.number = int(fields[0])
         self.digest = fields[1]
         self.filter = fields[3]
-        self.counts = [int(field) for field in fields[4:9]]
-        self.milliseconds = float(fields[9])
+        self.counts = [int(field) for field in fields[4:8]]
+        self.milliseconds = float(fields[8])
         self.findings = []
 
 
@@ -92,7 +92,7 @@ class Campaign:
         self.settings = settings
         self.played = 0
         self.wrong = 0
-        self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0, 0.0])
+        self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0.0])
 
     def tell(self, number, text):
         print(f"case {number}: {text}", flush=True)
@@ -121,17 +121,17 @@ class Campaign:
             row[0] += 1
             for i, count in enumerate(case.counts):
                 row[i + 1] += count
-            row[6] += case.milliseconds
+            row[5] += case.milliseconds
         self.wrong += len(failed)
 
     def summarize(self):
-        head = ["filter", "cases", "runs", "errors", "aborts", "out of memory", "known", "ms a case"]
+        head = ["filter", "cases", "runs", "errors", "aborts", "out of memory", "ms a case"]
         print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
         rows = sorted(self.by_filter.items())
-        totals = [sum(row[i] for _, row in rows) for i in range(7)]
+        totals = [sum(row[i] for _, row in rows) for i in range(6)]
         for name, row in rows + [("all", totals)]:
-            mean = f"{row[6] / max(1, row[0]):.1f}"
-            print("| " + " | ".join([name] + [str(value) for value in row[:6]] + [mean]) + " |")
+            mean = f"{row[5] / max(1, row[0]):.1f}"
+            print("| " + " | ".join([name] + [str(value) for value in row[:5]] + [mean]) + " |")
         print(f"{totals[0]} cases under {len(self.settings)} settings each, {self.wrong} of them wrong")
 
 
