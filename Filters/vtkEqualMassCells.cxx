@@ -252,6 +252,7 @@ int vtkEqualMassCells::RequestData(
     this->NormExponent >= 1.0, "NormExponent", this->NormExponent, "at least 1, or infinite");
   requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
     this->CostExponent, "a number above 0");
+  requireResolution("Resolution", this->Resolution);
   const FlowSettings settings = this->GetFlowSettings();
   const FlowOptions options = settings.Options();
   const std::unique_ptr<Executor> executor = settings.MakeExecutor();

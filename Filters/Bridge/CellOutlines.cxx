@@ -3,11 +3,13 @@
 
 #include "../Core/Pacer.h"
 #include "Failure.h"
+#include "Memory.h"
 #include "SiteLabels.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -24,6 +26,17 @@ namespace
 
 constexpr std::int64_t nobody = -1; // outside of the domain
 
+// The vector is empty afterwards.
+template <class ArrayT, class Value>
+vtkSmartPointer<ArrayT> moveToArray(const char* name, int components, std::vector<Value>& values)
+{
+  const auto tuples = static_cast<vtkIdType>(values.size()) / components;
+  auto array = newArray<ArrayT>(name, components, tuples);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  values = std::vector<Value>();
+  return array;
+}
+
 // Goes through the layers of pixels along the last axis. Of the nodes only those of two planes have
 // their points' numbers at hand.
 template <int D>
@@ -36,8 +49,6 @@ public:
     , Mirrored(geometry.IsMirrored())
     , Labels(labels)
   {
-    this->Points->SetNumberOfComponents(3);
-    this->SiteIds->SetName("SiteId");
     std::int64_t nodes = 1;
     for (int a = 0; a < D - 1; ++a)
     {
@@ -72,27 +83,35 @@ public:
 
   void Write(vtkPolyData* output)
   {
+    const auto faces = static_cast<vtkIdType>(this->SiteIds.size());
     vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetData(this->Points);
+    points->SetData(moveToArray<vtkDoubleArray>("Points", 3, this->Points));
     output->SetPoints(points);
+    const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, faces + 1);
+    for (vtkIdType i = 0; i <= faces; ++i)
+    {
+      offsets->SetValue(i, i * Corners);
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets, moveToArray<vtkIdTypeArray>("Connectivity", 1, this->CornerIds));
     if constexpr (D == 1)
     {
-      output->SetVerts(this->Faces);
+      output->SetVerts(cells);
     }
     else if constexpr (D == 2)
     {
-      output->SetLines(this->Faces);
+      output->SetLines(cells);
     }
     else
     {
-      output->SetPolys(this->Faces);
+      output->SetPolys(cells);
     }
-    output->GetCellData()->SetScalars(this->SiteIds);
+    output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", 1, this->SiteIds));
   }
 
 private:
   using Cell = std::int64_t[3];
+  static constexpr int Corners = D == 1 ? 1 : 2 * (D - 1); // of a face
 
   std::int64_t LabelAt(const Cell& cell) const
   {
@@ -165,32 +184,35 @@ private:
     {
       return;
     }
-    vtkIdType corners[D == 1 ? 1 : 2 * (D - 1)];
-    const int count = this->FindCorners(cell, axis, corners);
+    vtkIdType corners[Corners];
+    this->FindCorners(cell, axis, corners);
     if (this->Mirrored)
     {
-      std::reverse(corners, corners + count);
+      std::reverse(corners, corners + Corners);
     }
     if (below != nobody)
     {
-      this->Faces->InsertNextCell(count, corners);
-      this->SiteIds->InsertNextValue(below);
+      this->Append(corners, below);
     }
     if (above != nobody)
     {
-      std::reverse(corners, corners + count);
-      this->Faces->InsertNextCell(count, corners);
-      this->SiteIds->InsertNextValue(above);
+      std::reverse(corners, corners + Corners);
+      this->Append(corners, above);
     }
   }
 
+  void Append(const vtkIdType* corners, std::int64_t site)
+  {
+    this->CornerIds.insert(this->CornerIds.end(), corners, corners + Corners);
+    this->SiteIds.push_back(site);
+  }
+
   // The corners of a face, in an order that turns right-handed about the axis.
-  int FindCorners(const Cell& cell, int axis, vtkIdType* corners)
+  void FindCorners(const Cell& cell, int axis, vtkIdType* corners)
   {
     if constexpr (D == 1)
     {
       corners[0] = this->PointAt(cell);
-      return 1;
     }
     else if constexpr (D == 2)
     {
@@ -198,7 +220,6 @@ private:
       corners[axis] = this->PointAt(node);
       ++node[1 - axis];
       corners[1 - axis] = this->PointAt(node);
-      return 2;
     }
     else
     {
@@ -212,7 +233,6 @@ private:
       corners[2] = this->PointAt(node);
       --node[first];
       corners[3] = this->PointAt(node);
-      return 4;
     }
   }
 
@@ -231,7 +251,8 @@ private:
       std::copy_n(node, D, index);
       double x[3];
       this->Geometry.template ToPhysical<D>(index, x);
-      point = this->Points->InsertNextTuple(x);
+      point = static_cast<std::int64_t>(this->Points.size() / 3);
+      this->Points.insert(this->Points.end(), x, x + 3);
     }
     return static_cast<vtkIdType>(point);
   }
@@ -244,9 +265,10 @@ private:
   std::int64_t LowerPlane = 0;
   std::vector<std::int64_t> Lower;
   std::vector<std::int64_t> Upper;
-  vtkNew<vtkDoubleArray> Points;
-  vtkNew<vtkCellArray> Faces;
-  vtkNew<SiteIdArray> SiteIds;
+  // VTK's own arrays end the program when there is no memory for them to grow.
+  std::vector<double> Points;
+  std::vector<vtkIdType> CornerIds;
+  std::vector<std::int64_t> SiteIds; // of the faces
 };
 
 } // namespace

@@ -120,6 +120,11 @@ void runInside(vtkAlgorithm* filter, HostMonitor& host)
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, HostMonitor& host)
 {
+  const std::int64_t expected = countTriangles(polygons) + countTriangles(strips);
+  // vtkTriangleFilter ends the program when there is no memory for its cells to grow: at the end,
+  // of an offset and three ids each, the old ones and twice as many new ones.
+  requireMemory(std::to_string(expected) + " triangles of the input surface",
+    static_cast<double>(expected) * 3.0 * 4.0 * sizeof(vtkIdType));
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(points);
   surface->SetPolys(polygons);
@@ -130,8 +135,7 @@ vtkSmartPointer<vtkCellArray> triangulate(
   filter->PassLinesOff();
   runInside(filter, host);
   vtkCellArray* triangles = filter->GetOutput()->GetPolys();
-  const std::int64_t missing =
-    countTriangles(polygons) + countTriangles(strips) - triangles->GetNumberOfCells();
+  const std::int64_t missing = expected - triangles->GetNumberOfCells();
   if (missing != 0)
   {
     throw Failure("The input surface has polygons that cannot be cut into triangles: " +
@@ -258,10 +262,15 @@ void ClosedSurface::EnterPoints(HostMonitor& host)
 vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
   vtkCellArray* polygons, HostMonitor& host) const
 {
+  const vtkIdType cells = polygons->GetNumberOfCells();
+  const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
+  requireMemory("the " + std::to_string(cells) + " polygons of the input surface",
+    static_cast<double>(cells + 1 + ids) * sizeof(vtkIdType));
   auto merged = vtkSmartPointer<vtkCellArray>::New();
+  merged->AllocateExact(cells, ids);
   vtkNew<vtkIdList> corners;
   host.Run(
-    SerialExecutor(), polygons->GetNumberOfCells(), Grain,
+    SerialExecutor(), cells, Grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t polygon = first; polygon < last; ++polygon)
       {

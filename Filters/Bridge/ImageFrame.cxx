@@ -22,8 +22,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int most = 1 << 30; // cells an axis, as in the core
-
 [[noreturn]] void failValues(const char* property, const int values[3], const std::string& rule)
 {
   std::ostringstream message;
@@ -243,9 +241,10 @@ ImageFrame ImageFrame::WithValues(const int wanted[3], bool onPoints, const char
       failValues(property, wanted,
         "0 or at least 2" + axis + ": points have no axis where there is one of them");
     }
-    if (count > most)
+    if (count > MaximumResolution)
     {
-      failValues(property, wanted, "at most " + std::to_string(most) + " along every axis");
+      failValues(
+        property, wanted, "at most " + std::to_string(MaximumResolution) + " along every axis");
     }
     // Where the new index is 0, in the old one.
     const double ratio = static_cast<double>(values[i]) / count;
@@ -296,7 +295,7 @@ ImageFrame ImageFrame::WithDualCells() const
 
 ImageFrame ImageFrame::WithResolution(int resolution, const char* property) const
 {
-  requireThat(resolution >= 1 && resolution <= most, property, resolution, "from 1 to 1073741824");
+  requireResolution(property, resolution);
   const std::array<int, 3> cells = this->Values(false);
   double lengths[3];
   for (std::size_t i = 0; i < 3; ++i)

@@ -12,6 +12,9 @@
 namespace RectifiedTransport
 {
 
+// Cells along an axis, as in the core.
+constexpr int MaximumResolution = 1 << 30;
+
 // The text of a value of an enumeration.
 template <std::size_t Count>
 const char* choiceText(const char* const (&texts)[Count], int value)
@@ -45,6 +48,13 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
     message << property << " is " << value << "; it must be " << rule;
     throw Failure(message.str());
   }
+}
+
+// A number of cells along an axis.
+inline void requireResolution(const char* property, int resolution)
+{
+  requireThat(resolution >= 1 && resolution <= MaximumResolution, property, resolution,
+    "from 1 to 1073741824");
 }
 
 } // namespace RectifiedTransport

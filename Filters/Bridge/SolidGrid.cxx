@@ -14,9 +14,7 @@ namespace RectifiedTransport
 
 void SolidGrid::RequireRanges(int resolution, double padding)
 {
-  constexpr int most = 1 << 30; // cells an axis, as in the core
-  requireThat(
-    resolution >= 1 && resolution <= most, "Resolution", resolution, "from 1 to 1073741824");
+  requireResolution("Resolution", resolution);
   requireThat(padding >= 0.0 && std::isfinite(padding), "Padding", padding,
     "0 or a positive number, a share of the longest side");
 }

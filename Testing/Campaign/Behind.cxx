@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Behind.h"
 
+#include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
 #include "vtkContourFilter.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkImageData.h"
@@ -20,12 +23,27 @@ namespace Campaign
 namespace
 {
 
+bool areComplete(vtkDataSetAttributes* attributes, vtkIdType tuples)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    if (attributes->GetAbstractArray(i)->GetNumberOfTuples() != tuples)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
 {
   // VTK's image filters do not look whether there are scalars, or points enough to shrink.
   const bool hasScalars = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetScalars()) &&
     image->GetDimensions()[0] > 2;
-  switch (dice.Whole(hasScalars ? 0 : 2, 4))
+  // Nor does the contour filter count the components of a tuple when it passes other arrays on.
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  const bool isVector = scalars && scalars->GetNumberOfComponents() > 1;
+  switch (dice.Whole(hasScalars ? 0 : isVector ? 3 : 2, 4))
   {
     case 0:
     {
@@ -74,6 +92,13 @@ vtkSmartPointer<vtkAlgorithm> drawBehindPoints(Dice& dice)
 vtkSmartPointer<vtkAlgorithm> drawBehind(Dice& dice, vtkAlgorithm* filter)
 {
   vtkDataObject* output = filter->GetOutputDataObject(0);
+  auto* set = vtkDataSet::SafeDownCast(output);
+  if (set &&
+    !(areComplete(set->GetPointData(), set->GetNumberOfPoints()) &&
+      areComplete(set->GetCellData(), set->GetNumberOfCells())))
+  {
+    return nullptr; // VTK's own read past the end of an array that an input had too short
+  }
   vtkSmartPointer<vtkAlgorithm> behind;
   if (auto* image = vtkImageData::SafeDownCast(output))
   {

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Outcome.h"
 
+#include "../MemoryLimit.h"
 #include "Listener.h"
 
 #include "vtkSMPTools.h"
 
+#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
+#include <optional>
 #include <sstream>
-
-#ifdef __linux__
-#include <fstream>
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
 
 namespace Campaign
 {
@@ -23,42 +20,30 @@ vtkStandardNewMacro(SilentWindow);
 namespace
 {
 
-// A process that may not grow by more than `bytes`, until the end of the scope. Threads are made
-// by nobody meanwhile: VTK's own cannot do without the memory for them.
-class MemoryLimit
+#ifdef HAS_MEMORY_LIMIT
+// Threads are made by nobody meanwhile: VTK's own cannot do without the memory for them.
+class MemoryLimitOfOneThread
 {
 public:
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-  explicit MemoryLimit(std::int64_t bytes)
+  explicit MemoryLimitOfOneThread(std::int64_t bytes)
     : Backend(vtkSMPTools::GetBackend())
   {
     vtkSMPTools::SetBackend("Sequential");
-    std::ifstream file("/proc/self/statm");
-    rlim_t pages = 0;
-    file >> pages;
-    getrlimit(RLIMIT_AS, &this->Before);
-    rlimit limit = this->Before;
-    limit.rlim_cur =
-      pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + static_cast<rlim_t>(bytes);
-    setrlimit(RLIMIT_AS, &limit);
+    this->Limit.emplace(bytes);
   }
-  ~MemoryLimit()
+  ~MemoryLimitOfOneThread()
   {
-    setrlimit(RLIMIT_AS, &this->Before);
+    this->Limit.reset();
     vtkSMPTools::SetBackend(this->Backend.c_str());
   }
-#else
-  explicit MemoryLimit(std::int64_t) {}
-#endif
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  MemoryLimitOfOneThread(const MemoryLimitOfOneThread&) = delete;
+  MemoryLimitOfOneThread& operator=(const MemoryLimitOfOneThread&) = delete;
 
 private:
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
   std::string Backend;
-  rlimit Before;
-#endif
+  std::optional<MemoryLimit> Limit;
 };
+#endif
 
 void checkProgress(const std::vector<double>& heard, Findings& findings)
 {
@@ -79,18 +64,22 @@ void Findings::Near(double a, double b, double tolerance, const std::string& wha
   std::ostringstream text;
   text.precision(17);
   text << what << ": " << a << " and " << b;
-  this->That(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)), text.str());
+  // Numbers below the least normal one have fewer digits.
+  const double size = std::max({ std::abs(a), std::abs(b), std::numeric_limits<double>::min() });
+  this->That(std::abs(a - b) <= tolerance * size, text.str());
 }
 
 Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& findings)
 {
   Listener listener(filter, disturbance.AbortAt);
   {
-    std::unique_ptr<MemoryLimit> limit;
+#ifdef HAS_MEMORY_LIMIT
+    std::optional<MemoryLimitOfOneThread> limit;
     if (disturbance.Memory >= 0)
     {
-      limit = std::make_unique<MemoryLimit>(disturbance.Memory);
+      limit.emplace(disturbance.Memory);
     }
+#endif
     filter->Update();
   }
   Outcome outcome;

@@ -59,7 +59,8 @@ def play(program, setting, seed, first, count, limit):
             code = None
         for line in output.splitlines():
             if line.startswith("!"):
-                cases[-1].findings.append(line[2:])
+                if line[2:] not in cases[-1].findings:
+                    cases[-1].findings.append(line[2:])
             elif line:
                 cases.append(Case(line))
                 first = cases[-1].number + 1

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <map>
 
 namespace RectifiedTransport
@@ -40,7 +39,7 @@ TEST(EqualPoints, FirstOfEach)
 }
 
 // Points that differ in the last bit are different; so are a million in a corner of the bounds,
-// which take no longer than others.
+// which by pairs would take hours.
 TEST(EqualPoints, ManyInACorner)
 {
   std::vector<Point<3>> points{ { 1e9, 1e9, 1e9 }, { 1.0, 1.0, 1.0 },
@@ -50,11 +49,8 @@ TEST(EqualPoints, ManyInACorner)
     points.push_back({ i % 100 * 1e-6, i / 100 % 100 * 1e-6, i / 10000 * 1e-6 });
   }
   const auto count = static_cast<std::int64_t>(points.size());
-  const auto start = std::chrono::steady_clock::now();
   EqualPoints equal(points.data()->data(), count);
   equal.Enter(0, count);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(time.count(), 10.0); // 0.1; by pairs it would be hours
   for (std::int64_t i = 0; i < count; ++i)
   {
     ASSERT_EQ(equal.First(i), i);

@@ -18,6 +18,9 @@
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
+#include <cmath>
+
+constexpr double pi = 3.14159265358979323846;
 
 inline vtkSmartPointer<vtkPolyData> makeSphere(
   double x, double y, double z, double radius, int resolution = 40)
@@ -174,6 +177,31 @@ inline double massOf(vtkPolyData* surface, int resolution, int supersampling = 2
   solid->SetSupersampling(supersampling);
   solid->Update();
   return massOf(solid);
+}
+
+// A sphere of quads alone, whose corners meet at the poles and whose edges meet along a seam.
+inline vtkSmartPointer<vtkPolyData> makeQuadSphere(int rows, int columns)
+{
+  std::vector<double> points;
+  std::vector<vtkIdType> faces;
+  for (int row = 0; row <= rows; ++row)
+  {
+    const double radius = row % rows == 0 ? 0.0 : std::sin(pi * row / rows);
+    for (int column = 0; column <= columns; ++column)
+    {
+      const double angle = 2.0 * pi * (column % columns) / columns;
+      const double place[3] = { radius * std::cos(angle), radius * std::sin(angle),
+        std::cos(pi * row / rows) };
+      points.insert(points.end(), place, place + 3);
+      if (row < rows && column < columns)
+      {
+        const vtkIdType corner = row * (columns + 1) + column;
+        const vtkIdType below = corner + columns + 1;
+        faces.insert(faces.end(), { 4, corner, corner + 1, below + 1, below });
+      }
+    }
+  }
+  return makePolyhedron(points, faces);
 }
 
 #endif

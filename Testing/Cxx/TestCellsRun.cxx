@@ -161,6 +161,9 @@ void checkErrors(Checks& checks)
   auto cells = fresh();
   cells->SetResolution(0);
   expectError(checks, cells, { "Resolution is 0; it must be from 1" }, __LINE__);
+  cells->SetInputData(makePoints({})); // what is wrong is wrong without sites, too
+  expectError(checks, cells, { "Resolution is 0; it must be from 1" }, __LINE__);
+  cells = fresh();
   cells->SetResolution(2); // 2 x 2 pixels or fewer
   expectError(checks, cells, { "5 sites", "raise Resolution" }, __LINE__);
   cells = fresh();

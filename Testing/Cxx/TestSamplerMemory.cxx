@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that cannot be had: an error that says how much was asked for, and nothing is lost.
+#include "../MemoryLimit.h"
 #include "SamplerTest.h"
 
 #include "vtkUniformSeedSource.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <limits>
-
-#ifdef __linux__
-#include <fstream>
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
 
 namespace
 {
@@ -86,27 +81,7 @@ void checkAbsurdNumbers(Checks& checks)
   CHECK(checks, ofSource.Errors.empty() && source->GetOutput()->GetNumberOfPoints() == 10);
 }
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-// A process that may not grow by more than `bytes`, until the end of the scope.
-class Limit
-{
-public:
-  explicit Limit(rlim_t bytes)
-  {
-    std::ifstream file("/proc/self/statm");
-    rlim_t pages = 0;
-    file >> pages;
-    getrlimit(RLIMIT_AS, &this->Before);
-    rlimit limit = this->Before;
-    limit.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes;
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~Limit() { setrlimit(RLIMIT_AS, &this->Before); }
-
-private:
-  rlimit Before;
-};
-
+#ifdef HAS_MEMORY_LIMIT
 void checkLimits(Checks& checks)
 {
   auto small = makeImage(12, 9, 1, true, bumpy);
@@ -119,7 +94,7 @@ void checkLimits(Checks& checks)
   sampler->SetInputData(small);
   sampler->Update();
   {
-    const Limit limit(64 << 20);
+    const MemoryLimit limit(64 << 20);
     sampler->SetInputData(large);
     expectError(
       checks, sampler, messages, "the tables of a density of 160 x 160 x 160 cells", __LINE__);
@@ -142,7 +117,7 @@ int TestSamplerMemory(int, char*[])
 {
   Checks checks;
   checkAbsurdNumbers(checks);
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#ifdef HAS_MEMORY_LIMIT
   checkLimits(checks);
 #endif
   return checks.Result();

@@ -12,8 +12,6 @@
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 // A box of 4 x 2 x 1 whose longest side has 8 of 10 cells: all faces are on borders of cells.
 void checkGeometry(Checks& checks)
 {
@@ -221,32 +219,9 @@ void checkPolygons(Checks& checks)
   CHECK_NEAR(checks, massOf(prism, 96, 4), 2.0 * (9.0 - 3.0), 0.06);
 }
 
-// Two triangles back to back: closed, with nothing inside.
-// A sphere of quads alone, whose corners meet at the poles and whose edges meet along a seam.
 void checkCornersThatCoincide(Checks& checks)
 {
-  constexpr int rows = 24;
-  constexpr int columns = 36;
-  std::vector<double> points;
-  std::vector<vtkIdType> faces;
-  for (int row = 0; row <= rows; ++row)
-  {
-    const double radius = row % rows == 0 ? 0.0 : std::sin(pi * row / rows);
-    for (int column = 0; column <= columns; ++column)
-    {
-      const double angle = 2.0 * pi * (column % columns) / columns;
-      const double place[3] = { radius * std::cos(angle), radius * std::sin(angle),
-        std::cos(pi * row / rows) };
-      points.insert(points.end(), place, place + 3);
-      if (row < rows && column < columns)
-      {
-        const vtkIdType corner = row * (columns + 1) + column;
-        const vtkIdType below = corner + columns + 1;
-        faces.insert(faces.end(), { 4, corner, corner + 1, below + 1, below });
-      }
-    }
-  }
-  auto surface = makePolyhedron(points, faces);
+  auto surface = makeQuadSphere(24, 36);
   vtkNew<vtkCleanPolyData> clean;
   clean->SetInputData(surface);
   clean->Update();
@@ -255,6 +230,7 @@ void checkCornersThatCoincide(Checks& checks)
   CHECK_NEAR(checks, massOf(surface, 64), volume, 1e-3 * volume);
 }
 
+// Two triangles back to back: closed, with nothing inside.
 void checkFlat(Checks& checks)
 {
   vtkNew<vtkSolidDensity> solid;
