@@ -309,8 +309,10 @@ int vtkEqualMassCells::RequestData(
   if (outside > 0)
   {
     vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()
-                    << " sites are outside the domain; their cells are those of the nearest points "
-                       "of its border");
+                    << (outside == 1 ? " sites is outside the domain; its cell is that of the "
+                                       "nearest point of the border"
+                                     : " sites are outside the domain; their cells are those of "
+                                       "the nearest points of its border"));
   }
   return 1;
 }

@@ -265,7 +265,9 @@ int vtkMassSplatter::RequestData(
   addFieldValue(output, "TotalMass", total);
   if (outside > 0)
   {
-    vtkWarningMacro(<< outside << " of " << count << " points are outside the domain; their mass "
+    vtkWarningMacro(<< outside << " of " << count
+                    << (outside == 1 ? " points is outside the domain; its mass "
+                                     : " points are outside the domain; their mass ")
                     << (options.Boundary == SplatBoundary::Renormalize
                            ? "went to the nearest points of its border"
                            : "was left out"));

@@ -246,8 +246,8 @@ int vtkTransportBlend::RequestData(
   ImageFrame(output.Density).Publish(outputVector->GetInformationObject(0));
   if (moved > 0)
   {
-    vtkWarningMacro(<< moved
-                    << " particles in empty cells moved to the nearest cell with mass (more "
+    vtkWarningMacro(<< moved << (moved == 1 ? " particle" : " particles")
+                    << " in empty cells moved to the nearest cell with mass (more "
                        "NumberOfSteps may spare them that)");
   }
   return 1;

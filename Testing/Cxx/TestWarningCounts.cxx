@@ -120,7 +120,7 @@ void checkSplat(Checks& checks, double unit)
     splatter->SetBoundary(boundary);
     checkOutside(
       checks, splatter, [&](vtkPolyData* points) { splatter->SetInputData(points); },
-      "points are outside the domain; their mass", unit);
+      "points ", unit);
   }
 }
 
