@@ -131,7 +131,7 @@ OTHERS = [
       "std::max(finest, std::abs(side.Spacing))"),
     E(BRIDGE + "MapField.cxx", "const double weight = «flow ? flow->Share(low, high) : 1.0»", "1.0"),
     S(BRIDGE + "ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
-    E(BRIDGE + "CellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Faces->InsertNextCell",
+    E(BRIDGE + "CellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Append(",
       "below != nobody && above != nobody"),
     # the filters
     S("Filters/vtkTransportBarycenter.cxx",

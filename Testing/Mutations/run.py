@@ -6,6 +6,7 @@ Copies the sources, plants all wrong changes of mutations.py behind a switch, bu
 the tests with each of them switched on, until one fails. Prints a table.
 
 usage: run.py --source DIR --build DIR [--jobs N] [--only NUMBER...] [--set survived|others|all]
+       run.py --check    only whether each change still finds its place in the sources
 """
 import argparse
 import os
@@ -73,6 +74,28 @@ def write(target, data):
     return True
 
 
+def planted(path, name, chosen):
+    """A file's bytes with the changes behind their switch."""
+    data = path.read_bytes()
+    here = [(n, m) for n, m in chosen if m.file == name and m.kind != "X"]
+    if here:
+        text = data.decode()
+        for number, mutation in here:
+            text = changed(text, mutation, number)
+        data = text.encode()
+    return data
+
+
+def check(source, chosen):
+    """Fails where a change does not find its place."""
+    for name in sorted({mutation.file for _, mutation in chosen}):
+        planted(pathlib.Path(source, name), name, chosen)
+    for number, mutation in chosen:
+        if mutation.kind == "X":
+            changed(pathlib.Path(source, mutation.file).read_text(), mutation, number)
+    print(f"all {len(chosen)} wrong changes find their place")
+
+
 def plant(source, copy, chosen):
     """Copies the tracked files, with the changes behind their switch."""
     names = subprocess.run(["git", "-C", source, "ls-files", "-z"], check=True,
@@ -81,15 +104,8 @@ def plant(source, copy, chosen):
         path = pathlib.Path(source, name)
         if not path.exists():
             continue
-        data = path.read_bytes()
-        here = [(n, m) for n, m in chosen if m.file == name and m.kind != "X"]
-        if here:
-            text = data.decode()
-            for number, mutation in here:
-                text = changed(text, mutation, number)
-            data = text.encode()
         target = pathlib.Path(copy, name)
-        if write(target, data):
+        if write(target, planted(path, name, chosen)):
             shutil.copymode(path, target)
     write(pathlib.Path(copy, "mutation.h"), HEADER.encode())
 
@@ -131,6 +147,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--set", default="all", choices=["survived", "others", "all"])
     parser.add_argument("--only", type=int, nargs="+")
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     meshes = f"{options.source}/build-meshes"
 
@@ -139,6 +156,9 @@ def main():
     chosen = [(n, m) for n, m in everything
               if (options.set == "all" or (n <= known) == (options.set == "survived"))
               and (not options.only or n in options.only)]
+    if options.check:
+        check(options.source, everything)
+        return 0
     copy = pathlib.Path(options.build, "source")
     folder = str(pathlib.Path(options.build, "build"))
     plant(options.source, str(copy), everything)
