@@ -7,7 +7,11 @@
 #include "Failure.h"
 
 #include <cstddef>
+#include <cstdlib>
+#include <iomanip>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace RectifiedTransport
 {
@@ -42,12 +46,22 @@ void requireChoice(const char* property, int value, const char* const (&texts)[C
 template <class T>
 void requireThat(bool holds, const char* property, T value, const char* rule)
 {
-  if (!holds)
+  if (holds)
   {
-    std::ostringstream message;
-    message << property << " is " << value << "; it must be " << rule;
-    throw Failure(message.str());
+    return;
   }
+  std::ostringstream message;
+  message << property << " is ";
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // With more digits where these would make it another number, maybe one that is right.
+    std::ostringstream text;
+    text << value;
+    constexpr int all = std::numeric_limits<T>::max_digits10;
+    message << std::setprecision(std::strtod(text.str().c_str(), nullptr) == value ? 6 : all);
+  }
+  message << value << "; it must be " << rule;
+  throw Failure(message.str());
 }
 
 // A number of cells along an axis.

@@ -73,6 +73,10 @@ void checkProperties(Checks& checks)
     s->SetFlowTime(time);
     test.Expect({ "FlowTime is ", "from 0 to 1" }, __LINE__);
   }
+  s->SetFlowTime(1.5);
+  test.Expect({ "FlowTime is 1.5;" }, __LINE__);
+  s->SetFlowTime(std::nextafter(1.0, 2.0));
+  test.Expect({ "FlowTime is 1.0000000000000002;" }, __LINE__);
   s->SetFlowTime(1.0);
   s->SetSeedPattern(5);
   test.Expect({ "SeedPattern is 5", "0 (BlueNoise)", "4 (Random)" }, __LINE__);
