@@ -6,6 +6,8 @@
 #include "Bridge/ImageFrame.h"
 #include "Bridge/WholeInput.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -74,6 +76,19 @@ void forgetArrays(vtkInformationVector* outputVector)
   }
 }
 
+bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
+{
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    if (leaves->GetCurrentDataObject() == data)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 // The executive leaves the extent of an image and the scalars of its points from the last run.
 void emptyImages(vtkInformationVector* outputVector)
 {
@@ -128,12 +143,13 @@ int vtkGuardedAlgorithm::AnswerRequest(
   }
   if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
   {
+    this->NoteRequest(request, inputVector, outputVector);
     return this->RequestUpdateExtent(request, inputVector, outputVector);
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
     emptyImages(outputVector);
-    this->RequireWhole(request, inputVector, outputVector);
+    this->RequireWhole(inputVector);
     const int result = this->RequestData(request, inputVector, outputVector);
     return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
   }
@@ -262,8 +278,59 @@ bool vtkGuardedAlgorithm::NeedsWhole(int)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::RequireWhole(
+void vtkGuardedAlgorithm::NoteRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* output =
+    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
+  const int pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+  if (pieces == 1 && this->IsAtBlock(inputVector))
+  {
+    return; // the executive's own, for a block
+  }
+  this->AskedPiece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+  this->AskedNumberOfPieces = pieces;
+  this->Composites.assign(static_cast<std::size_t>(this->GetNumberOfInputPorts()), {});
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    auto& composites = this->Composites[static_cast<std::size_t>(port)];
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      composites.emplace_back(vtkCompositeDataSet::GetData(inputVector[port], i));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkDataObject* vtkGuardedAlgorithm::CompositeAt(int port, int connection)
+{
+  const auto p = static_cast<std::size_t>(port);
+  const auto c = static_cast<std::size_t>(connection);
+  return p < this->Composites.size() && c < this->Composites[p].size()
+    ? this->Composites[p][c].Get()
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGuardedAlgorithm::IsAtBlock(vtkInformationVector** inputVector)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      auto* composite = vtkCompositeDataSet::SafeDownCast(this->CompositeAt(port, i));
+      if (composite && isLeafOf(composite, vtkDataObject::GetData(inputVector[port], i)))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::RequireWhole(vtkInformationVector** inputVector)
 {
   using RectifiedTransport::RankAgreement;
   std::vector<std::vector<vtkDataObject*>> inputs(
@@ -277,7 +344,8 @@ void vtkGuardedAlgorithm::RequireWhole(
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
       RectifiedTransport::requireWholeExtent(input, "Input port " + std::to_string(port));
-      if (vtkDataObject* data = vtkDataObject::GetData(input))
+      vtkDataObject* whole = this->CompositeAt(port, i);
+      if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
       {
         newest = std::max({ newest, data->GetMTime(), data->GetUpdateTime() });
         inputs[static_cast<std::size_t>(port)].push_back(data);
@@ -286,23 +354,29 @@ void vtkGuardedAlgorithm::RequireWhole(
   }
   if (newest == this->Compared)
   {
+    if (!this->Disagreement.empty())
+    {
+      throw RectifiedTransport::Failure(this->Disagreement); // for the other blocks
+    }
     return;
   }
-  const int asked = std::max(0, request->Get(vtkStreamingDemandDrivenPipeline::FROM_OUTPUT_PORT()));
+  this->Disagreement.clear();
   for (std::size_t port = 0; port < inputs.size(); ++port)
   {
     const std::string name = "input port " + std::to_string(port);
     int rank = 0;
     const RankAgreement agreement = inputs[port].empty()
       ? RankAgreement::Same
-      : RectifiedTransport::compareRanks(outputVector->GetInformationObject(asked),
+      : RectifiedTransport::compareRanks(this->AskedPiece, this->AskedNumberOfPieces,
           this->GetClassName() + name, inputs[port], rank);
     if (agreement == RankAgreement::Differs)
     {
-      throw RectifiedTransport::Failure("The data on " + name +
-        " are not the same here and on rank " + std::to_string(rank) +
+      this->Disagreement = "The data on " + name + " are not the same here and on rank " +
+        std::to_string(rank) +
         "; what lies on several ranks must be gathered on the first one, or be whole on each "
-        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)");
+        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
+      this->Compared = newest;
+      throw RectifiedTransport::Failure(this->Disagreement);
     }
     if (agreement == RankAgreement::NoAnswer)
     {

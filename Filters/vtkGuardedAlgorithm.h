@@ -14,6 +14,10 @@
 #include "Bridge/VTKCompatibility.h"
 #include "vtkAlgorithm.h"
 #include "vtkRectifiedTransportModule.h" // for the export macro
+#include "vtkWeakPointer.h"
+
+#include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
@@ -109,10 +113,19 @@ private:
     vtkInformationVector* outputVector);
   int InformOfTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  void RequireWhole(vtkInformation* request, vtkInformationVector** inputVector,
+  void NoteRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
+  vtkDataObject* CompositeAt(int port, int connection); // nullptr where there is none
+  bool IsAtBlock(vtkInformationVector** inputVector);
+  void RequireWhole(vtkInformationVector** inputVector);
 
+  // What is asked for, and the composites on the input ports: while the executive goes through
+  // their blocks it shows one block at a time, of which the whole is asked for.
+  int AskedPiece = 0;
+  int AskedNumberOfPieces = 1;
+  std::vector<std::vector<vtkWeakPointer<vtkDataObject>>> Composites;
   vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
+  std::string Disagreement;              // what came of it, if not agreement
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
   int UpdatedPort = 0;
   vtkMTimeType UpdatedTime = 0;

@@ -104,6 +104,10 @@ bool withdrawExtents(vtkInformationVector* outputs)
       withdraw(output);
       isComplete = visitConsumers(output, withdraw) && isComplete;
     }
+    else if (output->Has(Pipeline::UPDATE_EXTENT()))
+    {
+      forgetRequest(output); // of a grid that was here before
+    }
   }
   return isComplete;
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WholeInput.h"
 
-#include "vtkInformation.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
-
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 #include "vtkMPIController.h"
 
@@ -25,7 +22,6 @@ namespace RectifiedTransport
 namespace
 {
 
-using Pipeline = vtkStreamingDemandDrivenPipeline;
 using Clock = std::chrono::steady_clock;
 
 constexpr int tag = 52717; // of no other messages in ParaView or VTK
@@ -93,15 +89,14 @@ private:
 
 } // namespace
 
-RankAgreement compareRanks(vtkInformation* request, const std::string& filter,
+RankAgreement compareRanks(int piece, int pieces, const std::string& filter,
   const std::vector<vtkDataObject*>& data, int& rank)
 {
   auto* controller =
     vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
   const int ranks = controller ? controller->GetNumberOfProcesses() : 1;
   const int own = controller ? controller->GetLocalProcessId() : 0;
-  if (ranks < 2 || request->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) != ranks ||
-    request->Get(Pipeline::UPDATE_PIECE_NUMBER()) != own)
+  if (ranks < 2 || pieces != ranks || piece != own)
   {
     return RankAgreement::Same;
   }
@@ -136,8 +131,7 @@ RankAgreement compareRanks(vtkInformation* request, const std::string& filter,
 
 #else
 
-RankAgreement compareRanks(
-  vtkInformation*, const std::string&, const std::vector<vtkDataObject*>&, int&)
+RankAgreement compareRanks(int, int, const std::string&, const std::vector<vtkDataObject*>&, int&)
 {
   return RankAgreement::Same;
 }

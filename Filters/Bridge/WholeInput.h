@@ -35,10 +35,10 @@ enum class RankAgreement
 };
 
 // Compares a rank's data with those of the others by their fingerprints: all must be the same,
-// except that others than the first rank may have nothing. `request` is what a consumer asks of the
-// output; where that is not this rank's share of as many as there are ranks, there is nothing to
-// compare. `rank` is then another one. Never waits without end.
-RankAgreement compareRanks(vtkInformation* request, const std::string& filter,
+// except that others than the first rank may have nothing. A consumer asks for `piece` of `pieces`;
+// where that is not this rank's share of as many as there are ranks, there is nothing to compare.
+// `rank` is then another one. Never waits without end.
+RankAgreement compareRanks(int piece, int pieces, const std::string& filter,
   const std::vector<vtkDataObject*>& data, int& rank);
 
 } // namespace RectifiedTransport

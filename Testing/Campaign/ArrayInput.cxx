@@ -137,8 +137,8 @@ vtkSmartPointer<vtkDataArray> drawArray(
   return array;
 }
 
-void drawGhosts(Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength,
-  Input& input)
+void drawGhosts(
+  Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength, Input& input)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());

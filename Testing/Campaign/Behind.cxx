@@ -40,10 +40,15 @@ vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
   // VTK's image filters do not look whether there are scalars, or points enough to shrink.
   const bool hasScalars = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetScalars()) &&
     image->GetDimensions()[0] > 2;
-  // Nor does the contour filter count the components of a tuple when it passes other arrays on.
+  std::int64_t kind = dice.Whole(hasScalars ? 0 : 2, 4);
+  // Of tuples the contour filter interpolates the first component alone, and reads past the end of
+  // other arrays.
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  const bool isVector = scalars && scalars->GetNumberOfComponents() > 1;
-  switch (dice.Whole(hasScalars ? 0 : isVector ? 3 : 2, 4))
+  if (kind == 2 && scalars && scalars->GetNumberOfComponents() > 1)
+  {
+    kind = 3;
+  }
+  switch (kind)
   {
     case 0:
     {

@@ -47,7 +47,16 @@ void drawPlaces(Dice& dice, vtkImageData* about, vtkPoints* points, vtkIdType co
     points->SetPoint(i, x);
   }
   input.Say(std::to_string(count) + " points of kind " + std::to_string(kind));
-  if (kind == 5)
+  double first[3];
+  bool areInOnePlace = true;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double x[3];
+    points->GetPoint(i, x);
+    std::copy_n(x, i == 0 ? 3 : 0, first);
+    areInOnePlace = areInOnePlace && std::equal(x, x + 3, first);
+  }
+  if (areInOnePlace)
   {
     input.Worsen(State::Odd);
   }

@@ -66,7 +66,7 @@ void Findings::Near(double a, double b, double tolerance, const std::string& wha
   text << what << ": " << a << " and " << b;
   // Numbers below the least normal one have fewer digits.
   const double size = std::max({ std::abs(a), std::abs(b), std::numeric_limits<double>::min() });
-  this->That(std::abs(a - b) <= tolerance * size, text.str());
+  this->That(a == b || std::abs(a - b) <= tolerance * size, text.str());
 }
 
 Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& findings)

@@ -4,6 +4,8 @@
 #include "WarpTest.h"
 
 #include "vtkSMPTools.h"
+#include "vtkStructuredGrid.h"
+#include "vtkTrivialProducer.h"
 
 namespace
 {
@@ -100,6 +102,40 @@ void checkAbort(Checks& checks)
   CHECK(checks, messages.Errors.empty());
 }
 
+// After an error with points of another type a smaller grid is asked for no more than it has.
+void checkTypesAroundAnError(Checks& checks)
+{
+  const auto makeGrid = [](int count) {
+    auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+    vtkNew<vtkPoints> points;
+    for (int i = 0; i < count; ++i)
+    {
+      points->InsertNextPoint(1.0 + 6.0 * i / count, 2.0, 0.0);
+    }
+    grid->SetDimensions(count, 1, 1);
+    grid->SetPoints(points);
+    return grid;
+  };
+  const auto trivial = vtkSmartPointer<vtkTrivialProducer>::New(); // says what is asked in vain
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  Messages messages(warp);
+  Messages ofProducer(trivial);
+  warp->SetInputConnection(0, trivial->GetOutputPort());
+  auto image = makeImage(9, 7, 1, true, bumpy);
+  warp->SetDensityData(image);
+  const auto run = [&](vtkDataObject* points) {
+    trivial->SetOutput(points);
+    warp->Update();
+    return warp->GetOutput() ? warp->GetOutput()->GetNumberOfPoints() : 0;
+  };
+  CHECK(checks, run(makeGrid(241)) == 241);
+  warp->SetBlend(2.0);
+  CHECK(checks, run(makePoints({ 1, 1, 0, 3, 2, 0 })) == 0 && messages.Errors.size() == 1);
+  warp->SetBlend(1.0);
+  CHECK(checks, run(makeGrid(17)) == 17);
+  CHECK(checks, messages.Errors.size() == 1 && ofProducer.Errors.empty());
+}
+
 } // namespace
 
 int TestWarpRun(int, char*[])
@@ -109,5 +145,6 @@ int TestWarpRun(int, char*[])
   checkThreads(checks, 1);
   checkThreads(checks, 11);
   checkAbort(checks);
+  checkTypesAroundAnError(checks);
   return checks.Result();
 }

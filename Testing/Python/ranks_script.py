@@ -46,6 +46,12 @@ for kind, points in (("whole", whole_points), ("shared", shared_points),
         simple.SampleDensity(Input=image(), Seeds=points(), **SHORT))
     run("quality %s" % kind, simple.TransportQuality(Input=points(), Density=image(),
                                                      NegativeValues="Clamp"))
+    run("reference %s" % kind, simple.SplatMass(Input=points(), Reference=image()))
+    run("domain %s" % kind, simple.EqualMassCells(Input=points(), Domain=image(), Resolution=16))
+    run("block %s" % kind, simple.SplatMass(Input=simple.GroupDatasets(Input=[points()]),
+                                            Dimensions=[8, 8, 8]))
+run("morph", simple.MorphDensities(Input=image(), Target=image(), **SHORT))
+run("barycenter", simple.DensityBarycenter(Input=[image(), image()], **SHORT))
 run("map", simple.TransportMap(Input=image(), **SHORT))
 run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(), **SHORT))
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
