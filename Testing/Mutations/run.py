@@ -163,8 +163,9 @@ def main():
     folder = str(pathlib.Path(options.build, "build"))
     plant(options.source, str(copy), everything)
     build(str(copy), folder, meshes, options.jobs)
-    if first_failure(folder, "Filters/Core/", 0, options.jobs):
-        raise SystemExit("A test fails without any wrong change")
+    failure = first_failure(folder, "Filters/Core/", 0, options.jobs)
+    if failure:
+        raise SystemExit(f"{failure} fails without any wrong change")
 
     caught = 0
     print("| | file | change | noticed by |\n|---|---|---|---|")
