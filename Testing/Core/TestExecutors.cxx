@@ -23,7 +23,15 @@ std::atomic<std::int64_t> allocationsLeft{ std::numeric_limits<std::int64_t>::ma
 
 } // namespace
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature) // Clang's, which has no macros of GCC's names
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define HAS_SANITIZER
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_SANITIZER
+#endif
+
+#ifdef HAS_SANITIZER
 constexpr bool canRunOut = false; // the sanitizer has operators of its own
 #else
 constexpr bool canRunOut = true;
