@@ -131,7 +131,7 @@ TEST(Executors, NoMemoryForTheFlow)
 {
   if (!canRunOut)
   {
-    GTEST_SKIP() << "Memory does not run out under AddressSanitizer";
+    GTEST_SKIP() << "Memory does not run out under a sanitizer";
   }
   const TestDensity<2> density = discWithHole<2>({ 40, 30 });
   const Points<2> seeds = randomPoints<2>(density.Size, 3000);
@@ -154,7 +154,7 @@ TEST(Executors, NoMemoryForTheRest)
 {
   if (!canRunOut)
   {
-    GTEST_SKIP() << "Memory does not run out under AddressSanitizer";
+    GTEST_SKIP() << "Memory does not run out under a sanitizer";
   }
   const GridSize<3> cells{ 9, 8, 7 };
   const Mesh solid = makeTetrahedron({ 1, 1, 1 }, { 8, 2, 2 }, { 3, 7, 2 }, { 4, 4, 6 });
