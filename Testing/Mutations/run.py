@@ -128,8 +128,9 @@ def first_failure(folder, file, number, jobs):
     groups = next(groups for prefix, groups in ORDER if file.startswith(prefix))
     for group in groups:
         result = subprocess.run(
-            ["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset", "ctest", "--test-dir", folder, "-j", str(jobs), "-R", group, "-LE",
-             LEFT_OUT, "-E", DIGESTS, "--stop-on-failure", "--timeout", "240"],
+            ["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset", "ctest", "--test-dir",
+             folder, "-j", str(jobs), "-R", group, "-LE", LEFT_OUT, "-E", DIGESTS,
+             "--stop-on-failure", "--timeout", "240"],
             env=environment, capture_output=True, text=True)
         failed = re.findall(r"Test +#\d+: (\S+) .*\*\*\*(?!Not Run|Skipped)(.*)", result.stdout)
         if failed:
