@@ -349,6 +349,31 @@ TEST(SplatInput, FloatsAndOneMass)
   EXPECT_EQ(splat(particles, size, SplatOptions()).Cells, expected.Cells);
 }
 
+// A scale applies to masses of their own as to the one of all.
+TEST(SplatInput, Scale)
+{
+  const GridSize<2> size{ 40, 30 };
+  const Cloud<2> cloud = randomCloud<2>(size, 777, 0.0, false);
+  SplatParticles<2, double> ofOneMass = cloud.Particles();
+  ofOneMass.Masses = nullptr;
+  ofOneMass.Mass = 0.3;
+  for (const SplatParticles<2, double>& particles : { cloud.Particles(), ofOneMass })
+  {
+    for (const SplatKernel kernel : allKernels)
+    {
+      const SplatOptions options = splatOptions(kernel);
+      Splatted whole = splat(particles, size, options);
+      std::vector<double> half(whole.Cells.size());
+      splatMass<2, double>(particles, size, options, 0.5, half.data(), SerialExecutor(), {});
+      for (double& cell : whole.Cells)
+      {
+        cell *= 0.5;
+      }
+      EXPECT_EQ(half, whole.Cells) << static_cast<int>(kernel);
+    }
+  }
+}
+
 TEST(SplatInput, NoParticles)
 {
   const GridSize<1> size{ 100 };
