@@ -183,6 +183,10 @@ TEST(Convergence, Evaluations)
   EXPECT_NEAR(evaluations(steps(50, Integrator::Euler)), 50.0, 1.0);
   EXPECT_LT(evaluations(adaptive(0.03)), 80.0);
   EXPECT_LT(evaluations(adaptive(0.03)), evaluations(adaptive(0.003)));
+  // As measured; other orders of the predictor or other estimates take more, or fewer and err more.
+  EXPECT_NEAR(evaluations(adaptive(0.03)), 11.4, 0.3);
+  EXPECT_NEAR(evaluations(adaptive(0.003)), 22.0, 0.3);
+  EXPECT_NEAR(evaluations(adaptive(0.0001)), 67.6, 0.3);
 }
 
 } // namespace
