@@ -16,6 +16,15 @@
 #include <unistd.h>
 #include <vector>
 
+// Large blocks go back to the system as soon as they are free: of what a process keeps it could make
+// more without growing.
+inline void keepNoLargeBlocks()
+{
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 16);
+#endif
+}
+
 // A process that may not grow by more than `bytes`, until the end of the scope. It gives back what
 // it holds in reserve, but for some small blocks: VTK's own pipeline ends the program when it
 // cannot have a few for itself. New threads cannot be made meanwhile.

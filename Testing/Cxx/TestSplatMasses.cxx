@@ -100,6 +100,7 @@ void checkType(Checks& checks, const std::function<double(int)>& mass)
   constexpr int count = 20000; // several ranges
   auto points = makePoints(halves(count), true);
   vtkNew<ArrayT> masses;
+  masses->SetNumberOfComponents(1); // of which one that keeps them apart has none by itself
   masses->SetNumberOfValues(count);
   double sum = 0.0;
   for (int i = 0; i < count; ++i)

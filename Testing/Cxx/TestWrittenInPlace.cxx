@@ -8,7 +8,6 @@
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkSOADataArrayTemplate.h"
-#include "vtkTypeInt64Array.h"
 
 namespace
 {
@@ -118,9 +117,7 @@ void checkSurface(Checks& checks)
   CHECK_NEAR(checks, massOf(solid), 2.0, 1e-9);
   CHECK(checks, messages.Errors.empty());
 
-  auto* ids = vtkTypeInt64Array::SafeDownCast(box->GetPolys()->GetConnectivityArray());
-  CHECK(checks, ids != nullptr);
-  *ids->GetPointer(3) = 8;
+  box->GetPolys()->GetConnectivityArray()->SetComponent(3, 0, 8.0);
   box->Modified();
   solid->Update();
   CHECK(checks, messages.Errors.size() == 1);
