@@ -8,53 +8,63 @@
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 #define HAS_MEMORY_LIMIT
+#include <cstdlib>
 #include <fstream>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
 
-// Large blocks go back to the system as soon as they are free: of what a process keeps it could make
-// more without growing.
-inline void keepNoLargeBlocks()
-{
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1 << 16);
-#endif
-}
-
-// A process that may not grow by more than `bytes`, until the end of the scope. It gives back what
-// it holds in reserve, but for some small blocks: VTK's own pipeline ends the program when it
-// cannot have a few for itself. New threads cannot be made meanwhile.
+// A process that can have no more than about `bytes` until the end of the scope: it may not grow,
+// and what malloc holds in reserve is taken, but for that room and some small blocks, since VTK's
+// own pipeline ends the program when it cannot have a few for itself. New threads cannot be made
+// meanwhile.
 class MemoryLimit
 {
 public:
   explicit MemoryLimit(std::int64_t bytes)
   {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-    std::vector<std::vector<char>>(400, std::vector<char>(200));
-    std::ifstream file("/proc/self/statm");
-    rlim_t pages = 0;
-    file >> pages;
-    getrlimit(RLIMIT_AS, &this->Before);
-    rlimit limit = this->Before;
-    limit.rlim_cur =
-      pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + static_cast<rlim_t>(bytes);
-    setrlimit(RLIMIT_AS, &limit);
+    const std::vector<std::vector<char>> change(400, std::vector<char>(200));
+    constexpr std::size_t most = 1 << 16;
+    this->Taken.reserve(most);
+    this->Taken.push_back(std::malloc(static_cast<std::size_t>(bytes)));
+    this->StopGrowth();
+    constexpr std::size_t smallest = 1 << 15;
+    for (std::size_t size = std::size_t{ 1 } << 26; size >= smallest; size /= 2)
+    {
+      void* block = this->Taken.size() < most ? std::malloc(size) : nullptr;
+      for (; block; block = this->Taken.size() < most ? std::malloc(size) : nullptr)
+      {
+        this->Taken.push_back(block);
+      }
+    }
+    std::free(this->Taken[0]);
+    this->Taken[0] = nullptr;
   }
   ~MemoryLimit()
   {
+    for (void* block : this->Taken)
+    {
+      std::free(block);
+    }
     setrlimit(RLIMIT_AS, &this->Before);
   }
   MemoryLimit(const MemoryLimit&) = delete;
   MemoryLimit& operator=(const MemoryLimit&) = delete;
 
 private:
+  void StopGrowth()
+  {
+    std::ifstream file("/proc/self/statm");
+    rlim_t pages = 0;
+    file >> pages;
+    getrlimit(RLIMIT_AS, &this->Before);
+    rlimit limit = this->Before;
+    limit.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+    setrlimit(RLIMIT_AS, &limit);
+  }
+
   rlimit Before;
+  std::vector<void*> Taken;
 };
 #endif
 

@@ -76,7 +76,6 @@ int TestLittleMemory(int, char*[])
 {
   Checks checks;
 #ifdef HAS_MEMORY_LIMIT
-  keepNoLargeBlocks();
   checkCells(checks);
   checkSolid(checks);
 #endif
