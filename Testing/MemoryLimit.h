@@ -31,8 +31,7 @@ public:
     constexpr std::size_t smallest = 1 << 15;
     for (std::size_t size = std::size_t{ 1 } << 26; size >= smallest; size /= 2)
     {
-      void* block = this->Taken.size() < most ? std::malloc(size) : nullptr;
-      for (; block; block = this->Taken.size() < most ? std::malloc(size) : nullptr)
+      while (void* block = this->Taken.size() < most ? std::malloc(size) : nullptr)
       {
         this->Taken.push_back(block);
       }

@@ -119,8 +119,17 @@ void checkSplat(Checks& checks, double unit)
   {
     splatter->SetBoundary(boundary);
     checkOutside(
-      checks, splatter, [&](vtkPolyData* points) { splatter->SetInputData(points); },
-      "points ", unit);
+      checks, splatter, [&](vtkPolyData* points) { splatter->SetInputData(points); }, "points ",
+      unit);
+    const auto count = [&](const std::vector<double>& x, const char* text) {
+      splatter->SetInputData(makePoints(x));
+      return countOf(splatter, text);
+    };
+    const double in = unit;
+    CHECK(checks,
+      count({ in, in, 0, -in, in, 0 }, " of 2 points is outside the domain; its mass") == 1);
+    CHECK(checks,
+      count({ -in, in, 0, -in, in, 0 }, " of 2 points are outside the domain; their mass") == 2);
   }
 }
 
