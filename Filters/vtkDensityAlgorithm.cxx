@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
-#include "Bridge/DefaultArray.h"
-#include "Bridge/DensityImage.h"
-#include "Bridge/InputBlock.h"
-#include "Bridge/PropertyCheck.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

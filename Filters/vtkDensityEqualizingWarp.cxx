@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityEqualizingWarp.h"
 
-#include "Bridge/DensityImage.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FlowCache.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/Memory.h"
-#include "Bridge/PointInput.h"
-#include "Bridge/PropertyCheck.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -36,7 +36,7 @@ using namespace RectifiedTransport;
 // What RequestData has fetched and checked.
 struct WarpRun
 {
-  HostMonitor& Host;
+  AlgorithmProgress& Host;
   const Executor& Threads;
   DensityImage& Density;
   FlowCache& Cache;
@@ -271,7 +271,7 @@ int vtkDensityEqualizingWarp::RequestData(
   {
     return 1;
   }
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   const WarpRun run{ host, *executor, *density, this->GetFlowCache(), options, input, this->Blend };
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
-#include "Bridge/CellFigures.h"
-#include "Bridge/CellOutlines.h"
-#include "Bridge/DefaultArray.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FieldValue.h"
-#include "Bridge/FlowSettings.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/ImageFrame.h"
-#include "Bridge/InputBlock.h"
-#include "Bridge/PointInput.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SiteLabels.h"
+#include "Bridge/Flow/FlowSettings.h"
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/SiteCells/SiteCellOutlines.h"
+#include "Bridge/SiteCells/SiteCellStatistics.h"
+#include "Bridge/SiteCells/SiteLabels.h"
 
 #include "vtkCellData.h"
 #include "vtkImageData.h"
@@ -38,7 +38,7 @@ using namespace RectifiedTransport;
 // What RequestData has fetched and checked.
 struct CellsRun
 {
-  HostMonitor& Host;
+  AlgorithmProgress& Host;
   const Executor& Threads;
   FlowOptions Options;
   vtkPointSet* Input;
@@ -65,12 +65,12 @@ std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const Ce
     [&]() { return sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95); });
   output.Labels->GetCellData()->SetScalars(labels);
   run.Host.BeginStage(0.98);
-  const double cost = writeCellFigures<D>(run.Input, sites.Pixels(), geometry, labels, run.Norm,
-    run.Threads, run.Host, output.Sites->GetPointData());
+  const double cost = writeSiteCellStatistics<D>(run.Input, sites.Pixels(), geometry, labels,
+    run.Norm, run.Threads, run.Host, output.Sites->GetPointData());
   addFieldValue(output.Labels, "TransportCost", cost);
   addFieldValue(output.Sites, "TransportCost", cost);
   run.Host.BeginStage(1.0);
-  outlineCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
+  outlineSiteCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
   return sites.NumberOutside();
 }
 
@@ -270,7 +270,7 @@ int vtkEqualMassCells::RequestData(
   {
     return 1;
   }
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   if (!domain)
   {
     // Of such points there are no bounds.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGuardedAlgorithm.h"
 
-#include "Bridge/Failure.h"
-#include "Bridge/GuardedRun.h"
-#include "Bridge/ImageFrame.h"
-#include "Bridge/WholeInput.h"
+#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Run/ExceptionBarrier.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/WholeInput.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -119,7 +119,7 @@ void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return RectifiedTransport::runGuarded(
+  return RectifiedTransport::runBehindBarrier(
     this, outputVector, [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
 }
 

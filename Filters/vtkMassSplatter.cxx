@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMassSplatter.h"
 
-#include "Bridge/Failure.h"
-#include "Bridge/FieldValue.h"
-#include "Bridge/FlowSettings.h"
-#include "Bridge/GridText.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/ImageFrame.h"
-#include "Bridge/InputBlock.h"
-#include "Bridge/MassSplat.h"
-#include "Bridge/Memory.h"
-#include "Bridge/PointInput.h"
-#include "Bridge/PointMasses.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SplatSettings.h"
+#include "Bridge/Flow/FlowSettings.h"
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Points/PointMasses.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Splat/MassSplat.h"
+#include "Bridge/Splat/SplatSettings.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -212,7 +212,7 @@ int vtkMassSplatter::RequestData(
     return 1;
   }
 
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   PointMasses masses;
   if (count > 0)
   {

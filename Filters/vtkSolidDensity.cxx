@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolidDensity.h"
 
-#include "Bridge/ClosedSurface.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FlowSettings.h"
-#include "Bridge/GridText.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/InputBlock.h"
-#include "Bridge/Memory.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SolidGrid.h"
+#include "Bridge/Flow/FlowSettings.h"
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/SolidGrid.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Solid/ClosedSurface.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -34,7 +34,7 @@ const char* const AssociationTexts[] = { "Points", "Cells" };
 constexpr int MaximumSupersampling = 16;
 
 vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
-  int supersampling, const Executor& executor, HostMonitor& host)
+  int supersampling, const Executor& executor, AlgorithmProgress& host)
 {
   const std::string grid = describeSize<3>(cells) + " cells (see Resolution)";
   const double count = numberOfCells<3>(cells);
@@ -146,7 +146,7 @@ int vtkSolidDensity::RequestData(
   {
     return 1;
   }
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   ClosedSurface surface(input, *executor, host, 0.4);
   const SolidGrid grid(polygonBounds(input), this->Resolution, this->Padding);
   const TriangleSurface triangles = surface.InCells(grid, *executor, host, 0.5);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportAlgorithm.h"
 
-#include "Bridge/FlowCache.h"
-#include "Bridge/FlowSettings.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Flow/FlowSettings.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBarycenter.h"
 
-#include "Bridge/Failure.h"
+#include "Bridge/Run/Failure.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBlend.h"
 
-#include "Bridge/CommonFrame.h"
-#include "Bridge/DensityBlend.h"
-#include "Bridge/DensityImage.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FlowCache.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SplatSettings.h"
+#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Image/CommonFrame.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Splat/SplatSettings.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -239,7 +239,7 @@ int vtkTransportBlend::RequestData(
     inputs[i].Weight = weights[i];
   }
 
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   const std::int64_t moved =
     this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), *executor, host, output);
   // Which array it is, is not always known before the data.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportInterpolator.h"
 
-#include "Bridge/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportMap.h"
 
-#include "Bridge/DensityImage.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FieldValue.h"
-#include "Bridge/FlowCache.h"
-#include "Bridge/GridText.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/ImageFrame.h"
-#include "Bridge/MapField.h"
-#include "Bridge/PropertyCheck.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Flow/MapField.h"
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
@@ -34,7 +34,7 @@ const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 // What RequestData has fetched and checked.
 struct MapRun
 {
-  HostMonitor& Host;
+  AlgorithmProgress& Host;
   const Executor& Threads;
   DensityImage& Density;
   FlowCache& Cache;
@@ -224,7 +224,7 @@ int vtkTransportMap::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputVector);
   frame.Publish(outputInformation); // which array it is, is not always known before the data
 
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   const MapRun run{ host, *executor, *density, this->GetFlowCache(), options,
     this->Direction == DENSITY_TO_UNIFORM, input, frame, output };
   const int dimension = density->Geometry().Dimension();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportQuality.h"
 
-#include "Bridge/DensityImage.h"
-#include "Bridge/FlowCache.h"
-#include "Bridge/GhostFlags.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/ParticleQuality.h"
-#include "Bridge/PointInput.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SMPExecutor.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Quality/ParticleQuality.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/SMPExecutor.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -115,7 +115,7 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   const auto executor = makeExecutor(Threading::Auto);
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   const ParticleQuality quality = measureQuality(
     particles, counted, *density, this->BlockSize, this->Internals->Cache, *executor, host);
 

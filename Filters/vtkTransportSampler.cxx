@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSampler.h"
 
-#include "Bridge/DensityImage.h"
-#include "Bridge/Failure.h"
-#include "Bridge/FieldValue.h"
-#include "Bridge/FlowCache.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/Memory.h"
-#include "Bridge/ParticleSet.h"
-#include "Bridge/PointInput.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SeedInput.h"
-#include "Bridge/UnitSeeds.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Points/ParticleSet.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Points/SeedInput.h"
+#include "Bridge/Points/UnitSeeds.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -38,7 +38,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 // What RequestData has fetched and checked.
 struct SamplerRun
 {
-  HostMonitor& Host;
+  AlgorithmProgress& Host;
   const Executor& Threads;
   DensityImage& Density;
   FlowCache& Cache;
@@ -311,7 +311,7 @@ int vtkTransportSampler::RequestData(
   {
     return 1;
   }
-  HostMonitor host(this);
+  AlgorithmProgress host(this);
   const SamplerRun run{ host, *executor, *density, this->GetFlowCache(), options, seeds,
     static_cast<RectifiedTransport::SeedPattern>(this->SeedPattern), this->NumberOfParticles,
     this->RandomSeed, this->SamplesPerCell, this->FlowTime, this->OutputPaths != 0 };

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkUniformSeedSource.h"
 
-#include "Bridge/Failure.h"
-#include "Bridge/GuardedRun.h"
-#include "Bridge/HostMonitor.h"
-#include "Bridge/Memory.h"
-#include "Bridge/ParticleCells.h"
-#include "Bridge/PropertyCheck.h"
-#include "Bridge/SMPExecutor.h"
-#include "Bridge/UnitSeeds.h"
-#include "Core/LargeBuffer.h"
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Points/UnitSeeds.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/ExceptionBarrier.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/SMPExecutor.h"
+#include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -51,7 +51,7 @@ void requireBounds(const double* bounds, int dimension)
 
 // Fills a box with points, uniformly.
 template <int D>
-void fillBox(const UnitSeeds<D>& seeds, const double* bounds, HostMonitor& host,
+void fillBox(const UnitSeeds<D>& seeds, const double* bounds, AlgorithmProgress& host,
   const Executor& executor, vtkPolyData* output)
 {
   constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
@@ -123,7 +123,7 @@ const char* vtkUniformSeedSource::GetPatternAsString()
 int vtkUniformSeedSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  return runGuarded(this, outputVector, [&]() {
+  return runBehindBarrier(this, outputVector, [&]() {
     requireThat(
       this->Dimension == 2 || this->Dimension == 3, "Dimension", this->Dimension, "2 or 3");
     requireThat(this->NumberOfPoints >= 1, "NumberOfPoints", this->NumberOfPoints, "at least 1");
@@ -134,7 +134,7 @@ int vtkUniformSeedSource::RequestData(
     const Point<3> lengths{ this->Bounds[1] - this->Bounds[0], this->Bounds[3] - this->Bounds[2],
       this->Bounds[5] - this->Bounds[4] };
     const auto executor = makeExecutor(Threading::Auto);
-    HostMonitor host(this);
+    AlgorithmProgress host(this);
     vtkPolyData* output = vtkPolyData::GetData(outputVector);
     if (this->Dimension == 2)
     {

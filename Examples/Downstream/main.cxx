@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library from outside: the same particles from a filter in a VTK pipeline and from the
 // mathematics without VTK.
-#include "Core/RectifiedFlow.h"
-#include "Core/Seeds.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Seeds/Seeds.h"
 #include "vtkTransportSampler.h"
 
 #include <vtkCellData.h>

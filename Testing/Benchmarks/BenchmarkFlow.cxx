@@ -2,8 +2,8 @@
 // The flow on tables that are there: cost a velocity and a particle, the sort, threads.
 #include "BenchmarkInputs.h"
 
+#include "Core/Flow/ParticleOrder.h"
 #include "PaperTransport.h"
-#include "ParticleOrder.h"
 
 namespace RectifiedTransport
 {

@@ -7,7 +7,7 @@
 
 #include "../Core/Oracle.h"
 #include "../Core/TestDensities.h"
-#include "RectifiedFlow.h"
+#include "Core/Flow/RectifiedFlow.h"
 
 #include <benchmark/benchmark.h>
 

@@ -3,8 +3,8 @@
 // flow, in either direction.
 #include "BenchmarkInputs.h"
 
-#include "LatticeOrder.h"
-#include "ParticleOrder.h"
+#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/ParticleOrder.h"
 
 namespace RectifiedTransport
 {

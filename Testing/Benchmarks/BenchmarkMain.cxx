@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlowKernels.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
 #include "FreshMemory.h"
 
 #include <benchmark/benchmark.h>

@@ -5,10 +5,10 @@
 
 #include "FreshMemory.h"
 
-#include "LargeBuffer.h"
-#include "LatticeOrder.h"
-#include "ReproducibleMath.h"
-#include "Splat.h"
+#include "Core/Flow/LatticeOrder.h"
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Splat/Splat.h"
 
 #include <algorithm>
 

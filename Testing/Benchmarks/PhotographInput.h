@@ -5,7 +5,7 @@
 
 #include "BenchmarkInputs.h"
 
-#include "Seeds.h"
+#include "Core/Seeds/Seeds.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

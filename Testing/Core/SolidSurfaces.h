@@ -3,7 +3,7 @@
 #ifndef SolidSurfaces_h
 #define SolidSurfaces_h
 
-#include "SolidCoverage.h"
+#include "Core/Solid/SolidCoverage.h"
 
 #include <algorithm>
 #include <array>

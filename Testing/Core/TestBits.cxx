@@ -2,11 +2,11 @@
 // The results' very bits: the same from every compiler, on every processor and with every
 // instruction set (the tests run once with each). A change that means to alter results states its
 // new digests here, and in the changelog.
-#include "CellBalance.h"
-#include "CellShares.h"
-#include "MapDerivatives.h"
-#include "NearestNeighbours.h"
-#include "Seeds.h"
+#include "Core/Flow/MapDerivatives.h"
+#include "Core/Quality/NearestNeighbours.h"
+#include "Core/Seeds/Seeds.h"
+#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
 #include "SolidSurfaces.h"
 #include "TestFlow.h"
 #include "TestSplat.h"
@@ -169,7 +169,7 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
 {
   Points<Dimension> places = randomPoints<Dimension>(size, 30, 3);
   places.push_back(places[4]);
-  const SitePixels<Dimension> sites(size, places.data()->data(), 31);
+  const SiteDensity<Dimension> sites(size, places.data()->data(), 31);
   Point<Dimension> spacing;
   spacing.fill(1.0);
   spacing[0] = 1.25;
@@ -181,8 +181,9 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
     label = sites.Find(label);
   }
   digest.Add(labels);
-  EXPECT_TRUE(balanceCells<Dimension>(sites, spacing, labels.data(), {}));
-  EXPECT_TRUE(shareCells<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
+  EXPECT_TRUE(equalizeSiteCells<Dimension>(sites, spacing, labels.data(), {}));
+  EXPECT_TRUE(
+    splitSharedPixels<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
   digest.Add(labels);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes far along an axis: where nodes are is counted in 64 bits.
-#include "TableView.h"
+#include "Core/Tables/TableView.h"
 
 #include <gtest/gtest.h>
 
@@ -26,9 +26,9 @@ namespace
 
 constexpr int BlockSize = 64;
 
-#include "Vectors.txx"
+#include "Core/Parallel/Vectors.txx"
 
-#include "BoxMoments.txx"
+#include "Core/Flow/Kernels/BoxMoments.txx"
 
 #ifdef __linux__
 // Tables of a line of 2^29 + 8 cells of mass 1, of which the last ones are there alone.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shares of boxes, against the sum over all cells, and boxes of shares, against shares of boxes.
-#include "BoxShare.h"
-#include "Pacer.h"
-#include "SummedAreaTables.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/BoxShare.h"
+#include "Core/Tables/SummedAreaTables.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TestDensities_h
 #define RectifiedTransport_TestDensities_h
 
-#include "Density.h"
+#include "Core/Tables/Density.h"
 
 #include <array>
 #include <cmath>

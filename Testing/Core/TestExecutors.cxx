@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a kernel throws comes out of For; above all where memory runs out in the middle of a range.
-#include "CellBalance.h"
-#include "CellShares.h"
-#include "NearestNeighbours.h"
+#include "Core/Quality/NearestNeighbours.h"
+#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
 #include "SolidSurfaces.h"
 #include "TestFlow.h"
 #include "TestSplat.h"
@@ -180,11 +180,11 @@ TEST(Executors, NoMemoryForTheRest)
 
   const GridSize<2> size{ 40, 30 };
   const Points<2> places = randomPoints<2>(size, 50);
-  const SitePixels<2> sites(size, places.data()->data(), 50);
+  const SiteDensity<2> sites(size, places.data()->data(), 50);
   std::vector<std::int64_t> owners(1200, 0);
   expectBadAlloc("a balance", [&]() {
     std::fill(owners.begin(), owners.end(), 0);
-    balanceCells<2>(sites, { 1.0, 1.0 }, owners.data(), {});
+    equalizeSiteCells<2>(sites, { 1.0, 1.0 }, owners.data(), {});
   });
 }
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TestFlow_h
 #define RectifiedTransport_TestFlow_h
 
-#include "RectifiedFlow.h"
+#include "Core/Flow/RectifiedFlow.h"
 
 #include "Oracle.h"
 #include "TestDensities.h"

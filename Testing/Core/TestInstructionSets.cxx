@@ -2,9 +2,9 @@
 // One kernel source, compiled for several instruction sets: all compute the same bits.
 #include "TestFlow.h"
 
-#include "FlowKernels.h"
-#include "Pacer.h"
-#include "SummedAreaTables.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/SummedAreaTables.h"
 
 #include <gtest/gtest.h>
 

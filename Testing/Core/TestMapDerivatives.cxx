@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Divergence and Jacobian determinant of maps on a lattice: of maps that are known, and of the
 // flow, which has to turn one measure into the other.
-#include "MapDerivatives.h"
+#include "Core/Flow/MapDerivatives.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the host hears of long work, and how it stops it.
-#include "Seeds.h"
+#include "Core/Seeds/Seeds.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The weights of the graded Adams-Bashforth-Moulton method, by their definition.
-#include "FlowKernels.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
 
 #include <gtest/gtest.h>
 

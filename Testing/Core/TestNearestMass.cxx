@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nearest cell with mass, against a search through all of them.
-#include "NearestMass.h"
-#include "Pacer.h"
-#include "SummedAreaTables.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/NearestMass.h"
+#include "Core/Tables/SummedAreaTables.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>

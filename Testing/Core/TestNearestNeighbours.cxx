@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distances of nearest neighbours, against a search through all pairs.
-#include "NearestNeighbours.h"
+#include "Core/Quality/NearestNeighbours.h"
 
 #include "TestFlow.h"
 

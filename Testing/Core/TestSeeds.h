@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TestSeeds_h
 #define RectifiedTransport_TestSeeds_h
 
-#include "Seeds.h"
+#include "Core/Seeds/Seeds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of sites: which pixel comes to which site, cells made equal, cells that sites share.
-#include "CellBalance.h"
-#include "CellShares.h"
+#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/SiteDensity.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
 #include "Oracle.h"
-#include "SitePixels.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>
@@ -20,14 +20,15 @@ namespace
 using Labels = std::vector<std::int64_t>;
 
 template <int Dimension>
-SitePixels<Dimension> pixelsOf(
+SiteDensity<Dimension> pixelsOf(
   const GridSize<Dimension>& size, const NotDeduced<Points<Dimension>>& sites)
 {
-  return SitePixels<Dimension>(size, sites.data()->data(), static_cast<std::int64_t>(sites.size()));
+  return SiteDensity<Dimension>(
+    size, sites.data()->data(), static_cast<std::int64_t>(sites.size()));
 }
 
 template <int Dimension>
-Labels flowToSites(const SitePixels<Dimension>& sites, const FlowOptions& options = {},
+Labels flowToSites(const SiteDensity<Dimension>& sites, const FlowOptions& options = {},
   const Executor& executor = OpenMPExecutor())
 {
   const RectifiedFlow<Dimension> flow(sites, executor);
@@ -64,9 +65,10 @@ std::vector<std::int64_t> countLabels(const Labels& labels, std::int64_t count)
 
 // As many pixels for each of the sites, or one more.
 template <int Dimension>
-void expectBalanced(const SitePixels<Dimension>& sites, Labels labels, const std::string& what)
+void expectBalanced(const SiteDensity<Dimension>& sites, Labels labels, const std::string& what)
 {
-  ASSERT_TRUE(balanceCells<Dimension>(sites, unitSpacing<Dimension>(), labels.data(), {})) << what;
+  ASSERT_TRUE(equalizeSiteCells<Dimension>(sites, unitSpacing<Dimension>(), labels.data(), {}))
+    << what;
   const auto each = static_cast<std::int64_t>(labels.size()) / sites.NumberOfSites();
   const auto counts = countLabels(labels, sites.NumberOfPixels());
   for (std::int64_t k = 0; k < sites.NumberOfPixels(); ++k)
@@ -244,7 +246,7 @@ TEST(SiteCells, FarBordersOnALineAreBalanced)
   const GridSize<1> size{ 10000 };
   const auto sites = pixelsOf<1>(size, { { 10.5 }, { 20.5 }, { 9000.5 } });
   Labels labels(10000, 1);
-  ASSERT_TRUE(balanceCells<1>(sites, { 1.0 }, labels.data(), {}));
+  ASSERT_TRUE(equalizeSiteCells<1>(sites, { 1.0 }, labels.data(), {}));
   EXPECT_TRUE(std::is_sorted(labels.begin(), labels.end()));
   EXPECT_EQ(countLabels(labels, 3), (std::vector<std::int64_t>{ 3333, 3334, 3333 }));
 }
@@ -269,11 +271,11 @@ TEST(SiteCells, BalanceDoesNotDependOnTheUnit)
   const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 20, 2));
   const Labels flow = flowToSites(sites);
   Labels usual = flow;
-  ASSERT_TRUE(balanceCells<2>(sites, { 1.0, 2.0 }, usual.data(), {}));
+  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 2.0 }, usual.data(), {}));
   for (const double unit : { 0x1p-600, 0x1p600 })
   {
     Labels labels = flow;
-    ASSERT_TRUE(balanceCells<2>(sites, { unit, 2.0 * unit }, labels.data(), {}));
+    ASSERT_TRUE(equalizeSiteCells<2>(sites, { unit, 2.0 * unit }, labels.data(), {}));
     EXPECT_EQ(labels, usual) << unit;
   }
 }
@@ -314,7 +316,7 @@ TEST(SiteCells, BalanceMovesTheCheapestPixel)
     expected[cheapest(spacing)] = 1;
     EXPECT_NE(cheapest(spacing), cheapest(even));
     Labels found = labels;
-    ASSERT_TRUE(balanceCells<2>(sites, spacing, found.data(), {}));
+    ASSERT_TRUE(equalizeSiteCells<2>(sites, spacing, found.data(), {}));
     EXPECT_EQ(found, expected);
   }
 }
@@ -325,7 +327,7 @@ TEST(SiteCells, OnePixelForEachSite)
   const GridSize<2> size{ 6, 5 };
   const auto sites = pixelsOf<2>(size, latticePoints<2>(size, size));
   Labels labels(30, 4);
-  ASSERT_TRUE(balanceCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
   EXPECT_EQ(countLabels(labels, 30), std::vector<std::int64_t>(30, 1));
 }
 
@@ -340,14 +342,14 @@ TEST(SiteCells, BalanceMovesOnlyWhatItMust)
     equal[i] = i % 8 < 4 ? 0 : 1;
   }
   Labels labels = equal;
-  ASSERT_TRUE(balanceCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
   EXPECT_EQ(labels, equal);
 
   for (std::size_t row = 0; row < 4; ++row)
   {
     labels[8 * row + 4] = 0; // a column too many
   }
-  ASSERT_TRUE(balanceCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
   EXPECT_EQ(labels, equal);
 }
 
@@ -359,21 +361,22 @@ TEST(SiteCells, BalanceCanBeCancelled)
   std::vector<double> heard;
   const Monitor monitor{ [&](double progress) { heard.push_back(progress); },
     [&]() { return heard.size() > 2; } };
-  EXPECT_FALSE(balanceCells<2>(sites, { 1.0, 1.0 }, labels.data(), monitor));
+  EXPECT_FALSE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), monitor));
   EXPECT_EQ(heard.size(), 3u);
 
   heard.clear();
   const Monitor patient{ monitor.Progress, []() { return false; } };
-  EXPECT_TRUE(balanceCells<2>(sites, { 1.0, 1.0 }, labels.data(), patient));
+  EXPECT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), patient));
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_LE(heard.back(), 1.0);
 }
 
 template <int Dimension>
-Labels shared(const SitePixels<Dimension>& sites, const NotDeduced<Points<Dimension>>& places,
+Labels shared(const SiteDensity<Dimension>& sites, const NotDeduced<Points<Dimension>>& places,
   Labels labels, const NotDeduced<Point<Dimension>>& spacing)
 {
-  EXPECT_TRUE(shareCells<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
+  EXPECT_TRUE(
+    splitSharedPixels<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
   return labels;
 }
 
@@ -446,7 +449,7 @@ TEST(SiteCells, SharingCanBeCancelled)
   const auto sites = pixelsOf<2>(size, places);
   const auto share = [&](const Monitor& monitor) {
     Labels labels(cellCount<2>(size), 0);
-    return shareCells<2>(sites, places.data()->data(), { 1.0, 1.0 }, labels.data(), monitor);
+    return splitSharedPixels<2>(sites, places.data()->data(), { 1.0, 1.0 }, labels.data(), monitor);
   };
   int asked = 0;
   EXPECT_FALSE(share({ {}, [&]() { return ++asked > 60; } }));

@@ -4,8 +4,8 @@
 #ifndef TestSplat_h
 #define TestSplat_h
 
-#include "ReproducibleMath.h"
-#include "Splat.h"
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Splat/Splat.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // loop over the particles.
 #include "TestSplat.h"
 
-#include "SplatKernels.h"
+#include "Core/Splat/Kernels/SplatKernels.h"
 
 #include <gtest/gtest.h>
 

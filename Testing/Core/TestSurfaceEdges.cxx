@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What makes a closed surface of polygons: equal points, edges of two triangles, one orientation.
-#include "EqualPoints.h"
+#include "Core/Solid/MergePoints.h"
+#include "Core/Solid/SurfaceOrientation.h"
 #include "SolidSurfaces.h"
-#include "SurfaceOrientation.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-TEST(EqualPoints, FirstOfEach)
+TEST(MergePoints, FirstOfEach)
 {
   std::mt19937_64 random(2);
   std::uniform_int_distribution<int> digit(-2, 2);
@@ -27,7 +27,7 @@ TEST(EqualPoints, FirstOfEach)
     }
   }
   const auto count = static_cast<std::int64_t>(points.size());
-  EqualPoints equal(points.data()->data(), count);
+  MergePoints equal(points.data()->data(), count);
   equal.Enter(0, 1000);
   equal.Enter(1000, count);
   std::map<Point<3>, std::int64_t> firsts;
@@ -40,7 +40,7 @@ TEST(EqualPoints, FirstOfEach)
 
 // Points that differ in the last bit are different; so are a million in a corner of the bounds,
 // which by pairs would take hours.
-TEST(EqualPoints, ManyInACorner)
+TEST(MergePoints, ManyInACorner)
 {
   std::vector<Point<3>> points{ { 1e9, 1e9, 1e9 }, { 1.0, 1.0, 1.0 },
     { std::nextafter(1.0, 2.0), 1.0, 1.0 } };
@@ -49,7 +49,7 @@ TEST(EqualPoints, ManyInACorner)
     points.push_back({ i % 100 * 1e-6, i / 100 % 100 * 1e-6, i / 10000 * 1e-6 });
   }
   const auto count = static_cast<std::int64_t>(points.size());
-  EqualPoints equal(points.data()->data(), count);
+  MergePoints equal(points.data()->data(), count);
   equal.Enter(0, count);
   for (std::int64_t i = 0; i < count; ++i)
   {

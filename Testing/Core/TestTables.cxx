@@ -2,8 +2,8 @@
 // The summed-area tables, node by node.
 #include "TestFlow.h"
 
-#include "Pacer.h"
-#include "SummedAreaTables.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/SummedAreaTables.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Means of positions: the ends to the bit, what has no weight is not read, ranges are independent.
-#include "WeightedMean.h"
+#include "Core/Flow/WeightedMean.h"
 
 #include <gtest/gtest.h>
 

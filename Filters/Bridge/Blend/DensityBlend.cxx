@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Blend/DensityBlend.h"
+
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Image/CommonFrame.h"
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/MassSplat.h"
+#include "Core/Flow/WeightedMean.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double partOfMean = 0.2; // of the progress that is left when the maps are there
+constexpr double partOfParticles = 0.4;
+
+ImageFrame frameOf(const std::vector<BlendInput>& inputs, const int dimensions[3])
+{
+  std::vector<FramePart> parts;
+  for (const BlendInput& input : inputs)
+  {
+    parts.push_back({ ImageFrame(input.Image), input.Density->IsOnPoints(), input.Name });
+  }
+  return commonFrame(parts, dimensions);
+}
+
+std::array<std::int64_t, 3> gridOf(const ImageGeometry& geometry)
+{
+  std::array<std::int64_t, 3> grid{ 1, 1, 1 };
+  const GridSize<3> size = geometry.Size<3>();
+  std::copy_n(size.begin(), geometry.Dimension(), grid.begin());
+  return grid;
+}
+
+void requireMemoryFor(double particles, std::size_t inputs)
+{
+  // Positions for each input and between them, masses and vertices.
+  const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
+  std::ostringstream purpose;
+  purpose.precision(20);
+  purpose << particles << " particles (see ParticlesPerCell and Dimensions)";
+  requireMemory(purpose.str(), each * particles);
+}
+
+// An array of values that are not initialised.
+void renew(
+  vtkSmartPointer<vtkDoubleArray>& array, const char* name, int components, std::int64_t tuples)
+{
+  const bool isMine = array && array->GetReferenceCount() == 1;
+  if (!isMine || array->GetNumberOfTuples() != tuples)
+  {
+    array = nullptr;
+    array = newArray<vtkDoubleArray>(name, components, tuples);
+    return;
+  }
+  array->GetInformation()->Clear();
+  array->SetName(name);
+  array->Modified();
+}
+
+// What new maps cost beside what follows from them, in nanoseconds a particle, as measured.
+double partOfMaps(std::size_t newMaps, int dimension, const FlowOptions& flow)
+{
+  const double evaluations =
+    flow.NumberOfSteps * (flow.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+  const double maps = static_cast<double>(newMaps) * evaluations * (dimension == 3 ? 60.0 : 15.0);
+  return maps / (maps + 60.0);
+}
+
+} // namespace
+
+std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+  FlowCache& tables, const Executor& executor, AlgorithmProgress& host, const BlendOutput& output)
+{
+  const bool onPoints = inputs.front().Density->IsOnPoints();
+  const ImageFrame frame = frameOf(inputs, settings.Dimensions);
+  requireMemoryFor(frame.NumberOfValues(onPoints) * settings.ParticlesPerCell, inputs.size());
+  frame.CopyTo(output.Density);
+  const ImageGeometry geometry(output.Density, onPoints);
+  const LinearizedMapSettings pivot{ gridOf(geometry), settings.ParticlesPerCell, settings.Flow };
+
+  const std::size_t newMaps = this->MatchMaps(inputs, pivot);
+  if (newMaps > 0)
+  {
+    this->Means = this->Masses = this->Density = nullptr; // the tables take their place
+  }
+  const double maps = partOfMaps(newMaps, geometry.Dimension(), settings.Flow);
+  const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, executor, host, maps);
+
+  host.BeginStage(maps + partOfMean * (1.0 - maps));
+  this->TakeMeans(inputs, executor, host);
+  const std::int64_t count = this->Means->GetNumberOfTuples();
+  const double mass = this->TotalMass(inputs, settings.Mode);
+  const SplatTarget target{ geometry, settings.Splat, true };
+  requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
+  const double massEach = mass / static_cast<double>(count);
+  const double particles = maps + partOfParticles * (1.0 - maps);
+  this->WriteParticles(inputs, massEach, executor, host, particles, output.Particles);
+  addFieldValue(output.Particles, "TotalMass", mass);
+
+  host.BeginStage(1.0);
+  renew(this->Density, "Density", 1, geometry.NumberOfCells());
+  splatPoints(this->Means->GetPointer(0), count, massEach, target, executor, host, this->Density);
+  output.Density->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
+    ->SetScalars(this->Density);
+  addFieldValue(output.Density, "TotalMass", mass);
+  return moved;
+}
+
+// Each input takes the map of its density, wherever that was in the list before. Returns how many
+// may have to be made.
+std::size_t DensityBlend::MatchMaps(
+  const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings)
+{
+  const std::vector<LinearizedMap> before = std::exchange(this->Maps, {});
+  std::size_t outdated = 0;
+  for (const BlendInput& input : inputs)
+  {
+    const DensityImage& density = *input.Density;
+    auto match = std::find_if(before.begin(), before.end(),
+      [&](const LinearizedMap& map) { return !map.IsOutdated(density, settings); });
+    if (match == before.end())
+    {
+      ++outdated;
+      match = std::find_if(before.begin(), before.end(),
+        [&](const LinearizedMap& map) { return map.IsCandidate(density); });
+    }
+    this->Maps.push_back(match == before.end() ? LinearizedMap() : *match);
+  }
+  return outdated;
+}
+
+std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
+  const LinearizedMapSettings& settings, FlowCache& tables, const Executor& executor,
+  AlgorithmProgress& host, double progress)
+{
+  // They take as much memory as the particles, and a small part of the time to be built.
+  struct Releaser
+  {
+    FlowCache& Tables;
+    ~Releaser() { this->Tables.Release(); }
+  } const releaser{ tables };
+  std::int64_t moved = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    // One density may be several inputs.
+    const auto made = std::find_if(this->Maps.begin(), this->Maps.begin() + i,
+      [&](const LinearizedMap& map) { return !map.IsOutdated(*inputs[i].Density, settings); });
+    if (made != this->Maps.begin() + i)
+    {
+      this->Maps[i] = *made;
+    }
+    const double end = progress * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
+    nameFailures(inputs[i].Name, [&]() {
+      moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, executor, host, end);
+    });
+  }
+  return moved;
+}
+
+void DensityBlend::TakeMeans(
+  const std::vector<BlendInput>& inputs, const Executor& executor, AlgorithmProgress& host)
+{
+  std::vector<WeightedPositions> parts;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    parts.push_back({ this->Maps[i].Positions()->GetPointer(0), inputs[i].Weight });
+  }
+  const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
+  renew(this->Means, "Points", 3, count);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  double* means = this->Means->GetPointer(0);
+  host.Run(executor, count, grain, [&](std::int64_t first, std::int64_t last) {
+    writeWeightedMean(parts, 3 * first, 3 * last, means);
+  });
+}
+
+double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const
+{
+  if (mode == MassMode::Source || mode == MassMode::Normalize)
+  {
+    return mode == MassMode::Source ? this->Maps.front().TotalMass() : 1.0;
+  }
+  double sum = 0.0;
+  double product = 1.0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    sum += inputs[i].Weight * this->Maps[i].TotalMass();
+    product *= std::pow(this->Maps[i].TotalMass(), inputs[i].Weight);
+  }
+  return mode == MassMode::Linear ? sum : product;
+}
+
+void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
+  const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output)
+{
+  const std::int64_t count = this->Means->GetNumberOfTuples();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetData(this->Means);
+  output->SetPoints(points);
+  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
+  {
+    host.BeginStage(0.5 * (host.Reached() + progress));
+    this->Vertices = newParticleCells(count, 1, executor, host);
+  }
+  output->SetVerts(this->Vertices);
+
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    if (!inputs[i].PositionName.empty())
+    {
+      // One map may serve several inputs: the values are the same, the names are not.
+      vtkNew<vtkDoubleArray> named;
+      named->ShallowCopy(this->Maps[i].Positions());
+      named->SetName(inputs[i].PositionName.c_str());
+      output->GetPointData()->AddArray(named);
+    }
+  }
+  host.BeginStage(progress);
+  renew(this->Masses, "Mass", 1, count);
+  double* mass = this->Masses->GetPointer(0);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  host.Run(executor, count, grain,
+    [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
+  output->GetPointData()->AddArray(this->Masses);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Densities of one pivot: the maps to each of them, and the weighted means of the particles that
+// they move, as points and as a density (Sections 3.4, 5.2 and 5.3).
+#ifndef RectifiedTransport_DensityBlend_h
+#define RectifiedTransport_DensityBlend_h
+
+#include "Bridge/Blend/LinearizedMap.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Splat/Splat.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkCellArray;
+class vtkImageData;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// The values are those of the enumeration in vtkTransportBlend.
+enum class MassMode
+{
+  Linear,
+  Geometric,
+  Source,
+  Normalize
+};
+
+struct BlendInput
+{
+  std::unique_ptr<DensityImage> Density;
+  vtkImageData* Image;
+  std::string Name;         // as messages call it
+  std::string PositionName; // of the array of the particles' positions; empty for none
+  double Weight = 0.0;      // at least 0; all sum to 1
+};
+
+struct BlendSettings
+{
+  int Dimensions[3]; // as commonFrame takes them
+  int ParticlesPerCell;
+  MassMode Mode;
+  FlowOptions Flow;
+  SplatOptions Splat;
+};
+
+struct BlendOutput
+{
+  vtkImageData* Density;
+  vtkPolyData* Particles;
+};
+
+class DensityBlend
+{
+public:
+  // Maps of inputs that are not there any more are forgotten. Tables are built in `tables`, and
+  // not kept. Throws Failure, which names the input, and Aborted. Returns how many particles had
+  // to be moved out of empty cells to come to all densities, 0 where no map was new.
+  std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
+    FlowCache& tables, const Executor& executor, AlgorithmProgress& host,
+    const BlendOutput& output);
+
+private:
+  std::size_t MatchMaps(
+    const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings);
+  std::int64_t UpdateMaps(const std::vector<BlendInput>& inputs,
+    const LinearizedMapSettings& settings, FlowCache& tables, const Executor& executor,
+    AlgorithmProgress& host, double progress);
+  void TakeMeans(
+    const std::vector<BlendInput>& inputs, const Executor& executor, AlgorithmProgress& host);
+  double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
+  void WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
+    const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output);
+
+  std::vector<LinearizedMap> Maps;
+  vtkSmartPointer<vtkCellArray> Vertices; // the same for as many particles
+  // Of the last output, written again where nobody else holds them: new memory is cleared by the
+  // system, which takes as long as all else that is done when the maps are there.
+  vtkSmartPointer<vtkDoubleArray> Means;
+  vtkSmartPointer<vtkDoubleArray> Masses;
+  vtkSmartPointer<vtkDoubleArray> Density;
+};
+
+} // namespace RectifiedTransport
+
+#endif

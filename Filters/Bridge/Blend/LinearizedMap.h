@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the particles of the pivot, a unit box that holds equally many in each cell of a grid, come
+// to in one density (Section 3.4): kept until the density, the grid or the integration changes.
+#ifndef RectifiedTransport_LinearizedMap_h
+#define RectifiedTransport_LinearizedMap_h
+
+#include "Bridge/Density/ContentHash.h"
+#include "Core/Flow/FlowOptions.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class FlowCache;
+
+// What maps must share to be one particle's ways to several densities.
+struct LinearizedMapSettings
+{
+  std::array<std::int64_t, 3> Grid; // cells along the axes of index space, 1 where there is none
+  std::int64_t PerCell;
+  FlowOptions Options;
+
+  bool operator==(const LinearizedMapSettings& other) const
+  {
+    return this->Grid == other.Grid && this->PerCell == other.PerCell &&
+      this->Options == other.Options;
+  }
+};
+
+class LinearizedMap
+{
+public:
+  // Whether Update has to look closer, and most likely moves all particles.
+  bool IsOutdated(const DensityImage& density, const LinearizedMapSettings& settings) const;
+
+  // Whether it was made from this density in this place, its image aside, so that Update may find
+  // it the same.
+  bool IsCandidate(const DensityImage& density) const;
+
+  // Moves the particles if the density or the settings are others; progress then reaches
+  // `progress`. The tables are built in `tables`. Throws Failure and Aborted; the next update then
+  // moves them. Returns how many particles, of those that it has moved, ended in an empty cell and
+  // were put on the nearest mass.
+  std::int64_t Update(DensityImage& density, const LinearizedMapSettings& settings,
+    FlowCache& tables, const Executor& executor, AlgorithmProgress& host, double progress);
+
+  // Physical, 3 components; tuples are in the order of PivotLattice. Not to be written to.
+  vtkDoubleArray* Positions() const { return this->Kept; }
+  // Density times cell measure, summed.
+  double TotalMass() const { return this->Mass; }
+
+private:
+  template <int D>
+  std::int64_t Move(DensityImage& density, FlowCache& tables, const Executor& executor,
+    AlgorithmProgress& host, double progress);
+
+  ContentHash Stamp;
+  ImageGeometry Place; // the stamp is of the values alone, the positions are physical
+  LinearizedMapSettings Settings{};
+  vtkSmartPointer<vtkDoubleArray> Kept;
+  double Mass = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

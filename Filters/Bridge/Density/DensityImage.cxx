@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Density/DensityImage.h"
+
+#include "Bridge/Density/DensityReader.h"
+#include "Bridge/Density/Fingerprint.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
+void requireComponent(const std::string& name, int component, int count)
+{
+  constexpr int mostColours = 4;
+  if (component >= -1 && component < count && (component >= 0 || count <= mostColours))
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << "Component is " << component << ", but the " << name << " has " << count
+          << (count == 1 ? " component" : " components") << "; it must be ";
+  if (count <= mostColours)
+  {
+    message << "-1 (luminance)" << (count == 1 ? " or 0" : " or an index from 0 to ");
+  }
+  else
+  {
+    message << "an index from 0 to ";
+  }
+  if (count > 1)
+  {
+    message << count - 1;
+  }
+  throw Failure(message.str());
+}
+
+} // namespace
+
+DensityImage::DensityImage(
+  vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
+  : OnPoints(onPoints)
+  , Array(array)
+  , Rules(rules)
+  , Name(array->GetName() ? std::string("density array '") + array->GetName() + "'"
+                          : std::string("density array (which has no name)"))
+{
+  const vtkIdType expected = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
+  if (array->GetNumberOfTuples() != expected)
+  {
+    std::ostringstream message;
+    message << "The " << this->Name << " has " << array->GetNumberOfTuples()
+            << " tuples, but the input image has " << expected << (onPoints ? " points" : " cells")
+            << "; there must be one for each";
+    throw Failure(message.str());
+  }
+  requireComponent(this->Name, rules.Component, array->GetNumberOfComponents());
+  this->Place = ImageGeometry(image, onPoints);
+  this->FindBlanks(image, onPoints);
+  this->Reader = makeDensityReader(array);
+
+  const auto time = [](vtkObject* object) {
+    return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
+  };
+  // The image's own time, not that of all its arrays.
+  this->Time = static_cast<std::uint64_t>(image->vtkObject::GetMTime());
+  this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
+  const double measure = this->Place.CellMeasure();
+  std::uint64_t measureBits = 0;
+  std::memcpy(&measureBits, &measure, sizeof(measure));
+  this->Key = { time(array), time(image->GetPointGhostArray()), time(image->GetCellGhostArray()),
+    static_cast<std::uint64_t>(onPoints), static_cast<std::uint64_t>(this->Place.Dimension()), 0, 0,
+    0, static_cast<std::uint64_t>(rules.Component + 1), rules.Invert, rules.ClampNegative,
+    measureBits };
+  const GridSize<3> size = this->Place.Size<3>();
+  std::copy(size.begin(), size.end(), this->Key.begin() + 5);
+}
+
+DensityImage::~DensityImage() = default;
+
+std::uint64_t DensityImage::Fingerprint(const Executor& executor, AlgorithmProgress& host) const
+{
+  return fingerprint({ this->Sources.begin(), this->Sources.end() }, executor, host);
+}
+
+void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
+{
+  constexpr const char* what = "input image";
+  const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
+  if (onPoints)
+  {
+    this->Flags = points;
+    this->FlagMask = ghostPoint;
+    return;
+  }
+  this->Flags = ghostFlags(image, vtkDataObject::CELL, what);
+  this->FlagMask = ghostCell;
+  this->HiddenPoints = points;
+}
+
+void DensityImage::Prepare(const Executor& executor, AlgorithmProgress& host)
+{
+  if (this->HiddenPoints)
+  {
+    this->BlankCellsOfHiddenPoints(executor, host);
+  }
+  const int components = this->Array->GetNumberOfComponents();
+  const bool alpha = this->Rules.Component < 0 && (components == 2 || components == 4);
+  if (!this->Rules.Invert && !alpha)
+  {
+    return;
+  }
+  if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
+  {
+    this->White = std::numeric_limits<unsigned char>::max();
+    return;
+  }
+  this->FindWhite(executor, host);
+}
+
+void DensityImage::BlankCellsOfHiddenPoints(const Executor& executor, AlgorithmProgress& host)
+{
+  const GridSize<3> size = this->Place.Size<3>();
+  const int dimension = this->Place.Dimension();
+  const std::int64_t cells[3] = { size[0], dimension > 1 ? size[1] : 1,
+    dimension > 2 ? size[2] : 1 };
+  const std::int64_t rowStep = cells[0] + 1;
+  const std::int64_t planeStep = dimension > 1 ? rowStep * (cells[1] + 1) : 0;
+  const int corners = 1 << dimension;
+  this->CombinedFlags.resize(static_cast<std::size_t>(this->Place.NumberOfCells()));
+  unsigned char* combined = this->CombinedFlags.data();
+  const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / cells[0]);
+  host.Run(executor, cells[1] * cells[2], rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t row = first; row < last; ++row)
+    {
+      const unsigned char* points =
+        this->HiddenPoints + row % cells[1] * rowStep + row / cells[1] * planeStep;
+      for (std::int64_t i = 0; i < cells[0]; ++i)
+      {
+        unsigned char hidden = 0;
+        for (int corner = 0; corner < corners; ++corner)
+        {
+          hidden |=
+            points[i + (corner & 1) + (corner >> 1 & 1) * rowStep + (corner >> 2) * planeStep];
+        }
+        const std::int64_t cell = row * cells[0] + i;
+        const unsigned char own = this->Flags ? this->Flags[cell] : 0;
+        combined[cell] = (hidden & vtkDataSetAttributes::HIDDENPOINT) ? this->FlagMask : own;
+      }
+    }
+  });
+  this->Flags = combined;
+}
+
+void DensityImage::FindWhite(const Executor& executor, AlgorithmProgress& host)
+{
+  const std::int64_t cells = this->Place.NumberOfCells();
+  std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain));
+  host.Run(executor, cells, grain, [&](std::int64_t first, std::int64_t last) {
+    maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first,
+      this->Rules.Component, this->Flags ? this->Flags + first : nullptr, this->FlagMask);
+  });
+  const double largest = *std::max_element(maxima.begin(), maxima.end());
+  // Without a finite value there is no density either, which the tables will say.
+  this->White = std::isfinite(largest) ? largest : 0.0;
+}
+
+void DensityImage::Read(std::int64_t first, std::int64_t count, double* values) const
+{
+  this->Reader->Read(
+    first, count, { this->Rules.Component, this->Rules.Invert, this->White }, values);
+  if (this->Rules.ClampNegative)
+  {
+    // Minus infinity stays, to be found.
+    constexpr double lowest = std::numeric_limits<double>::lowest();
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = values[i] < 0.0 && values[i] >= lowest ? 0.0 : values[i];
+    }
+  }
+  if (this->Flags)
+  {
+    const unsigned char* flags = this->Flags + first;
+    const unsigned char mask = this->FlagMask;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = (flags[i] & mask) ? 0.0 : values[i];
+    }
+  }
+}
+
+void DensityImage::Explain(const DensitySummary& summary) const
+{
+  std::ostringstream message;
+  message << "The " << this->Name << " has ";
+  if (summary.NotFinite > 0)
+  {
+    message << summary.NotFinite << (summary.NotFinite == 1 ? " value that is" : " values that are")
+            << " NaN or infinite, the first at index " << summary.FirstNotFinite
+            << "; every value must be finite";
+  }
+  else if (summary.Negative > 0)
+  {
+    message << summary.Negative << (summary.Negative == 1 ? " negative value" : " negative values")
+            << ", the first at index " << summary.FirstNegative
+            << "; a density must not be negative (NegativeValues = Clamp takes them as 0)";
+  }
+  else if (std::isinf(summary.Total))
+  {
+    message << "a total mass past the largest double; its values must be smaller";
+  }
+  else
+  {
+    message << "a total mass of zero"
+            << (this->Flags ? " (duplicate and blanked ghosts carry none)" : "")
+            << "; at least one value must be positive";
+  }
+  throw Failure(message.str());
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A grid's size as messages say it.
+#ifndef RectifiedTransport_GridText_h
+#define RectifiedTransport_GridText_h
+
+#include "Core/Tables/Density.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+template <int D>
+std::string describeSize(const GridSize<D>& size)
+{
+  std::string text;
+  for (int a = 0; a < D; ++a)
+  {
+    text += (a == 0 ? "" : " x ") + std::to_string(size[a]);
+  }
+  return text;
+}
+
+} // namespace RectifiedTransport
+
+#endif

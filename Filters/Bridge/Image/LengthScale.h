@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lengths of a domain in units of about its size: their squares are then numbers wherever they are.
+#ifndef RectifiedTransport_LengthScale_h
+#define RectifiedTransport_LengthScale_h
+
+#include "Bridge/Image/ImageGeometry.h"
+#include "Bridge/Run/Failure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+// The unit is a power of two, so that a change of units does not round.
+class LengthScale
+{
+public:
+  explicit LengthScale(const ImageGeometry& geometry)
+    : Exponent(std::clamp(std::ilogb(geometry.Diagonal()), -most, most))
+    , UnitsALength(std::ldexp(1.0, -this->Exponent))
+    , LengthOfUnit(std::ldexp(1.0, this->Exponent))
+  {
+  }
+
+  double ToUnits(double length) const { return length * this->UnitsALength; }
+  double FromUnits(double units) const { return units * this->LengthOfUnit; }
+
+  // The sum of the squares of a vector's components.
+  double SquareInUnits(const double* vector) const
+  {
+    const double v[3] = { this->ToUnits(vector[0]), this->ToUnits(vector[1]),
+      this->ToUnits(vector[2]) };
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  }
+
+  // The cost that is a mean of such squares. Throws Failure where it passes the largest double.
+  double CostFromUnits(double squares) const
+  {
+    const double cost = std::ldexp(squares, 2 * this->Exponent);
+    if (!std::isfinite(cost))
+    {
+      throw Failure("TransportCost, the mean of the squared displacements, passes the largest "
+                    "double; the spacing of the density must be smaller");
+    }
+    return cost;
+  }
+
+private:
+  static constexpr int most = 1000; // 2^most and its inverse are numbers
+
+  int Exponent;
+  double UnitsALength;
+  double LengthOfUnit;
+};
+
+} // namespace RectifiedTransport
+
+#endif

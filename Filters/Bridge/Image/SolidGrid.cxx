@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Image/SolidGrid.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/PropertyCheck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+void SolidGrid::RequireRanges(int resolution, double padding)
+{
+  requireResolution("Resolution", resolution);
+  requireThat(padding >= 0.0 && std::isfinite(padding), "Padding", padding,
+    "0 or a positive number, a share of the longest side");
+}
+
+SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
+{
+  SolidGrid::RequireRanges(resolution, padding);
+  double longest = 0.0;
+  double farthest = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    longest = std::isfinite(length) ? std::max(longest, length) : HUGE_VAL;
+    farthest = std::max({ farthest, std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1]) });
+  }
+  const double grown = longest * (1.0 + 2.0 * padding);
+  if (!std::isfinite(4.0 * grown))
+  {
+    std::ostringstream message;
+    message << "Padding is " << padding << " and the input's longest side " << longest
+            << "; the box around it must have finite sides";
+    throw Failure(message.str());
+  }
+  this->Width = grown / resolution;
+  // Or neither the image's own coordinates nor the surface's would tell cells apart.
+  constexpr double smallest = 1e-12;
+  if (!(this->Width >= std::max(smallest * farthest, std::numeric_limits<double>::min())))
+  {
+    std::ostringstream message;
+    message << "Resolution is " << resolution << ", which makes cells of " << this->Width
+            << " for coordinates of up to " << farthest
+            << "; cells must be at least 1e-12 of that: lower Resolution, or move the surface "
+               "nearer to the origin";
+    throw Failure(message.str());
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    // What a side has more than whole cells by rounding is no cell.
+    constexpr double rounding = 1e-9;
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    const double part = (length + 2.0 * padding * longest) / grown;
+    const double cells = std::min(std::ceil(part * resolution - rounding), 1.0 * resolution);
+    this->Size[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(cells));
+    const double centre = bounds[2 * a] + 0.5 * length;
+    this->Low[a] = centre - 0.5 * this->Width * static_cast<double>(this->Size[a]);
+  }
+}
+
+ImageFrame SolidGrid::Frame(bool onPoints) const
+{
+  std::array<int, 3> points;
+  std::array<double, 3> origin = this->Low;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    points[a] = static_cast<int>(this->Size[a]) + (onPoints ? 0 : 1);
+    origin[a] += onPoints ? 0.5 * this->Width : 0.0;
+  }
+  return ImageFrame(points, origin, { this->Width, this->Width, this->Width });
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/GhostFlags.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
+{
+  auto* array = vtkUnsignedCharArray::SafeDownCast(
+    data->GetAttributes(owner)->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!array)
+  {
+    return nullptr;
+  }
+  const vtkIdType expected = data->GetNumberOfElements(owner);
+  if (array->GetNumberOfValues() != expected)
+  {
+    const std::string owners = owner == vtkDataObject::POINT ? "points" : "cells";
+    throw Failure("The ghost array '" + std::string(array->GetName()) + "' of the " + owners +
+      " of the " + what + " has " + std::to_string(array->GetNumberOfValues()) +
+      " values, but there are " + std::to_string(expected) + " " + owners +
+      "; there must be one for each");
+  }
+  return array->GetPointer(0);
+}
+
+CountedPoints::CountedPoints(vtkDataSet* points, const char* what)
+  : Number(points->GetNumberOfPoints())
+{
+  const unsigned char* flags = ghostFlags(points, vtkDataObject::POINT, what);
+  const std::int64_t all = this->Number;
+  const auto isGhost = [](unsigned char flag) { return (flag & ghostPoint) != 0; };
+  if (!flags || std::none_of(flags, flags + all, isGhost))
+  {
+    return;
+  }
+  this->Number -= std::count_if(flags, flags + all, isGhost);
+  withMemory("the numbers of the points that are no ghosts",
+    2.0 * sizeof(std::int64_t) * static_cast<double>(all), [&]() {
+      this->Numbers = LargeBuffer<std::int64_t>(all);
+      this->Indices = LargeBuffer<std::int64_t>(this->Number);
+    });
+  std::int64_t number = 0;
+  for (std::int64_t point = 0; point < all; ++point)
+  {
+    this->Numbers.data()[point] = isGhost(flags[point]) ? -1 : number;
+    if (!isGhost(flags[point]))
+    {
+      this->Indices.data()[number++] = point;
+    }
+  }
+}
+
+} // namespace RectifiedTransport

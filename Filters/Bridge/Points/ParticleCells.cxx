@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/ParticleCells.h"
+
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Memory.h"
+
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+
+namespace RectifiedTransport
+{
+
+vtkSmartPointer<vtkCellArray> newParticleCells(
+  vtkIdType count, vtkIdType pointsEach, const Executor& executor, AlgorithmProgress& host)
+{
+  auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, count + 1);
+  auto connectivity = newArray<vtkIdTypeArray>("Connectivity", 1, count * pointsEach);
+  vtkIdType* offset = offsets->GetPointer(0);
+  vtkIdType* id = connectivity->GetPointer(0);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  host.Run(executor, count, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      offset[i] = i * pointsEach;
+    }
+    for (std::int64_t i = first * pointsEach; i < last * pointsEach; ++i)
+    {
+      id[i] = i;
+    }
+  });
+  offset[count] = count * pointsEach;
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of particles: each has its own run of consecutive points.
+#ifndef RectifiedTransport_ParticleCells_h
+#define RectifiedTransport_ParticleCells_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Executor.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkCellArray;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class AlgorithmProgress;
+
+// As the work of the host's current stage. Throws Failure and Aborted.
+vtkSmartPointer<vtkCellArray> newParticleCells(
+  vtkIdType count, vtkIdType pointsEach, const Executor& executor, AlgorithmProgress& host);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/ParticleSet.h"
+
+#include "Bridge/Image/LengthScale.h"
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Memory.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double partOfPoints = 0.8; // of the time to write, the rest is for cells
+
+double squaredDistance(const LengthScale& scale, const double* a, const double* b)
+{
+  const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  return scale.SquareInUnits(d);
+}
+
+} // namespace
+
+template <int D>
+ParticleSet<D>::ParticleSet(const ImageGeometry& geometry, const std::string& purpose, double count,
+  std::int64_t times, bool seedsGiven)
+  : Geometry(geometry)
+  , Times(times)
+  , SeedsGiven(seedsGiven)
+{
+  const bool paths = times > 1;
+  const bool separateSeeds = D != 3 || paths || seedsGiven;
+  const bool separatePositions = D != 3;
+  const double each = static_cast<double>(times);
+  constexpr double real = sizeof(double);
+  constexpr double id = sizeof(vtkIdType);
+  const double written = paths ? each * (5 * real + 2 * id) + id : 10 * real + 3 * id;
+  const double scratch =
+    real * D * ((separateSeeds ? 1.0 : 0.0) + (separatePositions ? each : 0.0));
+  requireMemory(purpose, count * (written + scratch));
+
+  this->NumberOfParticles = static_cast<std::int64_t>(count);
+  this->Points = newArray<vtkDoubleArray>("Points", 3, this->NumberOfParticles * times);
+  if (!paths || seedsGiven)
+  {
+    this->SeedPosition = newArray<vtkDoubleArray>("SeedPosition", 3, this->NumberOfParticles);
+  }
+  withMemory(purpose, count * scratch, [&]() {
+    if (separateSeeds)
+    {
+      this->SeedBuffer = LargeBuffer<double>(this->NumberOfParticles * D);
+    }
+    if (separatePositions)
+    {
+      this->PositionBuffer = LargeBuffer<double>(this->NumberOfParticles * times * D);
+    }
+  });
+}
+
+template <int D>
+double* ParticleSet<D>::Seeds()
+{
+  return this->SeedBuffer.data() ? this->SeedBuffer.data() : this->SeedPosition->GetPointer(0);
+}
+
+template <int D>
+double* ParticleSet<D>::Positions()
+{
+  return this->PositionBuffer.data() ? this->PositionBuffer.data() : this->Points->GetPointer(0);
+}
+
+template <int D>
+double* ParticleSet<D>::PhysicalSeeds()
+{
+  return this->SeedPosition->GetPointer(0);
+}
+
+// particle(i) returns a number; sums of fixed chunks make the mean the same for every executor.
+template <int D>
+template <class Particle>
+double ParticleSet<D>::MeanOverParticles(
+  const Executor& executor, AlgorithmProgress& host, const Particle& particle) const
+{
+  const std::int64_t count = this->NumberOfParticles;
+  const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
+  std::vector<double> sums(static_cast<std::size_t>((count + chunk - 1) / chunk));
+  host.Run(executor, count, chunk, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t begin = first; begin < last; begin += chunk)
+    {
+      double sum = 0.0;
+      for (std::int64_t i = begin; i < std::min(begin + chunk, last); ++i)
+      {
+        sum += particle(i);
+      }
+      sums[static_cast<std::size_t>(begin / chunk)] = sum;
+    }
+  });
+  double total = 0.0;
+  for (const double sum : sums)
+  {
+    total += sum;
+  }
+  return total / static_cast<double>(count);
+}
+
+template <int D>
+void ParticleSet<D>::ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const
+{
+  if (this->SeedsGiven)
+  {
+    std::copy_n(this->SeedPosition->GetPointer(3 * particle), 3, seed);
+    return;
+  }
+  this->Geometry.template ToPhysical<D>(index, seed);
+}
+
+// A particle that has not moved is where its seed is, without the rounding by way of index space.
+template <int D>
+void ParticleSet<D>::ToPhysical(
+  const double* index, const double* indexSeed, const double* seed, double* x) const
+{
+  if (std::equal(index, index + D, indexSeed))
+  {
+    std::copy_n(seed, 3, x);
+    return;
+  }
+  this->Geometry.template ToPhysical<D>(index, x);
+}
+
+template <int D>
+void ParticleSet<D>::SetPoints(vtkPolyData* output) const
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetData(this->Points);
+  output->SetPoints(points);
+}
+
+template <int D>
+double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor,
+  AlgorithmProgress& host, double progress, vtkPolyData* output)
+{
+  const std::int64_t count = this->NumberOfParticles;
+  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
+  auto displacements = newArray<vtkDoubleArray>("Displacement", 3, count);
+  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  vtkIdType* id = ids->GetPointer(0);
+  double* displacement = displacements->GetPointer(0);
+  double* mass = masses->GetPointer(0);
+  double* points = this->Points->GetPointer(0);
+  double* physicalSeeds = this->SeedPosition->GetPointer(0);
+  const double* seeds = this->Seeds();
+  const double* positions = this->Positions();
+  const double share = totalMass / static_cast<double>(count);
+  const LengthScale scale(this->Geometry);
+
+  host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
+  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+    double index[D];
+    std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
+    double* seed = physicalSeeds + i * 3;
+    double* x = points + i * 3;
+    this->ToPhysicalSeed(i, index, seed);
+    this->ToPhysical(positions + i * D, index, seed, x);
+    for (int r = 0; r < 3; ++r)
+    {
+      displacement[i * 3 + r] = x[r] - seed[r];
+    }
+    id[i] = i;
+    mass[i] = share;
+    return squaredDistance(scale, x, seed);
+  });
+
+  const double cost = scale.CostFromUnits(squares);
+  host.BeginStage(progress);
+  output->SetVerts(newParticleCells(count, 1, executor, host));
+  this->SetPoints(output);
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(ids);
+  data->AddArray(this->SeedPosition);
+  data->SetVectors(displacements);
+  data->AddArray(masses);
+  return cost;
+}
+
+template <int D>
+double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& times,
+  const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output)
+{
+  const std::int64_t count = this->NumberOfParticles;
+  const std::int64_t each = this->Times;
+  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count * each);
+  auto timeArray = newArray<vtkDoubleArray>("Time", 1, count * each);
+  auto masses = newArray<vtkDoubleArray>("Mass", 1, count * each);
+  vtkIdType* id = ids->GetPointer(0);
+  double* time = timeArray->GetPointer(0);
+  double* mass = masses->GetPointer(0);
+  double* points = this->Points->GetPointer(0);
+  const double* seeds = this->Seeds();
+  const double* positions = this->Positions();
+  const double share = totalMass / static_cast<double>(count);
+  const LengthScale scale(this->Geometry);
+
+  host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
+  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+    const double* index = seeds + i * D;
+    double seed[3];
+    this->ToPhysicalSeed(i, index, seed);
+    for (std::int64_t p = i * each; p < (i + 1) * each; ++p)
+    {
+      this->ToPhysical(positions + p * D, index, seed, points + p * 3);
+      id[p] = i;
+      time[p] = times[static_cast<std::size_t>(p - i * each)];
+      mass[p] = share;
+    }
+    return squaredDistance(scale, points + ((i + 1) * each - 1) * 3, seed);
+  });
+
+  const double cost = scale.CostFromUnits(squares);
+  host.BeginStage(progress);
+  output->SetLines(newParticleCells(count, each, executor, host));
+  this->SetPoints(output);
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(ids);
+  data->AddArray(timeArray);
+  data->AddArray(masses);
+  return cost;
+}
+
+template class ParticleSet<1>;
+template class ParticleSet<2>;
+template class ParticleSet<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles between the core's index space and a vtkPolyData: memory for seeds and positions, and
+// the pass that makes VTK's arrays of them.
+#ifndef RectifiedTransport_ParticleSet_h
+#define RectifiedTransport_ParticleSet_h
+
+#include "Bridge/Image/ImageGeometry.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDoubleArray;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class AlgorithmProgress;
+
+// Positions of particles, each at one time or along a path of several. What is large is not copied:
+// in 3D, index space and physical space share their memory.
+template <int D>
+class ParticleSet
+{
+public:
+  // Memory for `count` particles at `times` times each. Throws Failure before anything is allocated
+  // if it is too much for the system, whatever `count` is; `purpose` completes "not enough memory
+  // for". `seedsGiven`: PhysicalSeeds will be written, not computed.
+  ParticleSet(const ImageGeometry& geometry, const std::string& purpose, double count,
+    std::int64_t times, bool seedsGiven);
+
+  std::int64_t Count() const { return this->NumberOfParticles; }
+
+  // In index space, D doubles each; the positions of a particle together.
+  double* Seeds();
+  double* Positions();
+  // In physical space, 3 doubles each.
+  double* PhysicalSeeds();
+
+  // Turns positions into points with vertices, SeedId, SeedPosition, Displacement and Mass.
+  // Positions are gone afterwards. Returns the mean squared displacement. Progress reaches
+  // `progress`. Throws Failure and Aborted.
+  double WriteParticles(double totalMass, const Executor& executor, AlgorithmProgress& host,
+    double progress, vtkPolyData* output);
+
+  // The same with polylines, SeedId, Time and Mass.
+  double WritePaths(double totalMass, const std::vector<double>& times, const Executor& executor,
+    AlgorithmProgress& host, double progress, vtkPolyData* output);
+
+private:
+  template <class Particle>
+  double MeanOverParticles(
+    const Executor& executor, AlgorithmProgress& host, const Particle& particle) const;
+  void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
+  void ToPhysical(
+    const double* index, const double* indexSeed, const double* seed, double* x) const;
+  void SetPoints(vtkPolyData* output) const;
+
+  const ImageGeometry& Geometry;
+  std::int64_t NumberOfParticles;
+  std::int64_t Times;
+  bool SeedsGiven;
+  vtkSmartPointer<vtkDoubleArray> SeedPosition;
+  vtkSmartPointer<vtkDoubleArray> Points;
+  LargeBuffer<double> SeedBuffer;
+  LargeBuffer<double> PositionBuffer;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One pass over the points of an input, in double precision.
+#ifndef RectifiedTransport_PointInput_h
+#define RectifiedTransport_PointInput_h
+
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Executor.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkDataArrayRange.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// The point set of a port, nullptr if there is none. Throws Failure for a block of another type,
+// which no executive refuses.
+vtkPointSet* pointSetOf(vtkInformationVector* port);
+
+// The bounds of all points of a set, those of no cell too. VTK's own are kept, and do not follow
+// coordinates that are written in place.
+void findBounds(vtkPointSet* points, double bounds[6]);
+
+// Points whose coordinates are not finite, as several threads find them.
+class NotFinitePoints
+{
+public:
+  void Add(std::int64_t count, std::int64_t first);
+  // Throws the Failure that says how many there are of the input that `what` names.
+  void RequireNone(const std::string& what) const;
+
+private:
+  std::atomic<std::int64_t> Count{ 0 };
+  std::atomic<std::int64_t> First{ -1 };
+};
+
+// Calls visit(i, x) for the points of a range of tuples.
+template <class Visit>
+class PointPass
+{
+public:
+  explicit PointPass(const Visit& visit)
+    : VisitPoint(visit)
+  {
+  }
+
+  template <class ArrayT>
+  void operator()(ArrayT* array, const Executor& executor, AlgorithmProgress& host)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+    host.Run(executor, array->GetNumberOfTuples(), grain,
+      [this, array](std::int64_t first, std::int64_t last) {
+        this->Range(vtk::DataArrayTupleRange<3>(array, first, last), first);
+      });
+  }
+
+  NotFinitePoints NotFinite;
+
+private:
+  template <class Tuples>
+  void Range(const Tuples& tuples, std::int64_t first)
+  {
+    std::int64_t notFinite = 0;
+    std::int64_t firstNotFinite = -1;
+    std::int64_t i = first;
+    for (const auto tuple : tuples)
+    {
+      const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
+        static_cast<double>(tuple[2]) };
+      if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+      {
+        this->VisitPoint(i, x);
+      }
+      else
+      {
+        firstNotFinite = notFinite++ == 0 ? i : firstNotFinite;
+      }
+      ++i;
+    }
+    if (notFinite > 0)
+    {
+      this->NotFinite.Add(notFinite, firstNotFinite);
+    }
+  }
+
+  const Visit& VisitPoint;
+};
+
+// Calls visit(i, x) for every point of a set, on several threads, as the work of the current stage.
+// Throws Failure for coordinates that are not finite, naming the input as `what`, and Aborted.
+template <class Visit>
+void visitPoints(vtkPointSet* points, const std::string& what, const Executor& executor,
+  AlgorithmProgress& host, const Visit& visit)
+{
+  PointPass<Visit> pass(visit);
+  vtkDataArray* coordinates = points->GetPoints()->GetData();
+  using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
+  if (!Dispatch::Execute(coordinates, pass, executor, host))
+  {
+    pass(coordinates, executor, host);
+  }
+  pass.NotFinite.RequireNone(what);
+}
+
+} // namespace RectifiedTransport
+
+#endif

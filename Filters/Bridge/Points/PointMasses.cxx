@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/PointMasses.h"
+
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+
+std::string listArrays(vtkPointSet* points)
+{
+  std::string list;
+  vtkPointData* data = points->GetPointData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = data->GetArray(i))
+    {
+      const char* name = array->GetName();
+      list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
+    }
+  }
+  return list.empty() ? "no point arrays" : list + " (point)";
+}
+
+// What a range of points has, in the order of their indices.
+struct RangeOfMasses
+{
+  double Sum = 0.0;
+  double Sizes = 0.0;
+  std::int64_t NotFinite = 0;
+  std::int64_t First = -1;
+};
+
+// Copies values, or 1 each, but nothing of ghosts.
+class ReadMasses
+{
+public:
+  ReadMasses(const unsigned char* ghosts, double* masses, std::int64_t count)
+    : Ghosts(ghosts)
+    , Masses(masses)
+    , Ranges(static_cast<std::size_t>((count + grain - 1) / grain))
+    , Count(count)
+  {
+  }
+
+  template <class ArrayT>
+  void operator()(ArrayT* array, const Executor& executor, AlgorithmProgress& host)
+  {
+    host.Run(executor, this->Count, grain, [this, array](std::int64_t first, std::int64_t last) {
+      const auto values = vtk::DataArrayValueRange<1>(array, first, last);
+      auto value = values.begin();
+      this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
+    });
+  }
+
+  void ReadOnes(const Executor& executor, AlgorithmProgress& host)
+  {
+    host.Run(executor, this->Count, grain, [this](std::int64_t first, std::int64_t last) {
+      this->Read(first, last, []() { return 1.0; });
+    });
+  }
+
+  RangeOfMasses All() const
+  {
+    RangeOfMasses all;
+    for (const RangeOfMasses& range : this->Ranges)
+    {
+      all.Sum += range.Sum;
+      all.Sizes += range.Sizes;
+      all.First = all.NotFinite == 0 ? range.First : all.First;
+      all.NotFinite += range.NotFinite;
+    }
+    return all;
+  }
+
+private:
+  // Ranges may hold several times the grain.
+  template <class Next>
+  void Read(std::int64_t first, std::int64_t last, const Next& next)
+  {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      RangeOfMasses& range = this->Ranges[static_cast<std::size_t>(i / grain)];
+      const double value = next();
+      const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
+      if (!isGhost && !std::isfinite(value))
+      {
+        range.First = range.NotFinite++ == 0 ? i : range.First;
+      }
+      this->Masses[i] = isGhost ? 0.0 : value;
+      range.Sum += this->Masses[i];
+      range.Sizes += std::abs(this->Masses[i]);
+    }
+  }
+
+  const unsigned char* Ghosts;
+  double* Masses;
+  std::vector<RangeOfMasses> Ranges;
+  std::int64_t Count;
+};
+
+vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const std::string& text)
+{
+  vtkDataArray* array = vtkDataArray::SafeDownCast(found);
+  if (!array)
+  {
+    throw Failure(text + " is not numeric; the input has " + listArrays(points));
+  }
+  const int components = array->GetNumberOfComponents();
+  if (components != 1)
+  {
+    throw Failure(text + " has " + std::to_string(components) + " components; it must have 1");
+  }
+  if (array->GetNumberOfTuples() != points->GetNumberOfPoints())
+  {
+    throw Failure(text + " has " + std::to_string(array->GetNumberOfTuples()) +
+      " values, but there are " + std::to_string(points->GetNumberOfPoints()) +
+      " points; there must be one for each");
+  }
+  return array;
+}
+
+} // namespace
+
+vtkDataArray* findMasses(vtkPointSet* points, int attribute)
+{
+  vtkAbstractArray* found = points->GetPointData()->GetAbstractAttribute(attribute);
+  if (!found)
+  {
+    const char* kind = vtkDataSetAttributes::GetAttributeTypeAsString(attribute);
+    throw Failure("The input's points have no active " + std::string(kind ? kind : "attribute") +
+      " to take the masses from; they have " + listArrays(points));
+  }
+  const char* name = found->GetName();
+  return requireMasses(points, found, "The mass array '" + std::string(name ? name : "") + "'");
+}
+
+vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
+{
+  vtkAbstractArray* found =
+    name.empty() ? nullptr : points->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found && (name.empty() || name == "None"))
+  {
+    return nullptr;
+  }
+  if (!found)
+  {
+    throw Failure("The input has no mass array '" + name + "'; it has " + listArrays(points));
+  }
+  return requireMasses(points, found, "The mass array '" + name + "'");
+}
+
+PointMasses::PointMasses(
+  vtkPointSet* points, vtkDataArray* array, const Executor& executor, AlgorithmProgress& host)
+{
+  const vtkIdType count = points->GetNumberOfPoints();
+  const unsigned char* ghosts = ghostFlags(points, vtkDataObject::POINT, "input point set");
+  if (!array && !ghosts)
+  {
+    this->Sum = static_cast<double>(count);
+    this->Sizes = this->Sum;
+    return;
+  }
+  this->Array = newArray<vtkDoubleArray>("Mass", 1, count);
+  ReadMasses read(ghosts, this->Array->GetPointer(0), count);
+  using Dispatch = vtkArrayDispatch::Dispatch;
+  if (!array)
+  {
+    read.ReadOnes(executor, host);
+  }
+  else if (!Dispatch::Execute(array, read, executor, host))
+  {
+    read(array, executor, host);
+  }
+  const RangeOfMasses all = read.All();
+  this->Sum = all.Sum;
+  this->Sizes = all.Sizes;
+  const char* name = array ? array->GetName() : nullptr;
+  std::ostringstream message;
+  message << "The mass array '" << (name ? name : "") << "' ";
+  if (all.NotFinite > 0)
+  {
+    message << "has " << all.NotFinite
+            << (all.NotFinite == 1 ? " value that is" : " values that are")
+            << " NaN or infinite, the first at index " << all.First
+            << "; all masses must be finite";
+    throw Failure(message.str());
+  }
+  if (!std::isfinite(all.Sum))
+  {
+    message << "sums to " << all.Sum << "; the sum must be a double";
+    throw Failure(message.str());
+  }
+}
+
+} // namespace RectifiedTransport

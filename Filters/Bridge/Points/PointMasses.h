@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The masses of the points of an input, checked and in double precision.
+#ifndef RectifiedTransport_PointMasses_h
+#define RectifiedTransport_PointMasses_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Executor.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class AlgorithmProgress;
+
+// The array of masses of that name; nullptr for no name, and for "None", which is no array's.
+// Throws Failure if it is missing, not numeric or has several components.
+vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
+
+// The array that is an attribute of the points, of vtkDataSetAttributes::AttributeTypes.
+vtkDataArray* findMasses(vtkPointSet* points, int attribute);
+
+class PointMasses
+{
+public:
+  PointMasses() = default;
+  // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
+  // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of
+  // another length, and Aborted.
+  PointMasses(
+    vtkPointSet* points, vtkDataArray* array, const Executor& executor, AlgorithmProgress& host);
+
+  // One a point; nullptr for 1 each.
+  const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
+  double Total() const { return this->Sum; }
+  // The sum of their sizes, without signs.
+  double TotalSize() const { return this->Sizes; }
+
+private:
+  vtkSmartPointer<vtkDoubleArray> Array;
+  double Sum = 0.0;
+  double Sizes = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

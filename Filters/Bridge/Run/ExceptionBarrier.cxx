@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/ExceptionBarrier.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <new>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const int none[6] = { 0, -1, 0, -1, 0, -1 };
+
+bool isStructured(vtkInformation* output)
+{
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  return data && data->GetExtentType() == VTK_3D_EXTENT;
+}
+
+bool isWithin(const int* part, const int* whole)
+{
+  const bool isEmpty = part[0] > part[1] || part[2] > part[3] || part[4] > part[5];
+  return isEmpty ||
+    (part[0] >= whole[0] && part[1] <= whole[1] && part[2] >= whole[2] && part[3] <= whole[3] &&
+      part[4] >= whole[4] && part[5] <= whole[5]);
+}
+
+void forgetRequest(vtkInformation* output)
+{
+  output->Set(Pipeline::UPDATE_EXTENT(), none, 6);
+  output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // it would come back from there
+  output->Remove(Pipeline::UPDATE_EXTENT_INITIALIZED());
+}
+
+// Visits the structured outputs of the filters that read an output, and of those behind them.
+// Returns whether these were all.
+template <class Visit>
+bool visitConsumers(vtkInformation* output, const Visit& visit)
+{
+  // A filter that was deleted stays among the consumers, but holds the information no longer. Which
+  // one it is cannot be told.
+  const int count = vtkExecutive::CONSUMERS()->Length(output);
+  if (output->GetReferenceCount() != count + 1)
+  {
+    return false;
+  }
+  bool isComplete = true;
+  vtkExecutive** consumers = vtkExecutive::CONSUMERS()->GetExecutives(output);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkInformationVector* outputs = consumers[i]->GetOutputInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      vtkInformation* next = outputs->GetInformationObject(j);
+      if (isStructured(next))
+      {
+        visit(next);
+        isComplete = visitConsumers(next, visit) && isComplete;
+      }
+    }
+  }
+  return isComplete;
+}
+
+bool emptyOutputs(vtkInformationVector* outputs)
+{
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, i))
+    {
+      output->Initialize();
+    }
+  }
+  return withdrawExtents(outputs);
+}
+
+} // namespace
+
+bool withdrawExtents(vtkInformationVector* outputs)
+{
+  const auto withdraw = [](vtkInformation* output) {
+    output->Set(Pipeline::WHOLE_EXTENT(), none, 6);
+    forgetRequest(output);
+  };
+  bool isComplete = true;
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    if (isStructured(output))
+    {
+      withdraw(output);
+      isComplete = visitConsumers(output, withdraw) && isComplete;
+    }
+    else if (output->Has(Pipeline::UPDATE_EXTENT()))
+    {
+      forgetRequest(output); // of a grid that was here before
+    }
+  }
+  return isComplete;
+}
+
+bool renewConsumers(vtkInformation* output)
+{
+  const bool isComplete = visitConsumers(output, forgetRequest);
+  const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    vtkExecutive* consumer = vtkExecutive::CONSUMERS()->GetExecutives(output)[i];
+    vtkInformationVector* outputs = consumer->GetOutputInformation();
+    consumer->UpdateInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      renewConsumers(outputs->GetInformationObject(j));
+    }
+  }
+  return isComplete;
+}
+
+bool withdrawUnmetRequests(vtkInformationVector* outputs)
+{
+  bool isComplete = true;
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    const int* asked = output->Get(Pipeline::UPDATE_EXTENT());
+    if (asked && isStructured(output) &&
+      !isWithin(
+        asked, vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT())))
+    {
+      output->Remove(vtkDataObject::ALL_PIECES_EXTENT()); // or the next reader would not come here
+      isComplete = visitConsumers(output, forgetRequest) && isComplete;
+    }
+  }
+  return isComplete;
+}
+
+int runBehindBarrier(
+  vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<int()>& body)
+{
+  std::string error;
+  try
+  {
+    return body();
+  }
+  catch (const Aborted&)
+  {
+    return emptyOutputs(outputs) ? 1 : 0;
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "Not enough memory";
+  }
+  catch (const std::exception& exception)
+  {
+    error = exception.what();
+  }
+  emptyOutputs(outputs);
+  vtkErrorWithObjectMacro(algorithm, << error);
+  return 0;
+}
+
+} // namespace RectifiedTransport

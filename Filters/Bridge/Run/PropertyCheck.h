@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Properties are checked when a filter runs; what is wrong is said in one sentence that names the
+// property, its value and what would be right.
+#ifndef RectifiedTransport_PropertyCheck_h
+#define RectifiedTransport_PropertyCheck_h
+
+#include "Bridge/Run/Failure.h"
+
+#include <cstddef>
+#include <cstdlib>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+
+namespace RectifiedTransport
+{
+
+// Cells along an axis, as in the core.
+constexpr int MaximumResolution = 1 << 30;
+
+// The text of a value of an enumeration.
+template <std::size_t Count>
+const char* choiceText(const char* const (&texts)[Count], int value)
+{
+  return value >= 0 && static_cast<std::size_t>(value) < Count ? texts[value] : "Unknown";
+}
+
+template <std::size_t Count>
+void requireChoice(const char* property, int value, const char* const (&texts)[Count])
+{
+  if (value >= 0 && static_cast<std::size_t>(value) < Count)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << property << " is " << value << "; it must be ";
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    message << (i == 0 ? "" : i + 1 < Count ? ", " : " or ") << i << " (" << texts[i] << ")";
+  }
+  throw Failure(message.str());
+}
+
+// `rule` completes "it must be ...".
+template <class T>
+void requireThat(bool holds, const char* property, T value, const char* rule)
+{
+  if (holds)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << property << " is ";
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // With more digits where these would make it another number, maybe one that is right.
+    std::ostringstream text;
+    text << value;
+    constexpr int all = std::numeric_limits<T>::max_digits10;
+    message << std::setprecision(std::strtod(text.str().c_str(), nullptr) == value ? 6 : all);
+  }
+  message << value << "; it must be " << rule;
+  throw Failure(message.str());
+}
+
+// A number of cells along an axis.
+inline void requireResolution(const char* property, int resolution)
+{
+  requireThat(resolution >= 1 && resolution <= MaximumResolution, property, resolution,
+    "from 1 to 1073741824");
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/SMPExecutor.h"
+
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
+{
+  const std::int64_t ranges = (count + grain - 1) / grain;
+  // A few tasks a thread balance the load; one a range would cost more than small ranges do.
+  constexpr std::int64_t tasksPerThread = 8;
+  const std::int64_t rangesPerTask =
+    std::max<std::int64_t>(1, ranges / (tasksPerThread * this->Concurrency()));
+  KernelGuard guarded(kernel);
+  auto task = [&](vtkIdType first, vtkIdType last) {
+    for (std::int64_t range = first; range < last; ++range)
+    {
+      guarded(range * grain, std::min((range + 1) * grain, count));
+    }
+  };
+  if (ranges <= 1)
+  {
+    task(0, ranges);
+  }
+  else
+  {
+    vtkSMPTools::For(0, ranges, rangesPerTask, task);
+  }
+  guarded.Rethrow();
+}
+
+int SMPExecutor::Concurrency() const
+{
+  return std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+}
+
+std::unique_ptr<Executor> makeExecutor(Threading threading)
+{
+  if (threading == Threading::Auto)
+  {
+    threading =
+      std::string(vtkSMPTools::GetBackend()) == "Sequential" ? Threading::OpenMP : Threading::VTK;
+  }
+  switch (threading)
+  {
+    case Threading::VTK:
+      return std::make_unique<SMPExecutor>();
+    case Threading::OpenMP:
+      return std::make_unique<OpenMPExecutor>();
+    default:
+      return std::make_unique<SerialExecutor>();
+  }
+}
+
+} // namespace RectifiedTransport

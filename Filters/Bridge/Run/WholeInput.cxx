@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/WholeInput.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+// FNV-1a.
+class Mixer
+{
+public:
+  template <class Value>
+  void Add(Value value)
+  {
+    unsigned char bytes[sizeof(Value)];
+    std::memcpy(bytes, &value, sizeof(Value));
+    for (const unsigned char byte : bytes)
+    {
+      this->State = (this->State ^ byte) * 0x100000001b3;
+    }
+  }
+  std::uint64_t Mixed() const { return this->State; }
+
+private:
+  std::uint64_t State = 0xcbf29ce484222325;
+};
+
+// Of an array of any length: pieces of a whole differ in what they have where.
+constexpr vtkIdType mostSamples = 4096;
+
+template <class Visit>
+void visitSamples(vtkIdType count, const Visit& visit)
+{
+  const vtkIdType step = std::max<vtkIdType>(1, count / mostSamples);
+  for (vtkIdType i = 0; i < count; i += step)
+  {
+    visit(i);
+  }
+}
+
+void addDataSet(vtkDataSet* data, Mixer& mixer)
+{
+  double bounds[6];
+  data->GetBounds(bounds);
+  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
+  mixer.Add(data->GetNumberOfPoints());
+  mixer.Add(data->GetNumberOfCells());
+  if (!vtkImageData::SafeDownCast(data))
+  {
+    visitSamples(data->GetNumberOfPoints(), [&](vtkIdType i) {
+      double x[3];
+      data->GetPoint(i, x);
+      std::for_each(x, x + 3, [&](double place) { mixer.Add(place); });
+    });
+  }
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      if (vtkDataArray* array = attributes->GetArray(i))
+      {
+        visitSamples(array->GetNumberOfTuples(),
+          [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
+      }
+    }
+  }
+}
+
+// Returns whether there is anything in it.
+bool addData(vtkDataObject* data, Mixer& mixer)
+{
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    bool hasAny = false;
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      hasAny = addData(leaves->GetCurrentDataObject(), mixer) || hasAny;
+    }
+    return hasAny;
+  }
+  auto* set = vtkDataSet::SafeDownCast(data);
+  if (!set || set->GetNumberOfPoints() == 0)
+  {
+    return false;
+  }
+  addDataSet(set, mixer);
+  return true;
+}
+
+void writeExtent(std::ostream& os, const int* extent)
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    os << (i == 0 ? "" : " ") << extent[i];
+  }
+}
+
+} // namespace
+
+void requireWholeExtent(vtkInformation* input, const std::string& what)
+{
+  vtkImageData* image = vtkImageData::GetData(input);
+  const int* whole = input->Get(Pipeline::WHOLE_EXTENT());
+  if (!image || image->GetNumberOfPoints() == 0 || !whole)
+  {
+    return;
+  }
+  const int* extent = image->GetExtent();
+  bool isWhole = true;
+  for (int a = 0; a < 6; a += 2)
+  {
+    isWhole = isWhole && extent[a] <= whole[a] && extent[a + 1] >= whole[a + 1];
+  }
+  if (!isWhole)
+  {
+    std::ostringstream message;
+    message << what << " is an image of the extent ";
+    writeExtent(message, extent);
+    message << " out of ";
+    writeExtent(message, whole);
+    message << "; it must be whole on every rank: read it so, or gather it before this filter";
+    throw Failure(message.str());
+  }
+}
+
+std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data)
+{
+  Mixer mixer;
+  bool hasAny = false;
+  for (vtkDataObject* object : data)
+  {
+    mixer.Add(hasAny);
+    hasAny = addData(object, mixer) || hasAny;
+  }
+  return hasAny ? std::max<std::uint64_t>(1, mixer.Mixed()) : 0;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/SiteCells/SiteLabels.h"
+
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Points/SeedInput.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
+
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
+{
+  return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
+}
+
+// Its own time, not that of its points.
+std::uint64_t timeOf(vtkPointSet* sites)
+{
+  return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+}
+
+} // namespace
+
+bool SiteLabels::IsFor(
+  vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const
+{
+  return this->Labels && this->Frame == frame && this->Options == options &&
+    this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+}
+
+bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, AlgorithmProgress& host)
+{
+  return this->Stamp.Renew(keyOf(sites), timeOf(sites),
+    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
+}
+
+namespace
+{
+
+constexpr double recordBytes(int dimension)
+{
+  return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
+}
+
+} // namespace
+
+void SiteLabels::RequireMemory(const ImageFrame& frame)
+{
+  const double bytes = sizeof(std::int64_t) + recordBytes(frame.NumberOfAxes());
+  requireMemory("labels of " + frame.DescribeValues(false) + " pixels (see Resolution)",
+    frame.NumberOfValues(false) * bytes);
+}
+
+template <int D>
+SiteGrid<D>::SiteGrid(vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor,
+  AlgorithmProgress& host)
+  : Geometry(geometry)
+{
+  const std::int64_t count = sites->GetNumberOfPoints();
+  const GridSize<D> size = geometry.Size<D>();
+  if (static_cast<double>(count) > numberOfCells<D>(size))
+  {
+    throw Failure("The input has " + std::to_string(count) + " sites for " + describeSize<D>(size) +
+      " pixels; raise Resolution until there is a pixel for each");
+  }
+  const std::string purpose = "the " + std::to_string(count) + " sites";
+  const double bytes = static_cast<double>(count) * (D + 3 + 4) * sizeof(double);
+  withMemory(purpose, bytes, [&]() {
+    this->Coordinates = LargeBuffer<double>(count * D);
+    LargeBuffer<double> inside(count * 3);
+    this->Outside = readSeeds<D>(
+      sites, "input point set", geometry, executor, host, this->Coordinates.data(), inside.data());
+    this->Grid = std::make_unique<SiteDensity<D>>(size, this->Coordinates.data(), count);
+  });
+}
+
+template <int D>
+vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(const FlowOptions& options,
+  const Executor& executor, AlgorithmProgress& host, double progress) const
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const SiteDensity<D>& grid = *this->Grid;
+  const GridSize<D> size = grid.Size();
+  const double pixels = numberOfCells<D>(size);
+  const std::string purpose = "labels of " + describeSize<D>(size) + " pixels";
+  auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
+  std::int64_t* labels = array->GetPointer(0);
+  const double begin = host.Reached();
+  const auto beginStage = [&](double part) { host.BeginStage(begin + part * (progress - begin)); };
+  const auto require = [](bool complete) {
+    if (!complete)
+    {
+      throw Aborted();
+    }
+  };
+  if (grid.NumberOfPixels() == 1)
+  {
+    std::fill_n(labels, array->GetNumberOfTuples(), std::int64_t{ 0 });
+  }
+  else
+  {
+    withMemory(purpose, pixels * recordBytes(D), [&]() {
+      beginStage(0.03);
+      const RectifiedFlow<D> flow(grid, executor, host.GetMonitor());
+      require(static_cast<bool>(flow));
+      beginStage(0.93);
+      require(
+        !flow.ForwardLatticeToCells(size, labels, options, executor, host.GetMonitor()).Cancelled);
+    });
+    beginStage(0.95);
+    host.Run(
+      executor, array->GetNumberOfTuples(), grain, [&](std::int64_t first, std::int64_t last) {
+        std::transform(labels + first, labels + last, labels + first,
+          [&grid](std::int64_t pixel) { return grid.Find(pixel); });
+      });
+  }
+  const Point<D> lengths = this->Geometry.template Lengths<D>();
+  Point<D> spacing;
+  for (int a = 0; a < D; ++a)
+  {
+    spacing[a] = lengths[a] / static_cast<double>(size[a]);
+  }
+  withMemory(purpose, pixels * sizeof(std::int64_t), [&]() {
+    beginStage(0.99);
+    require(equalizeSiteCells<D>(grid, spacing, labels, host.GetMonitor()));
+    beginStage(1.0);
+    require(
+      splitSharedPixels<D>(grid, this->Coordinates.data(), spacing, labels, host.GetMonitor()));
+  });
+  return array;
+}
+
+template class SiteGrid<1>;
+template class SiteGrid<2>;
+template class SiteGrid<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which site each pixel of a domain goes to, when the uniform measure flows to the sites.
+#ifndef RectifiedTransport_SiteLabels_h
+#define RectifiedTransport_SiteLabels_h
+
+#include "Bridge/Density/Fingerprint.h"
+#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Image/ImageGeometry.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/SiteCells/SiteDensity.h"
+
+#include "vtkLongArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+using SiteIdArray =
+  std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
+
+// The labels of a run, kept for the next one, which may ask for other figures of the same cells.
+class SiteLabels
+{
+public:
+  // Throws Failure if there is no memory to make labels.
+  static void RequireMemory(const ImageFrame& frame);
+
+  // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
+  bool IsFor(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const;
+
+  // The labels of such sites on such a grid: those that are kept, or those that make() makes. The
+  // work of the host's current stage is to look whether the sites are the same. Throws Aborted, and
+  // what make() throws; then no labels are kept.
+  template <class Make>
+  SiteIdArray* Update(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options,
+    const Executor& executor, AlgorithmProgress& host, const Make& make)
+  {
+    if (this->IsFor(sites, frame, options))
+    {
+      return this->Labels;
+    }
+    const bool sameSites = this->Renew(sites, executor, host);
+    if (!sameSites || !this->IsFor(sites, frame, options))
+    {
+      this->Labels = nullptr; // what is outdated need not take memory meanwhile
+      this->Labels = make();
+      this->Frame = frame;
+      this->Options = options;
+    }
+    return this->Labels;
+  }
+
+private:
+  // Returns whether the sites are those of the run before.
+  bool Renew(vtkPointSet* sites, const Executor& executor, AlgorithmProgress& host);
+
+  vtkSmartPointer<SiteIdArray> Labels;
+  DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
+  ImageFrame Frame;
+  FlowOptions Options;
+};
+
+// Sites on the grid of labels.
+template <int D>
+class SiteGrid
+{
+public:
+  // Throws Failure for coordinates that are not finite and for more sites than pixels, and Aborted.
+  SiteGrid(vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor,
+    AlgorithmProgress& host);
+
+  const SiteDensity<D>& Pixels() const { return *this->Grid; }
+  // How many sites are outside of the domain and count as the nearest point of its border.
+  std::int64_t NumberOutside() const { return this->Outside; }
+
+  // The label of each pixel, axis 0 fastest. Progress ends at `progress`. Throws Failure for memory
+  // that is not there, and Aborted.
+  vtkSmartPointer<SiteIdArray> MakeLabels(const FlowOptions& options, const Executor& executor,
+    AlgorithmProgress& host, double progress) const;
+
+private:
+  const ImageGeometry& Geometry;
+  LargeBuffer<double> Coordinates; // in index space, inside
+  std::unique_ptr<SiteDensity<D>> Grid;
+  std::int64_t Outside = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Splat/MassSplat.h"
+
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+
+#include "vtkAOSDataArrayTemplate.h"
+#include "vtkDoubleArray.h"
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <class Real>
+struct MassPoints
+{
+  const Real* Points;
+  std::int64_t Count;
+  const double* Masses;
+  double MassEach;
+};
+
+template <int D, class Real>
+SplatReport splatInto(const MassPoints<Real>& input, const SplatTarget& target,
+  const Executor& executor, AlgorithmProgress& host, double* cells)
+{
+  const ImageGeometry& geometry = target.Geometry;
+  const SplatParticles<D, Real> particles{ input.Points, input.Count, input.Masses, input.MassEach,
+    geometry.ToIndexMap<D>() };
+  const double scale = target.DivideByVolume ? 1.0 / geometry.CellMeasure() : 1.0;
+  const double bytes = 8.0 * static_cast<double>(input.Count);
+  return withMemory("putting the points in order", bytes, [&]() {
+    return splatMass<D, Real>(
+      particles, geometry.Size<D>(), target.Options, scale, cells, executor, host.GetMonitor());
+  });
+}
+
+template <class Real>
+std::int64_t splatAll(const MassPoints<Real>& input, const SplatTarget& target,
+  const Executor& executor, AlgorithmProgress& host, vtkDoubleArray* array)
+{
+  double* cells = array->GetPointer(0);
+  const int dimension = target.Geometry.Dimension();
+  const SplatReport report = dimension == 1 ? splatInto<1>(input, target, executor, host, cells)
+    : dimension == 2                        ? splatInto<2>(input, target, executor, host, cells)
+                                            : splatInto<3>(input, target, executor, host, cells);
+  if (report.Cancelled)
+  {
+    throw Aborted();
+  }
+  return report.Outside;
+}
+
+} // namespace
+
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule)
+{
+  const double measure = target.DivideByVolume ? target.Geometry.CellMeasure() : 1.0;
+  if (!std::isfinite(1.0 / measure) || !std::isfinite(mass / measure))
+  {
+    std::ostringstream message;
+    message << what << " of " << mass
+            << " in all make densities past the largest double in cells of " << measure
+            << "; make the masses smaller, " << rule;
+    throw Failure(message.str());
+  }
+}
+
+std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
+  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
+  vtkDoubleArray* cells)
+{
+  return splatAll<double>({ points, count, nullptr, massEach }, target, executor, host, cells);
+}
+
+std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
+  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
+  vtkDoubleArray* cells)
+{
+  const vtkIdType count = points->GetNumberOfTuples();
+  if (auto* single = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
+  {
+    return splatAll<float>(
+      { single->GetPointer(0), count, masses, massEach }, target, executor, host, cells);
+  }
+  vtkSmartPointer<vtkDataArray> copy;
+  auto* whole = vtkAOSDataArrayTemplate<double>::FastDownCast(points);
+  if (!whole)
+  {
+    copy = newArray<vtkDoubleArray>("Points", 3, count);
+    copy->DeepCopy(points);
+    whole = vtkAOSDataArrayTemplate<double>::FastDownCast(copy);
+  }
+  return splatAll<double>(
+    { whole->GetPointer(0), count, masses, massEach }, target, executor, host, cells);
+}
+
+double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor,
+  AlgorithmProgress& host)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const vtkIdType count = cells->GetNumberOfTuples();
+  const double* values = cells->GetPointer(0);
+  std::vector<double> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0.0);
+  host.Run(executor, count, grain, [&sums, values](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      sums[static_cast<std::size_t>(i / grain)] += values[i];
+    }
+  });
+  double sum = 0.0;
+  for (const double part : sums)
+  {
+    sum += part;
+  }
+  return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mass of points of physical space, spread over the cells of an image.
+#ifndef RectifiedTransport_MassSplat_h
+#define RectifiedTransport_MassSplat_h
+
+#include "Bridge/Image/ImageGeometry.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Executor.h"
+#include "Core/Splat/Splat.h"
+
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class AlgorithmProgress;
+
+// Where the mass goes, and how.
+struct SplatTarget
+{
+  const ImageGeometry& Geometry;
+  SplatOptions Options;
+  bool DivideByVolume; // densities, else masses
+};
+
+// Throws Failure where the density of a cell that holds all of a mass, of which `what` is the
+// subject of the message, would be no number; `rule` completes "make the masses smaller, ...".
+void requireFiniteDensity(
+  double mass, const SplatTarget& target, const char* what, const char* rule);
+
+// Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
+// component and a tuple for each, as the work of the current stage. Points have 3 finite
+// coordinates each. Returns how many of them are outside of the domain (see SplatReport). Throws
+// Failure where memory is short, and Aborted.
+std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
+  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
+  vtkDoubleArray* cells);
+
+// The same of an array of points and one mass for each; without masses they have `massEach`.
+// Points of a type other than double and float are copied.
+std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
+  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
+  vtkDoubleArray* cells);
+
+// The mass of all cells that have been written, as the work of the current stage. Throws Aborted.
+double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor,
+  AlgorithmProgress& host);
+
+} // namespace RectifiedTransport
+
+#endif

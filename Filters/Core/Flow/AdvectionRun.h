@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One advection of many particles: ranges of blocks for the kernels, those in trouble again with
+// smaller steps, the rest onto the nearest mass.
+#ifndef RectifiedTransport_AdvectionRun_h
+#define RectifiedTransport_AdvectionRun_h
+
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Flow/LatticeOrder.h"
+#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/NearestMass.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+constexpr int refinements = 5; // 2N, 4N ... 32N
+constexpr int rangeBlocks = 16;
+
+inline void check(const FlowOptions& options)
+{
+  constexpr int maximumSteps = 10000;
+  if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
+  {
+    throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +
+      ", it must be from 1 to " + std::to_string(maximumSteps));
+  }
+  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
+  {
+    throw std::invalid_argument("Tolerance is " + std::to_string(options.Tolerance) +
+      ", it must be a positive number of cells");
+  }
+}
+
+// A step's error is told from rounding down to about this part of the domain's longest side; less
+// would take ever more steps for nothing.
+constexpr double finestTolerance = 0x1p-40;
+
+// The width of the box in cells of a level from which that level is used: coarse levels are faster
+// and add an error that a larger number of steps does not remove. In 3D they gain less, as the sums
+// on the finest level are simpler.
+template <int Dimension>
+double coarseRatio(const FlowOptions& options, bool toPoints)
+{
+  constexpr double never = 1e12;
+  constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
+  const bool adaptive = options.Method == Integrator::Adaptive;
+  const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
+  const bool accurate =
+    toPoints || (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
+  return exact ? never : accurate ? 64.0 : usual;
+}
+
+// With few steps nearly all particles miss cells that lie scattered like points: what they would
+// be redone with is the first try.
+inline int firstRefinement(const FlowOptions& options)
+{
+  constexpr int enough = 128;
+  int refinement = 0;
+  while (options.Method != Integrator::Adaptive && refinement < refinements &&
+    (options.NumberOfSteps << refinement) < enough)
+  {
+    ++refinement;
+  }
+  return refinement;
+}
+
+// What the ranges of one advection count; sums of integers do not depend on their order.
+struct Counters
+{
+  std::atomic<std::int64_t> Redone{ 0 };
+  std::atomic<std::int64_t> MovedToMass{ 0 };
+  std::atomic<std::int64_t> Evaluations{ 0 };
+};
+
+// Particles in trouble, to be redone.
+template <int Dimension>
+struct Leftovers
+{
+  std::vector<std::int64_t> Index; // in the output
+  std::vector<double> Seeds;
+};
+
+// Puts a particle that ends in an empty cell, where no smaller steps have helped, on the nearest
+// mass.
+template <int Dimension>
+void moveToMass(const FlowJob<Dimension>& job, std::int64_t particle, Counters& counters)
+{
+  const std::int64_t last = (particle + 1) * job.TimeCount - 1;
+  const bool atEnd = !job.Times || job.Times[job.TimeCount - 1] >= 1.0;
+  double* position = job.Output + last * Dimension;
+  Point<Dimension> point;
+  std::copy_n(position, Dimension, point.begin());
+  if (atEnd && !hasMass<Dimension>(job.Tables, point))
+  {
+    point = nearestMass<Dimension>(job.Tables, point);
+    std::copy_n(point.begin(), Dimension, position);
+    ++counters.MovedToMass;
+  }
+}
+
+// Advects particles, at most rangeBlocks * BlockSize.
+template <int Dimension>
+class RangeAdvection
+{
+public:
+  RangeAdvection(
+    const FlowJob<Dimension>& job, int firstRefinement, Counters& counters, Pacer& pacer)
+    : Job(job)
+    , First(firstRefinement)
+    , Count(counters)
+    , Pace(pacer)
+    , Advect(flowKernels().Advect<Dimension>())
+  {
+  }
+
+  // All of them once. Those in trouble are left over.
+  template <class Source>
+  void RunOnce(Source& source, std::int64_t first, int count, Leftovers<Dimension>& leftovers)
+  {
+    const int left = this->RunFirst(source, first, count);
+    leftovers.Index.assign(this->Index, this->Index + left);
+    leftovers.Seeds.assign(this->Seeds, this->Seeds + left * Dimension);
+  }
+
+  // All of them once, then those in trouble again with ever more steps, twice as many each time.
+  template <class Source>
+  void Run(Source& source, std::int64_t first, int count)
+  {
+    int left = this->RunFirst(source, first, count);
+    for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
+    {
+      left = this->Pass(left, refinement);
+    }
+    for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
+    {
+      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
+    }
+  }
+
+private:
+  // Returns how many are to be redone.
+  template <class Source>
+  int RunFirst(Source& source, std::int64_t first, int count)
+  {
+    // The output may be the array of the seeds, so these are kept until all is done.
+    source.Fill(first, count, this->Index, this->Seeds);
+    const int left = this->Pass(count, this->First);
+    if (this->Job.Backward || this->Job.Nearest)
+    {
+      return 0;
+    }
+    this->Count.Redone += left;
+    return left;
+  }
+
+  // Advects the first `count` particles and moves those in trouble to the front.
+  int Pass(int count, int refinement)
+  {
+    int left = 0;
+    for (int first = 0; first < count && !this->Pace.ShouldStop(); first += BlockSize)
+    {
+      const int lanes = std::min(BlockSize, count - first);
+      bool troubled[BlockSize] = {};
+      this->Count.Evaluations += this->Advect(this->Job, this->Seeds + first * Dimension,
+        this->Index + first, lanes, refinement, troubled);
+      for (int i = 0; i < lanes; ++i)
+      {
+        if (troubled[i])
+        {
+          this->Index[left] = this->Index[first + i];
+          std::copy_n(
+            this->Seeds + (first + i) * Dimension, Dimension, this->Seeds + left * Dimension);
+          ++left;
+        }
+      }
+    }
+    return left;
+  }
+
+  const FlowJob<Dimension>& Job;
+  const int First;
+  Counters& Count;
+  Pacer& Pace;
+  const AdvectBlock<Dimension> Advect;
+  std::int64_t Index[rangeBlocks * BlockSize];
+  double Seeds[rangeBlocks * BlockSize * Dimension];
+};
+
+// Advects the leftovers of many ranges together: a block costs nearly the same with few particles
+// as with all, and most ranges leave few.
+template <int Dimension>
+class LeftoverAdvection
+{
+public:
+  LeftoverAdvection(const FlowJob<Dimension>& job, Counters& counters, Pacer& pacer)
+    : Job(job)
+    , Count(counters)
+    , Pace(pacer)
+    , Advect(flowKernels().Advect<Dimension>())
+  {
+  }
+
+  // With ever more steps, twice as many each time, from `refinement` on.
+  void Run(
+    const std::vector<Leftovers<Dimension>>& ranges, int refinement, const Executor& executor)
+  {
+    for (const Leftovers<Dimension>& range : ranges)
+    {
+      this->Index.insert(this->Index.end(), range.Index.begin(), range.Index.end());
+      this->Seeds.insert(this->Seeds.end(), range.Seeds.begin(), range.Seeds.end());
+    }
+    this->Troubled.resize(this->Index.size());
+    for (; !this->Index.empty() && refinement <= refinements; ++refinement)
+    {
+      this->Pass(refinement, executor);
+    }
+    const auto left = static_cast<std::int64_t>(this->Index.size());
+    executor.For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !this->Pace.ShouldStop(); ++i)
+      {
+        moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
+      }
+    });
+  }
+
+private:
+  void Pass(int refinement, const Executor& executor)
+  {
+    const auto count = static_cast<std::int64_t>(this->Index.size());
+    executor.For(count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
+      if (this->Pace.ShouldStop())
+      {
+        return;
+      }
+      bool troubled[BlockSize] = {};
+      this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
+        this->Index.data() + first, static_cast<int>(last - first), refinement, troubled);
+      std::copy(troubled, troubled + (last - first), this->Troubled.data() + first);
+    });
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < this->Index.size(); ++i)
+    {
+      if (this->Troubled[i])
+      {
+        this->Index[left] = this->Index[i];
+        std::copy_n(
+          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + left * Dimension);
+        ++left;
+      }
+    }
+    this->Index.resize(left);
+  }
+
+  const FlowJob<Dimension>& Job;
+  Counters& Count;
+  Pacer& Pace;
+  const AdvectBlock<Dimension> Advect;
+  std::vector<std::int64_t> Index;
+  std::vector<double> Seeds;
+  std::vector<unsigned char> Troubled;
+};
+
+// The samples of a lattice for one range, whose ends stay in memory of the range's own.
+template <int Dimension>
+class RangeCells
+{
+public:
+  RangeCells(const LatticeOrder<Dimension>& order, const FlowJob<Dimension>& job)
+    : Order(order)
+    , Job(job)
+  {
+    this->Job.Output = this->Ends;
+  }
+
+  const FlowJob<Dimension>& LocalJob() const { return this->Job; }
+
+  void Fill(std::int64_t first, int count, std::int64_t* index, double* points)
+  {
+    this->Order.Fill(first, count, this->Number, points);
+    std::iota(index, index + count, std::int64_t{ 0 });
+  }
+
+  // Writes the cells with mass that the samples have come to. Returns how many missed them.
+  std::int64_t Write(int count, std::int64_t* cells) const
+  {
+    std::int64_t missed = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      Point<Dimension> point;
+      std::copy_n(this->Ends + i * Dimension, Dimension, point.begin());
+      Point<Dimension> inside = this->Middle(point);
+      if (!hasMass<Dimension>(this->Job.Tables, inside))
+      {
+        missed += hasMass<Dimension>(this->Job.Tables, point) ? 0 : 1;
+        inside = this->Middle(nearestMass<Dimension>(this->Job.Tables, point));
+      }
+      std::int64_t cell = 0;
+      for (int axis = Dimension; axis-- > 0;)
+      {
+        cell = cell * this->Job.Tables.Cells[axis] + static_cast<std::int64_t>(inside[axis]);
+      }
+      cells[this->Number[i]] = cell;
+    }
+    return missed;
+  }
+
+private:
+  // Of the cell that holds a point; of two that meet there, the upper one.
+  Point<Dimension> Middle(const Point<Dimension>& point) const
+  {
+    Point<Dimension> middle;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double last = this->Job.Tables.Size[axis] - 1.0;
+      middle[axis] = std::min(std::floor(point[axis]), last) + 0.5;
+    }
+    return middle;
+  }
+
+  const LatticeOrder<Dimension>& Order;
+  FlowJob<Dimension> Job;
+  std::int64_t Number[rangeBlocks * BlockSize];
+  double Ends[rangeBlocks * BlockSize * Dimension];
+};
+
+// One advection of any number of particles, from one source of them after the other.
+template <int Dimension>
+class AdvectionRun
+{
+public:
+  AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
+    double* positions, bool backward, const FlowOptions& options, std::int64_t count,
+    const Monitor& monitor, bool toPoints = false)
+    : First(toPoints ? firstRefinement(options) : 0)
+    , Pace(monitor)
+  {
+    check(options);
+    this->Job.Tables = tables;
+    this->Job.Method = options.Method;
+    this->Job.Backward = backward;
+    this->Job.Nearest = options.Lookup == TableLookup::Nearest;
+    const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
+    this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
+    this->Job.Steps = options.NumberOfSteps;
+    this->Job.CoarseRatio = coarseRatio<Dimension>(options, toPoints);
+    this->Job.Output = positions;
+    this->Job.Times = times.empty() ? nullptr : times.data();
+    this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
+    if (options.Method == Integrator::Multistep)
+    {
+      this->Weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
+      for (int step = 0; step < options.NumberOfSteps; ++step)
+      {
+        this->Weights.push_back(multistepWeights(step, options.NumberOfSteps));
+      }
+    }
+    this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
+    this->Job.ShouldStop = [](void* host) { return static_cast<Pacer*>(host)->ShouldStop(); };
+    this->Job.Host = &this->Pace;
+    this->Pace.BeginStage(1.0, count);
+    // A range is short enough to be waited for, however many steps there are.
+    constexpr int usualSteps = 64;
+    const int steps = options.NumberOfSteps << this->First;
+    this->Grain =
+      std::max(1, std::min(rangeBlocks, rangeBlocks * usualSteps / std::max(steps, usualSteps))) *
+      BlockSize;
+  }
+  AdvectionRun(const AdvectionRun&) = delete;
+  AdvectionRun& operator=(const AdvectionRun&) = delete;
+
+  // Advects the first `count` particles of a source. False if the host wants to stop.
+  template <class Source>
+  bool Advect(const Source& source, std::int64_t count, const Executor& executor)
+  {
+    constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
+    std::vector<Leftovers<Dimension>> leftovers;
+    std::size_t left = 0;
+    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
+      const std::size_t before = leftovers.size();
+      leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
+        range.RunOnce(source, begin + first, static_cast<int>(last - first),
+          leftovers[before + static_cast<std::size_t>(first / this->Grain)]);
+      });
+      for (std::size_t range = before; range < leftovers.size(); ++range)
+      {
+        left += leftovers[range].Index.size();
+      }
+      if (left >= enough || begin + slice == count)
+      {
+        LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
+          .Run(leftovers, this->First + 1, executor);
+        leftovers.clear();
+        left = 0;
+      }
+    };
+    return this->Run(count, executor, runSlice);
+  }
+
+  // Advects the samples of a lattice and writes the cell that each comes to.
+  bool AdvectToCells(
+    const LatticeOrder<Dimension>& lattice, std::int64_t* cells, const Executor& executor)
+  {
+    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
+      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        const int length = static_cast<int>(last - first);
+        RangeCells<Dimension> ends(lattice, this->Job);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
+        range.Run(ends, begin + first, length);
+        if (!this->Pace.ShouldStop())
+        {
+          this->Count.MovedToMass += ends.Write(length, cells);
+        }
+      });
+    };
+    return this->Run(lattice.Count(), executor, runSlice);
+  }
+
+  FlowReport Report() const
+  {
+    FlowReport report;
+    report.Redone = this->Count.Redone;
+    report.MovedToMass = this->Count.MovedToMass;
+    report.Evaluations = this->Count.Evaluations;
+    report.Cancelled = this->Pace.IsCancelled();
+    return report;
+  }
+
+private:
+  template <class RunSlice>
+  bool Run(std::int64_t count, const Executor& executor, const RunSlice& runSlice)
+  {
+    for (std::int64_t begin = 0; begin < count;)
+    {
+      const std::int64_t slice =
+        std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
+      runSlice(begin, slice);
+      begin += slice;
+      if (!this->Pace.EndSlice(slice))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const int First;
+  FlowJob<Dimension> Job;
+  std::vector<StepWeights> Weights;
+  Counters Count;
+  Pacer Pace;
+  std::int64_t Grain = BlockSize;
+};
+
+} // namespace RectifiedTransport
+
+#endif

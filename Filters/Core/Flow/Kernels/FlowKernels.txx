@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one kernel source, compiled once per instruction set (FlowKernels*.cxx). Everything has
+// internal linkage and nothing of the standard library is called: code that is compiled for a wide
+// instruction set must never be what the linker picks for the rest of the program.
+#include "Core/Flow/Kernels/FlowKernels.h"
+
+#include <cstring>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#define RT_INLINE inline __attribute__((always_inline))
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+#include "Core/Parallel/Vectors.txx"
+
+#include "Core/Flow/Kernels/BoxMoments.txx"
+#include "Core/Flow/Kernels/FlowVelocity.txx"
+
+#include "Core/Flow/Kernels/FlowLanes.txx"
+
+#include "Core/Flow/Kernels/FlowFixedSteps.txx"
+
+#include "Core/Flow/Kernels/FlowAdaptive.txx"
+
+#include "Core/Flow/Kernels/TableRows.txx"
+
+template <int Dimension>
+std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count, int refinement, bool* troubled)
+{
+  if (job.Method == Integrator::Adaptive)
+  {
+    return advectAdaptive<Dimension>(job, seeds, index, count, refinement, troubled);
+  }
+  if (job.Method == Integrator::Multistep)
+  {
+    return job.Backward
+      ? multistepBackward<Dimension>(job, seeds, index, count)
+      : multistepForward<Dimension>(job, seeds, index, count, refinement, troubled);
+  }
+  return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, troubled);
+}
+
+} // namespace
+
+const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
+{
+  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
+    &inspectRow, &addToColumns, &addTableRow2D, &addTableRow3D, RECTIFIEDTRANSPORT_KERNELS_NAME };
+  return kernels;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/LatticeOrder.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// A block of 64 particles is a cube of cells, and so is what the caches are to hold.
+constexpr std::int64_t blockSides[] = { 64, 8, 4 };
+constexpr std::int64_t tileSides[] = { 4096, 64, 16 };
+
+template <int Dimension>
+struct Region
+{
+  GridSize<Dimension> Low;
+  GridSize<Dimension> Cells;
+
+  std::int64_t Count() const
+  {
+    std::int64_t count = 1;
+    for (const std::int64_t cells : this->Cells)
+    {
+      count *= cells;
+    }
+    return count;
+  }
+
+  // Cut into cubes, those at the upper border smaller, and counted cube by cube, axis 0 fastest:
+  // narrows the region to the cube that holds cell `number`, which becomes a number in the cube.
+  void Narrow(std::int64_t side, std::int64_t& number)
+  {
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      const std::int64_t layer = this->Count() / this->Cells[axis];
+      const std::int64_t cube = number / (side * layer);
+      number -= cube * side * layer;
+      this->Low[axis] += cube * side;
+      this->Cells[axis] = std::min(side, this->Cells[axis] - cube * side);
+    }
+  }
+};
+
+} // namespace
+
+template <int Dimension>
+std::int64_t LatticeOrder<Dimension>::Count() const
+{
+  return Region<Dimension>{ {}, this->Lattice }.Count();
+}
+
+template <int Dimension>
+void LatticeOrder<Dimension>::Fill(
+  std::int64_t first, int count, std::int64_t* index, double* points) const
+{
+  while (count > 0)
+  {
+    std::int64_t number = first;
+    Region<Dimension> block{ {}, this->Lattice };
+    block.Narrow(tileSides[Dimension - 1], number);
+    block.Narrow(blockSides[Dimension - 1], number);
+    const int taken = static_cast<int>(std::min<std::int64_t>(count, block.Count() - number));
+    first += taken;
+    count -= taken;
+
+    GridSize<Dimension> place;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      place[axis] = number % block.Cells[axis];
+      number /= block.Cells[axis];
+    }
+    for (int i = 0; i < taken; ++i)
+    {
+      *index = 0;
+      for (int axis = Dimension; axis-- > 0;)
+      {
+        const std::int64_t cell = block.Low[axis] + place[axis];
+        *index = *index * this->Lattice[axis] + cell;
+        points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
+      }
+      ++index;
+      points += Dimension;
+      for (int axis = 0; axis < Dimension && ++place[axis] == block.Cells[axis]; ++axis)
+      {
+        place[axis] = 0;
+      }
+    }
+  }
+}
+
+template class LatticeOrder<1>;
+template class LatticeOrder<2>;
+template class LatticeOrder<3>;
+
+} // namespace RectifiedTransport

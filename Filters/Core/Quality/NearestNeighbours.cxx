@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Quality/NearestNeighbours.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Pacer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t leafPoints = 8;
+
+struct TreePoint
+{
+  double X[3];
+  std::int64_t Id;
+};
+
+// The points [First, Last) in their bounding box. A leaf has no child; else the first child is the
+// next box, and Second the other.
+struct TreeBox
+{
+  double Low[3];
+  double High[3];
+  std::int64_t First;
+  std::int64_t Last;
+  std::int64_t Second;
+};
+
+// Work of a known number of units in pieces short enough for the host.
+class Pieces
+{
+public:
+  static constexpr std::int64_t Most = std::int64_t{ 1 } << 15;
+
+  Pieces(Pacer& pacer, double end, std::int64_t units)
+    : Pace(pacer)
+  {
+    pacer.BeginStage(end, units);
+    this->Slice = pacer.NextSlice(Most);
+  }
+
+  // False if the host wants to stop.
+  bool Finish(std::int64_t units)
+  {
+    this->Done += units;
+    if (this->Done < this->Slice)
+    {
+      return true;
+    }
+    const bool goOn = this->Pace.EndSlice(this->Done);
+    this->Done = 0;
+    this->Slice = this->Pace.NextSlice(Most);
+    return goOn;
+  }
+
+private:
+  Pacer& Pace;
+  std::int64_t Done = 0;
+  std::int64_t Slice = 0;
+};
+
+class PointTree
+{
+public:
+  explicit PointTree(std::int64_t count)
+    : Points(count)
+  {
+  }
+
+  // False if the host wants to stop.
+  bool Build(const double* points, Pacer& pacer, double progress)
+  {
+    struct Task
+    {
+      std::int64_t First;
+      std::int64_t Last;
+      std::int64_t Parent; // whose second child it is, -1: none's
+    };
+    const std::int64_t count = this->Points.size();
+    // Every halving looks at each point twice.
+    std::int64_t passes = 2;
+    for (std::int64_t rest = count; rest > leafPoints; rest /= 2)
+    {
+      passes += 2;
+    }
+    Pieces pieces(pacer, progress, passes * count);
+    if (!this->Read(points, pieces))
+    {
+      return false;
+    }
+    std::vector<Task> tasks{ { 0, count, -1 } };
+    while (!tasks.empty())
+    {
+      const Task task = tasks.back();
+      tasks.pop_back();
+      const auto box = static_cast<std::int64_t>(this->Boxes.size());
+      if (task.Parent >= 0)
+      {
+        this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
+      }
+      TreeBox made = EmptyBox(task.First, task.Last);
+      if (!this->Bound(made, pieces))
+      {
+        return false;
+      }
+      this->Boxes.push_back(made);
+      std::int64_t middle = task.First;
+      if (!this->Divide(made, middle, pieces))
+      {
+        return false;
+      }
+      if (middle > task.First)
+      {
+        tasks.push_back({ middle, task.Last, box });
+        tasks.push_back({ task.First, middle, -1 });
+      }
+    }
+    return true;
+  }
+
+  const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
+
+  // The least squared distance of a point from another one, or `best` if that is less.
+  double Search(const TreePoint& point, double best, std::int64_t box = 0) const
+  {
+    const TreeBox& at = this->Boxes[static_cast<std::size_t>(box)];
+    if (at.Second < 0)
+    {
+      for (std::int64_t i = at.First; i < at.Last && best > 0.0; ++i)
+      {
+        const TreePoint& other = this->At(i);
+        double squared = 0.0;
+        for (int r = 0; r < 3; ++r)
+        {
+          squared += (other.X[r] - point.X[r]) * (other.X[r] - point.X[r]);
+        }
+        best = other.Id != point.Id && squared < best ? squared : best;
+      }
+      return best;
+    }
+    const std::int64_t children[2] = { box + 1, at.Second };
+    const double gaps[2] = { this->Gap(point, children[0]), this->Gap(point, children[1]) };
+    const int nearer = gaps[1] < gaps[0] ? 1 : 0;
+    for (const int child : { nearer, 1 - nearer })
+    {
+      if (gaps[child] < best)
+      {
+        best = this->Search(point, best, children[child]);
+      }
+    }
+    return best;
+  }
+
+private:
+  static TreeBox EmptyBox(std::int64_t first, std::int64_t last)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity }, first, last,
+      -1 };
+  }
+
+  bool Read(const double* points, Pieces& pieces)
+  {
+    TreePoint* to = this->Points.data();
+    for (std::int64_t first = 0; first < this->Points.size(); first += Pieces::Most)
+    {
+      const std::int64_t last = std::min(first + Pieces::Most, this->Points.size());
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        std::copy_n(points + 3 * i, 3, to[i].X);
+        to[i].Id = i;
+      }
+      if (!pieces.Finish(last - first))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool Bound(TreeBox& box, Pieces& pieces) const
+  {
+    for (std::int64_t first = box.First; first < box.Last; first += Pieces::Most)
+    {
+      const std::int64_t last = std::min(first + Pieces::Most, box.Last);
+      for (int r = 0; r < 3; ++r)
+      {
+        double low = box.Low[r];
+        double high = box.High[r];
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          low = std::min(low, this->At(i).X[r]);
+          high = std::max(high, this->At(i).X[r]);
+        }
+        box.Low[r] = low;
+        box.High[r] = high;
+      }
+      if (!pieces.Finish(last - first))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Sorts the points of a box into two parts along its widest axis, about the median of a sample.
+  // The second begins at `middle`, the first point of the box if it stays whole.
+  bool Divide(const TreeBox& box, std::int64_t& middle, Pieces& pieces)
+  {
+    middle = box.First;
+    int axis = 0;
+    for (int r = 1; r < 3; ++r)
+    {
+      axis = box.High[r] - box.Low[r] > box.High[axis] - box.Low[axis] ? r : axis;
+    }
+    const std::int64_t count = box.Last - box.First;
+    if (count <= leafPoints || !(box.High[axis] > box.Low[axis]))
+    {
+      return true;
+    }
+    std::array<double, 63> sample;
+    const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
+    for (std::int64_t i = 0; i < taken; ++i)
+    {
+      sample[static_cast<std::size_t>(i)] = this->At(box.First + i * count / taken).X[axis];
+    }
+    const auto median = sample.begin() + taken / 2;
+    std::nth_element(sample.begin(), median, sample.begin() + taken);
+    // Points on the pivot go up, unless all others are above it too.
+    const double pivot = *median;
+    const bool lowest = !(pivot > box.Low[axis]);
+    const auto isBelow = [=](const TreePoint& point) {
+      return lowest ? point.X[axis] <= pivot : point.X[axis] < pivot;
+    };
+    TreePoint* points = this->Points.data();
+    std::int64_t last = box.Last;
+    while (middle < last)
+    {
+      const std::int64_t open = last - middle;
+      while (middle < last && open - (last - middle) < Pieces::Most)
+      {
+        if (isBelow(points[middle]))
+        {
+          ++middle;
+        }
+        else if (!isBelow(points[last - 1]))
+        {
+          --last;
+        }
+        else
+        {
+          std::swap(points[middle++], points[--last]);
+        }
+      }
+      if (!pieces.Finish(open - (last - middle)))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The squared distance of a point from a box.
+  double Gap(const TreePoint& point, std::int64_t box) const
+  {
+    const TreeBox& at = this->Boxes[static_cast<std::size_t>(box)];
+    double squared = 0.0;
+    for (int r = 0; r < 3; ++r)
+    {
+      const double gap = std::max({ at.Low[r] - point.X[r], point.X[r] - at.High[r], 0.0 });
+      squared += gap * gap;
+    }
+    return squared;
+  }
+
+  LargeBuffer<TreePoint> Points;
+  std::vector<TreeBox> Boxes;
+};
+
+} // namespace
+
+bool nearestDistances(const double* points, std::int64_t count, double* distances,
+  const Executor& executor, const Monitor& monitor)
+{
+  Pacer pacer(monitor);
+  PointTree tree(count);
+  if (!tree.Build(points, pacer, 0.4))
+  {
+    return false;
+  }
+  pacer.BeginStage(1.0, count);
+  constexpr std::int64_t grain = 512;
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    const std::int64_t slice =
+      std::min(count - begin, pacer.NextSlice(grain * executor.Concurrency()));
+    executor.For(slice, grain, [&](std::int64_t first, std::int64_t last) {
+      // Neighbours in the tree are neighbours in space.
+      for (std::int64_t i = begin + first; i < begin + last; ++i)
+      {
+        const TreePoint& point = tree.At(i);
+        distances[point.Id] =
+          std::sqrt(tree.Search(point, std::numeric_limits<double>::infinity()));
+      }
+    });
+    begin += slice;
+    if (!pacer.EndSlice(slice))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace RectifiedTransport

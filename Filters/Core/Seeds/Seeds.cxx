@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Seeds/Seeds.h"
+
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Seeds/BlueNoise.h"
+#include "Core/Seeds/LowDiscrepancy.h"
+#include "Core/Seeds/SeedPace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <int Dimension>
+void checkLengths(const Point<Dimension>& lengths)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    if (!(lengths[a] > 0.0) || !std::isfinite(lengths[a]))
+    {
+      std::ostringstream message;
+      message << "the sides of the seeds' box must be positive and finite, but side " << a << " is "
+              << lengths[a];
+      throw std::invalid_argument(message.str());
+    }
+  }
+}
+
+void checkCount(std::int64_t count)
+{
+  if (count < 0)
+  {
+    throw std::invalid_argument(
+      "the number of seeds must not be negative, but is " + std::to_string(count));
+  }
+}
+
+template <int Dimension>
+void checkGrid(const GridSize<Dimension>& size)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    if (size[a] < 0)
+    {
+      throw std::invalid_argument("the seeds' grid must not have a negative size, but axis " +
+        std::to_string(a) + " has " + std::to_string(size[a]));
+    }
+  }
+}
+
+template <int Dimension>
+using AxisOrder = std::array<int, Dimension>;
+
+// Of equal axes the last first, so that rows run along axis 0.
+template <int Dimension>
+AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
+{
+  AxisOrder<Dimension> order;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    order[a] = Dimension - 1 - a;
+  }
+  std::stable_sort(
+    order.begin(), order.end(), [&](int a, int b) { return lengths[a] < lengths[b]; });
+  return order;
+}
+
+// How many of `count` cubes lie along axis order[first] of a box of the axes order[first] and
+// after; a real number.
+template <int Dimension>
+double cubesAlong(
+  const Point<Dimension>& lengths, const AxisOrder<Dimension>& order, int first, double count)
+{
+  double power = count;
+  for (int k = first + 1; k < Dimension; ++k)
+  {
+    power *= lengths[order[first]] / lengths[order[k]];
+  }
+  switch (Dimension - first)
+  {
+    case 1:
+      return power;
+    case 2:
+      return root<2>(power);
+    default:
+      return root<3>(power);
+  }
+}
+
+// Both roundings of every axis in turn, the shortest first; the axes after it make up for its
+// rounding, so that only the last one's is left in the total.
+template <int Dimension>
+class LatticeChoice
+{
+public:
+  LatticeChoice(const Point<Dimension>& lengths, std::int64_t count)
+    : Lengths(lengths)
+    , Order(shortestFirst<Dimension>(lengths))
+    , Count(static_cast<double>(count))
+  {
+    GridSize<Dimension> size;
+    size.fill(1);
+    this->Try(size, 0, this->Count, 0.0);
+  }
+  const GridSize<Dimension>& Best() const { return this->Size; }
+
+private:
+  void Try(GridSize<Dimension> size, int k, double remaining, double stretch)
+  {
+    if (k == Dimension)
+    {
+      // A hundredth of the points missing is as bad as cells a tenth too long.
+      const double cost = std::abs(1.0 / remaining - 1.0) + 0.1 * stretch;
+      if (cost < this->Cost)
+      {
+        this->Cost = cost;
+        this->Size = size;
+      }
+      return;
+    }
+    const double ideal = cubesAlong<Dimension>(this->Lengths, this->Order, k, remaining);
+    const double lower = std::max(std::floor(ideal), 1.0);
+    const double upper = std::max(std::ceil(ideal), 1.0);
+    for (double n : { lower, upper })
+    {
+      size[this->Order[k]] = static_cast<std::int64_t>(n);
+      // A box less than one cell thick has one layer of cells at no charge.
+      const double ratio = ideal < 1.0 ? 1.0 : std::max(n / ideal, ideal / n);
+      this->Try(size, k + 1, remaining / n, stretch + (ratio - 1.0));
+    }
+  }
+
+  Point<Dimension> Lengths;
+  AxisOrder<Dimension> Order;
+  double Count;
+  double Cost = std::numeric_limits<double>::infinity();
+  GridSize<Dimension> Size;
+};
+
+// Slabs across the shortest axis, each as thick as its share of the points; rows in slabs, boxes
+// in rows.
+template <int Dimension>
+class JitteredBoxes
+{
+public:
+  JitteredBoxes(
+    const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+    : Lengths(lengths)
+    , Order(shortestFirst<Dimension>(lengths))
+    , RandomSeed(randomSeed)
+    , UnitPoints(unitPoints)
+    , Pace(pace)
+  {
+  }
+
+  // Points [first, first + count) fill the slab so far: order[k] and the axes after it are whole.
+  void Fill(int k, std::int64_t first, std::int64_t count) const
+  {
+    const std::int64_t slabs = this->NumberOfSlabs(k, count);
+    const std::int64_t smaller = count / slabs;
+    const std::int64_t larger = count % slabs;
+    std::int64_t begin = 0;
+    for (std::int64_t slab = 0; slab < slabs; ++slab)
+    {
+      const std::int64_t size = smaller + (slab < larger ? 1 : 0);
+      for (std::int64_t i = first + begin; i < first + begin + size; ++i)
+      {
+        const int axis = this->Order[k];
+        const double jitter =
+          unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
+        const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
+        this->UnitPoints[i * Dimension + axis] = place / static_cast<double>(count);
+      }
+      if (k + 1 < Dimension)
+      {
+        this->Fill(k + 1, first + begin, size);
+      }
+      this->Pace.Add(size);
+      begin += size;
+    }
+  }
+
+private:
+  std::int64_t NumberOfSlabs(int k, std::int64_t count) const
+  {
+    if (k + 1 == Dimension)
+    {
+      return count;
+    }
+    const double ideal =
+      cubesAlong<Dimension>(this->Lengths, this->Order, k, static_cast<double>(count));
+    return std::min(count, std::max<std::int64_t>(1, std::llround(ideal)));
+  }
+
+  Point<Dimension> Lengths;
+  AxisOrder<Dimension> Order;
+  std::uint64_t RandomSeed;
+  double* UnitPoints;
+  SeedPace& Pace;
+};
+
+// False if it was cancelled on the way.
+template <class F>
+bool runToEnd(F&& generate)
+{
+  try
+  {
+    generate();
+    return true;
+  }
+  catch (const SeedPace::Cancelled&)
+  {
+    return false;
+  }
+}
+
+template <int Dimension>
+void generateRandom(
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+{
+  for (std::int64_t i = 0; i < count * Dimension; ++i)
+  {
+    unitPoints[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
+    pace.Add(1);
+  }
+}
+
+template <int Dimension>
+void generateLowDiscrepancy(
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+{
+  for (int a = 0; a < Dimension; ++a)
+  {
+    std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a));
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      fraction += lowDiscrepancyStep<Dimension>(a);
+      unitPoints[i * Dimension + a] = unitReal(fraction);
+      pace.Add(1);
+    }
+  }
+}
+
+// Calls visit(cell) for every cell, axis 0 fastest. False if the monitor cancelled.
+template <int Dimension, class F>
+bool visitCells(const GridSize<Dimension>& size, const Monitor& monitor, F&& visit)
+{
+  std::int64_t total = 1;
+  for (std::int64_t n : size)
+  {
+    total *= n;
+  }
+  SeedPace pace(monitor, total);
+  return runToEnd([&]() {
+    GridSize<Dimension> cell{};
+    for (std::int64_t i = 0; i < total; ++i)
+    {
+      visit(cell);
+      for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
+      {
+        cell[a] = 0;
+      }
+      pace.Add(1);
+    }
+  });
+}
+
+} // namespace
+
+template <int Dimension>
+GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count)
+{
+  checkLengths<Dimension>(lengths);
+  checkCount(count);
+  if (count == 0)
+  {
+    return GridSize<Dimension>{};
+  }
+  return LatticeChoice<Dimension>(lengths, count).Best();
+}
+
+template <int Dimension>
+bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor)
+{
+  checkLengths<Dimension>(lengths);
+  checkCount(count);
+  if (count == 0)
+  {
+    return true;
+  }
+  const std::int64_t passes = pattern == SeedPattern::BlueNoise ? 2 : Dimension;
+  SeedPace pace(monitor, passes * count);
+  switch (pattern)
+  {
+    case SeedPattern::BlueNoise:
+      return runToEnd(
+        [&]() { generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints, pace); });
+    case SeedPattern::Jittered:
+      return runToEnd([&]() {
+        JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints, pace).Fill(0, 0, count);
+      });
+    case SeedPattern::LowDiscrepancy:
+      return runToEnd(
+        [&]() { generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints, pace); });
+    case SeedPattern::Random:
+      return runToEnd([&]() { generateRandom<Dimension>(count, randomSeed, unitPoints, pace); });
+    case SeedPattern::Lattice:
+      break;
+  }
+  throw std::invalid_argument(
+    "a lattice of seeds has a grid's number of points: use latticeSize and generateLattice");
+}
+
+template <int Dimension>
+bool generateLattice(const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor)
+{
+  checkGrid<Dimension>(size);
+  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
+    for (int a = 0; a < Dimension; ++a)
+    {
+      *unitPoints++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
+    }
+  });
+}
+
+template <int Dimension>
+bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  double* unitPoints, const Monitor& monitor)
+{
+  checkGrid<Dimension>(size);
+  std::uint64_t counter = 0;
+  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
+    for (int a = 0; a < Dimension; ++a)
+    {
+      const double jitter = unitReal(randomWord(randomSeed, counter++));
+      *unitPoints++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
+    }
+  });
+}
+
+template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
+template GridSize<2> latticeSize<2>(const Point<2>&, std::int64_t);
+template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
+
+template bool generateSeeds<1>(
+  SeedPattern, const Point<1>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+template bool generateSeeds<2>(
+  SeedPattern, const Point<2>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+template bool generateSeeds<3>(
+  SeedPattern, const Point<3>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+
+template bool generateLattice<1>(const GridSize<1>&, double*, const Monitor&);
+template bool generateLattice<2>(const GridSize<2>&, double*, const Monitor&);
+template bool generateLattice<3>(const GridSize<3>&, double*, const Monitor&);
+
+template bool generateJitteredLattice<1>(
+  const GridSize<1>&, std::uint64_t, double*, const Monitor&);
+template bool generateJitteredLattice<2>(
+  const GridSize<2>&, std::uint64_t, double*, const Monitor&);
+template bool generateJitteredLattice<3>(
+  const GridSize<3>&, std::uint64_t, double*, const Monitor&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Uniform points to start from. All patterns are reproducible from their arguments alone, to the
+// last bit on every machine. Counts and grid sizes that are negative, and sides that are not
+// positive and finite, throw std::invalid_argument. What makes points returns false if the monitor
+// cancelled it; the points are then undefined.
+#ifndef RectifiedTransport_Seeds_h
+#define RectifiedTransport_Seeds_h
+
+#include "Core/Parallel/Executor.h"
+#include "Core/Tables/Density.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+enum class SeedPattern
+{
+  BlueNoise,      // an even, irregular pattern without preferred directions
+  Lattice,        // the centres of a regular grid
+  Jittered,       // one random point in each of as many boxes of equal measure as there are points
+  LowDiscrepancy, // an additive recurrence (Roberts 2018), shifted by the seed
+  Random          // independent uniform points
+};
+
+// The grid of cells as near to `count` as a box with sides `lengths` allows: at least 1 an axis (no
+// cells for a count of 0), and cells as near to cubes as that permits.
+template <int Dimension>
+GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count);
+
+// Exactly `count` points in the unit box [0,1]^Dimension (count * Dimension doubles), spread evenly
+// in a box of sides `lengths`, each > 0 and of any unit. Not for Lattice, whose count is
+// latticeSize's.
+template <int Dimension>
+bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor = {});
+
+// The centres of a grid of cells on the unit box, axis 0 fastest.
+template <int Dimension>
+bool generateLattice(
+  const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor = {});
+
+// One random point in each cell of a grid on the unit box, axis 0 fastest.
+template <int Dimension>
+bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  double* unitPoints, const Monitor& monitor = {});
+
+} // namespace RectifiedTransport
+
+#endif

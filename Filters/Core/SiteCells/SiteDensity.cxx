@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/SiteDensity.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+SiteDensity<Dimension>::SiteDensity(
+  const GridSize<Dimension>& size, const double* sites, std::int64_t count)
+  : Grid(size)
+  , Sites(static_cast<std::size_t>(count))
+{
+  std::vector<std::int64_t> pixels(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    std::int64_t pixel = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      const auto along = static_cast<std::int64_t>(sites[i * Dimension + axis]);
+      pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
+    }
+    pixels[i] = pixel;
+  }
+  std::iota(this->Sites.begin(), this->Sites.end(), std::int64_t{ 0 });
+  std::stable_sort(this->Sites.begin(), this->Sites.end(),
+    [&](std::int64_t a, std::int64_t b) { return pixels[a] < pixels[b]; });
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const std::int64_t pixel = pixels[this->Sites[i]];
+    if (this->Pixels.empty() || this->Pixels.back() != pixel)
+    {
+      this->Pixels.push_back(pixel);
+      this->First.push_back(i);
+    }
+  }
+  this->First.push_back(count);
+}
+
+template <int Dimension>
+void SiteDensity<Dimension>::ReadRow(
+  std::int64_t row, std::int64_t first, std::int64_t count, double* values) const
+{
+  std::fill_n(values, count, 0.0);
+  const std::int64_t begin = row * this->Grid[0] + first;
+  auto next = std::lower_bound(this->Pixels.begin(), this->Pixels.end(), begin);
+  for (; next != this->Pixels.end() && *next < begin + count; ++next)
+  {
+    values[*next - begin] = static_cast<double>(this->SitesIn(next - this->Pixels.begin()));
+  }
+}
+
+template <int Dimension>
+std::int64_t SiteDensity<Dimension>::Find(std::int64_t pixel) const
+{
+  return std::lower_bound(this->Pixels.begin(), this->Pixels.end(), pixel) - this->Pixels.begin();
+}
+
+template class SiteDensity<1>;
+template class SiteDensity<2>;
+template class SiteDensity<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sites on a grid of pixels: the density that has the mass of one for each of them.
+#ifndef RectifiedTransport_SiteDensity_h
+#define RectifiedTransport_SiteDensity_h
+
+#include "Core/Tables/Density.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The pixels that hold sites, in ascending order, and the sites of each. Pixels are numbered with
+// axis 0 fastest.
+template <int Dimension>
+class SiteDensity final : public DensitySource<Dimension>
+{
+public:
+  // `sites` holds count * Dimension coordinates in the box [0, size].
+  SiteDensity(const GridSize<Dimension>& size, const double* sites, std::int64_t count);
+
+  GridSize<Dimension> Size() const override { return this->Grid; }
+  void ReadRow(
+    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override;
+
+  std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Sites.size()); }
+  std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }
+  std::int64_t Pixel(std::int64_t k) const { return this->Pixels[k]; }
+  // Which of the pixels this is; it must be one of them.
+  std::int64_t Find(std::int64_t pixel) const;
+  std::int64_t SitesIn(std::int64_t k) const { return this->First[k + 1] - this->First[k]; }
+  // Site i of those in pixel k; they ascend.
+  std::int64_t Site(std::int64_t k, std::int64_t i) const
+  {
+    return this->Sites[this->First[k] + i];
+  }
+
+private:
+  GridSize<Dimension> Grid;
+  std::vector<std::int64_t> Pixels;
+  std::vector<std::int64_t> First; // into Sites
+  std::vector<std::int64_t> Sites;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/SplitSharedPixels.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Pacer.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Numbers = std::vector<std::int64_t>;
+
+// How many pixels are looked at before the host is asked.
+constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 16;
+
+// Where pixels are: those of a row of the grid need no division.
+template <int Dimension>
+class PixelPlace
+{
+public:
+  explicit PixelPlace(const GridSize<Dimension>& size)
+    : Size(size)
+  {
+  }
+
+  const GridSize<Dimension>& At(std::int64_t pixel)
+  {
+    if (pixel < this->RowBegin || pixel >= this->RowEnd)
+    {
+      std::int64_t row = pixel / this->Size[0];
+      this->RowBegin = row * this->Size[0];
+      this->RowEnd = this->RowBegin + this->Size[0];
+      for (int axis = 1; axis < Dimension; ++axis)
+      {
+        this->Place[axis] = row % this->Size[axis];
+        row /= this->Size[axis];
+      }
+    }
+    this->Place[0] = pixel - this->RowBegin;
+    return this->Place;
+  }
+
+private:
+  const GridSize<Dimension> Size;
+  GridSize<Dimension> Place{};
+  std::int64_t RowBegin = 0;
+  std::int64_t RowEnd = 0;
+};
+
+template <int Dimension>
+class CellCut
+{
+public:
+  CellCut(const SiteDensity<Dimension>& sites, const double* coordinates,
+    const Point<Dimension>& spacing, std::int64_t* labels, Pacer& pacer, std::int64_t largestCell)
+    : Coordinates(coordinates)
+    , Spacing(spacing)
+    , Labels(labels)
+    , Pace(pacer)
+    , Place(sites.Size())
+    , Behind(largestCell)
+  {
+  }
+
+  // The pixels ascend, and do so in each of the parts. False if the host wants to stop.
+  bool Cut(
+    std::int64_t* sites, std::int64_t siteCount, std::int64_t* pixels, std::int64_t pixelCount)
+  {
+    if (siteCount == 1)
+    {
+      for (std::int64_t i = 0; i < pixelCount; ++i)
+      {
+        this->Labels[pixels[i]] = *sites;
+      }
+      return this->Finish(pixelCount);
+    }
+    Box box;
+    if (!this->FindBox(pixels, pixelCount, box))
+    {
+      return false;
+    }
+    const int axis = this->ChooseAxis(sites, siteCount, box);
+    const std::int64_t half = siteCount / 2;
+    // Each gets as many as any other, or one more.
+    const std::int64_t each = pixelCount / siteCount;
+    const std::int64_t more = (pixelCount % siteCount * half + siteCount / 2) / siteCount;
+    const std::int64_t part = each * half + more;
+    std::nth_element(
+      sites, sites + half, sites + siteCount, [this, axis](std::int64_t a, std::int64_t b) {
+        const double x = this->Coordinates[a * Dimension + axis];
+        const double y = this->Coordinates[b * Dimension + axis];
+        return x != y ? x < y : a < b;
+      });
+    return this->Divide(pixels, pixelCount, part, axis, box) &&
+      this->Cut(sites, half, pixels, part) &&
+      this->Cut(sites + half, siteCount - half, pixels + part, pixelCount - part);
+  }
+
+private:
+  struct Box
+  {
+    GridSize<Dimension> Low{};
+    GridSize<Dimension> High{};
+  };
+
+  template <class Visit>
+  bool ForPixels(const std::int64_t* pixels, std::int64_t count, const Visit& visit)
+  {
+    for (std::int64_t begin = 0; begin < count; begin += sliceOfPixels)
+    {
+      const std::int64_t end = std::min(begin + sliceOfPixels, count);
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        visit(pixels[i], this->Place.At(pixels[i]));
+      }
+      this->Visited += end - begin;
+      if (this->Visited >= sliceOfPixels)
+      {
+        this->Visited = 0;
+        if (this->Pace.ShouldStop())
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool FindBox(const std::int64_t* pixels, std::int64_t count, Box& box)
+  {
+    if (count > 0)
+    {
+      box.Low = box.High = this->Place.At(*pixels);
+    }
+    return this->ForPixels(pixels, count, [&box](std::int64_t, const GridSize<Dimension>& place) {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        box.Low[axis] = std::min(box.Low[axis], place[axis]);
+        box.High[axis] = std::max(box.High[axis], place[axis]);
+      }
+    });
+  }
+
+  // Along which the sites differ most, or where they do not differ the pixels.
+  int ChooseAxis(const std::int64_t* sites, std::int64_t count, const Box& box) const
+  {
+    std::pair<double, int> bySites(0.0, -1);
+    std::pair<double, int> byPixels(-1.0, 0);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      double low = this->Coordinates[*sites * Dimension + axis];
+      double high = low;
+      for (std::int64_t i = 1; i < count; ++i)
+      {
+        const double x = this->Coordinates[sites[i] * Dimension + axis];
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      const double spread = this->Spacing[axis] * (high - low);
+      const double length =
+        this->Spacing[axis] * static_cast<double>(box.High[axis] - box.Low[axis]);
+      bySites = spread > bySites.first ? std::make_pair(spread, axis) : bySites;
+      byPixels = length > byPixels.first ? std::make_pair(length, axis) : byPixels;
+    }
+    return bySites.second >= 0 ? bySites.second : byPixels.second;
+  }
+
+  // Brings the `first` pixels along an axis to the front, of those at one place the lowest.
+  bool Divide(
+    std::int64_t* pixels, std::int64_t count, std::int64_t first, int axis, const Box& box)
+  {
+    const std::int64_t low = box.Low[axis];
+    this->Layers.assign(static_cast<std::size_t>(box.High[axis] - low + 1), 0);
+    if (!this->ForPixels(pixels, count, [&](std::int64_t, const GridSize<Dimension>& place) {
+          ++this->Layers[place[axis] - low];
+        }))
+    {
+      return false;
+    }
+    std::int64_t border = 0; // the layer that the parts share
+    std::int64_t left = first;
+    while (left > this->Layers[border])
+    {
+      left -= this->Layers[border++];
+    }
+    border += low;
+    std::int64_t* behind = this->Behind.data();
+    std::int64_t* front = pixels;
+    if (!this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
+          const std::int64_t layer = place[axis];
+          if (layer < border || (layer == border && left-- > 0))
+          {
+            *front++ = pixel;
+          }
+          else
+          {
+            *behind++ = pixel;
+          }
+        }))
+    {
+      return false;
+    }
+    return this->ForPixels(this->Behind.data(), count - first,
+      [&front](std::int64_t pixel, const GridSize<Dimension>&) { *front++ = pixel; });
+  }
+
+  // Reports pixels that have their label.
+  bool Finish(std::int64_t pixels)
+  {
+    this->Finished += pixels;
+    if (this->Finished < sliceOfPixels)
+    {
+      return true;
+    }
+    this->Pace.NextSlice(1);
+    return this->Pace.EndSlice(std::exchange(this->Finished, 0));
+  }
+
+  const double* Coordinates;
+  const Point<Dimension> Spacing;
+  std::int64_t* Labels;
+  Pacer& Pace;
+  PixelPlace<Dimension> Place;
+  std::int64_t Visited = 0;  // since the host was asked
+  std::int64_t Finished = 0; // since the host was told
+  Numbers Layers;
+  LargeBuffer<std::int64_t> Behind; // room for the largest cell
+};
+
+// Calls visit(pixel) for all pixels. False if the host wants to stop.
+template <class Visit>
+bool forAll(std::int64_t pixels, Pacer& pacer, const Visit& visit)
+{
+  for (std::int64_t begin = 0; begin < pixels;)
+  {
+    const std::int64_t slice = std::min(pixels - begin, pacer.NextSlice(sliceOfPixels));
+    for (const std::int64_t end = begin + slice; begin < end; ++begin)
+    {
+      visit(begin);
+    }
+    if (!pacer.EndSlice(slice))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+template <int Dimension>
+bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners, const Monitor& monitor)
+{
+  Pacer pacer(monitor);
+  std::int64_t pixels = 1;
+  for (const std::int64_t cells : sites.Size())
+  {
+    pixels *= cells;
+  }
+  // The pixels of each cell of several sites.
+  const std::int64_t cells = sites.NumberOfPixels();
+  Numbers first(static_cast<std::size_t>(cells) + 1, 0);
+  pacer.BeginStage(0.1, pixels);
+  if (!forAll(pixels, pacer, [&](std::int64_t pixel) {
+        first[owners[pixel] + 1] += sites.SitesIn(owners[pixel]) > 1 ? 1 : 0;
+      }))
+  {
+    return false;
+  }
+  const std::int64_t largest = *std::max_element(first.begin(), first.end());
+  for (std::int64_t cell = 0; cell < cells; ++cell)
+  {
+    first[cell + 1] += first[cell];
+  }
+  LargeBuffer<std::int64_t> members(first.back());
+  Numbers next(first);
+  pacer.BeginStage(0.2, pixels);
+  if (!forAll(pixels, pacer, [&](std::int64_t pixel) {
+        const std::int64_t cell = owners[pixel];
+        if (sites.SitesIn(cell) > 1)
+        {
+          members.data()[next[cell]++] = pixel;
+        }
+        owners[pixel] = sites.Site(cell, 0);
+      }))
+  {
+    return false;
+  }
+  pacer.BeginStage(1.0, first.back());
+  CellCut<Dimension> cut(sites, coordinates, spacing, owners, pacer, largest);
+  Numbers group;
+  for (std::int64_t cell = 0; cell < cells; ++cell)
+  {
+    group.clear();
+    for (std::int64_t i = 0; i < sites.SitesIn(cell); ++i)
+    {
+      group.push_back(sites.Site(cell, i));
+    }
+    if (group.size() > 1 &&
+      !cut.Cut(group.data(), sites.SitesIn(cell), members.data() + first[cell],
+        first[cell + 1] - first[cell]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template bool splitSharedPixels<1>(
+  const SiteDensity<1>&, const double*, const Point<1>&, std::int64_t*, const Monitor&);
+template bool splitSharedPixels<2>(
+  const SiteDensity<2>&, const double*, const Point<2>&, std::int64_t*, const Monitor&);
+template bool splitSharedPixels<3>(
+  const SiteDensity<3>&, const double*, const Point<3>&, std::int64_t*, const Monitor&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Solid/SolidCoverage.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Pacer.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Index = std::int64_t;
+
+// Rows and lines are at the half-integers of coordinates in squares of the sampling.
+Index firstLineFrom(double coordinate, Index lines)
+{
+  const double line = std::ceil(coordinate - 0.5); // the subtraction is exact where it matters
+  return static_cast<Index>(std::max(0.0, std::min(line, static_cast<double>(lines))));
+}
+
+// Triangles by the layers of cells that have rows which cross them, in the order of the triangles.
+class TriangleLayers
+{
+public:
+  TriangleLayers(
+    const TriangleSurface& surface, Index layers, int supersampling, const Monitor& monitor)
+    : Surface(surface)
+    , Layers(layers)
+    , Squares(supersampling)
+    , First(layers + 2)
+    , Pace(monitor)
+  {
+  }
+
+  // False if the host wants to stop.
+  bool Build()
+  {
+    // Counted as differences along the layers, so that high triangles take no longer than others.
+    std::fill_n(this->First.data(), this->Layers + 2, Index{ 0 });
+    this->Pace.BeginStage(0.05, this->Surface.NumberOfTriangles);
+    const bool counted = this->ForTriangles([this](Index, const Range& range) {
+      ++this->First.data()[range.First + 1];
+      --this->First.data()[range.End + 1];
+    });
+    if (!counted)
+    {
+      return false;
+    }
+    Index* first = this->First.data();
+    Index open = 0;
+    Index sum = 0;
+    for (Index k = 0; k <= this->Layers; ++k)
+    {
+      open += first[k];
+      sum += open;
+      first[k] = sum; // where layer k begins
+    }
+    this->Triangles = LargeBuffer<Index>(sum);
+    LargeBuffer<Index> next(this->Layers);
+    std::copy_n(first, this->Layers, next.data());
+    this->Pace.BeginStage(0.1, sum);
+    return this->ForTriangles([this, &next](Index triangle, const Range& range) {
+      for (Index k = range.First; k < range.End; ++k)
+      {
+        this->Triangles.data()[next.data()[k]++] = triangle;
+      }
+    });
+  }
+
+  Index Begin(Index layer) const { return this->First.data()[layer]; }
+  Index End(Index layer) const { return this->First.data()[layer + 1]; }
+  Index Triangle(Index at) const { return this->Triangles.data()[at]; }
+
+private:
+  struct Range
+  {
+    Index First;
+    Index End;
+  };
+
+  Range LayersOf(Index triangle) const
+  {
+    const Index* corners = this->Surface.Triangles + 3 * triangle;
+    double z[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      z[i] = this->Surface.Points[3 * corners[i] + 2] * this->Squares;
+    }
+    const Index rows = this->Layers * this->Squares;
+    const Index first = firstLineFrom(std::min({ z[0], z[1], z[2] }), rows);
+    const Index end = firstLineFrom(std::max({ z[0], z[1], z[2] }), rows);
+    return { first / this->Squares,
+      first < end ? (end - 1) / this->Squares + 1 : first / this->Squares };
+  }
+
+  // Calls visit(triangle, range) for all, in order, in slices of about equal numbers of layers.
+  template <class Visit>
+  bool ForTriangles(const Visit& visit)
+  {
+    constexpr Index step = Index{ 1 } << 16;
+    Index done = 0;
+    for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
+    {
+      if (done == 0)
+      {
+        this->Pace.NextSlice(step);
+      }
+      const Range range = this->LayersOf(i);
+      if (range.First < range.End)
+      {
+        visit(i, range);
+      }
+      done += 1 + range.End - range.First;
+      if (done >= step)
+      {
+        if (!this->Pace.EndSlice(done))
+        {
+          return false;
+        }
+        done = 0;
+      }
+    }
+    return done == 0 || this->Pace.EndSlice(done);
+  }
+
+  TriangleSurface Surface;
+  Index Layers;
+  int Squares;
+  LargeBuffer<Index> First;
+  LargeBuffer<Index> Triangles;
+  Pacer Pace;
+};
+
+// Where a line goes through the surface, and to which side.
+struct Crossing
+{
+  double X;
+  int Side; // 1 or -1
+};
+
+// Memory for one layer that only grows.
+template <class T>
+class Scratch
+{
+public:
+  void Reserve(Index count)
+  {
+    if (count > this->Count)
+    {
+      this->Memory.reset(new T[static_cast<std::size_t>(count)]);
+      this->Count = count;
+    }
+  }
+  T* data() { return this->Memory.get(); }
+
+private:
+  std::unique_ptr<T[]> Memory;
+  Index Count = 0;
+};
+
+// A corner of the polygon in which a plane cuts the surface.
+struct PlanePoint
+{
+  double X;
+  double Y;
+};
+
+using Corner = std::array<double, 3>;
+
+// Where the plane of a row cuts an edge that goes through it upwards. Both triangles of the edge
+// call it with the same numbers.
+PlanePoint cutEdge(const Corner& below, const Corner& above, double z)
+{
+  const double t = (z - below[2]) / (above[2] - below[2]);
+  return { below[0] + t * (above[0] - below[0]), below[1] + t * (above[1] - below[1]) };
+}
+
+class CoverageRun
+{
+public:
+  CoverageRun(const TriangleSurface& surface, const TriangleLayers& layers,
+    const GridSize<3>& cells, int supersampling, double* coverage, Pacer& pace)
+    : Surface(surface)
+    , Layers(layers)
+    , Cells(cells)
+    , Squares(supersampling)
+    , LinesPerCell(supersampling * supersampling)
+    , Lines(cells[1] * supersampling)
+    , Coverage(coverage)
+    , Pace(pace)
+  {
+  }
+
+  // A range kernel.
+  void CoverLayers(Index first, Index last)
+  {
+    LayerScratch scratch;
+    scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1);
+    scratch.Parts.Reserve(this->Cells[0] + 1);
+    scratch.Whole.Reserve(this->Cells[0] + 1);
+    for (Index layer = first; layer < last && !this->Pace.ShouldStop(); ++layer)
+    {
+      this->FindCrossings(layer, scratch);
+      if (this->Pace.IsCancelled()) // then crossings may be missing
+      {
+        return;
+      }
+      this->CoverLayer(layer, scratch);
+    }
+  }
+
+  Index OpenLines() const { return this->NumberOfOpenLines; }
+
+private:
+  // Lines of a layer are numbered so that those of a row of cells follow each other.
+  struct LayerScratch
+  {
+    Scratch<Index> First; // of each line's crossings
+    Scratch<Crossing> Crossings;
+    Scratch<double> Parts; // what lines cover of cells that they cover partly
+    Scratch<int> Whole;    // how many lines cover a whole cell, as differences along the row
+  };
+
+  // The crossings of all lines of a layer, by lines.
+  void FindCrossings(Index layer, LayerScratch& scratch)
+  {
+    const Index lines = this->Cells[1] * this->LinesPerCell;
+    Index* first = scratch.First.data();
+    std::fill_n(first, lines + 1, Index{ 0 });
+    this->ForSegments(
+      layer, [this, first](const PlanePoint&, const PlanePoint&, Index from, Index end, Index row) {
+        for (Index j = from; j < end; ++j)
+        {
+          ++first[this->LineOf(j, row)];
+        }
+      });
+    // From counts to the ends of the lines; filled from there, they become beginnings.
+    for (Index line = 1; line <= lines; ++line)
+    {
+      first[line] += first[line - 1];
+    }
+    scratch.Crossings.Reserve(first[lines]);
+    Crossing* crossings = scratch.Crossings.data();
+    this->ForSegments(layer,
+      [this, first, crossings](
+        const PlanePoint& in, const PlanePoint& out, Index from, Index end, Index row) {
+        // From the lower end, so that triangles that lie on each other have the same crossings.
+        const bool up = in.Y < out.Y;
+        const PlanePoint& low = up ? in : out;
+        const PlanePoint& high = up ? out : in;
+        const double slope = (high.X - low.X) / (high.Y - low.Y);
+        const double least = std::min(low.X, high.X);
+        const double most = std::max(low.X, high.X);
+        for (Index j = from; j < end; ++j)
+        {
+          const double x = low.X + slope * (static_cast<double>(j) + 0.5 - low.Y);
+          crossings[--first[this->LineOf(j, row)]] = { std::max(least, std::min(x, most)),
+            up ? 1 : -1 };
+        }
+      });
+  }
+
+  Index LineOf(Index j, Index row) const
+  {
+    return j / this->Squares * this->LinesPerCell + row * this->Squares + j % this->Squares;
+  }
+
+  // Calls visit(in, out, from, end, row) for what the planes of a layer's rows cut of the
+  // triangles: a segment that crosses lines [from, end).
+  template <class Visit>
+  void ForSegments(Index layer, const Visit& visit)
+  {
+    const double squares = static_cast<double>(this->Squares);
+    for (Index at = this->Layers.Begin(layer); at < this->Layers.End(layer); ++at)
+    {
+      if ((at & 0xfff) == 0xfff && this->Pace.ShouldStop())
+      {
+        return;
+      }
+      const Index* ids = this->Surface.Triangles + 3 * this->Layers.Triangle(at);
+      Corner corners[3];
+      for (int i = 0; i < 3; ++i)
+      {
+        const double* point = this->Surface.Points + 3 * ids[i];
+        corners[i] = { point[0], point[1] * squares, point[2] * squares };
+      }
+      for (Index row = 0; row < this->Squares; ++row)
+      {
+        const double z = static_cast<double>(layer * this->Squares + row) + 0.5;
+        this->CutTriangle(corners, z, [&](const PlanePoint& in, const PlanePoint& out) {
+          const Index from = firstLineFrom(std::min(in.Y, out.Y), this->Lines);
+          const Index end = firstLineFrom(std::max(in.Y, out.Y), this->Lines);
+          visit(in, out, from, end, row);
+        });
+      }
+    }
+  }
+
+  // Calls visit(in, out) if the plane cuts the triangle: from the edge that goes up through the
+  // plane to the one that goes down. A corner on the plane counts as below it.
+  template <class Visit>
+  void CutTriangle(const Corner (&corners)[3], double z, const Visit& visit)
+  {
+    const bool below[3] = { corners[0][2] <= z, corners[1][2] <= z, corners[2][2] <= z };
+    if (below[0] == below[1] && below[1] == below[2])
+    {
+      return;
+    }
+    PlanePoint in{};
+    PlanePoint out{};
+    for (int i = 0; i < 3; ++i)
+    {
+      const int next = i == 2 ? 0 : i + 1;
+      if (below[i] && !below[next])
+      {
+        in = cutEdge(corners[i], corners[next], z);
+      }
+      else if (!below[i] && below[next])
+      {
+        out = cutEdge(corners[next], corners[i], z);
+      }
+    }
+    visit(in, out);
+  }
+
+  void CoverLayer(Index layer, LayerScratch& scratch)
+  {
+    const Index* first = scratch.First.data();
+    for (Index j = 0; j < this->Cells[1]; ++j)
+    {
+      if ((j & 0x1f) == 0x1f && this->Pace.ShouldStop())
+      {
+        return;
+      }
+      const Index begin = j * this->LinesPerCell;
+      const Index end = begin + this->LinesPerCell;
+      double* row = this->Coverage + (layer * this->Cells[1] + j) * this->Cells[0];
+      if (first[begin] == first[end])
+      {
+        std::fill_n(row, this->Cells[0], 0.0);
+        continue;
+      }
+      std::fill_n(scratch.Parts.data(), this->Cells[0] + 1, 0.0);
+      std::fill_n(scratch.Whole.data(), this->Cells[0] + 1, 0);
+      for (Index line = begin; line < end; ++line)
+      {
+        this->CoverLine(scratch.Crossings.data() + first[line], first[line + 1] - first[line],
+          scratch.Parts.data(), scratch.Whole.data());
+      }
+      this->WriteRow(scratch.Parts.data(), scratch.Whole.data(), row);
+    }
+  }
+
+  // Adds the parts of a line that are inside of the solid.
+  void CoverLine(Crossing* crossings, Index count, double* parts, int* whole)
+  {
+    std::sort(
+      crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.X < b.X; });
+    Index winding = 0;
+    double entry = 0.0;
+    for (Index i = 0; i < count; ++i)
+    {
+      if (winding == 0)
+      {
+        entry = crossings[i].X;
+      }
+      winding += crossings[i].Side;
+      if (winding == 0)
+      {
+        this->CoverInterval(entry, crossings[i].X, parts, whole);
+      }
+    }
+    if (winding != 0)
+    {
+      ++this->NumberOfOpenLines;
+    }
+  }
+
+  void CoverInterval(double entry, double exit, double* parts, int* whole) const
+  {
+    const double length = static_cast<double>(this->Cells[0]);
+    entry = std::max(0.0, std::min(entry, length));
+    exit = std::max(0.0, std::min(exit, length));
+    const Index from = std::min(static_cast<Index>(entry), this->Cells[0] - 1);
+    const Index to = std::min(static_cast<Index>(exit), this->Cells[0] - 1);
+    if (from == to)
+    {
+      parts[from] += exit - entry;
+      return;
+    }
+    parts[from] += static_cast<double>(from + 1) - entry;
+    parts[to] += exit - static_cast<double>(to);
+    ++whole[from + 1];
+    --whole[to];
+  }
+
+  void WriteRow(const double* parts, int* whole, double* row) const
+  {
+    const Index count = this->Cells[0];
+    for (Index i = 1; i < count; ++i)
+    {
+      whole[i] += whole[i - 1];
+    }
+    const double lines = this->LinesPerCell;
+#pragma omp simd
+    for (Index i = 0; i < count; ++i)
+    {
+      // Parts of one cell may add up to more than the cell by rounding.
+      row[i] = std::min((static_cast<double>(whole[i]) + parts[i]) / lines, 1.0);
+    }
+  }
+
+  TriangleSurface Surface;
+  const TriangleLayers& Layers;
+  GridSize<3> Cells;
+  Index Squares;
+  int LinesPerCell;
+  Index Lines; // of a row
+  double* Coverage;
+  Pacer& Pace;
+  std::atomic<Index> NumberOfOpenLines{ 0 };
+};
+
+} // namespace
+
+CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+  int supersampling, double* coverage, const Executor& executor, const Monitor& monitor)
+{
+  CoverageReport report;
+  TriangleLayers layers(surface, cells[2], supersampling, monitor);
+  if (!layers.Build())
+  {
+    report.Cancelled = true;
+    return report;
+  }
+  const Monitor rest{ [&monitor](double fraction) {
+                       if (monitor.Progress)
+                       {
+                         monitor.Progress(0.1 + 0.9 * fraction);
+                       }
+                     },
+    monitor.Cancelled };
+  Pacer pace(rest);
+  CoverageRun run(surface, layers, cells, supersampling, coverage, pace);
+  pace.BeginStage(1.0, cells[2]);
+  for (Index begin = 0; begin < cells[2];)
+  {
+    const Index slice = std::min(cells[2] - begin, pace.NextSlice(executor.Concurrency()));
+    executor.For(slice, 1,
+      [&run, begin](Index first, Index last) { run.CoverLayers(begin + first, begin + last); });
+    begin += slice;
+    if (!pace.EndSlice(slice))
+    {
+      report.Cancelled = true;
+      return report;
+    }
+  }
+  report.OpenLines = run.OpenLines();
+  return report;
+}
+
+} // namespace RectifiedTransport

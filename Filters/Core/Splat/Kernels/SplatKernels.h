@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The range kernels of a splat, which exist once per instruction set, and the choice among them.
+#ifndef RectifiedTransport_SplatKernels_h
+#define RectifiedTransport_SplatKernels_h
+
+#include "Core/Splat/Splat.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Particles are placed in blocks of this many.
+constexpr int splatBlock = 64;
+
+// Cells [Low, High) along each axis.
+template <int Dimension>
+struct CellBox
+{
+  std::int32_t Low[Dimension];
+  std::int32_t High[Dimension];
+};
+
+// One splat: everything that its ranges share.
+template <int Dimension, class Real>
+struct SplatJob
+{
+  SplatParticles<Dimension, Real> Particles;
+  std::int32_t Size[Dimension];
+  std::int64_t Stride[Dimension];
+  std::int32_t Width;           // cells an axis that a particle reaches
+  std::int32_t Kept[Dimension]; // of these, as many as there are
+  bool Renormalize;
+  double Scale;
+  double* Cells;
+
+  // The Gaussian alone: where it is cut and 1 / sigma^2, in cells, and exp(-k^2 / 2 sigma^2).
+  double Cut;
+  double PerVariance;
+  const double* AtOffset;
+};
+
+// Adds what particles [first, first + count), or with an index particles first + index[0], ...,
+// first + index[count - 1], have in the cells of a box (null: all cells), in this order. `scratch`
+// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of
+// those whose first cell is in the box along the last axis.
+template <int Dimension, class Real>
+using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
+  const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
+
+// Finds the first of the cells that particles [first, first + count) reach: Kept cells from there
+// on, along axis a from cells[3 i + a]. Returns how many are outside.
+template <int Dimension, class Real>
+using FindCells = std::int64_t (*)(
+  const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells);
+
+// A box of cells that holds all that particles [first, first + count), count > 0, reach.
+template <int Dimension, class Real>
+using BoxOfParticles = CellBox<Dimension> (*)(
+  const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count);
+
+// Of one SplatKernel.
+template <int Dimension, class Real>
+struct SplatKernels
+{
+  std::int32_t Width; // cells an axis; 0 for the Gaussian, which has it from its radius
+  AddParticles<Dimension, Real> Add;
+  FindCells<Dimension, Real> Find;
+  BoxOfParticles<Dimension, Real> Reach;
+  double (*Exponential)(double); // with the same bits on every machine
+};
+
+template <int Dimension, class Real>
+SplatKernels<Dimension, Real> splatKernelsSSE2(SplatKernel kernel);
+template <int Dimension, class Real>
+SplatKernels<Dimension, Real> splatKernelsAVX2(SplatKernel kernel);
+
+// The widest that this processor runs and flowKernels() would take. All compute the same bits.
+template <int Dimension, class Real>
+SplatKernels<Dimension, Real> splatKernels(SplatKernel kernel);
+
+} // namespace RectifiedTransport
+
+#endif

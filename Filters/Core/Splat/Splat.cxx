@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who adds which particles to which cells. Every cell belongs to one task at a time, which goes
+// through the particles in their order: so the sums are those of a plain loop, however the cells
+// are divided among tasks and the particles into slices.
+#include "Core/Splat/Splat.h"
+
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Splat/Kernels/SplatKernels.h"
+#include "Core/Splat/SlabPartition.h"
+#include "Core/Splat/SplatTiles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Particles of a slice: long work has more slices than one, sorted particles are dense enough that
+// a tile is worth its way to the cache, and numbers within a slice have 32 bits.
+constexpr double shortestSlice = 1 << 22; // shares of particles in cells
+constexpr double densestSlice = 0.25;     // particles a cell
+constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
+
+// How often chunks may be weighed in the mean, by tasks that each add a part of them: for some more
+// slabs than tasks, and before it is cheaper to sort the particles. (One task alone has nothing of
+// a sort: misses of the cache overlap.)
+constexpr double fewVisits = 1.2;
+constexpr double mostVisits = 8.0;
+constexpr std::int64_t mostSlabs = 4; // a task
+
+constexpr std::int64_t widestSorted = 16;
+constexpr std::int64_t groupsOfTiles = 256;
+
+template <int Dimension, class Real>
+class SplatRun
+{
+public:
+  SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
+    const SplatOptions& options, double scale, double* cells, const Executor& executor,
+    Pacer& pacer)
+    : Threads(executor)
+    , Pace(pacer)
+    , Tiles(this->Job)
+  {
+    this->Job.Particles = particles;
+    this->Job.Renormalize = options.Boundary == SplatBoundary::Renormalize;
+    this->Job.Scale = scale;
+    this->Job.Cells = cells;
+    // Weights of two cells that keep the centroid are those of the CloudInCell.
+    constexpr double twoCells = 1.0 / 3.0;
+    const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
+    const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
+    this->Kernels = splatKernels<Dimension, Real>(kernel);
+    this->Job.Width = this->Kernels.Width;
+    if (kernel == SplatKernel::Gaussian)
+    {
+      this->UseGaussian(options.Radius);
+    }
+    std::int64_t stride = 1;
+    double reached = 1.0;
+    for (int a = 0; a < Dimension; ++a)
+    {
+      this->Job.Size[a] = static_cast<std::int32_t>(size[a]);
+      this->Job.Stride[a] = stride;
+      this->Job.Kept[a] = std::min(this->Job.Width, this->Job.Size[a]);
+      stride *= size[a];
+      reached *= this->Job.Kept[a];
+    }
+    this->NumberOfCells = stride;
+    const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);
+    this->Step = static_cast<std::int64_t>(shortest);
+    const double dense =
+      std::min(densestSlice * static_cast<double>(stride), static_cast<double>(longestSlice));
+    this->ShortestSlice = static_cast<std::int64_t>(
+      this->Job.Width > widestSorted ? shortest : std::max(shortest, dense));
+    this->Survey = SlabPartition<Dimension, Real>(this->Job, this->Kernels.Reach);
+    this->Tiles.Divide();
+  }
+
+  SplatReport Run()
+  {
+    SplatReport report;
+    const std::int64_t count = this->Job.Particles.Count;
+    report.Cancelled = !this->Clear(count > 0 ? 0.1 : 1.0);
+    this->Pace.BeginStage(1.0, count);
+    for (std::int64_t begin = 0; begin < count && !report.Cancelled;)
+    {
+      const std::int64_t slice =
+        std::min({ count - begin, this->Pace.NextSlice(this->ShortestSlice), longestSlice });
+      this->AddSlice(begin, slice);
+      begin += slice;
+      report.Cancelled = !this->Pace.EndSlice(slice);
+    }
+    report.Outside = this->Outside;
+    return report;
+  }
+
+private:
+  void UseGaussian(double radius)
+  {
+    this->Job.Cut = 3.0 * radius;
+    this->Job.PerVariance = 1.0 / (radius * radius);
+    this->Job.Width = static_cast<std::int32_t>(2.0 * this->Job.Cut) + 1;
+    const int farthest = static_cast<int>(this->Job.Cut + 0.5) + 1;
+    for (int k = 0; k <= farthest; ++k)
+    {
+      const double square = static_cast<double>(k) * k;
+      this->AtOffset.push_back(this->Kernels.Exponential(-0.5 * square * this->Job.PerVariance));
+    }
+    this->Job.AtOffset = this->AtOffset.data();
+  }
+
+  // Returns false if the host wants to stop.
+  bool Clear(double end)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+    this->Pace.BeginStage(end, this->NumberOfCells);
+    for (std::int64_t begin = 0; begin < this->NumberOfCells;)
+    {
+      const std::int64_t slice =
+        std::min(this->NumberOfCells - begin, this->Pace.NextSlice(16 * grain));
+      double* cells = this->Job.Cells + begin;
+      this->Threads.For(slice, grain, [cells](std::int64_t first, std::int64_t last) {
+        std::fill(cells + first, cells + last, 0.0);
+      });
+      begin += slice;
+      if (!this->Pace.EndSlice(slice))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void AddSlice(std::int64_t first, std::int64_t count)
+  {
+    const int tasks = this->Threads.Concurrency();
+    if (tasks == 1)
+    {
+      this->AddInOrder(first, count);
+      return;
+    }
+    this->Survey.Look(first, count, this->Threads);
+    double visits = 0.0;
+    for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
+    {
+      visits = this->Survey.CutSlabs(slabs * tasks);
+      if (visits <= fewVisits)
+      {
+        break;
+      }
+    }
+    if (visits > mostVisits && this->Job.Width <= widestSorted)
+    {
+      this->AddByTiles(first, count);
+    }
+    else
+    {
+      this->AddBySlabs(first, count);
+    }
+  }
+
+  void AddInOrder(std::int64_t first, std::int64_t count)
+  {
+    this->MakeScratch(1);
+    this->Outside += this->AddRange(first, count, nullptr, 0);
+  }
+
+  // Each task adds what falls between two planes, of the chunks that come near.
+  void AddBySlabs(std::int64_t first, std::int64_t count)
+  {
+    const std::int64_t slabs = this->Survey.NumberOfSlabs();
+    this->MakeScratch(slabs);
+    this->Threads.For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t slab = begin; slab < end; ++slab)
+      {
+        const CellBox<Dimension> box = this->Survey.Slab(slab);
+        std::int64_t outside = 0;
+        for (std::int64_t chunk = 0;
+             chunk < this->Survey.NumberOfChunks() && !this->Pace.IsCancelled(); ++chunk)
+        {
+          const typename SlabPartition<Dimension, Real>::Planes planes = this->Survey.Chunk(chunk);
+          const std::int32_t low = box.Low[Dimension - 1];
+          const std::int32_t high = box.High[Dimension - 1];
+          if (planes.Low >= high || planes.High <= low)
+          {
+            continue;
+          }
+          const bool isInside = planes.Low >= low && planes.High <= high;
+          const std::int64_t number = std::min(splatChunk, count - chunk * splatChunk);
+          outside +=
+            this->AddRange(first + chunk * splatChunk, number, isInside ? nullptr : &box, slab);
+        }
+        this->Outside += outside;
+      }
+    });
+  }
+
+  void AddByTiles(std::int64_t first, std::int64_t count)
+  {
+    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Threads, this->Pace);
+    if (this->Pace.IsCancelled())
+    {
+      return;
+    }
+    const std::int64_t tiles = this->Tiles.Count();
+    const std::int64_t groups = std::min(tiles, groupsOfTiles);
+    this->MakeScratch(groups);
+    this->Threads.For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t group = begin; group < end; ++group)
+      {
+        for (std::int64_t tile = group * tiles / groups;
+             tile < (group + 1) * tiles / groups && !this->Pace.ShouldStop(); ++tile)
+        {
+          const CellBox<Dimension> box = this->Tiles.Box(tile);
+          this->Kernels.Add(this->Job, first, this->Tiles.Begin(tile), this->Tiles.CountOf(tile),
+            &box, this->ScratchOf(group));
+        }
+      }
+    });
+  }
+
+  // In steps that the host can wait for, however wide the kernel is.
+  std::int64_t AddRange(
+    std::int64_t first, std::int64_t count, const CellBox<Dimension>* box, std::int64_t task)
+  {
+    std::int64_t outside = 0;
+    for (std::int64_t begin = 0; begin < count && !this->Pace.ShouldStop(); begin += this->Step)
+    {
+      outside += this->Kernels.Add(this->Job, first + begin, nullptr,
+        std::min(this->Step, count - begin), box, this->ScratchOf(task));
+    }
+    return outside;
+  }
+
+  void MakeScratch(std::int64_t tasks)
+  {
+    this->ScratchEach = this->AtOffset.empty() ? 0 : std::int64_t{ Dimension } * this->Job.Width;
+    this->Scratch.resize(static_cast<std::size_t>(this->ScratchEach * tasks));
+  }
+  double* ScratchOf(std::int64_t task) { return this->Scratch.data() + task * this->ScratchEach; }
+
+  SplatJob<Dimension, Real> Job{};
+  SplatKernels<Dimension, Real> Kernels;
+  const Executor& Threads;
+  Pacer& Pace;
+  SlabPartition<Dimension, Real> Survey;
+  SplatTiles<Dimension, Real> Tiles;
+  std::int64_t NumberOfCells = 0;
+  std::int64_t ShortestSlice = 0;
+  std::int64_t Step = 0; // particles between two looks whether to stop
+  std::vector<double> AtOffset;
+  std::vector<double> Scratch;
+  std::int64_t ScratchEach = 0;
+  std::atomic<std::int64_t> Outside{ 0 };
+};
+
+} // namespace
+
+template <int Dimension, class Real>
+SplatKernels<Dimension, Real> splatKernels(SplatKernel kernel)
+{
+#ifdef RECTIFIEDTRANSPORT_X86
+  if (std::strcmp(flowKernels().InstructionSet, flowKernelsSSE2().InstructionSet) != 0)
+  {
+    return splatKernelsAVX2<Dimension, Real>(kernel);
+  }
+#endif
+  return splatKernelsSSE2<Dimension, Real>(kernel);
+}
+
+template <int Dimension, class Real>
+SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
+  const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
+  const Executor& executor, const Monitor& monitor)
+{
+  Pacer pacer(monitor);
+  return SplatRun<Dimension, Real>(particles, size, options, scale, cells, executor, pacer).Run();
+}
+
+template SplatReport splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatReport splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatReport splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatReport splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatReport splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatReport splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
+  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+template SplatKernels<1, float> splatKernels<1, float>(SplatKernel);
+template SplatKernels<2, float> splatKernels<2, float>(SplatKernel);
+template SplatKernels<3, float> splatKernels<3, float>(SplatKernel);
+template SplatKernels<1, double> splatKernels<1, double>(SplatKernel);
+template SplatKernels<2, double> splatKernels<2, double>(SplatKernel);
+template SplatKernels<3, double> splatKernels<3, double>(SplatKernel);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles by the tiles of the grid that they reach, each tile's in their order: many tasks then
+// add particles that are in no order, and each weighs none but its own.
+#ifndef RectifiedTransport_SplatTiles_h
+#define RectifiedTransport_SplatTiles_h
+
+#include "Core/Parallel/Executor.h"
+#include "Core/Splat/Kernels/SplatKernels.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Pacer;
+
+template <int Dimension, class Real>
+class SplatTiles
+{
+public:
+  explicit SplatTiles(const SplatJob<Dimension, Real>& job)
+    : Job(job)
+  {
+  }
+
+  // Divides the grid, whose size is known by now.
+  void Divide();
+
+  // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; what is found is
+  // undefined once the host wants to stop. Throws std::bad_alloc.
+  std::int64_t Sort(FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count,
+    const Executor& executor, Pacer& pacer);
+
+  std::int64_t Count() const { return this->NumberOfTiles; }
+  CellBox<Dimension> Box(std::int64_t tile) const;
+  // Particles of a tile, counted from `first`.
+  const std::uint32_t* Begin(std::int64_t tile) const;
+  std::int64_t CountOf(std::int64_t tile) const;
+
+private:
+  // The tiles of the cells that a particle reaches, by the first of these along each axis.
+  template <class Visit>
+  void VisitTiles(const std::int32_t* cells, const Visit& visit) const;
+
+  const SplatJob<Dimension, Real>& Job;
+  int Shift[Dimension];
+  std::int64_t Tiles[Dimension];
+  std::int64_t NumberOfTiles = 1;
+  std::vector<std::int64_t> Start;    // of every tile, and the end
+  std::vector<std::int64_t> Position; // of every tile in every part of the particles
+  std::vector<std::uint32_t> Index;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of a density is in a box, and how large a box holds a given share.
+#ifndef RectifiedTransport_BoxShare_h
+#define RectifiedTransport_BoxShare_h
+
+#include "Core/Tables/Density.h"
+#include "Core/Tables/TableView.h"
+
+namespace RectifiedTransport
+{
+
+// The share of the mass in the part of a box that is in the domain, exactly up to the rounding of
+// the sums (2e-16 of the whole).
+template <int Dimension>
+double boxShare(
+  const TableView<Dimension>& tables, const Point<Dimension>& low, const Point<Dimension>& high);
+
+// The measure, in cells, of the smallest box about `centre` that holds a share of the mass: the
+// part of it in the domain. The box has half the sides h * `aspect`, and h is sought. The whole
+// domain if the share is 1 or more, 0 if it is not above 0.
+template <int Dimension>
+double measureOfShare(const TableView<Dimension>& tables, const Point<Dimension>& centre,
+  const Point<Dimension>& aspect, double share);
+
+} // namespace RectifiedTransport
+
+#endif

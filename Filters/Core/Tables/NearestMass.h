@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nearest cell that has mass.
+#ifndef RectifiedTransport_NearestMass_h
+#define RectifiedTransport_NearestMass_h
+
+#include "Core/Tables/Density.h"
+#include "Core/Tables/TableView.h"
+
+namespace RectifiedTransport
+{
+
+// Whether the cell that holds a point has mass; of a point on a face, any of its cells.
+template <int Dimension>
+bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
+
+// The point of a cell with mass that is nearest to `point`, just inside that cell.
+template <int Dimension>
+Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
+
+} // namespace RectifiedTransport
+
+#endif

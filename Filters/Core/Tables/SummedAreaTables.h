@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The summed-area tables of a density with their coarse levels (paper, Section 3.3).
+#ifndef RectifiedTransport_SummedAreaTables_h
+#define RectifiedTransport_SummedAreaTables_h
+
+#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Tables/Density.h"
+#include "Core/Tables/TableView.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+class Pacer;
+
+// What tables are kept in.
+struct TableMemory
+{
+  LargeBuffer<double> Nodes;
+  LargeBuffer<std::uint64_t> Occupied; // one bit a cell
+};
+
+// One record of doubles a node; see TableView.h for its entries. Built in one pass over the
+// density that also inspects it, slab by slab: sums of the slab's strips first, then the tables of
+// all strips side by side. The strips are fixed, so the tables are the same to the last bit for
+// every executor. Integer-valued densities give exact sums below 2^53.
+template <int Dimension>
+class SummedAreaTables
+{
+public:
+  // Uses `memory` if it has the right size. Throws InvalidDensity and std::bad_alloc.
+  SummedAreaTables(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer,
+    TableMemory memory = {});
+
+  // Nothing but destruction may follow.
+  TableMemory ReleaseMemory() { return std::move(this->Memory); }
+
+  // False if the build was cancelled.
+  bool IsComplete() const { return this->Complete; }
+  const TableView<Dimension>& View() const { return this->Tables; }
+  const DensitySummary& Summary() const { return this->Found; }
+  std::int64_t MemorySize() const
+  {
+    return this->Memory.Nodes.bytes() + this->Memory.Occupied.bytes();
+  }
+
+private:
+  void Allocate(const GridSize<Dimension>& size);
+  bool Build(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer);
+
+  TableMemory Memory;
+  TableView<Dimension> Tables;
+  DensitySummary Found;
+  bool Complete = false;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Tables/TableBuild.h"
+
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Pacer.h"
+#include "Core/Tables/DensityInspection.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Sums are taken over strips of this many cells, whatever runs them.
+constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
+constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
+constexpr std::int64_t slabCells = std::int64_t{ 1 } << 16;
+
+// The number of a node on a level, -1 if the level does not have it.
+std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
+{
+  const int shift = level * levelShift;
+  const std::int64_t width = std::int64_t{ 1 } << shift;
+  return node == size || (node & (width - 1)) == 0 ? (node + width - 1) >> shift : -1;
+}
+
+// Copies the nodes (first, first + count] of one row that level `level` has. `nodes` starts with
+// node first + 1, `coarse` with the level's node 0.
+template <int Record>
+void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, std::int64_t size,
+  int level, double* coarse)
+{
+  const int shift = level * levelShift;
+  const std::int64_t width = std::int64_t{ 1 } << shift;
+  std::int64_t place = (first >> shift) + 1;
+  for (std::int64_t node = place << shift; node <= first + count; node += width, ++place)
+  {
+    std::copy_n(nodes + (node - first - 1) * Record, Record, coarse + place * Record);
+  }
+  if (first + count == size && (size & (width - 1)) != 0)
+  {
+    std::copy_n(nodes + (count - 1) * Record, Record, coarse + place * Record);
+  }
+}
+
+// Slabs of rows: first the sums of each row's cells before every strip, then the strips side by
+// side.
+class Builder2D
+{
+public:
+  explicit Builder2D(const TableBuild<2>& build)
+    : Build(build)
+    , Columns(build.Tables.Cells[0])
+    , Rows(build.Tables.Cells[1])
+    , Strips((this->Columns + stripCells - 1) / stripCells)
+    , Slab(std::min(this->Rows, std::max<std::int64_t>(1, slabCells / this->Columns)))
+    , Values(this->Slab * this->Columns)
+    , Prefixes(this->Slab * this->Strips * 2)
+    , Found(static_cast<std::size_t>(this->Slab))
+  {
+    for (int level = 0; level < build.Tables.LevelCount; ++level)
+    {
+      std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[1], 0.0);
+    }
+  }
+
+  bool Run()
+  {
+    const Executor& run = this->Build.Run;
+    Pacer& pace = this->Build.Pace;
+    while (this->Begin < this->Rows)
+    {
+      this->Count = std::min({ this->Slab, this->Rows - this->Begin, pace.NextSlice(this->Slab) });
+      run.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
+        const std::int64_t end = pace.ShouldStop() ? first : last;
+        for (std::int64_t j = first; j < end; ++j)
+        {
+          this->SumRow(j);
+        }
+      });
+      for (std::int64_t j = 0; j < this->Count; ++j)
+      {
+        merge(this->Found[j], this->Build.Found);
+      }
+      run.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
+        {
+          this->AddStrip(strip);
+        }
+      });
+      this->Begin += this->Count;
+      if (!pace.EndSlice(this->Count))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  // Row j of the slab.
+  void SumRow(std::int64_t j)
+  {
+    const std::int64_t row = this->Begin + j;
+    double* cells = this->Values.data() + j * this->Columns;
+    double sum = 0.0;
+    double moment = 0.0;
+    DensitySummary part;
+    for (std::int64_t strip = 0; strip < this->Strips; ++strip)
+    {
+      const std::int64_t start = strip * stripCells;
+      const std::int64_t length = std::min(stripCells, this->Columns - start);
+      this->Build.Density.ReadRow(row, start, length, cells + start);
+      double* prefix = this->Prefixes.data() + (j * this->Strips + strip) * 2;
+      prefix[0] = sum;
+      prefix[1] = moment;
+      const RowInspection sums = inspectCells(cells + start, length, row * this->Columns + start,
+        this->Build.Occupied + row * this->Build.Tables.WordsPerRow + start / 64, part);
+      sum += sums.Sum;
+      moment += sums.Moment + sums.Sum * static_cast<double>(start);
+    }
+    part.Total = sum;
+    this->Found[j] = part;
+  }
+
+  void AddStrip(std::int64_t strip)
+  {
+    const TableView<2>& tables = this->Build.Tables;
+    TableRow2D row;
+    row.First = strip * stripCells;
+    row.Count = std::min(stripCells, this->Columns - row.First);
+    for (std::int64_t j = 0; j < this->Count; ++j)
+    {
+      const std::int64_t node = this->Begin + j + 1;
+      row.Values = this->Values.data() + j * this->Columns + row.First;
+      std::copy_n(this->Prefixes.data() + (j * this->Strips + strip) * 2, 2, row.Prefix);
+      row.Centre = static_cast<double>(this->Begin + j) + 0.5;
+      row.Nodes = this->Build.Nodes + node * tables.Levels[0].Stride[1] + (row.First + 1) * 4;
+      row.Below = row.Nodes - tables.Levels[0].Stride[1];
+      this->AddRow(row);
+      for (int level = 0; level < tables.LevelCount; ++level)
+      {
+        const std::int64_t coarse = coarseNode(node, this->Rows, level);
+        if (coarse < 0)
+        {
+          continue;
+        }
+        double* target = this->Build.Level(level) + coarse * tables.Levels[level].Stride[1];
+        if (strip == 0)
+        {
+          std::fill_n(target, 4, 0.0);
+        }
+        if (level > 0)
+        {
+          copyToLevel<4>(row.Nodes, row.First, row.Count, this->Columns, level, target);
+        }
+      }
+    }
+  }
+
+  const TableBuild<2>& Build;
+  const AddTableRow2D AddRow = flowKernels().AddRow2D;
+  const std::int64_t Columns;
+  const std::int64_t Rows;
+  const std::int64_t Strips;
+  const std::int64_t Slab; // rows, at most
+  std::int64_t Begin = 0;  // of the slab
+  std::int64_t Count = 0;  // rows in it
+  LargeBuffer<double> Values;
+  LargeBuffer<double> Prefixes;
+  std::vector<DensitySummary> Found;
+};
+
+// Slabs of slices: first the sums of each strip's columns, then those of the columns before every
+// strip, then the strips side by side.
+class Builder3D
+{
+public:
+  explicit Builder3D(const TableBuild<3>& build)
+    : Build(build)
+    , Columns(build.Tables.Cells[0])
+    , Rows(build.Tables.Cells[1])
+    , Slices(build.Tables.Cells[2])
+    , Strips((this->Rows + stripRows - 1) / stripRows)
+    , Slab(
+        std::min(this->Slices, std::max<std::int64_t>(1, slabCells / (this->Columns * this->Rows))))
+    , Values(this->Slab * this->Columns * this->Rows)
+    , Sums(this->Slab * this->Strips * this->Columns * 2)
+    , Before(this->Slab * this->Strips * this->Columns * 4)
+    , Found(static_cast<std::size_t>(this->Slab * this->Strips))
+  {
+    for (int level = 0; level < build.Tables.LevelCount; ++level)
+    {
+      std::fill_n(build.Level(level), build.Tables.Levels[level].Stride[2], 0.0);
+    }
+  }
+
+  bool Run()
+  {
+    const Executor& run = this->Build.Run;
+    Pacer& pace = this->Build.Pace;
+    while (this->Begin < this->Slices)
+    {
+      this->Count =
+        std::min({ this->Slab, this->Slices - this->Begin, pace.NextSlice(this->Slab) });
+      run.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t task = first; task < last && !pace.ShouldStop(); ++task)
+        {
+          this->SumStrip(task);
+        }
+      });
+      for (std::int64_t task = 0; task < this->Count * this->Strips; ++task)
+      {
+        merge(this->Found[task], this->Build.Found);
+      }
+      run.For(this->Count, 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last && !pace.ShouldStop(); ++k)
+        {
+          this->SumBefore(k);
+        }
+      });
+      run.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
+        {
+          this->AddStrip(strip);
+        }
+      });
+      this->Begin += this->Count;
+      if (!pace.EndSlice(this->Count))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  // One strip of one slice: {f, f * centre 1} of every column.
+  void SumStrip(std::int64_t task)
+  {
+    const std::int64_t k = task / this->Strips;
+    const std::int64_t firstRow = task % this->Strips * stripRows;
+    const std::int64_t lastRow = std::min(firstRow + stripRows, this->Rows);
+    double* column = this->Sums.data() + task * this->Columns * 2;
+    double* columnMoment = column + this->Columns;
+    std::fill_n(column, 2 * this->Columns, 0.0);
+    DensitySummary part;
+    for (std::int64_t j = firstRow; j < lastRow; ++j)
+    {
+      const std::int64_t row = (this->Begin + k) * this->Rows + j;
+      double* cells = this->Values.data() + (k * this->Rows + j) * this->Columns;
+      this->Build.Density.ReadRow(row, 0, this->Columns, cells);
+      const RowInspection sums = inspectCells(cells, this->Columns, row * this->Columns,
+        this->Build.Occupied + row * this->Build.Tables.WordsPerRow, part);
+      part.Total += sums.Sum;
+      this->AddColumns(cells, this->Columns, static_cast<double>(j) + 0.5, column, columnMoment);
+    }
+    this->Found[task] = part;
+  }
+
+  // The sums of a slice's rows before each strip, as prefixes along axis 0.
+  void SumBefore(std::int64_t k)
+  {
+    double* previous = this->Before.data() + k * this->Strips * this->Columns * 4;
+    std::fill_n(previous, this->Columns * 4, 0.0);
+    for (std::int64_t strip = 1; strip < this->Strips; ++strip)
+    {
+      const double* column = this->Sums.data() + (k * this->Strips + strip - 1) * this->Columns * 2;
+      double* next = previous + this->Columns * 4;
+      double sum = 0.0;
+      double moment = 0.0;
+      double momentAcross = 0.0;
+      for (std::int64_t i = 0; i < this->Columns; ++i)
+      {
+        sum += column[i];
+        moment += column[i] * (static_cast<double>(i) + 0.5);
+        momentAcross += column[this->Columns + i];
+        next[4 * i] = previous[4 * i] + sum;
+        next[4 * i + 1] = previous[4 * i + 1] + moment;
+        next[4 * i + 2] = previous[4 * i + 2] + momentAcross;
+        next[4 * i + 3] = next[4 * i];
+      }
+      previous = next;
+    }
+  }
+
+  void AddStrip(std::int64_t strip)
+  {
+    const auto& stride = this->Build.Tables.Levels[0].Stride;
+    const std::int64_t firstRow = strip * stripRows;
+    const std::int64_t lastRow = std::min(firstRow + stripRows, this->Rows);
+    TableRow3D row;
+    row.Count = this->Columns;
+    for (std::int64_t k = 0; k < this->Count; ++k)
+    {
+      const std::int64_t plane = this->Begin + k + 1;
+      row.Columns = this->Before.data() + (k * this->Strips + strip) * this->Columns * 4;
+      row.Centre[1] = static_cast<double>(this->Begin + k) + 0.5;
+      for (std::int64_t j = firstRow; j < lastRow; ++j)
+      {
+        row.Values = this->Values.data() + (k * this->Rows + j) * this->Columns;
+        row.Centre[0] = static_cast<double>(j) + 0.5;
+        row.Nodes = this->Build.Nodes + plane * stride[2] + (j + 1) * stride[1] + 4;
+        row.Below = row.Nodes - stride[2];
+        this->AddRow(row);
+        this->CopyToLevels(row.Nodes, plane, j + 1);
+      }
+    }
+  }
+
+  // Node row `nodeRow` of plane `plane`; with the first, also the row of zeros below it.
+  void CopyToLevels(const double* nodes, std::int64_t plane, std::int64_t nodeRow)
+  {
+    const TableView<3>& tables = this->Build.Tables;
+    for (int level = 0; level < tables.LevelCount; ++level)
+    {
+      const std::int64_t coarsePlane = coarseNode(plane, this->Slices, level);
+      const std::int64_t coarseRow = coarseNode(nodeRow, this->Rows, level);
+      if (coarsePlane < 0)
+      {
+        continue;
+      }
+      const auto& stride = tables.Levels[level].Stride;
+      double* target = this->Build.Level(level) + coarsePlane * stride[2];
+      if (nodeRow == 1)
+      {
+        std::fill_n(target, stride[1], 0.0);
+      }
+      if (coarseRow >= 0)
+      {
+        target += coarseRow * stride[1];
+        std::fill_n(target, 4, 0.0);
+        if (level > 0)
+        {
+          copyToLevel<4>(nodes, 0, this->Columns, this->Columns, level, target);
+        }
+      }
+    }
+  }
+
+  const TableBuild<3>& Build;
+  const AddToColumns AddColumns = flowKernels().AddColumns;
+  const AddTableRow3D AddRow = flowKernels().AddRow3D;
+  const std::int64_t Columns;
+  const std::int64_t Rows;
+  const std::int64_t Slices;
+  const std::int64_t Strips;
+  const std::int64_t Slab; // slices, at most
+  std::int64_t Begin = 0;  // of the slab
+  std::int64_t Count = 0;  // slices in it
+  LargeBuffer<double> Values;
+  LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, a slice and strip together
+  LargeBuffer<double> Before; // the records of the columns before each strip, within the slice
+  std::vector<DensitySummary> Found;
+};
+
+} // namespace
+
+bool buildTables(const TableBuild<1>& build)
+{
+  const std::int64_t size = build.Tables.Cells[0];
+  constexpr std::int64_t segment = 1 << 16;
+  std::vector<double> values(static_cast<std::size_t>(std::min(size, segment)));
+  std::vector<double> nodes(values.size() * 2);
+  double sum = 0.0;
+  double moment = 0.0;
+  for (int level = 0; level < build.Tables.LevelCount; ++level)
+  {
+    std::fill_n(build.Level(level), 2, 0.0);
+  }
+  for (std::int64_t first = 0; first < size; first += segment)
+  {
+    build.Pace.NextSlice(1);
+    const std::int64_t count = std::min(segment, size - first);
+    build.Density.ReadRow(0, first, count, values.data());
+    DensitySummary part;
+    part.Total = inspectCells(values.data(), count, first, build.Occupied + first / 64, part).Sum;
+    merge(part, build.Found);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const double value = values[i];
+      sum += value;
+      moment += value * (static_cast<double>(first + i) + 0.5);
+      nodes[2 * i] = sum;
+      nodes[2 * i + 1] = moment;
+    }
+    for (int level = 0; level < build.Tables.LevelCount; ++level)
+    {
+      copyToLevel<2>(nodes.data(), first, count, size, level, build.Level(level));
+    }
+    if (!build.Pace.EndSlice(count))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool buildTables(const TableBuild<2>& build)
+{
+  return Builder2D(build).Run();
+}
+
+bool buildTables(const TableBuild<3>& build)
+{
+  return Builder3D(build).Run();
+}
+
+} // namespace RectifiedTransport

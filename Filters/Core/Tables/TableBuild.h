@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pass that fills the summed-area tables (paper, Section 3.3; Algorithm 2).
+#ifndef RectifiedTransport_TableBuild_h
+#define RectifiedTransport_TableBuild_h
+
+#include "Core/Parallel/Executor.h"
+#include "Core/Tables/Density.h"
+#include "Core/Tables/TableView.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Pacer;
+
+template <int Dimension>
+struct TableBuild
+{
+  const DensitySource<Dimension>& Density;
+  const Executor& Run;
+  Pacer& Pace;
+  const TableView<Dimension>& Tables;
+  double* Nodes; // of all levels
+  std::uint64_t* Occupied;
+  DensitySummary& Found;
+
+  double* Level(int level) const
+  {
+    return this->Nodes + (this->Tables.Levels[level].Nodes - this->Tables.Levels[0].Nodes);
+  }
+};
+
+// Fills all levels and the bits of occupied cells, and adds to what is found. False if the host
+// wants to stop.
+bool buildTables(const TableBuild<1>& build);
+bool buildTables(const TableBuild<2>& build);
+bool buildTables(const TableBuild<3>& build);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particles of the pivot: exactly as many in each cell, spread evenly, and moved as any others.
+#include "Core/Flow/LatticeOrder.h"
+#include "Core/Flow/PivotLattice.h"
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+// The points that samples have on a box, place by place.
+template <int Dimension>
+Points<Dimension> pointsOf(const PivotLattice<Dimension>& samples, const GridSize<Dimension>& size)
+{
+  const auto each = static_cast<std::size_t>(cellCount<Dimension>(samples.Lattice));
+  Points<Dimension> all(each * samples.Places.size());
+  std::vector<std::int64_t> index(each);
+  Points<Dimension> points(each);
+  for (std::size_t place = 0; place < samples.Places.size(); ++place)
+  {
+    const LatticeOrder<Dimension> order(samples.Lattice, size, samples.Places[place]);
+    order.Fill(0, static_cast<int>(each), index.data(), points.data()->data());
+    for (std::size_t i = 0; i < each; ++i)
+    {
+      all[place * each + static_cast<std::size_t>(index[i])] = points[i];
+    }
+  }
+  return all;
+}
+
+template <int Dimension>
+std::int64_t power(std::int64_t base)
+{
+  std::int64_t product = base;
+  for (int axis = 1; axis < Dimension; ++axis)
+  {
+    product *= base;
+  }
+  return product;
+}
+
+template <int Dimension>
+bool isPower(std::int64_t value)
+{
+  std::int64_t base = 1;
+  while (power<Dimension>(base) < value)
+  {
+    ++base;
+  }
+  return power<Dimension>(base) == value;
+}
+
+// The box is not as large as the grid, as where the domains of two densities differ.
+template <int Dimension>
+void expectAsManyInEachCell(const GridSize<Dimension>& grid, const GridSize<Dimension>& size)
+{
+  for (std::int64_t perCell = 1; perCell <= 20; ++perCell)
+  {
+    const PivotLattice<Dimension> samples = pivotLattice<Dimension>(grid, perCell);
+    const Points<Dimension> points = pointsOf<Dimension>(samples, size);
+    ASSERT_EQ(static_cast<std::int64_t>(points.size()), perCell * cellCount<Dimension>(grid));
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(cellCount<Dimension>(grid)), 0);
+    for (const Point<Dimension>& point : points)
+    {
+      GridSize<Dimension> cell;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        ASSERT_TRUE(point[axis] > 0.0 && point[axis] < static_cast<double>(size[axis]));
+        cell[axis] = static_cast<std::int64_t>(
+          point[axis] * static_cast<double>(grid[axis]) / static_cast<double>(size[axis]));
+      }
+      ++counts.at(static_cast<std::size_t>(cellIndex<Dimension>(cell, grid)));
+    }
+    EXPECT_EQ(std::count(counts.begin(), counts.end(), perCell), cellCount<Dimension>(grid))
+      << perCell << " a cell";
+  }
+}
+
+TEST(PivotLattice, AsManyInEachCell)
+{
+  expectAsManyInEachCell<1>({ 7 }, { 7 });
+  expectAsManyInEachCell<1>({ 7 }, { 30 });
+  expectAsManyInEachCell<2>({ 5, 4 }, { 5, 4 });
+  expectAsManyInEachCell<2>({ 5, 4 }, { 3, 11 });
+  expectAsManyInEachCell<3>({ 3, 4, 2 }, { 3, 4, 2 });
+  expectAsManyInEachCell<3>({ 3, 1, 2 }, { 10, 9, 1 });
+}
+
+template <int Dimension>
+void expectSubGridOfPowers(const GridSize<Dimension>& grid)
+{
+  for (std::int64_t perCell = 1; perCell <= 64; ++perCell)
+  {
+    const PivotLattice<Dimension> samples = pivotLattice<Dimension>(grid, perCell);
+    if (!isPower<Dimension>(perCell))
+    {
+      EXPECT_EQ(samples.Lattice, grid) << perCell;
+      EXPECT_EQ(static_cast<std::int64_t>(samples.Places.size()), perCell);
+      continue;
+    }
+    ASSERT_EQ(samples.Places.size(), std::size_t{ 1 }) << perCell;
+    EXPECT_EQ(samples.Places[0], cellCentre<Dimension>());
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t side = samples.Lattice[axis] / grid[axis];
+      EXPECT_EQ(side * grid[axis], samples.Lattice[axis]);
+      EXPECT_EQ(power<Dimension>(side), perCell);
+    }
+  }
+}
+
+TEST(PivotLattice, SubGridOfPowers)
+{
+  expectSubGridOfPowers<1>({ 9 });
+  expectSubGridOfPowers<2>({ 6, 7 });
+  expectSubGridOfPowers<3>({ 2, 5, 3 });
+}
+
+// Point i and the one as far from the other end mirror each other in the centre, and none is close
+// to another, beside the distance of a grid of as many points.
+template <int Dimension>
+void expectEvenPlaces(double closest)
+{
+  for (std::int64_t perCell = 2; perCell <= 200; ++perCell)
+  {
+    const auto places = pivotLattice<Dimension>({}, perCell).Places;
+    const std::size_t count = places.size();
+    Point<Dimension> mean{};
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        ASSERT_TRUE(places[i][axis] > 0.0 && places[i][axis] < 1.0) << perCell;
+        EXPECT_NEAR(places[i][axis] + places[count - 1 - i][axis], 1.0, 0x1p-52);
+        mean[axis] += places[i][axis] / static_cast<double>(count);
+      }
+      for (std::size_t k = 0; k < i; ++k)
+      {
+        double squared = 0.0;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          // Cells of the same points lie side by side.
+          const double apart = std::abs(places[i][axis] - places[k][axis]);
+          squared += std::pow(std::min(apart, 1.0 - apart), 2);
+        }
+        nearest = std::min(nearest, std::sqrt(squared));
+      }
+    }
+    for (const double coordinate : mean)
+    {
+      EXPECT_NEAR(coordinate, 0.5, 1e-15) << perCell;
+    }
+    EXPECT_GT(nearest * std::pow(static_cast<double>(count), 1.0 / Dimension), closest) << perCell;
+  }
+}
+
+TEST(PivotLattice, EvenPlaces)
+{
+  expectEvenPlaces<2>(0.5);
+  expectEvenPlaces<3>(0.4);
+}
+
+// A lattice at another place is the flow of its points, in any order.
+template <int Dimension>
+void expectFlowOfPlaces(const TestDensity<Dimension>& density, const GridSize<Dimension>& grid)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  const SerialExecutor serial;
+  const PivotLattice<Dimension> samples = pivotLattice<Dimension>(grid, 3);
+  const Points<Dimension> points = pointsOf<Dimension>(samples, density.Size);
+  const auto each = static_cast<std::size_t>(cellCount<Dimension>(samples.Lattice));
+  for (const Integrator method : AllIntegrators)
+  {
+    const FlowOptions options = steps(12, method);
+    Points<Dimension> threaded(points.size());
+    Points<Dimension> alone(points.size());
+    for (std::size_t place = 0; place < samples.Places.size(); ++place)
+    {
+      flow.ForwardLattice(samples.Lattice, threaded[place * each].data(), options, OpenMPExecutor(),
+        {}, samples.Places[place]);
+      flow.ForwardLattice(
+        samples.Lattice, alone[place * each].data(), options, serial, {}, samples.Places[place]);
+    }
+    EXPECT_TRUE(sameBits<Dimension>(threaded, runForward(flow, points, options))) << nameOf(method);
+    EXPECT_TRUE(sameBits<Dimension>(alone, threaded)) << nameOf(method);
+  }
+}
+
+TEST(PivotLattice, FlowIsThatOfThePoints)
+{
+  expectFlowOfPlaces<1>(twoGaussians<1>({ 300 }), { 200 });
+  expectFlowOfPlaces<2>(twoGaussians<2>({ 90, 70 }), { 90, 70 });
+  expectFlowOfPlaces<2>(discWithHole<2>({ 64, 64 }), { 33, 70 });
+  expectFlowOfPlaces<3>(twoGaussians<3>({ 22, 18, 25 }), { 21, 7, 12 });
+}
+
+} // namespace
+} // namespace RectifiedTransport

@@ -1,0 +1,320 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The bits that the filters compute: digests of the outputs of some sixty runs, which take every
+filter, dimension and family of options.
+
+usage: python3 run.py [--record | --against FILE]
+
+Imports rectifiedtransport, whose folder PYTHONPATH has to name. Without an option the digests are
+compared with digests.json, which --record writes; --against compares with another such file. A
+change that is meant to change bits records them anew and says why; any other change may not.
+"""
+import argparse
+import hashlib
+import json
+import os
+import sys
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkObject, vtkPoints
+from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject, vtkImageData,
+                                           vtkMultiBlockDataSet, vtkPolyData)
+import rectifiedtransport as rt
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
+INTEGRATORS = ["Multistep", "RungeKutta4", "Euler", "Adaptive"]
+KERNELS = ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]
+TURN = (0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1)
+
+
+class Digest:
+    """Of all that an output holds, to the last bit."""
+
+    def __init__(self, *outputs):
+        self.hash = hashlib.sha256()
+        for output in outputs:
+            self.add(output)
+
+    def text(self):
+        return self.hash.hexdigest()[:16]
+
+    def add(self, data):
+        self.hash.update(data.GetClassName().encode())
+        if data.IsA("vtkImageData"):
+            matrix = data.GetDirectionMatrix()
+            self.add_numbers(data.GetExtent(), data.GetOrigin(), data.GetSpacing(),
+                             [matrix.GetElement(i, j) for i in range(3) for j in range(3)])
+        if data.IsA("vtkPointSet") and data.GetPoints():
+            self.add_array(data.GetPoints().GetData())
+        if data.IsA("vtkPolyData"):
+            for cells in (data.GetVerts(), data.GetLines(), data.GetPolys()):
+                self.add_array(cells.GetOffsetsArray())
+                self.add_array(cells.GetConnectivityArray())
+        owners = [vtkDataObject.ROW] if data.IsA("vtkTable") else \
+            [vtkDataObject.POINT, vtkDataObject.CELL, vtkDataObject.FIELD]
+        for owner in owners:
+            attributes = data.GetAttributesAsFieldData(owner)
+            for i in range(attributes.GetNumberOfArrays()):
+                self.hash.update(str(attributes.GetArrayName(i)).encode())
+                self.add_array(attributes.GetArray(i))
+
+    def add_array(self, array):
+        if array.GetNumberOfTuples() > 0:
+            values = np.ascontiguousarray(vtk_to_numpy(array))
+            if values.dtype.kind == "i":
+                values = values.astype(np.int64)  # vtkIdType has two names
+            self.hash.update(str(values.shape).encode() + values.tobytes())
+
+    def add_numbers(self, *lists):
+        for numbers in lists:
+            self.hash.update(np.asarray(numbers, dtype=np.float64).tobytes())
+
+
+def values(shape, seed):
+    """A landscape of integers with empty places, alike on every machine."""
+    i = np.indices(shape[::-1]).reshape(len(shape), -1).astype(np.int64) + seed
+    waves = sum((index * index * (3 + seed + axis)) % 97 for axis, index in enumerate(i))
+    return np.where(waves % 11 == 0, 0, waves)
+
+
+def image(shape=(61, 47), seed=0, cells=True, spacing=(0.5, 0.75, 1.25), origin=(1, 2, 3),
+          dtype=np.float64, direction=None, array=None):
+    data = vtkImageData()
+    data.SetDimensions([n + 1 if cells else n for n in shape] + [1] * (3 - len(shape)))
+    data.SetSpacing(spacing)
+    data.SetOrigin(origin)
+    if direction:
+        data.SetDirectionMatrix(*direction)
+    numbers = values(shape, seed).astype(dtype) if array is None else array
+    scalars = numpy_to_vtk(np.ascontiguousarray(numbers), deep=1)
+    scalars.SetName("Values")
+    (data.GetCellData() if cells else data.GetPointData()).SetScalars(scalars)
+    return data
+
+
+def colours(components, shape=(40, 30), dtype=np.uint8):
+    parts = [values(shape, seed) * 2 for seed in range(components)]
+    return image(shape, array=np.stack(parts, axis=1).astype(dtype), cells=False)
+
+
+def with_ghosts(data, cells=True):
+    count = data.GetNumberOfCells() if cells else data.GetNumberOfPoints()
+    flags = np.where(np.arange(count) % 7 == 3, 1, 0).astype(np.uint8)
+    ghosts = numpy_to_vtk(flags, deep=1)
+    ghosts.SetName("vtkGhostType")
+    (data.GetCellData() if cells else data.GetPointData()).AddArray(ghosts)
+    return data
+
+
+def points_in(data, count=500, seed=3, dtype=np.float64):
+    low, high = np.array(data.GetBounds()).reshape(3, 2).T
+    i = np.arange(1, count + 1)[:, None]
+    unit = (i * np.array([[7919, 104729, 1299709]]) * (seed + 1) % 65536) / 65536
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk((low + (high - low) * (1.1 * unit - 0.05)).astype(dtype), deep=1))
+    found = vtkPolyData()
+    found.SetPoints(points)
+    masses = numpy_to_vtk((1 + i[:, 0] % 5).astype(np.float32), deep=1)
+    masses.SetName("Mass")
+    found.GetPointData().AddArray(masses)
+    return found
+
+
+def box_of_triangles(turned=False):
+    corners = np.array([[x, y, z] for z in (0, 1.5) for y in (0, 1) for x in (0, 2.25)])
+    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
+             (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+    if turned:  # some of them are to be turned back
+        faces = [face[::-1] if k % 3 == 0 else face for k, face in enumerate(faces)]
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(corners @ np.array([[0.96, 0.28, 0], [-0.28, 0.96, 0], [0, 0.6, 1]]),
+                                deep=1))
+    polygons = vtkCellArray()
+    for face in faces:
+        polygons.InsertNextCell(3)
+        for corner in face:
+            polygons.InsertCellPoint(corner)
+    surface = vtkPolyData()
+    surface.SetPoints(points)
+    surface.SetPolys(polygons)
+    return surface
+
+
+def run(filter_class, *inputs, array=None, **properties):
+    """The outputs of a filter; inputs are those of its ports, None for none."""
+    algorithm = filter_class()
+    for port, data in enumerate(inputs):
+        for part in data if isinstance(data, list) else [data]:
+            if part is None:
+                continue
+            if isinstance(data, list):
+                algorithm.AddInputDataObject(port, part)
+            else:
+                algorithm.SetInputDataObject(port, part)
+    if array:
+        algorithm.SetInputArrayToProcess(*array)
+    for name, value in properties.items():
+        if name == "Weights":
+            for k, weight in enumerate(value):
+                algorithm.SetWeight(k, weight)
+        else:
+            setter = getattr(algorithm, "Set" + name)
+            setter(*value) if isinstance(value, tuple) else setter(value)
+    algorithm.Update()
+    return [algorithm.GetOutputDataObject(p) for p in range(algorithm.GetNumberOfOutputPorts())]
+
+
+def sampler_runs():
+    sampler = rt.vtkTransportSampler
+    line, plane, space = image((200,)), image(), image((23, 17, 19))
+    for pattern, name in enumerate(PATTERNS):
+        for data, dimension in ((line, 1), (plane, 2), (space, 3)):
+            yield f"sample {name} {dimension}D", sampler, [data], dict(
+                SeedPattern=pattern, NumberOfParticles=3000, RandomSeed=7)
+    for integrator, name in enumerate(INTEGRATORS):
+        for data, dimension in ((plane, 2), (space, 3)):
+            yield f"sample {name} {dimension}D", sampler, [data], dict(
+                Integrator=integrator, NumberOfParticles=2000, Tolerance=0.003, NumberOfSteps=24)
+    yield "sample Nearest", sampler, [plane], dict(TableLookup=1)
+    yield "sample many steps", sampler, [plane], dict(NumberOfSteps=160, NumberOfParticles=2000)
+    yield "sample FlowTime", sampler, [space], dict(FlowTime=0.6, NumberOfParticles=2000)
+    yield "sample paths", sampler, [plane], dict(OutputPaths=1, NumberOfParticles=500)
+    yield "sample paths 3D", sampler, [space], dict(OutputPaths=1, NumberOfParticles=500)
+    yield "sample a grid in cells", sampler, [plane], dict(SeedPattern=2, SamplesPerCell=2)
+    yield "sample given seeds", sampler, [plane, points_in(plane)], {}
+    yield "sample given seeds 3D", sampler, [space, points_in(space, dtype=np.float32)], {}
+    yield "sample points", sampler, [image(cells=False, dtype=np.float32)], {}
+    yield "sample turned", sampler, [image(direction=TURN)], dict(NumberOfParticles=2000)
+    yield "sample turned 3D", sampler, [image((23, 17, 19), direction=TURN, spacing=(1, -2, 0.5))], \
+        dict(NumberOfParticles=2000)
+    yield "sample ghosts", sampler, [with_ghosts(image())], {}
+    for components in (2, 3, 4):
+        yield f"sample {components} colours", sampler, [colours(components)], dict(
+            InvertDensity=1, NumberOfParticles=2000)
+    yield "sample a component", sampler, [colours(3, dtype=np.int32)], dict(Component=2)
+    yield "sample clamped", sampler, [image(array=values((61, 47), 0) - 20.5)], dict(
+        NegativeValues=1)
+    flat = image((48, 36), spacing=(1, 1, 1))
+    yield "sample many", sampler, [flat], dict(NumberOfParticles=100000, SeedPattern=3)
+
+
+def map_runs():
+    transport = rt.vtkTransportMap
+    for direction, name in enumerate(["to the density", "to the uniform measure"]):
+        for shape in ((200,), (61, 47), (23, 17, 19)):
+            yield f"map {name} {len(shape)}D", transport, [image(shape)], dict(Direction=direction)
+    yield "map of points", transport, [image((23, 17, 19), cells=False)], {}
+    yield "map of other samples", transport, [image()], dict(SampleDimensions=(30, 80, 1))
+    yield "map turned 3D", transport, [image((23, 17, 19), direction=TURN)], {}
+
+
+def warp_runs():
+    for shape in ((200,), (61, 47), (23, 17, 19)):
+        density = image(shape)
+        yield f"warp {len(shape)}D", rt.vtkDensityEqualizingWarp, [points_in(density), density], {}
+    density = image(direction=TURN)
+    yield "warp half", rt.vtkDensityEqualizingWarp, [points_in(density, dtype=np.float32), density], \
+        dict(Blend=0.5)
+
+
+def blend_runs():
+    morph, barycenter = rt.vtkTransportInterpolator, rt.vtkTransportBarycenter
+    for shape in ((200,), (61, 47), (23, 17, 19)):
+        yield f"morph {len(shape)}D", morph, [image(shape), image(shape, seed=5)], dict(
+            Parameter=0.3)
+    for mode in range(4):
+        yield f"morph mass {mode}", morph, [image(), image(seed=5)], dict(MassMode=mode)
+    for kernel, name in enumerate(KERNELS):
+        yield f"morph {name}", morph, [image(), image((50, 60), seed=5, origin=(3, 3, 3))], dict(
+            Kernel=kernel, ParticlesPerCell=kernel + 1, Radius=1.5)
+    yield "morph of other values", morph, [image(cells=False), image(seed=2)], dict(
+        Dimensions=(40, 0, 0))
+    yield "morph Adaptive", morph, [image(), image(seed=5)], dict(Integrator=3)
+    inputs = [image(seed=s) for s in range(3)]
+    yield "barycenter 2D", barycenter, [inputs], dict(Weights=[1, 2, 0.5])
+    blocks = vtkMultiBlockDataSet()
+    for k in range(3):
+        blocks.SetBlock(k, image((23, 17, 19), seed=k))
+    yield "barycenter of blocks 3D", barycenter, [blocks], dict(Weights=[1, 0, 3])
+
+
+def splat_runs():
+    splatter = rt.vtkMassSplatter
+    space, plane = image((23, 17, 19)), image()
+    masses = (0, 0, 0, 0, "Mass")
+    for kernel, name in enumerate(KERNELS):
+        for boundary in range(2):
+            yield f"splat {name} {boundary}", splatter, [points_in(space, 5000), space], dict(
+                Kernel=kernel, Boundary=boundary, Radius=1.7, array=masses)
+    yield "splat in a plane", splatter, [points_in(plane, 5000), plane], dict(array=masses)
+    yield "splat without a reference", splatter, [points_in(space, dtype=np.float32)], dict(
+        Dimensions=(16, 20, 24), Association=1, DivideByVolume=0)
+    yield "splat many", splatter, [points_in(plane, 200000)], dict(Dimensions=(300, 200, 1))
+    yield "splat on a line", splatter, [points_in(image((200,)), 3000), image((200,))], {}
+
+
+def other_runs():
+    cells, solid = rt.vtkEqualMassCells, rt.vtkSolidDensity
+    yield "cells 1D", cells, [points_in(image((200,)), 9), image((200,))], dict(Resolution=100)
+    yield "cells 2D", cells, [points_in(image(), 40)], dict(Resolution=120)
+    yield "cells 3D", cells, [points_in(image((23, 17, 19)), 20)], dict(
+        Resolution=24, NormExponent=3.0, CostExponent=1.5)
+    yield "cells of a domain", cells, [points_in(image(), 40), image(direction=TURN)], dict(
+        Resolution=90, Integrator=1)
+    yield "cells of shared pixels", cells, [points_in(image(), 60)], dict(Resolution=12)
+    yield "solid", solid, [box_of_triangles()], dict(Resolution=24)
+    yield "solid turned", solid, [box_of_triangles(True)], dict(Resolution=17, Supersampling=5,
+                                                                Association=1)
+    for shape in ((200,), (61, 47), (23, 17, 19)):
+        density = image(shape)
+        particles = run(rt.vtkTransportSampler, density, NumberOfParticles=1500)[0]
+        yield f"quality {len(shape)}D", rt.vtkTransportQuality, [particles, density], dict(
+            BlockSize=5)
+    density = image()
+    yield "quality of given points", rt.vtkTransportQuality, [
+        with_ghosts(points_in(density), cells=False), density], {}
+    for pattern, name in enumerate(PATTERNS):
+        yield f"seeds {name}", rt.vtkUniformSeedSource, [], dict(
+            Pattern=pattern, Dimension=2 + pattern % 2, NumberOfPoints=4000,
+            Bounds=(0.0, 3.0, 1.0, 2.0, -1.0, 2.0))
+
+
+def digests():
+    vtkObject.GlobalWarningDisplayOff()
+    found = {}
+    for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs):
+        for name, filter_class, inputs, properties in runs():
+            assert name not in found, name
+            outputs = run(filter_class, *inputs, **properties)
+            count = outputs[0].GetNumberOfElements(
+                vtkDataObject.ROW if outputs[0].IsA("vtkTable") else vtkDataObject.POINT)
+            assert count > 0, name
+            found[name] = Digest(*outputs).text()
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--record", action="store_true")
+    parser.add_argument("--against", default=os.path.join(HERE, "digests.json"))
+    options = parser.parse_args()
+    found = digests()
+    if options.record:
+        with open(options.against, "w", encoding="utf-8") as file:
+            json.dump(found, file, indent=1)
+            file.write("\n")
+        print(f"{len(found)} digests recorded in {options.against}")
+        return 0
+    with open(options.against, encoding="utf-8") as file:
+        expected = json.load(file)
+    wrong = [name for name in sorted({*found, *expected}) if found.get(name) != expected.get(name)]
+    for name in wrong:
+        print(f"{name}: {found.get(name)}, expected {expected.get(name)}")
+    print(f"{len(found)} runs, {len(wrong)} of other bits than expected")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
