@@ -36,8 +36,7 @@ using namespace RectifiedTransport;
 // What RequestData has fetched and checked.
 struct WarpRun
 {
-  AlgorithmProgress& Host;
-  const Executor& Threads;
+  Progress& Work;
   DensityImage& Density;
   FlowCache& Cache;
   FlowOptions Options;
@@ -55,7 +54,7 @@ struct WarpStages
 
 WarpStages planStages(const WarpRun& run)
 {
-  const ImageGeometry& geometry = run.Density.Geometry();
+  const ImageGrid& geometry = run.Density.Geometry();
   const double points = static_cast<double>(run.Input->GetNumberOfPoints());
   const double evaluations = run.Blend == 0.0
     ? 0.0
@@ -97,8 +96,8 @@ public:
     double* points = this->Points->GetPointer(0);
     const double tolerance = this->Geometry.BorderTolerance();
     std::atomic<std::int64_t> outside{ 0 };
-    visitPoints(this->Run.Input, "input point set", this->Run.Threads, this->Run.Host,
-      [&](std::int64_t i, const double* x) {
+    visitPoints(
+      this->Run.Input, "input point set", this->Run.Work, [&](std::int64_t i, const double* x) {
         std::copy_n(x, 3, points + i * 3);
         double offset[D];
         this->Geometry.template ToIndex<D>(x, offset);
@@ -124,15 +123,11 @@ public:
 
   void Flow()
   {
-    const FlowReport report =
-      withMemory(this->Purpose, static_cast<double>(this->Count) * sizeof(std::int64_t), [&]() {
-        return this->Run.Cache.template Flow<D>().Backward(this->Index, this->Count, this->Index,
-          this->Run.Options, this->Run.Threads, this->Run.Host.GetMonitor());
-      });
-    if (report.Cancelled)
-    {
-      throw Aborted();
-    }
+    withMemory(this->Purpose, static_cast<double>(this->Count) * sizeof(std::int64_t), [&]() {
+      const PointSpan<D> points(this->Index, this->Count);
+      this->Run.Cache.template Flow<D>().Backward(
+        points, points, this->Run.Options, this->Run.Work.Stage());
+    });
   }
 
   // Index space is gone afterwards.
@@ -141,26 +136,25 @@ public:
     constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
     double* points = this->Points->GetPointer(0);
     double* displacements = this->Displacements->GetPointer(0);
-    this->Run.Host.Run(
-      this->Run.Threads, this->Count, grain, [=](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+    this->Run.Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        double* x = points + i * 3;
+        double way[D];
+        this->Geometry.template ToIndex<D>(x, way);
+        this->Geometry.template ClampToDomain<D>(way);
+        for (int a = 0; a < D; ++a)
         {
-          double* x = points + i * 3;
-          double way[D];
-          this->Geometry.template ToIndex<D>(x, way);
-          this->Geometry.template ClampToDomain<D>(way);
-          for (int a = 0; a < D; ++a)
-          {
-            way[a] = this->Run.Blend * (this->Index[i * D + a] - way[a]);
-          }
-          double* displacement = displacements + i * 3;
-          this->Geometry.template VectorToPhysical<D>(way, displacement);
-          for (int r = 0; r < 3; ++r)
-          {
-            x[r] += displacement[r];
-          }
+          way[a] = this->Run.Blend * (this->Index[i * D + a] - way[a]);
         }
-      });
+        double* displacement = displacements + i * 3;
+        this->Geometry.template VectorToPhysical<D>(way, displacement);
+        for (int r = 0; r < 3; ++r)
+        {
+          x[r] += displacement[r];
+        }
+      }
+    });
     vtkNew<vtkPoints> moved;
     moved->SetDataTypeToDouble();
     moved->SetData(this->Points);
@@ -170,7 +164,7 @@ public:
 
 private:
   const WarpRun& Run;
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   const std::int64_t Count;
   const std::string Purpose;
   vtkSmartPointer<vtkDoubleArray> Points;
@@ -185,15 +179,15 @@ std::int64_t warp(const WarpRun& run, vtkPointSet* output)
 {
   const WarpStages stages = planStages(run);
   WarpedPoints<D> points(run);
-  run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
-  run.Host.BeginStage(stages.Reading);
+  run.Cache.Update(run.Density, run.Work, stages.Tables);
+  run.Work.BeginStage(stages.Reading);
   const std::int64_t outside = points.Read();
   if (run.Blend > 0.0)
   {
-    run.Host.BeginStage(stages.Flow);
+    run.Work.BeginStage(stages.Flow);
     points.Flow();
   }
-  run.Host.BeginStage(1.0);
+  run.Work.BeginStage(1.0);
   points.Write(output);
   return outside;
 }
@@ -264,15 +258,15 @@ int vtkDensityEqualizingWarp::RequestData(
 {
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
   const FlowOptions options = this->GetFlowOptions();
-  const std::unique_ptr<Executor> executor(this->NewExecutor());
+  std::unique_ptr<Executor> executor(this->NewExecutor());
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {
     return 1;
   }
-  AlgorithmProgress host(this);
-  const WarpRun run{ host, *executor, *density, this->GetFlowCache(), options, input, this->Blend };
+  AlgorithmProgress progress(this, std::move(executor));
+  const WarpRun run{ progress, *density, this->GetFlowCache(), options, input, this->Blend };
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());

@@ -3,7 +3,7 @@
 
 #include "Bridge/Flow/FlowSettings.h"
 #include "Bridge/Image/DefaultArray.h"
-#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
@@ -38,11 +38,10 @@ using namespace RectifiedTransport;
 // What RequestData has fetched and checked.
 struct CellsRun
 {
-  AlgorithmProgress& Host;
-  const Executor& Threads;
+  Progress& Work;
   FlowOptions Options;
   vtkPointSet* Input;
-  const ImageFrame& Frame;
+  const ImageGrid& Grid;
   SiteLabels& Labels;
   CostNorm Norm;
 };
@@ -56,29 +55,30 @@ struct CellsOutput
 
 // Returns how many sites are outside of the domain.
 template <int D>
-std::int64_t divide(const CellsRun& run, const ImageGeometry& geometry, const CellsOutput& output)
+std::int64_t divide(const CellsRun& run, const CellsOutput& output)
 {
-  run.Host.BeginStage(0.01);
-  const SiteGrid<D> sites(run.Input, geometry, run.Threads, run.Host);
-  run.Host.BeginStage(0.02);
-  SiteIdArray* labels = run.Labels.Update(run.Input, run.Frame, run.Options, run.Threads, run.Host,
-    [&]() { return sites.MakeLabels(run.Options, run.Threads, run.Host, 0.95); });
+  const ImageGrid& geometry = run.Grid;
+  run.Work.BeginStage(0.01);
+  const SiteGrid<D> sites(run.Input, geometry, run.Work);
+  run.Work.BeginStage(0.02);
+  SiteIdArray* labels = run.Labels.Update(run.Input, run.Grid, run.Options, run.Work,
+    [&]() { return sites.MakeLabels(run.Options, run.Work, 0.95); });
   output.Labels->GetCellData()->SetScalars(labels);
-  run.Host.BeginStage(0.98);
-  const double cost = writeSiteCellStatistics<D>(run.Input, sites.Pixels(), geometry, labels,
-    run.Norm, run.Threads, run.Host, output.Sites->GetPointData());
+  run.Work.BeginStage(0.98);
+  const double cost = writeSiteCellStatistics<D>(
+    run.Input, sites.Pixels(), geometry, labels, run.Norm, run.Work, output.Sites->GetPointData());
   addFieldValue(output.Labels, "TransportCost", cost);
   addFieldValue(output.Sites, "TransportCost", cost);
-  run.Host.BeginStage(1.0);
-  outlineSiteCells<D>(geometry, labels->GetPointer(0), run.Host, output.Outlines);
+  run.Work.BeginStage(1.0);
+  outlineSiteCells<D>(geometry, labels->GetPointer(0), run.Work, output.Outlines);
   return sites.NumberOutside();
 }
 
 // The box of a domain, as of a density: with values on its points that of their dual cells.
-ImageFrame frameOf(vtkImageData* domain)
+ImageGrid boxOf(vtkImageData* domain)
 {
-  const ImageFrame frame(domain);
-  return hasPointValues(domain) ? frame.WithDualCells() : frame;
+  const ImageGrid grid = gridOf(domain, false);
+  return hasPointValues(domain) ? grid.WithDualCells() : grid;
 }
 
 // The input's points in double precision.
@@ -204,7 +204,7 @@ int vtkEqualMassCells::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
+ImageGrid vtkEqualMassCells::BoxAround(vtkPointSet* sites)
 {
   constexpr double margin = 0.05; // on each side
   double bounds[6];
@@ -215,32 +215,32 @@ ImageFrame vtkEqualMassCells::FrameAround(vtkPointSet* sites)
     bounds[2 * a] -= margin * length;
     bounds[2 * a + 1] += margin * length;
   }
-  return ImageFrame(bounds);
+  return gridOfBox(bounds);
 }
 
 //------------------------------------------------------------------------------
 int vtkEqualMassCells::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  ImageFrame box;
+  ImageGrid box;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
     // Whether values are on points is not always announced, or not so.
     this->UpdateInputBeforeData(1, inputVector, outputVector);
     vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
     box = domain && domain->GetNumberOfPoints() > 0
-      ? frameOf(domain)
-      : ImageFrame(inputVector[1]->GetInformationObject(0));
+      ? boxOf(domain)
+      : announcedGrid(inputVector[1]->GetInformationObject(0), false);
   }
   else
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    box = sites && sites->GetNumberOfPoints() > 1 ? this->FrameAround(sites) : ImageFrame(unit);
+    box = sites && sites->GetNumberOfPoints() > 1 ? this->BoxAround(sites) : gridOfBox(unit);
   }
-  box = box.IsEmpty() ? box : box.WithResolution(this->Resolution, "Resolution");
-  box.Publish(outputVector->GetInformationObject(0));
+  box = box.IsEmpty() ? box : gridWithResolution(box, this->Resolution, "Resolution");
+  announceGrid(box, outputVector->GetInformationObject(0));
   return 1;
 }
 
@@ -255,7 +255,7 @@ int vtkEqualMassCells::RequestData(
   requireResolution("Resolution", this->Resolution);
   const FlowSettings settings = this->GetFlowSettings();
   const FlowOptions options = settings.Options();
-  const std::unique_ptr<Executor> executor = settings.MakeExecutor();
+  std::unique_ptr<Executor> executor = settings.MakeExecutor();
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* labelInformation = outputVector->GetInformationObject(0);
@@ -270,14 +270,14 @@ int vtkEqualMassCells::RequestData(
   {
     return 1;
   }
-  AlgorithmProgress host(this);
+  AlgorithmProgress progress(this, std::move(executor));
   if (!domain)
   {
     // Of such points there are no bounds.
-    visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
+    visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
   }
-  const ImageFrame box = domain ? frameOf(domain) : this->FrameAround(input);
-  if (box.HasOnePoint())
+  const ImageGrid box = domain ? boxOf(domain) : this->BoxAround(input);
+  if (box.Dimension() == 0)
   {
     throw Failure(domain
         ? "The Domain has one point along every axis; it needs at least one axis "
@@ -285,27 +285,27 @@ int vtkEqualMassCells::RequestData(
         : "The input's sites are all at one point, about which there is no domain; "
           "connect an image as the Domain");
   }
-  const ImageFrame frame = box.WithResolution(this->Resolution, "Resolution");
+  const ImageGrid grid = gridWithResolution(box, this->Resolution, "Resolution");
+  requireCells(grid);
 
   const CellsOutput output{ vtkImageData::GetData(outputVector, 0),
     vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
-  if (!this->Internals->Labels.IsFor(input, frame, options))
+  if (!this->Internals->Labels.IsFor(input, grid, options))
   {
-    SiteLabels::RequireMemory(frame);
+    SiteLabels::RequireMemory(grid);
   }
-  frame.CopyTo(output.Labels);
-  frame.Publish(labelInformation); // without a Domain it is not known before the data
+  applyGrid(grid, output.Labels);
+  announceGrid(grid, labelInformation); // without a Domain it is not known before the data
   output.Sites->CopyStructure(input);
   output.Sites->SetPoints(doublePoints(input->GetPoints()));
   output.Sites->GetPointData()->PassData(input->GetPointData());
   output.Sites->GetCellData()->PassData(input->GetCellData());
 
-  const ImageGeometry geometry(output.Labels, false);
-  const CellsRun run{ host, *executor, options, input, frame, this->Internals->Labels,
+  const CellsRun run{ progress, options, input, grid, this->Internals->Labels,
     { this->NormExponent, this->CostExponent } };
-  const std::int64_t outside = geometry.Dimension() == 1 ? divide<1>(run, geometry, output)
-    : geometry.Dimension() == 2                          ? divide<2>(run, geometry, output)
-                                                         : divide<3>(run, geometry, output);
+  const std::int64_t outside = grid.Dimension() == 1 ? divide<1>(run, output)
+    : grid.Dimension() == 2                          ? divide<2>(run, output)
+                                                     : divide<3>(run, output);
   if (outside > 0)
   {
     vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()

@@ -63,7 +63,7 @@
 
 namespace RectifiedTransport
 {
-class ImageFrame;
+class ImageGrid;
 struct FlowSettings;
 } // namespace RectifiedTransport
 
@@ -206,7 +206,7 @@ protected:
 
 private:
   RectifiedTransport::FlowSettings GetFlowSettings();
-  RectifiedTransport::ImageFrame FrameAround(vtkPointSet* sites);
+  RectifiedTransport::ImageGrid BoxAround(vtkPointSet* sites);
 
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGuardedAlgorithm.h"
 
-#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/WholeInput.h"
@@ -181,10 +181,10 @@ int vtkGuardedAlgorithm::InformOfTime(
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
-  const RectifiedTransport::ImageFrame before(output);
+  const RectifiedTransport::ImageGrid before = RectifiedTransport::announcedGrid(output, true);
   this->Updated = nullptr;
   const int result = this->Inform(request, inputVector, outputVector);
-  if (result && !(RectifiedTransport::ImageFrame(output) == before))
+  if (result && !(RectifiedTransport::announcedGrid(output, true) == before))
   {
     this->Modified();
     RectifiedTransport::renewConsumers(output);

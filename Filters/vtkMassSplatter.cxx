@@ -3,7 +3,7 @@
 
 #include "Bridge/Flow/FlowSettings.h"
 #include "Bridge/Image/GridText.h"
-#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
@@ -133,39 +133,41 @@ int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-ImageFrame vtkMassSplatter::CellsAround(vtkPointSet* points)
+ImageGrid vtkMassSplatter::CellsAround(vtkPointSet* points)
 {
   double bounds[6];
   findBounds(points, bounds);
-  const ImageFrame box(bounds);
-  const std::array<int, 3> most = box.Values(true);
+  const ImageGrid box = gridOfBox(bounds);
   int dimensions[3];
   for (std::size_t a = 0; a < 3; ++a)
   {
-    dimensions[a] = most[a] > 1 ? this->Dimensions[a] : 1;
+    dimensions[a] = box.IsAxis(a) ? this->Dimensions[a] : 1;
   }
-  return box.WithValues(dimensions, false, "Dimensions");
+  return gridWithValues(box, dimensions, "Dimensions");
 }
 
 //------------------------------------------------------------------------------
 int vtkMassSplatter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  ImageFrame frame;
+  const bool onPoints = this->Association == POINTS;
+  ImageGrid grid = ImageGrid().WithValuesOn(onPoints);
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    frame = ImageFrame(inputVector[1]->GetInformationObject(0));
+    grid = announcedGrid(inputVector[1]->GetInformationObject(0), onPoints);
   }
   else
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
     requireDimensions(this->Dimensions);
-    const bool isEmpty = !points || points->GetNumberOfPoints() == 0;
-    const ImageFrame cells = isEmpty ? frame : this->CellsAround(points);
-    frame = this->Association == POINTS ? cells.AtCellCentres() : cells;
+    if (points && points->GetNumberOfPoints() > 0)
+    {
+      const ImageGrid cells = this->CellsAround(points);
+      grid = onPoints ? cells.AtCellCentres() : cells;
+    }
   }
-  frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
+  announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
 }
 
@@ -194,8 +196,7 @@ int vtkMassSplatter::RequestData(
   requireDimensions(this->Dimensions);
   requireChoice("Association", this->Association, AssociationTexts);
   const SplatOptions options = this->GetSplatSettings().Options();
-  const std::unique_ptr<Executor> executor =
-    FlowSettings::OfThreading(this->Threading).MakeExecutor();
+  std::unique_ptr<Executor> executor = FlowSettings::OfThreading(this->Threading).MakeExecutor();
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* information = outputVector->GetInformationObject(0);
@@ -212,20 +213,20 @@ int vtkMassSplatter::RequestData(
     return 1;
   }
 
-  AlgorithmProgress host(this);
+  AlgorithmProgress progress(this, std::move(executor));
   PointMasses masses;
   if (count > 0)
   {
     vtkDataArray* array = this->FindMasses(input);
-    host.BeginStage(0.1);
-    visitPoints(input, "input point set", *executor, host, [](std::int64_t, const double*) {});
-    host.BeginStage(0.2);
-    masses = PointMasses(input, array, *executor, host);
+    progress.BeginStage(0.1);
+    visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
+    progress.BeginStage(0.2);
+    masses = PointMasses(input, array, progress);
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   const bool onPoints = this->Association == POINTS;
-  const ImageFrame cells = reference ? ImageFrame(reference) : this->CellsAround(input);
-  if (cells.HasOnePoint())
+  const ImageGrid cells = reference ? gridOf(reference, onPoints) : this->CellsAround(input);
+  if (cells.Dimension() == 0)
   {
     throw Failure(reference
         ? "The Reference has one point along every axis; it needs at least one axis of two points "
@@ -235,32 +236,30 @@ int vtkMassSplatter::RequestData(
   }
   if (!reference)
   {
-    const std::array<int, 3> along = cells.Values(false);
+    const std::array<int, 3> along = cells.NumberOfValues();
     const GridSize<3> size{ along[0], along[1], along[2] };
     requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
       numberOfCells<3>(size) * sizeof(double));
   }
-  cells.CopyTo(output);
-  const ImageGeometry geometry(output, reference && onPoints);
-  const SplatTarget target{ geometry, options, this->DivideByVolume != 0 };
+  requireCells(cells);
+  const SplatTarget target{ cells, options, this->DivideByVolume != 0 };
   requireFiniteDensity(masses.TotalSize(), target, "The points' masses",
     this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
                          : "so that the sum of their sizes is a double");
-  const ImageFrame frame = onPoints && !reference ? cells.AtCellCentres() : cells;
-  frame.CopyTo(output);
-  frame.Publish(information); // without a Reference it is not known before the data
+  const ImageGrid grid = onPoints && !reference ? cells.AtCellCentres() : cells;
+  applyGrid(grid, output);
+  announceGrid(grid, information); // without a Reference it is not known before the data
 
-  const auto density = newArray<vtkDoubleArray>("Density", 1, geometry.NumberOfCells());
+  const auto density = newArray<vtkDoubleArray>("Density", 1, cells.NumberOfCells());
   const double* noPoints = nullptr;
-  host.BeginStage(0.95);
+  progress.BeginStage(0.95);
   const std::int64_t outside = count > 0
-    ? splatPoints(
-        input->GetPoints()->GetData(), masses.Values(), 1.0, target, *executor, host, density)
-    : splatPoints(noPoints, 0, 1.0, target, *executor, host, density);
-  host.BeginStage(1.0);
+    ? splatPoints(input->GetPoints()->GetData(), masses.Values(), 1.0, target, progress, density)
+    : splatPoints(noPoints, 0, 1.0, target, progress, density);
+  progress.BeginStage(1.0);
   const double total = options.Boundary == SplatBoundary::Renormalize
     ? masses.Total()
-    : splatMassIn(density, target, *executor, host);
+    : splatMassIn(density, target, progress);
   output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->SetScalars(density);
   addFieldValue(output, "TotalMass", total);
   if (outside > 0)

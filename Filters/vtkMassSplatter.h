@@ -56,7 +56,7 @@
 
 namespace RectifiedTransport
 {
-class ImageFrame;
+class ImageGrid;
 struct SplatSettings;
 } // namespace RectifiedTransport
 
@@ -218,7 +218,7 @@ protected:
 
 private:
   RectifiedTransport::SplatSettings GetSplatSettings();
-  RectifiedTransport::ImageFrame CellsAround(vtkPointSet* points);
+  RectifiedTransport::ImageGrid CellsAround(vtkPointSet* points);
   vtkDataArray* FindMasses(vtkPointSet* points);
 
   vtkMassSplatter(const vtkMassSplatter&) = delete;

@@ -3,6 +3,7 @@
 
 #include "Bridge/Flow/FlowSettings.h"
 #include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Image/SolidGrid.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
@@ -33,24 +34,19 @@ using namespace RectifiedTransport;
 const char* const AssociationTexts[] = { "Points", "Cells" };
 constexpr int MaximumSupersampling = 16;
 
-vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
-  int supersampling, const Executor& executor, AlgorithmProgress& host)
+vtkSmartPointer<vtkDoubleArray> cover(
+  const TriangleSurface& surface, const GridSize<3>& cells, int supersampling, Progress& progress)
 {
   const std::string grid = describeSize<3>(cells) + " cells (see Resolution)";
   const double count = numberOfCells<3>(cells);
   requireMemory("a density of " + grid, count * sizeof(double));
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
-  host.BeginStage(1.0);
+  progress.BeginStage(1.0);
   const CoverageReport report = withMemory("the surface's " +
       std::to_string(surface.NumberOfTriangles) + " triangles in the layers of " + grid,
     static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
-      return coverSolid(
-        surface, cells, supersampling, density->GetPointer(0), executor, host.GetMonitor());
+      return coverSolid(surface, cells, supersampling, density->GetPointer(0), progress.Stage());
     });
-  if (report.Cancelled)
-  {
-    throw Aborted();
-  }
   if (report.OpenLines > 0)
   {
     throw Failure("The input surface leaves " + std::to_string(report.OpenLines) +
@@ -113,13 +109,14 @@ int vtkSolidDensity::RequestInformation(
 {
   this->UpdateInputBeforeData(0, inputVector, outputVector);
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
-  ImageFrame frame;
+  const bool onPoints = this->Association == POINTS;
+  ImageGrid grid = ImageGrid().WithValuesOn(onPoints);
   if (surface && surface->GetNumberOfPoints() > 0)
   {
-    const SolidGrid grid(polygonBounds(surface), this->Resolution, this->Padding);
-    frame = grid.Frame(this->Association == POINTS);
+    const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
+    grid = onPoints ? cells.AtCellCentres() : cells;
   }
-  frame.PublishDensity(outputVector->GetInformationObject(0), this->Association == POINTS);
+  announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
 }
 
@@ -130,9 +127,8 @@ int vtkSolidDensity::RequestData(
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
   requireChoice("Association", this->Association, AssociationTexts);
-  const std::unique_ptr<Executor> executor =
-    FlowSettings::OfThreading(this->Threading).MakeExecutor();
-  SolidGrid::RequireRanges(this->Resolution, this->Padding);
+  std::unique_ptr<Executor> executor = FlowSettings::OfThreading(this->Threading).MakeExecutor();
+  requireSolidGrid(this->Resolution, this->Padding);
 
   // All is in the first piece, whatever pieces a consumer asks for.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
@@ -146,17 +142,17 @@ int vtkSolidDensity::RequestData(
   {
     return 1;
   }
-  AlgorithmProgress host(this);
-  ClosedSurface surface(input, *executor, host, 0.4);
-  const SolidGrid grid(polygonBounds(input), this->Resolution, this->Padding);
-  const TriangleSurface triangles = surface.InCells(grid, *executor, host, 0.5);
+  AlgorithmProgress progress(this, std::move(executor));
+  ClosedSurface surface(input, progress, 0.4);
+  const ImageGrid cells = solidGrid(polygonBounds(input), this->Resolution, this->Padding);
+  const TriangleSurface triangles = surface.InCells(cells, progress, 0.5);
   const vtkSmartPointer<vtkDoubleArray> density =
-    cover(triangles, grid.Cells(), this->Supersampling, *executor, host);
+    cover(triangles, cells.Size<3>(), this->Supersampling, progress);
 
   const bool onPoints = this->Association == POINTS;
-  const ImageFrame frame = grid.Frame(onPoints);
-  frame.CopyTo(output);
-  frame.Publish(outputVector->GetInformationObject(0)); // it may have changed with time
+  const ImageGrid grid = onPoints ? cells.AtCellCentres() : cells;
+  applyGrid(grid, output);
+  announceGrid(grid, outputVector->GetInformationObject(0)); // it may have changed with time
   output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->SetScalars(density);
   return 1;
 }

@@ -4,7 +4,8 @@
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/CommonFrame.h"
+#include "Bridge/Image/CommonGrid.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -152,7 +153,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
 int vtkTransportBlend::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  std::vector<FramePart> parts;
+  std::vector<NamedGrid> grids;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
@@ -171,27 +172,26 @@ int vtkTransportBlend::RequestInformation(
             int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
             this->FindDensityArray(image, port, association);
             const bool onPoints = association != vtkDataObject::FIELD_ASSOCIATION_CELLS;
-            parts.push_back({ ImageFrame(image), onPoints, "" });
+            grids.push_back({ gridOf(image, onPoints), "" });
           }
         }
         continue;
       }
-      parts.push_back({ ImageFrame(input), this->IsDensityOnPoints(input, port), "" });
+      grids.push_back({ announcedGrid(input, this->IsDensityOnPoints(input, port)), "" });
     }
   }
-  for (const FramePart& part : parts)
+  for (const NamedGrid& grid : grids)
   {
-    if (part.Frame.IsEmpty())
+    if (grid.Grid.IsEmpty())
     {
       return 1;
     }
   }
-  if (parts.empty())
+  if (grids.empty())
   {
     return 1;
   }
-  commonFrame(parts, this->Dimensions)
-    .PublishDensity(outputVector->GetInformationObject(0), parts.front().OnPoints);
+  announceDensity(commonGrid(grids, this->Dimensions), outputVector->GetInformationObject(0));
   return 1;
 }
 
@@ -200,7 +200,7 @@ int vtkTransportBlend::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const BlendSettings settings = this->GetBlendSettings();
-  const std::unique_ptr<Executor> executor(this->NewExecutor());
+  std::unique_ptr<Executor> executor(this->NewExecutor());
   const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1) };
 
@@ -239,11 +239,11 @@ int vtkTransportBlend::RequestData(
     inputs[i].Weight = weights[i];
   }
 
-  AlgorithmProgress host(this);
+  AlgorithmProgress progress(this, std::move(executor));
   const std::int64_t moved =
-    this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), *executor, host, output);
+    this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), progress, output);
   // Which array it is, is not always known before the data.
-  ImageFrame(output.Density).Publish(outputVector->GetInformationObject(0));
+  announceGrid(gridOf(output.Density, true), outputVector->GetInformationObject(0));
   if (moved > 0)
   {
     vtkWarningMacro(<< moved << (moved == 1 ? " particle" : " particles")

@@ -5,7 +5,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
-#include "Bridge/Image/ImageFrame.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
@@ -34,14 +34,13 @@ const char* const DirectionTexts[] = { "UniformToDensity", "DensityToUniform" };
 // What RequestData has fetched and checked.
 struct MapRun
 {
-  AlgorithmProgress& Host;
-  const Executor& Threads;
+  Progress& Work;
   DensityImage& Density;
   FlowCache& Cache;
   FlowOptions Options;
   bool Backward;
   vtkImageData* Input;
-  const ImageFrame& Frame;
+  const ImageGrid& Grid;
   vtkImageData* Output;
 };
 
@@ -61,7 +60,7 @@ struct MapStages
 
 MapStages planStages(const MapRun& run, double samples)
 {
-  const ImageGeometry& geometry = run.Density.Geometry();
+  const ImageGrid& geometry = run.Density.Geometry();
   const bool space = geometry.Dimension() == 3;
   const double evaluations =
     run.Options.NumberOfSteps * (run.Options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
@@ -93,8 +92,8 @@ GridSize<D> latticeOf(const std::array<int, 3>& values, vtkImageData* input)
 // The output without its map.
 void shapeOutput(const MapRun& run)
 {
-  run.Frame.CopyTo(run.Output);
-  if (run.Frame.HasExtentOf(ImageFrame(run.Input)))
+  applyGrid(run.Grid, run.Output);
+  if (run.Grid.Extent() == run.Density.Geometry().Extent())
   {
     run.Output->GetPointData()->PassData(run.Input->GetPointData());
     run.Output->GetCellData()->PassData(run.Input->GetCellData());
@@ -105,7 +104,7 @@ template <int D>
 MapResult makeMap(const MapRun& run)
 {
   const bool onPoints = run.Density.IsOnPoints();
-  const GridSize<D> lattice = latticeOf<D>(run.Frame.Values(onPoints), run.Input);
+  const GridSize<D> lattice = latticeOf<D>(run.Grid.NumberOfValues(), run.Input);
   const std::string purpose =
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)";
   const double samples = numberOfCells<D>(lattice);
@@ -113,21 +112,15 @@ MapResult makeMap(const MapRun& run)
   MapField<D> field(run.Density.Geometry(), lattice, purpose);
   shapeOutput(run);
 
-  run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
-  run.Host.BeginStage(stages.Flow);
+  run.Cache.Update(run.Density, run.Work, stages.Tables);
+  run.Work.BeginStage(stages.Flow);
   const RectifiedFlow<D>& flow = run.Cache.Flow<D>();
-  const Monitor monitor = run.Host.GetMonitor();
   const FlowReport report = run.Backward
-    ? flow.BackwardLattice(lattice, field.Positions(), run.Options, run.Threads, monitor)
-    : flow.ForwardLattice(lattice, field.Positions(), run.Options, run.Threads, monitor);
-  if (report.Cancelled)
-  {
-    throw Aborted();
-  }
+    ? flow.BackwardLattice(lattice, field.Positions(), run.Options, run.Work.Stage())
+    : flow.ForwardLattice(lattice, field.Positions(), run.Options, run.Work.Stage());
   vtkDataSetAttributes* attributes =
     run.Output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-  const double cost =
-    field.Write(run.Backward ? &flow : nullptr, run.Threads, run.Host, 1.0, attributes);
+  const double cost = field.Write(run.Backward ? &flow : nullptr, run.Work, 1.0, attributes);
   return { cost, field.Count(), report.MovedToMass };
 }
 } // namespace
@@ -176,16 +169,16 @@ int vtkTransportMap::RequestInformation(
 {
   vtkInformation* inputInformation = inputVector[0]->GetInformationObject(0);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const ImageFrame inputFrame(inputInformation);
-  inputFrame.Publish(outputInformation);
-  if (inputFrame.IsEmpty())
+  const ImageGrid inputGrid =
+    announcedGrid(inputInformation, this->IsDensityOnPoints(inputInformation));
+  announceGrid(inputGrid, outputInformation);
+  if (inputGrid.IsEmpty())
   {
     return 1;
   }
-  const ImageFrame frame = inputFrame.WithValues(
-    this->SampleDimensions, this->IsDensityOnPoints(inputInformation), "SampleDimensions");
-  frame.Publish(outputInformation);
-  if (frame.HasExtentOf(inputFrame))
+  const ImageGrid grid = gridWithValues(inputGrid, this->SampleDimensions, "SampleDimensions");
+  announceGrid(grid, outputInformation);
+  if (grid.Extent() == inputGrid.Extent())
   {
     // The input's scalars are passed on.
     for (auto* key : { vtkDataObject::POINT_DATA_VECTOR(), vtkDataObject::CELL_DATA_VECTOR() })
@@ -205,7 +198,7 @@ int vtkTransportMap::RequestData(
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
   const FlowOptions options = this->GetFlowOptions();
-  const std::unique_ptr<Executor> executor(this->NewExecutor());
+  std::unique_ptr<Executor> executor(this->NewExecutor());
 
   // All samples are in the first piece, whatever pieces a consumer asks for.
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
@@ -219,14 +212,14 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const ImageFrame frame =
-    ImageFrame(input).WithValues(this->SampleDimensions, density->IsOnPoints(), "SampleDimensions");
+  const ImageGrid grid =
+    gridWithValues(density->Geometry(), this->SampleDimensions, "SampleDimensions");
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  frame.Publish(outputInformation); // which array it is, is not always known before the data
+  announceGrid(grid, outputInformation); // which array it is, is not always known before the data
 
-  AlgorithmProgress host(this);
-  const MapRun run{ host, *executor, *density, this->GetFlowCache(), options,
-    this->Direction == DENSITY_TO_UNIFORM, input, frame, output };
+  AlgorithmProgress progress(this, std::move(executor));
+  const MapRun run{ progress, *density, this->GetFlowCache(), options,
+    this->Direction == DENSITY_TO_UNIFORM, input, grid, output };
   const int dimension = density->Geometry().Dimension();
   const MapResult result = dimension == 1 ? makeMap<1>(run)
     : dimension == 2                      ? makeMap<2>(run)

@@ -114,10 +114,9 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  const auto executor = makeExecutor(Threading::Auto);
-  AlgorithmProgress host(this);
-  const ParticleQuality quality = measureQuality(
-    particles, counted, *density, this->BlockSize, this->Internals->Cache, *executor, host);
+  AlgorithmProgress progress(this, makeExecutor(Threading::Auto));
+  const ParticleQuality quality =
+    measureQuality(particles, counted, *density, this->BlockSize, this->Internals->Cache, progress);
 
   vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));

@@ -38,8 +38,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 // What RequestData has fetched and checked.
 struct SamplerRun
 {
-  AlgorithmProgress& Host;
-  const Executor& Threads;
+  Progress& Work;
   DensityImage& Density;
   FlowCache& Cache;
   FlowOptions Options;
@@ -69,7 +68,7 @@ struct SamplerStages
 
 SamplerStages planStages(const SamplerRun& run, double particles, std::size_t times)
 {
-  const ImageGeometry& geometry = run.Density.Geometry();
+  const ImageGrid& geometry = run.Density.Geometry();
   const double evaluations =
     run.Options.NumberOfSteps * (run.Options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
   // Nanoseconds, as measured.
@@ -97,7 +96,7 @@ std::vector<double> timesOf(const SamplerRun& run)
 template <int D>
 UnitSeeds<D> patternOf(const SamplerRun& run)
 {
-  const ImageGeometry& geometry = run.Density.Geometry();
+  const ImageGrid& geometry = run.Density.Geometry();
   if (run.SamplesPerCell > 0 &&
     (run.Pattern == SeedPattern::Lattice || run.Pattern == SeedPattern::Jittered))
   {
@@ -122,20 +121,17 @@ std::string describeParticles(double count, bool paths)
 
 template <int D>
 void makeSeeds(const UnitSeeds<D>& pattern, const SamplerRun& run, const std::string& purpose,
-  double progress, ParticleSet<D>& particles)
+  double end, ParticleSet<D>& particles)
 {
   constexpr double partOfPattern = 0.8;
   double* seeds = particles.Seeds();
-  run.Host.BeginStage(run.Host.Reached() + partOfPattern * (progress - run.Host.Reached()));
-  const bool complete = withMemory(purpose, pattern.Count() * D * sizeof(double),
-    [&]() { return pattern.Generate(seeds, run.Host.GetMonitor()); });
-  if (!complete)
-  {
-    throw Aborted();
-  }
-  run.Host.BeginStage(progress);
+  run.Work.BeginStage(run.Work.StageEnd() + partOfPattern * (end - run.Work.StageEnd()));
+  withMemory(purpose, pattern.Count() * D * sizeof(double), [&]() {
+    pattern.Generate({ seeds, particles.Count() }, run.Work.Stage());
+  });
+  run.Work.BeginStage(end);
   const GridSize<D> size = run.Density.Geometry().Size<D>();
-  run.Host.Run(run.Threads, particles.Count(), grain, [=](std::int64_t first, std::int64_t last) {
+  run.Work.For(particles.Count(), grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (int a = 0; a < D; ++a)
@@ -156,31 +152,27 @@ std::int64_t advect(const SamplerRun& run, const std::vector<double>& times,
   const std::int64_t count = particles.Count();
   if (times.size() == 1 && times[0] == 0.0)
   {
-    run.Host.Run(run.Threads, count, grain, [=](std::int64_t first, std::int64_t last) {
+    run.Work.For(count, grain, [=](std::int64_t first, std::int64_t last) {
       std::copy(seeds + first * D, seeds + last * D, positions + first * D);
     });
     return 0;
   }
   const RectifiedFlow<D>& flow = run.Cache.Flow<D>();
-  const Monitor monitor = run.Host.GetMonitor();
   const bool toEnd = times.size() == 1 && times[0] == 1.0;
-  const FlowReport report =
-    withMemory(purpose, static_cast<double>(count) * sizeof(std::int64_t), [&]() {
-      return toEnd
-        ? flow.Forward(seeds, count, positions, run.Options, run.Threads, monitor)
-        : flow.ForwardAt(seeds, count, times, positions, run.Options, run.Threads, monitor);
-    });
-  if (report.Cancelled)
-  {
-    throw Aborted();
-  }
-  return report.MovedToMass;
+  const ConstPointSpan<D> from(seeds, count);
+  const PointSpan<D> to(positions, count * static_cast<std::int64_t>(times.size()));
+  return withMemory(purpose, static_cast<double>(count) * sizeof(std::int64_t), [&]() {
+    const FlowReport report = toEnd
+      ? flow.Forward(from, to, run.Options, run.Work.Stage())
+      : flow.ForwardAt(from, times, to, run.Options, run.Work.Stage());
+    return report.MovedToMass;
+  });
 }
 
 template <int D>
 SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
 {
-  const ImageGeometry& geometry = run.Density.Geometry();
+  const ImageGrid& geometry = run.Density.Geometry();
   const UnitSeeds<D> pattern = patternOf<D>(run);
   const double count =
     run.GivenSeeds ? static_cast<double>(run.GivenSeeds->GetNumberOfPoints()) : pattern.Count();
@@ -190,19 +182,19 @@ SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
   ParticleSet<D> particles(
     geometry, purpose, count, static_cast<std::int64_t>(times.size()), run.GivenSeeds != nullptr);
 
-  run.Cache.Update(run.Density, run.Threads, run.Host, stages.Tables);
+  run.Cache.Update(run.Density, run.Work, stages.Tables);
   SamplerReport report;
   if (run.GivenSeeds)
   {
-    run.Host.BeginStage(stages.Seeds);
-    report.SeedsMoved = readSeeds<D>(run.GivenSeeds, "input Seeds", geometry, run.Threads, run.Host,
+    run.Work.BeginStage(stages.Seeds);
+    report.SeedsMoved = readSeeds<D>(run.GivenSeeds, "input Seeds", geometry, run.Work,
       particles.Seeds(), particles.PhysicalSeeds());
   }
   else
   {
     makeSeeds<D>(pattern, run, purpose, stages.Seeds, particles);
   }
-  run.Host.BeginStage(stages.Flow);
+  run.Work.BeginStage(stages.Flow);
   report.ParticlesMoved = advect<D>(run, times, purpose, particles);
 
   vtkDataSetAttributes* cellsOrPoints = output->GetPointData();
@@ -215,9 +207,8 @@ SamplerReport sample(const SamplerRun& run, vtkPolyData* output)
     cellsOrPoints->PassData(run.GivenSeeds->GetPointData());
   }
   const double mass = run.Cache.TotalMass();
-  const double cost = run.Paths
-    ? particles.WritePaths(mass, times, run.Threads, run.Host, 1.0, output)
-    : particles.WriteParticles(mass, run.Threads, run.Host, 1.0, output);
+  const double cost = run.Paths ? particles.WritePaths(mass, times, run.Work, 1.0, output)
+                                : particles.WriteParticles(mass, run.Work, 1.0, output);
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
   return report;
@@ -299,7 +290,7 @@ int vtkTransportSampler::RequestData(
   requireThat(
     this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
   const FlowOptions options = this->GetFlowOptions();
-  const std::unique_ptr<Executor> executor(this->NewExecutor());
+  std::unique_ptr<Executor> executor(this->NewExecutor());
 
   // All particles are in the first piece, whatever pieces a consumer asks for.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
@@ -311,8 +302,8 @@ int vtkTransportSampler::RequestData(
   {
     return 1;
   }
-  AlgorithmProgress host(this);
-  const SamplerRun run{ host, *executor, *density, this->GetFlowCache(), options, seeds,
+  AlgorithmProgress progress(this, std::move(executor));
+  const SamplerRun run{ progress, *density, this->GetFlowCache(), options, seeds,
     static_cast<RectifiedTransport::SeedPattern>(this->SeedPattern), this->NumberOfParticles,
     this->RandomSeed, this->SamplesPerCell, this->FlowTime, this->OutputPaths != 0 };
   vtkPolyData* output = vtkPolyData::GetData(outputVector);

@@ -51,8 +51,8 @@ void requireBounds(const double* bounds, int dimension)
 
 // Fills a box with points, uniformly.
 template <int D>
-void fillBox(const UnitSeeds<D>& seeds, const double* bounds, AlgorithmProgress& host,
-  const Executor& executor, vtkPolyData* output)
+void fillBox(
+  const UnitSeeds<D>& seeds, const double* bounds, Progress& progress, vtkPolyData* output)
 {
   constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
   const std::string purpose = "the points (see NumberOfPoints)";
@@ -62,20 +62,16 @@ void fillBox(const UnitSeeds<D>& seeds, const double* bounds, AlgorithmProgress&
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   double* points = coordinates->GetPointer(0);
   LargeBuffer<double> separate;
-  host.BeginStage(0.6);
-  const bool complete = withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
+  progress.BeginStage(0.6);
+  withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
     separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
-    return seeds.Generate(D == 3 ? points : separate.data(), host.GetMonitor());
+    seeds.Generate({ D == 3 ? points : separate.data(), count }, progress.Stage());
   });
-  if (!complete)
-  {
-    throw Aborted();
-  }
   const double* unit = D == 3 ? points : separate.data();
 
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  host.BeginStage(0.8);
-  host.Run(executor, count, grain, [=](std::int64_t first, std::int64_t last) {
+  progress.BeginStage(0.8);
+  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (int a = 0; a < D; ++a)
@@ -90,12 +86,12 @@ void fillBox(const UnitSeeds<D>& seeds, const double* bounds, AlgorithmProgress&
       }
     }
   });
-  host.BeginStage(1.0);
+  progress.BeginStage(1.0);
   vtkNew<vtkPoints> pointSet;
   pointSet->SetDataTypeToDouble();
   pointSet->SetData(coordinates);
   output->SetPoints(pointSet);
-  output->SetVerts(newParticleCells(count, 1, executor, host));
+  output->SetVerts(newParticleCells(count, 1, progress));
 }
 } // namespace
 
@@ -133,19 +129,18 @@ int vtkUniformSeedSource::RequestData(
     const auto pattern = static_cast<SeedPattern>(this->Pattern);
     const Point<3> lengths{ this->Bounds[1] - this->Bounds[0], this->Bounds[3] - this->Bounds[2],
       this->Bounds[5] - this->Bounds[4] };
-    const auto executor = makeExecutor(Threading::Auto);
-    AlgorithmProgress host(this);
+    AlgorithmProgress progress(this, makeExecutor(Threading::Auto));
     vtkPolyData* output = vtkPolyData::GetData(outputVector);
     if (this->Dimension == 2)
     {
       const UnitSeeds<2> seeds(
         pattern, { lengths[0], lengths[1] }, this->NumberOfPoints, this->RandomSeed);
-      fillBox<2>(seeds, this->Bounds, host, *executor, output);
+      fillBox<2>(seeds, this->Bounds, progress, output);
     }
     else
     {
       const UnitSeeds<3> seeds(pattern, lengths, this->NumberOfPoints, this->RandomSeed);
-      fillBox<3>(seeds, this->Bounds, host, *executor, output);
+      fillBox<3>(seeds, this->Bounds, progress, output);
     }
     return 1;
   });

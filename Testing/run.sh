@@ -78,7 +78,7 @@ run_suites()
 }
 
 # Of the core, those that run on several threads.
-parallel_tests="Invariance*:SplatOrder*:SplatMonitor*:Monitor*:Lattice*:Tables*:CellSamples*"
+parallel_tests="Invariance*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*:PivotLattice*"
 parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
 
 # run_tests FOLDER CTEST-ARGUMENT...

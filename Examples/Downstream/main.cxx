@@ -43,7 +43,7 @@ int main()
   sampler->Update();
 
   std::vector<Point<2>> seeds(count);
-  generateSeeds<2>(SeedPattern::BlueNoise, { width, height }, count, 1, seeds[0].data());
+  generateSeeds<2>(SeedPattern::BlueNoise, { width, height }, 1, seeds);
   for (Point<2>& seed : seeds)
   {
     seed = { seed[0] * width, seed[1] * height };

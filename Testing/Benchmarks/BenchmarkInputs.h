@@ -85,8 +85,7 @@ FlowReport moveForward(const RectifiedFlow<Dimension>& flow,
   std::vector<std::array<double, static_cast<std::size_t>(Dimension)>>& particles,
   const Executor& executor = SerialExecutor())
 {
-  double* data = particles.data()->data();
-  return flow.Forward(data, static_cast<std::int64_t>(particles.size()), data, {}, executor);
+  return flow.Forward(particles, particles, {}, executor);
 }
 
 // Processor time of the process: other programs on the machine count little.

@@ -31,24 +31,21 @@ void latticeFlow(benchmark::State& state)
   const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
   const RectifiedFlow<Dimension> flow(density.Source());
   const Particles<Dimension> seeds = latticeParticles<Dimension>(density.Size);
-  const auto count = static_cast<std::int64_t>(seeds.size());
   Particles<Dimension> positions(seeds.size());
-  const double* from = seeds.data()->data();
-  double* to = positions.data()->data();
   const SerialExecutor serial;
   for (auto _ : state)
   {
     if (Sorted)
     {
-      Backward ? flow.Backward(from, count, to, {}, serial)
-               : flow.Forward(from, count, to, {}, serial);
+      Backward ? flow.Backward(seeds, positions, {}, serial)
+               : flow.Forward(seeds, positions, {}, serial);
     }
     else
     {
-      Backward ? flow.BackwardLattice(density.Size, to, {}, serial)
-               : flow.ForwardLattice(density.Size, to, {}, serial);
+      Backward ? flow.BackwardLattice(density.Size, positions, {}, serial)
+               : flow.ForwardLattice(density.Size, positions, {}, serial);
     }
-    benchmark::DoNotOptimize(to);
+    benchmark::DoNotOptimize(positions.data());
   }
   reportCost(state, seeds.size());
 }

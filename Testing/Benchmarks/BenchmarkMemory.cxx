@@ -40,13 +40,12 @@ void memory(benchmark::State& state)
   Particles<3> particles = latticeParticles<3>(density.Size);
   FlowOptions options;
   options.NumberOfSteps = 1;
-  double* data = particles.data()->data();
   for (auto _ : state)
   {
     resetPeakMemory();
     const double before = peakMemory();
     const RectifiedFlow<3> flow(density.Source());
-    flow.Forward(data, static_cast<std::int64_t>(particles.size()), data, options);
+    flow.Forward(particles, particles, options);
     state.counters["peak_bytes"] = peakMemory() - before;
     state.counters["table_bytes"] = static_cast<double>(flow.MemorySize());
   }

@@ -34,8 +34,7 @@ struct QualityCase
     {
       lengths[axis] = static_cast<double>(this->Density.Size[axis]);
     }
-    generateSeeds<Dimension>(
-      SeedPattern::BlueNoise, lengths, particles, 1, this->Seeds.data()->data());
+    generateSeeds<Dimension>(SeedPattern::BlueNoise, lengths, 1, this->Seeds);
     for (Point<Dimension>& seed : this->Seeds)
     {
       for (int axis = 0; axis < Dimension; ++axis)
@@ -159,14 +158,13 @@ void core(benchmark::State& state, const QualityCase<Dimension>& example, FlowOp
 {
   const RectifiedFlow<Dimension> flow(example.Density.Source());
   Particles<Dimension> particles(example.Seeds.size());
-  const auto count = static_cast<std::int64_t>(particles.size());
   FlowReport done;
   for (auto _ : state)
   {
-    done = flow.Forward(example.Seeds.data()->data(), count, particles.data()->data(), options);
+    done = flow.Forward(example.Seeds, particles, options);
   }
-  report<Dimension>(
-    state, example, particles, static_cast<double>(done.Evaluations) / static_cast<double>(count));
+  report<Dimension>(state, example, particles,
+    static_cast<double>(done.Evaluations) / static_cast<double>(particles.size()));
 }
 
 FlowOptions multistep(int steps)

@@ -75,7 +75,7 @@ const SplatInput<D>& splatInput(std::int64_t side, Order order)
 template <int D>
 void splatInto(const SplatInput<D>& input, SplatKernel kernel, double* cells)
 {
-  SplatParticles<D, double> particles{ input.Points.data(), input.Count, nullptr, 1.0, {} };
+  SplatParticles<D, double> particles{ { input.Points.data(), input.Count }, nullptr, 1.0, {} };
   for (int a = 0; a < 3; ++a)
   {
     particles.ToIndex.Matrix[a][a] = 1.0;
@@ -83,7 +83,7 @@ void splatInto(const SplatInput<D>& input, SplatKernel kernel, double* cells)
   }
   SplatOptions options;
   options.Kernel = kernel;
-  splatMass<D, double>(particles, input.Size, options, 1.0, cells, OpenMPExecutor(), {});
+  splatMass<D, double>(particles, input.Size, options, 1.0, cells);
 }
 
 // What no splat can do without.

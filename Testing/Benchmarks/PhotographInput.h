@@ -67,8 +67,7 @@ private:
       }
     }
     this->Seeds.resize(PhotographParticles);
-    generateSeeds<2>(
-      SeedPattern::BlueNoise, { 1.0, 1.0 }, PhotographParticles, 1, this->Seeds.data()->data());
+    generateSeeds<2>(SeedPattern::BlueNoise, { 1.0, 1.0 }, 1, this->Seeds);
     for (Point<2>& seed : this->Seeds)
     {
       seed = { PhotographSide * seed[0], PhotographSide * seed[1] };

@@ -23,8 +23,7 @@ struct Mesh
 
   TriangleSurface Surface() const
   {
-    return { this->Points.empty() ? nullptr : this->Points[0].data(),
-      this->Triangles.empty() ? nullptr : this->Triangles[0].data(),
+    return { this->Points, this->Triangles.empty() ? nullptr : this->Triangles[0].data(),
       static_cast<std::int64_t>(this->Triangles.size()) };
   }
 

@@ -107,29 +107,28 @@ void expectFlow(const GridSize<Dimension>& size)
       digest.Add(valuesOf(runForward(flow, seeds, options)));
       digest.Add(valuesOf(runBackward(flow, seeds, options)));
     }
-    std::vector<double> paths(count * 3 * Dimension);
+    Points<Dimension> paths(3 * count);
     options.Lookup = TableLookup::Interpolated;
-    flow.ForwardAt(seeds.data()->data(), count, { 0.25, 0.75, 1.0 }, paths.data(), options);
-    digest.Add(paths);
+    flow.ForwardAt(seeds, { 0.25, 0.75, 1.0 }, paths, options);
+    digest.Add(valuesOf(paths));
     expectDigest(name + nameOf(method), digest);
   }
 
   GridSize<Dimension> lattice;
   lattice.fill(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
-  std::vector<double> positions(
-    static_cast<std::size_t>(cellCount<Dimension>(lattice)) * Dimension);
-  std::vector<std::int64_t> cells(static_cast<std::size_t>(cellCount<Dimension>(lattice)));
-  flow.ForwardLattice(lattice, positions.data());
+  Points<Dimension> positions(static_cast<std::size_t>(cellCount<Dimension>(lattice)));
+  std::vector<std::int64_t> cells(positions.size());
+  flow.ForwardLattice(lattice, positions);
   flow.ForwardLatticeToCells(lattice, cells.data());
   std::vector<double> divergence(cells.size());
   std::vector<double> determinant(cells.size());
   Point<Dimension> step;
   step.fill(0.5);
-  MapDerivatives<Dimension>(lattice, step, positions.data())
+  MapDerivatives<Dimension>(lattice, step, positions)
     .Write(0, cellCount<Dimension>(lattice), divergence.data(), determinant.data());
   const Point<Dimension> centroid = flow.Centroid();
   Digest digest;
-  digest.Add(positions);
+  digest.Add(valuesOf(positions));
   digest.Add(cells);
   digest.Add(divergence);
   digest.Add(determinant);
@@ -154,11 +153,11 @@ TEST(Bits, Seeds)
     constexpr std::int64_t count = 1500;
     Digest digest;
     std::vector<double> points(3 * count);
-    generateSeeds<1>(pattern, { 2.0 }, count, 5, points.data());
+    generateSeeds<1>(pattern, { 2.0 }, 5, { points.data(), count });
     digest.Add(points);
-    generateSeeds<2>(pattern, { 2.0, 3.0 }, count, 5, points.data());
+    generateSeeds<2>(pattern, { 2.0, 3.0 }, 5, { points.data(), count });
     digest.Add(points);
-    generateSeeds<3>(pattern, { 2.0, 3.0, 1.0 }, count, 5, points.data());
+    generateSeeds<3>(pattern, { 2.0, 3.0, 1.0 }, 5, { points.data(), count });
     digest.Add(points);
     expectDigest("seeds " + std::to_string(static_cast<int>(pattern)), digest);
   }
@@ -169,7 +168,7 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
 {
   Points<Dimension> places = randomPoints<Dimension>(size, 30, 3);
   places.push_back(places[4]);
-  const SiteDensity<Dimension> sites(size, places.data()->data(), 31);
+  const SiteDensity<Dimension> sites(size, places);
   Point<Dimension> spacing;
   spacing.fill(1.0);
   spacing[0] = 1.25;
@@ -181,9 +180,8 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
     label = sites.Find(label);
   }
   digest.Add(labels);
-  EXPECT_TRUE(equalizeSiteCells<Dimension>(sites, spacing, labels.data(), {}));
-  EXPECT_TRUE(
-    splitSharedPixels<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
+  equalizeSiteCells<Dimension>(sites, spacing, labels.data());
+  splitSharedPixels<Dimension>(sites, places, spacing, labels.data());
   digest.Add(labels);
 }
 
@@ -212,10 +210,10 @@ void addSplat(const GridSize<Dimension>& size, const SplatOptions& options, Dige
     }
     masses[i] = uniformNumber(engine);
   }
-  const SplatParticles<Dimension, Real> particles{ points.data(), count, masses.data(), 1.0,
+  const SplatParticles<Dimension, Real> particles{ { points.data(), count }, masses.data(), 1.0,
     identityMap<Dimension>() };
   std::vector<double> cells(static_cast<std::size_t>(cellCount<Dimension>(size)));
-  splatMass<Dimension, Real>(particles, size, options, 1.5, cells.data(), OpenMPExecutor(), {});
+  splatMass<Dimension, Real>(particles, size, options, 1.5, cells.data());
   digest.Add(cells);
 }
 
@@ -258,7 +256,7 @@ TEST(Bits, Neighbours)
 {
   const Points<3> points = randomPoints<3>({ 5, 4, 3 }, 3000);
   std::vector<double> distances(points.size());
-  nearestDistances(points.data()->data(), 3000, distances.data(), OpenMPExecutor(), {});
+  nearestDistances(points, distances.data());
   Digest digest;
   digest.Add(distances);
   expectDigest("neighbours", digest);

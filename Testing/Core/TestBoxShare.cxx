@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shares of boxes, against the sum over all cells, and boxes of shares, against shares of boxes.
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/SummedAreaTables.h"
 #include "TestFlow.h"
@@ -18,9 +18,9 @@ namespace
 template <int Dimension>
 SummedAreaTables<Dimension> makeTables(const TestDensity<Dimension>& density)
 {
-  const Monitor monitor;
-  Pacer pacer(monitor);
-  return SummedAreaTables<Dimension>(density.Source(), SerialExecutor(), pacer);
+  const SerialExecutor serial;
+  Progress progress(serial);
+  return SummedAreaTables<Dimension>(density.Source(), progress);
 }
 
 // The share in a box, and the measure of the part of the box in the domain.

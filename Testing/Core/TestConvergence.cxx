@@ -173,9 +173,7 @@ TEST(Convergence, Evaluations)
   const Points<2> seeds = randomPoints<2>(density.Size, 1000);
   Points<2> positions(seeds.size());
   const auto evaluations = [&](const FlowOptions& options) {
-    const FlowReport report =
-      flow.Forward(seeds.data()->data(), 1000, positions.data()->data(), options);
-    return static_cast<double>(report.Evaluations) / 1000.0;
+    return static_cast<double>(flow.Forward(seeds, positions, options).Evaluations) / 1000.0;
   };
   EXPECT_NEAR(evaluations(steps(32)), 31.0, 1.0);
   EXPECT_NEAR(evaluations(steps(64)), 63.0, 1.0);

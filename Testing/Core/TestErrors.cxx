@@ -83,39 +83,33 @@ TEST(Errors, TooMuchMass)
   EXPECT_EQ(summary.Maximum, 1e307);
 }
 
-// Says that it has a size; nobody may read it.
-template <int Dimension>
-class UnreadSource final : public DensitySource<Dimension>
+// Nobody may read them.
+class UnreadValues final : public DensityValues
 {
 public:
-  explicit UnreadSource(const GridSize<Dimension>& size)
-    : Dims(size)
-  {
-  }
-  GridSize<Dimension> Size() const override { return this->Dims; }
-  void ReadRow(std::int64_t, std::int64_t, std::int64_t, double*) const override
-  {
-    ADD_FAILURE() << "was read";
-  }
-
-private:
-  GridSize<Dimension> Dims;
+  void Read(std::int64_t, std::int64_t, double*) const override { ADD_FAILURE() << "was read"; }
 };
+
+template <int Dimension>
+void buildUnread(const GridSize<Dimension>& size)
+{
+  const UnreadValues values;
+  const RectifiedFlow<Dimension> flow(DensitySource<Dimension>{ size, values });
+}
 
 TEST(Errors, Size)
 {
-  EXPECT_THROW(RectifiedFlow<2>(UnreadSource<2>({ 0, 5 })), std::invalid_argument);
-  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ 4, 5, -1 })), std::invalid_argument);
-  EXPECT_THROW(
-    RectifiedFlow<1>(UnreadSource<1>({ (std::int64_t{ 1 } << 30) + 1 })), std::invalid_argument);
+  EXPECT_THROW(buildUnread<2>({ 0, 5 }), std::invalid_argument);
+  EXPECT_THROW(buildUnread<3>({ 4, 5, -1 }), std::invalid_argument);
+  EXPECT_THROW(buildUnread<1>({ (std::int64_t{ 1 } << 30) + 1 }), std::invalid_argument);
 }
 
 TEST(Errors, MemoryThatCannotBeHad)
 {
   const std::int64_t side = std::int64_t{ 1 } << 18;
-  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ side, side, side })), std::bad_alloc);
+  EXPECT_THROW(buildUnread<3>({ side, side, side }), std::bad_alloc);
   const std::int64_t huge = std::int64_t{ 1 } << 30;
-  EXPECT_THROW(RectifiedFlow<3>(UnreadSource<3>({ huge, huge, huge })), std::bad_alloc);
+  EXPECT_THROW(buildUnread<3>({ huge, huge, huge }), std::bad_alloc);
 }
 
 template <class F>
@@ -137,17 +131,17 @@ std::string refusal(F&& call)
 void expectRefused(const FlowOptions& options, const std::string& value)
 {
   const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));
-  double point[2] = { 1.0, 1.0 };
+  Points<2> point{ { 1.0, 1.0 } };
   const std::string messages[] = {
-    refusal([&]() { flow.Forward(point, 1, point, options); }),
-    refusal([&]() { flow.Backward(point, 1, point, options); }),
-    refusal([&]() { flow.ForwardAt(point, 1, { 0.5 }, point, options); }),
+    refusal([&]() { flow.Forward(point, point, options); }),
+    refusal([&]() { flow.Backward(point, point, options); }),
+    refusal([&]() { flow.ForwardAt(point, { 0.5 }, point, options); }),
   };
   for (const std::string& message : messages)
   {
     EXPECT_NE(message.find(value), std::string::npos) << message;
   }
-  EXPECT_EQ(point[0], 1.0);
+  EXPECT_EQ(point[0][0], 1.0);
 }
 
 TEST(Errors, NumberOfSteps)
@@ -182,13 +176,13 @@ void expectTinyTolerancesEnd(const TestDensity<Dimension>& density)
     const auto run = [&](double tolerance) {
       Points<Dimension> positions(seeds.size());
       int asked = 0;
-      const Monitor patient{ {}, [&asked]() { return ++asked > 2.0 * most / 64.0; } };
-      const double* from = seeds.data()->data();
-      double* to = positions.data()->data();
-      const FlowReport report = backward
-        ? flow.Backward(from, 64, to, adaptive(tolerance), SerialExecutor(), patient)
-        : flow.Forward(from, 64, to, adaptive(tolerance), SerialExecutor(), patient);
-      EXPECT_FALSE(report.Cancelled) << tolerance << " has no end";
+      const SerialExecutor serial;
+      const Context patient(serial, {}, [&asked]() { return ++asked > 2.0 * most / 64.0; });
+      FlowReport report;
+      EXPECT_NO_THROW(report = backward
+          ? flow.Backward(seeds, positions, adaptive(tolerance), patient)
+          : flow.Forward(seeds, positions, adaptive(tolerance), patient))
+        << tolerance << " has no end";
       EXPECT_LT(static_cast<double>(report.Evaluations) / 64.0, most) << tolerance;
       return positions;
     };
@@ -212,16 +206,40 @@ TEST(Errors, TinyTolerancesEnd)
 TEST(Errors, Times)
 {
   const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));
-  const double seed[2] = { 1.0, 1.0 };
-  double path[6];
+  const Points<2> seed{ { 1.0, 1.0 } };
   const auto refused = [&](const std::vector<double>& times) {
-    return refusal([&]() { flow.ForwardAt(seed, 1, times, path); });
+    Points<2> path(times.size());
+    return refusal([&]() { flow.ForwardAt(seed, times, path); });
   };
   EXPECT_NE(refused({ -0.5, 1.0 }).find("times"), std::string::npos);
   EXPECT_NE(refused({ 0.0, 1.5 }).find("time 1.5"), std::string::npos);
   EXPECT_NE(refused({ NaN }).find("times"), std::string::npos);
   EXPECT_NE(refused({ 0.0, NaN, 1.0 }).find("times"), std::string::npos);
   EXPECT_NE(refused({ 0.75, 0.25 }).find("time 0.250000 is given after 0.75"), std::string::npos);
+}
+
+// Positions are as many as points, points at times, or cells of a lattice; nothing is written else.
+TEST(Errors, NumbersOfPositions)
+{
+  const RectifiedFlow<2> flow = makeFlow(uniformDensity<2>({ 8, 8 }));
+  const Points<2> seeds(17, Point<2>{ 1.0, 1.0 });
+  Points<2> room(60, Point<2>{ -7.0, -7.0 });
+  const auto first = [&room](std::int64_t count) { return PointSpan<2>(room).Part(0, count); };
+  for (const std::int64_t wrong : { 0, 16, 18, 19, 21, 50, 52 })
+  {
+    const auto expectBoth = [wrong](const std::string& message, const char* right) {
+      EXPECT_NE(message.find("for " + std::to_string(wrong) + " positions"), std::string::npos)
+        << message;
+      EXPECT_NE(message.find(std::string("must be ") + right), std::string::npos) << message;
+    };
+    const std::vector<double> times{ 0.0, 0.5, 1.0 };
+    expectBoth(refusal([&]() { flow.Forward(seeds, first(wrong)); }), "17");
+    expectBoth(refusal([&]() { flow.Backward(seeds, first(wrong)); }), "17");
+    expectBoth(refusal([&]() { flow.ForwardAt(seeds, times, first(wrong)); }), "51");
+    expectBoth(refusal([&]() { flow.ForwardLattice({ 4, 5 }, first(wrong)); }), "20");
+    expectBoth(refusal([&]() { flow.BackwardLattice({ 4, 5 }, first(wrong)); }), "20");
+  }
+  EXPECT_EQ(room, Points<2>(60, Point<2>{ -7.0, -7.0 }));
 }
 
 // The first point that is not a number is named; nothing is moved.
@@ -233,9 +251,8 @@ TEST(Errors, PointsThatAreNotFinite)
     Points<2> points(200, Point<2>{ 1.0, 1.0 });
     points[137][1] = bad;
     points[160][0] = bad;
-    double* data = points.data()->data();
-    EXPECT_NE(refusal([&]() { flow.Forward(data, 200, data); }).find("137"), std::string::npos);
-    EXPECT_NE(refusal([&]() { flow.Backward(data, 200, data); }).find("137"), std::string::npos);
+    EXPECT_NE(refusal([&]() { flow.Forward(points, points); }).find("137"), std::string::npos);
+    EXPECT_NE(refusal([&]() { flow.Backward(points, points); }).find("137"), std::string::npos);
     EXPECT_EQ(points[0][0], 1.0);
   }
 }
@@ -263,9 +280,9 @@ TEST(Errors, LimitsOfTheOptionsAreValid)
 TEST(Errors, NoParticlesIsNoError)
 {
   const RectifiedFlow<3> flow = makeFlow(uniformDensity<3>({ 4, 4, 4 }));
-  EXPECT_EQ(flow.Forward(nullptr, 0, nullptr).Evaluations, 0);
-  EXPECT_EQ(flow.Backward(nullptr, 0, nullptr).Evaluations, 0);
-  EXPECT_EQ(flow.ForwardAt(nullptr, 0, { 0.5 }, nullptr).Evaluations, 0);
+  EXPECT_EQ(flow.Forward({}, {}).Evaluations, 0);
+  EXPECT_EQ(flow.Backward({}, {}).Evaluations, 0);
+  EXPECT_EQ(flow.ForwardAt({}, { 0.5 }, {}).Evaluations, 0);
 }
 
 } // namespace

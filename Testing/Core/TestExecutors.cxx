@@ -135,17 +135,16 @@ TEST(Executors, NoMemoryForTheFlow)
   }
   const TestDensity<2> density = discWithHole<2>({ 40, 30 });
   const Points<2> seeds = randomPoints<2>(density.Size, 3000);
-  Points<2> positions(3 * seeds.size());
-  const double* from = seeds.data()->data();
-  double* to = positions.data()->data();
+  Points<2> positions(seeds.size());
+  Points<2> paths(3 * seeds.size());
   const std::vector<double> times{ 0.2, 0.7, 1.0 };
   expectBadAlloc("the tables", [&]() { makeFlow(density); });
   const RectifiedFlow<2> flow = makeFlow(density);
   const FlowOptions few = steps(8);
-  expectBadAlloc("forward", [&]() { flow.Forward(from, 3000, to, few); });
-  expectBadAlloc("at times", [&]() { flow.ForwardAt(from, 3000, times, to, few); });
-  expectBadAlloc("backward", [&]() { flow.Backward(from, 3000, to, few); });
-  expectBadAlloc("a lattice", [&]() { flow.ForwardLattice({ 60, 50 }, to, few); });
+  expectBadAlloc("forward", [&]() { flow.Forward(seeds, positions, few); });
+  expectBadAlloc("at times", [&]() { flow.ForwardAt(seeds, times, paths, few); });
+  expectBadAlloc("backward", [&]() { flow.Backward(seeds, positions, few); });
+  expectBadAlloc("a lattice", [&]() { flow.ForwardLattice({ 60, 50 }, positions, few); });
   std::vector<std::int64_t> cells(3000);
   expectBadAlloc("cells", [&]() { flow.ForwardLatticeToCells({ 60, 50 }, cells.data(), few); });
 }
@@ -159,32 +158,27 @@ TEST(Executors, NoMemoryForTheRest)
   const GridSize<3> cells{ 9, 8, 7 };
   const Mesh solid = makeTetrahedron({ 1, 1, 1 }, { 8, 2, 2 }, { 3, 7, 2 }, { 4, 4, 6 });
   std::vector<double> values(504);
-  expectBadAlloc(
-    "a solid", [&]() { coverSolid(solid.Surface(), cells, 3, values.data(), OpenMPExecutor()); });
+  expectBadAlloc("a solid", [&]() { coverSolid(solid.Surface(), cells, 3, values.data()); });
 
   const Points<3> points = randomPoints<3>(cells, 4000);
   std::vector<double> distances(points.size());
-  expectBadAlloc("neighbours", [&]() {
-    nearestDistances(points.data()->data(), 4000, distances.data(), OpenMPExecutor(), {});
-  });
+  expectBadAlloc("neighbours", [&]() { nearestDistances(points, distances.data()); });
   for (const SplatKernel kernel : allKernels)
   {
-    const SplatParticles<3, double> particles{ points.data()->data(), 4000, nullptr, 1.0,
-      identityMap<3>() };
+    const SplatParticles<3, double> particles{ points, nullptr, 1.0, identityMap<3>() };
     SplatOptions options;
     options.Kernel = kernel;
-    expectBadAlloc("a splat", [&]() {
-      splatMass<3, double>(particles, cells, options, 1.0, values.data(), OpenMPExecutor(), {});
-    });
+    expectBadAlloc(
+      "a splat", [&]() { splatMass<3, double>(particles, cells, options, 1.0, values.data()); });
   }
 
   const GridSize<2> size{ 40, 30 };
   const Points<2> places = randomPoints<2>(size, 50);
-  const SiteDensity<2> sites(size, places.data()->data(), 50);
+  const SiteDensity<2> sites(size, places);
   std::vector<std::int64_t> owners(1200, 0);
   expectBadAlloc("a balance", [&]() {
     std::fill(owners.begin(), owners.end(), 0);
-    equalizeSiteCells<2>(sites, { 1.0, 1.0 }, owners.data(), {});
+    equalizeSiteCells<2>(sites, { 1.0, 1.0 }, owners.data());
   });
 }
 

@@ -66,22 +66,20 @@ Points<Dimension> latticePoints(const GridSize<Dimension>& size, const GridSize<
 template <int Dimension>
 Points<Dimension> runForward(const RectifiedFlow<Dimension>& flow,
   const NotDeduced<Points<Dimension>>& seeds, const FlowOptions& options = {},
-  const Executor& executor = OpenMPExecutor())
+  const Context& context = Context())
 {
   Points<Dimension> positions(seeds.size());
-  flow.Forward(seeds.data()->data(), static_cast<std::int64_t>(seeds.size()),
-    positions.data()->data(), options, executor);
+  flow.Forward(seeds, positions, options, context);
   return positions;
 }
 
 template <int Dimension>
 Points<Dimension> runBackward(const RectifiedFlow<Dimension>& flow,
   const NotDeduced<Points<Dimension>>& points, const FlowOptions& options = {},
-  const Executor& executor = OpenMPExecutor())
+  const Context& context = Context())
 {
   Points<Dimension> positions(points.size());
-  flow.Backward(points.data()->data(), static_cast<std::int64_t>(points.size()),
-    positions.data()->data(), options, executor);
+  flow.Backward(points, positions, options, context);
   return positions;
 }
 

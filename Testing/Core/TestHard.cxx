@@ -23,7 +23,6 @@ std::int64_t expectNoStrays(const TestDensity<Dimension>& density,
   const TestDensity<Dimension> box = uniformDensity<Dimension>(density.Size);
   Points<Dimension> positions(seeds.size());
   std::int64_t movedToMass = 0;
-  const auto count = static_cast<std::int64_t>(seeds.size());
   for (const TableLookup lookup : { TableLookup::Interpolated, TableLookup::Nearest })
   {
     for (const Integrator method : AllIntegrators)
@@ -32,8 +31,7 @@ std::int64_t expectNoStrays(const TestDensity<Dimension>& density,
         what + ", " + nameOf(method) + (lookup == TableLookup::Nearest ? ", nearest" : "");
       FlowOptions options = steps(stepCount, method);
       options.Lookup = lookup;
-      const FlowReport report =
-        flow.Forward(seeds.data()->data(), count, positions.data()->data(), options);
+      const FlowReport report = flow.Forward(seeds, positions, options);
       const Strays<Dimension> strays(positions, density);
       EXPECT_EQ(strays.Outside, 0) << name;
       if (lookup == TableLookup::Interpolated)

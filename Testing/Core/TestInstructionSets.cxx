@@ -3,7 +3,7 @@
 #include "TestFlow.h"
 
 #include "Core/Flow/Kernels/FlowKernels.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
 
 #include <gtest/gtest.h>
@@ -66,9 +66,9 @@ BlockRun<Dimension> advect(
 template <int Dimension>
 void expectSameBits(const TestDensity<Dimension>& density)
 {
-  const Monitor silent;
-  Pacer pacer(silent);
-  const SummedAreaTables<Dimension> tables(density.Source(), SerialExecutor(), pacer);
+  const SerialExecutor serial;
+  Progress progress(serial);
+  const SummedAreaTables<Dimension> tables(density.Source(), progress);
   const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, 1000);
   std::vector<StepWeights> weights;
   for (std::int64_t step = 0; step < 24; ++step)

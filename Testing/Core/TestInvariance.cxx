@@ -215,11 +215,10 @@ TYPED_TEST(Invariance, InPlace)
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, ParticleCount);
   Points<Dimension> points = seeds;
-  const auto count = static_cast<std::int64_t>(points.size());
-  flow.Forward(points.data()->data(), count, points.data()->data());
+  flow.Forward(points, points);
   EXPECT_TRUE(sameBits<Dimension>(points, runForward(flow, seeds)));
   const Points<Dimension> positions = points;
-  flow.Backward(points.data()->data(), count, points.data()->data());
+  flow.Backward(points, points);
   EXPECT_TRUE(sameBits<Dimension>(points, runBackward(flow, positions)));
 }
 
@@ -236,7 +235,7 @@ TYPED_TEST(Invariance, RepeatedMovedAndOneOff)
   EXPECT_TRUE(sameBits<Dimension>(first, transportPoints<Dimension>(density.Source(), seeds)));
 }
 
-// Tables in the memory of other ones, of the same and of another size, even unfinished.
+// Tables in the memory of other ones, of the same and of another size, even where that is gone.
 TYPED_TEST(Invariance, MemoryOfAnotherFlow)
 {
   constexpr int Dimension = TypeParam::value;
@@ -245,18 +244,19 @@ TYPED_TEST(Invariance, MemoryOfAnotherFlow)
   const Points<Dimension> expected = runForward(makeFlow(density), seeds);
   GridSize<Dimension> otherSize = density.Size;
   otherSize[0] += 3;
-  Monitor cancel;
-  cancel.Cancelled = []() { return true; };
+  const SerialExecutor serial;
+  const Context cancelled(serial, {}, []() { return true; });
   for (const GridSize<Dimension>& size : { density.Size, otherSize })
   {
     const TestDensity<Dimension> other = randomCells<Dimension>(size);
     const RectifiedFlow<Dimension> flow(density.Source(), makeFlow(other));
     EXPECT_TRUE(sameBits<Dimension>(expected, runForward(flow, seeds)));
-    RectifiedFlow<Dimension> unfinished(other.Source(), SerialExecutor(), cancel);
-    ASSERT_FALSE(unfinished);
-    const RectifiedFlow<Dimension> after(density.Source(), std::move(unfinished));
+    RectifiedFlow<Dimension> previous = makeFlow(other);
+    EXPECT_THROW(
+      RectifiedFlow<Dimension>(density.Source(), std::move(previous), cancelled), Cancelled);
+    const RectifiedFlow<Dimension> after(density.Source(), std::move(previous));
     EXPECT_TRUE(sameBits<Dimension>(expected, runForward(after, seeds)));
-    const RectifiedFlow<Dimension> afterMoved(density.Source(), std::move(unfinished));
+    const RectifiedFlow<Dimension> afterMoved(density.Source(), std::move(previous));
     EXPECT_TRUE(sameBits<Dimension>(expected, runForward(afterMoved, seeds)));
   }
 }

@@ -14,20 +14,14 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr const Executor* const defaultExecutor = nullptr;
-
 template <int Dimension>
 Points<Dimension> runLattice(const RectifiedFlow<Dimension>& flow,
   const NotDeduced<GridSize<Dimension>>& lattice, bool backward, const FlowOptions& options = {},
-  const Executor* executor = defaultExecutor)
+  const Context& context = Context())
 {
-  const OpenMPExecutor usual;
   Points<Dimension> positions(cellCount<Dimension>(lattice));
-  double* to = positions.data()->data();
-  const Executor& threads = executor ? *executor : usual;
-  const FlowReport report = backward ? flow.BackwardLattice(lattice, to, options, threads)
-                                     : flow.ForwardLattice(lattice, to, options, threads);
-  EXPECT_FALSE(report.Cancelled);
+  backward ? flow.BackwardLattice(lattice, positions, options, context)
+           : flow.ForwardLattice(lattice, positions, options, context);
   return positions;
 }
 
@@ -102,8 +96,8 @@ void expectSameBits(const TestDensity<Dimension>& density, const GridSize<Dimens
     const Points<Dimension> back = runLattice(flow, lattice, true, options);
     EXPECT_TRUE(sameBits<Dimension>(forth, runForward(flow, points, options))) << nameOf(method);
     EXPECT_TRUE(sameBits<Dimension>(back, runBackward(flow, points, options))) << nameOf(method);
-    EXPECT_TRUE(sameBits<Dimension>(forth, runLattice(flow, lattice, false, options, &serial)));
-    EXPECT_TRUE(sameBits<Dimension>(back, runLattice(flow, lattice, true, options, &serial)));
+    EXPECT_TRUE(sameBits<Dimension>(forth, runLattice(flow, lattice, false, options, serial)));
+    EXPECT_TRUE(sameBits<Dimension>(back, runLattice(flow, lattice, true, options, serial)));
   }
 }
 
@@ -151,8 +145,9 @@ TEST(Lattice, WrongSizes)
   for (const std::int64_t cells :
     { std::int64_t{ 0 }, std::int64_t{ -4 }, std::int64_t{ 1 } << 31 })
   {
-    EXPECT_THROW(flow.ForwardLattice({ 4, cells }, &nothing), std::invalid_argument);
-    EXPECT_THROW(flow.BackwardLattice({ cells, 4 }, &nothing), std::invalid_argument);
+    const PointSpan<2> positions(&nothing, 4 * cells);
+    EXPECT_THROW(flow.ForwardLattice({ 4, cells }, positions), std::invalid_argument);
+    EXPECT_THROW(flow.BackwardLattice({ cells, 4 }, positions), std::invalid_argument);
   }
 }
 
@@ -161,10 +156,13 @@ TEST(Lattice, Cancel)
   const RectifiedFlow<2> flow = makeFlow(twoGaussians<2>({ 200, 200 }));
   Points<2> positions(40000);
   double last = 0.0;
-  const Monitor monitor = { [&last](double progress) { last = progress; }, []() { return true; } };
-  EXPECT_TRUE(
-    flow.ForwardLattice({ 200, 200 }, positions.data()->data(), {}, SerialExecutor(), monitor)
-      .Cancelled);
+  const SerialExecutor serial;
+  const Context cancelled(
+    serial, [&last](double progress) { last = progress; }, []() { return true; });
+  EXPECT_THROW(flow.ForwardLattice({ 200, 200 }, positions, {}, cancelled), Cancelled);
+  EXPECT_LT(last, 0.9);
+  last = 0.0;
+  EXPECT_THROW(flow.BackwardLattice({ 200, 200 }, positions, {}, cancelled), Cancelled);
   EXPECT_LT(last, 0.9);
 }
 

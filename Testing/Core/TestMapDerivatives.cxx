@@ -29,7 +29,7 @@ Derivatives derive(const GridSize<Dimension>& lattice, const GridSize<Dimension>
   {
     step[axis] = static_cast<double>(size[axis]) / static_cast<double>(lattice[axis]);
   }
-  const MapDerivatives<Dimension> map(lattice, step, positions.data()->data());
+  const MapDerivatives<Dimension> map(lattice, step, positions);
   Derivatives found{ std::vector<double>(positions.size()), std::vector<double>(positions.size()) };
   OpenMPExecutor().For(
     static_cast<std::int64_t>(positions.size()), 7, [&](std::int64_t first, std::int64_t last) {
@@ -132,14 +132,13 @@ std::vector<double> measureRatios(std::int64_t side, bool backward)
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const Points<Dimension> samples = latticePoints<Dimension>(size, size);
   Points<Dimension> positions(samples.size());
-  double* to = positions.data()->data();
   if (backward)
   {
-    flow.BackwardLattice(size, to, adaptive(0.0001));
+    flow.BackwardLattice(size, positions, adaptive(0.0001));
   }
   else
   {
-    flow.ForwardLattice(size, to, adaptive(0.0001));
+    flow.ForwardLattice(size, positions, adaptive(0.0001));
   }
   const Derivatives found = derive<Dimension>(size, size, positions);
   const double mean = flow.Total() / static_cast<double>(samples.size());

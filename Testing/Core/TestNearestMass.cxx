@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nearest cell with mass, against a search through all of them.
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 #include "Core/Tables/SummedAreaTables.h"
 #include "TestFlow.h"
@@ -40,9 +40,9 @@ void expectNearest(const GridSize<Dimension>& size, int rarity)
     value = uniformNumber(engine) * rarity < 1.0 ? 1.0 : 0.0;
   }
   density.Values[density.Values.size() / 3] = 1.0;
-  const Monitor monitor;
-  Pacer pacer(monitor);
-  const SummedAreaTables<Dimension> tables(density.Source(), SerialExecutor(), pacer);
+  const SerialExecutor serial;
+  Progress progress(serial);
+  const SummedAreaTables<Dimension> tables(density.Source(), progress);
   for (const Point<Dimension>& point : randomPoints<Dimension>(size, 200))
   {
     double least = std::numeric_limits<double>::max();

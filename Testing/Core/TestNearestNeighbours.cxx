@@ -18,8 +18,7 @@ std::vector<double> distancesOf(
   const Points<3>& points, const Executor& executor = SerialExecutor())
 {
   std::vector<double> distances(points.size());
-  EXPECT_TRUE(nearestDistances(
-    points[0].data(), static_cast<std::int64_t>(points.size()), distances.data(), executor, {}));
+  nearestDistances(points, distances.data(), executor);
   return distances;
 }
 
@@ -74,10 +73,9 @@ TEST(NearestNeighbours, SamePlaces)
   }
   expectSearched(points);
   // All in one place is no more work.
-  const std::vector<double> zeros(1000000, 0.0);
-  std::vector<double> distances(zeros.size() / 3);
-  nearestDistances(zeros.data(), static_cast<std::int64_t>(distances.size()), distances.data(),
-    SerialExecutor(), {});
+  const Points<3> zeros(333333, Point<3>{});
+  std::vector<double> distances(zeros.size());
+  nearestDistances(zeros, distances.data(), SerialExecutor());
   EXPECT_EQ(*std::max_element(distances.begin(), distances.end()), 0.0);
 }
 
@@ -106,24 +104,21 @@ TEST(NearestNeighbours, OneAndTwo)
   EXPECT_EQ(distancesOf({ { 1.0, 2.0, 3.0 }, { 1.0, 2.0, 8.0 } })[0], 5.0);
 }
 
-TEST(NearestNeighbours, ExecutorsAndMonitor)
+TEST(NearestNeighbours, ExecutorsAndContext)
 {
   const Points<3> points = randomPoints<3>({ 10, 20, 5 }, 100000);
   EXPECT_EQ(distancesOf(points), distancesOf(points, OpenMPExecutor()));
   std::vector<double> distances(points.size());
   std::vector<double> heard;
-  Monitor monitor;
-  monitor.Progress = [&](double fraction) { heard.push_back(fraction); };
-  const auto count = static_cast<std::int64_t>(points.size());
-  EXPECT_TRUE(
-    nearestDistances(points[0].data(), count, distances.data(), OpenMPExecutor(), monitor));
+  const OpenMPExecutor threads;
+  Context context(threads, [&](double fraction) { heard.push_back(fraction); });
+  nearestDistances(points, distances.data(), context);
   EXPECT_GT(heard.size(), 3u);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_LT(heard.front(), 0.02); // the first halvings of the tree do not keep the host waiting
   EXPECT_EQ(heard.back(), 1.0);
-  monitor.Cancelled = [&]() { return true; };
-  EXPECT_FALSE(
-    nearestDistances(points[0].data(), count, distances.data(), OpenMPExecutor(), monitor));
+  context.IsCancelled = []() { return true; };
+  EXPECT_THROW(nearestDistances(points, distances.data(), context), Cancelled);
 }
 
 } // namespace

@@ -175,7 +175,7 @@ void expectFlowOfPlaces(const TestDensity<Dimension>& density, const GridSize<Di
   const SerialExecutor serial;
   const PivotLattice<Dimension> samples = pivotLattice<Dimension>(grid, 3);
   const Points<Dimension> points = pointsOf<Dimension>(samples, density.Size);
-  const auto each = static_cast<std::size_t>(cellCount<Dimension>(samples.Lattice));
+  const std::int64_t each = cellCount<Dimension>(samples.Lattice);
   for (const Integrator method : AllIntegrators)
   {
     const FlowOptions options = steps(12, method);
@@ -183,10 +183,11 @@ void expectFlowOfPlaces(const TestDensity<Dimension>& density, const GridSize<Di
     Points<Dimension> alone(points.size());
     for (std::size_t place = 0; place < samples.Places.size(); ++place)
     {
-      flow.ForwardLattice(samples.Lattice, threaded[place * each].data(), options, OpenMPExecutor(),
-        {}, samples.Places[place]);
-      flow.ForwardLattice(
-        samples.Lattice, alone[place * each].data(), options, serial, {}, samples.Places[place]);
+      const auto first = static_cast<std::int64_t>(place) * each;
+      flow.ForwardLattice(samples.Lattice, PointSpan<Dimension>(threaded).Part(first, each),
+        options, Context(), samples.Places[place]);
+      flow.ForwardLattice(samples.Lattice, PointSpan<Dimension>(alone).Part(first, each), options,
+        serial, samples.Places[place]);
     }
     EXPECT_TRUE(sameBits<Dimension>(threaded, runForward(flow, points, options))) << nameOf(method);
     EXPECT_TRUE(sameBits<Dimension>(alone, threaded)) << nameOf(method);

@@ -42,9 +42,9 @@ TYPED_TEST(Plateau, EndsEarly)
   const TestDensity<D> shape = block<D>(32);
   GridSize<D> lattice; // of many blocks of neighbours
   lattice.fill(D == 1 ? 4096 : 32);
-  std::vector<double> positions(static_cast<std::size_t>(cellCount<D>(lattice)) * D);
+  Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
   const RectifiedFlow<D> flow(shape.Source());
-  const FlowReport report = flow.ForwardLattice(lattice, positions.data());
+  const FlowReport report = flow.ForwardLattice(lattice, positions);
   EXPECT_LT(report.Evaluations, 30 * cellCount<D>(lattice));
 }
 
@@ -57,10 +57,10 @@ TEST(PlateauTolerance, IsThatOfRounding)
   {
     value *= 0.1;
   }
-  std::vector<double> positions(2 * 100 * 100);
+  Points<2> positions(100 * 100);
   const auto evaluations = [&positions](const TestDensity<2>& density) {
     const RectifiedFlow<2> flow(density.Source());
-    return flow.ForwardLattice({ 100, 100 }, positions.data()).Evaluations;
+    return flow.ForwardLattice({ 100, 100 }, positions).Evaluations;
   };
   EXPECT_LT(evaluations(shape), 28 * 10000);
   for (std::size_t i = 0; i < shape.Values.size(); ++i)
@@ -81,15 +81,15 @@ TYPED_TEST(Plateau, IsTheScaling)
   options.NumberOfSteps = 64;
   GridSize<D> lattice;
   lattice.fill(16);
-  std::vector<double> positions(static_cast<std::size_t>(cellCount<D>(lattice)) * D);
-  flow.ForwardLattice(lattice, positions.data(), options);
+  Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
+  flow.ForwardLattice(lattice, positions, options);
   for (std::int64_t i = 0; i < cellCount<D>(lattice); ++i)
   {
     const GridSize<D> cell = cellAt<D>(i, lattice);
     for (int axis = 0; axis < D; ++axis)
     {
       const double expected = 8.0 + static_cast<double>(cell[axis]) + 0.5;
-      EXPECT_NEAR(positions[static_cast<std::size_t>(i * D + axis)], expected, 0.02);
+      EXPECT_NEAR(positions[static_cast<std::size_t>(i)][axis], expected, 0.02);
     }
   }
 }
@@ -102,20 +102,19 @@ TYPED_TEST(Plateau, PathsAgree)
   const RectifiedFlow<D> flow(shape.Source());
   const Points<D> seeds = randomPoints<D>(shape.Size, 300);
   const std::vector<double> times{ 0.98, 0.99, 1.0 };
-  std::vector<double> paths(seeds.size() * times.size() * D);
+  Points<D> paths(seeds.size() * times.size());
   Points<D> ends(seeds.size());
-  const auto count = static_cast<std::int64_t>(seeds.size());
-  flow.ForwardAt(seeds.data()->data(), count, times, paths.data());
-  flow.Forward(seeds.data()->data(), count, ends.data()->data());
+  flow.ForwardAt(seeds, times, paths);
+  flow.Forward(seeds, ends);
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      const double* x = paths.data() + i * times.size() * D + axis;
-      EXPECT_EQ(x[2 * D], ends[i][axis]);
+      const Point<D>* path = paths.data() + i * times.size();
+      EXPECT_EQ(path[2][axis], ends[i][axis]);
       if (std::abs(ends[i][axis] - 16.0) < 6.0)
       {
-        EXPECT_NEAR(x[D], 0.5 * (x[0] + x[2 * D]), 0.001);
+        EXPECT_NEAR(path[1][axis], 0.5 * (path[0][axis] + path[2][axis]), 0.001);
       }
     }
   }

@@ -50,7 +50,7 @@ void checkPromises()
         SCOPED_TRACE(testing::Message() << "pattern " << static_cast<int>(pattern) << ", "
                                         << testing::PrintToString(lengths) << ", " << count);
         std::vector<double> points(count * Dimension + 1, guard);
-        generateSeeds<Dimension>(pattern, lengths, count, 1, points.data());
+        generateSeeds<Dimension>(pattern, lengths, 1, { points.data(), count });
         EXPECT_EQ(points.back(), guard);
         points.pop_back();
         for (double coordinate : points)
@@ -383,18 +383,18 @@ TEST(Lattice, IsAsNearAsTheAspectAllows)
 TEST(Lattice, HasPointsAtTheCentresOfItsCells)
 {
   std::vector<double> points(12);
-  generateLattice<2>({ 3, 2 }, points.data());
+  generateLattice<2>({ 3, 2 }, { points.data(), 6 });
   const std::vector<double> expected = { 0.5 / 3, 0.25, 0.5, 0.25, 2.5 / 3, 0.25, 0.5 / 3, 0.75,
     0.5, 0.75, 2.5 / 3, 0.75 };
   EXPECT_EQ(points, expected);
   std::vector<double> jittered(12);
-  generateJitteredLattice<2>({ 3, 2 }, 8, jittered.data());
+  generateJitteredLattice<2>({ 3, 2 }, 8, { jittered.data(), 6 });
   EXPECT_NE(points, jittered);
   for (int i = 0; i < 12; ++i)
   {
     EXPECT_NEAR(jittered[i], points[i], i % 2 == 0 ? 0.5 / 3 : 0.25);
   }
-  generateLattice<3>({ 0, 2, 5 }, nullptr);
+  generateLattice<3>({ 0, 2, 5 }, {});
 }
 
 template <class F>
@@ -415,7 +415,7 @@ TEST(Seeds, RefuseWhatTheyCannotMake)
 {
   double point[2];
   EXPECT_EQ(messageOf([&] {
-    generateSeeds<2>(SeedPattern::Random, { 1.0, 1.0 }, -3, 1, point);
+    generateSeeds<2>(SeedPattern::Random, { 1.0, 1.0 }, 1, { point, -3 });
   }),
     "the number of seeds must not be negative, but is -3");
   EXPECT_EQ(messageOf([&] {
@@ -423,23 +423,26 @@ TEST(Seeds, RefuseWhatTheyCannotMake)
   }),
     "the number of seeds must not be negative, but is -1");
   EXPECT_EQ(messageOf([&] {
-    generateSeeds<2>(SeedPattern::Random, { 1.0, 0.0 }, 1, 1, point);
+    generateSeeds<2>(SeedPattern::Random, { 1.0, 0.0 }, 1, { point, 1 });
   }),
     "the sides of the seeds' box must be positive and finite, but side 1 is 0");
   for (double bad : { -1.0, 0.0, std::numeric_limits<double>::infinity(),
          std::numeric_limits<double>::quiet_NaN() })
   {
-    EXPECT_THROW(
-      generateSeeds<2>(SeedPattern::BlueNoise, { bad, 1.0 }, 1, 1, point), std::invalid_argument);
+    EXPECT_THROW(generateSeeds<2>(SeedPattern::BlueNoise, { bad, 1.0 }, 1, { point, 1 }),
+      std::invalid_argument);
     EXPECT_THROW(latticeSize<2>({ 1.0, bad }, 1), std::invalid_argument);
   }
   EXPECT_THROW(
-    generateSeeds<2>(SeedPattern::Lattice, { 1.0, 1.0 }, 1, 1, point), std::invalid_argument);
+    generateSeeds<2>(SeedPattern::Lattice, { 1.0, 1.0 }, 1, { point, 1 }), std::invalid_argument);
   EXPECT_EQ(messageOf([&] {
-    generateLattice<2>({ 2, -1 }, point);
+    generateLattice<2>({ 2, -1 }, { point, 1 });
   }),
     "the seeds' grid must not have a negative size, but axis 1 has -1");
-  EXPECT_THROW(generateJitteredLattice<2>({ -2, 1 }, 1, point), std::invalid_argument);
+  EXPECT_THROW(generateJitteredLattice<2>({ -2, 1 }, 1, { point, 1 }), std::invalid_argument);
+  const char* wrongCount = "there is memory for 1 seeds, but the grid has 6 cells";
+  EXPECT_EQ(messageOf([&] { generateLattice<2>({ 2, 3 }, { point, 1 }); }), wrongCount);
+  EXPECT_EQ(messageOf([&] { generateJitteredLattice<2>({ 2, 3 }, 1, { point, 1 }); }), wrongCount);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ std::vector<double> seeds(SeedPattern pattern, const Point<Dimension>& lengths, 
   std::uint64_t randomSeed)
 {
   std::vector<double> points(count * Dimension);
-  generateSeeds<Dimension>(pattern, lengths, count, randomSeed, points.data());
+  generateSeeds<Dimension>(pattern, lengths, randomSeed, { points.data(), count });
   return points;
 }
 

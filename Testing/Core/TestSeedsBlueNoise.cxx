@@ -242,7 +242,7 @@ TEST(BlueNoise, SpacingTellsOtherPatternsApart)
   EXPECT_LT(spacing<2>(SeedPattern::Jittered, { 1.0, 1.0 }, 1000, 1).Mean, 0.7);
   // A square lattice in the centres of unit cells: 1 over the hexagonal 1.0746.
   std::vector<double> lattice(200);
-  generateLattice<2>({ 10, 10 }, lattice.data());
+  generateLattice<2>({ 10, 10 }, { lattice.data(), 100 });
   EXPECT_NEAR(NeighbourGrid<2>(lattice, { 1.0, 1.0 }).Measure().Mean, 0.9306, 1e-4);
 }
 

@@ -23,19 +23,16 @@ template <int Dimension>
 SiteDensity<Dimension> pixelsOf(
   const GridSize<Dimension>& size, const NotDeduced<Points<Dimension>>& sites)
 {
-  return SiteDensity<Dimension>(
-    size, sites.data()->data(), static_cast<std::int64_t>(sites.size()));
+  return SiteDensity<Dimension>(size, sites);
 }
 
 template <int Dimension>
 Labels flowToSites(const SiteDensity<Dimension>& sites, const FlowOptions& options = {},
-  const Executor& executor = OpenMPExecutor())
+  const Context& context = Context())
 {
-  const RectifiedFlow<Dimension> flow(sites, executor);
+  const RectifiedFlow<Dimension> flow(sites, context);
   Labels labels(cellCount<Dimension>(sites.Size()));
-  const FlowReport report =
-    flow.ForwardLatticeToCells(sites.Size(), labels.data(), options, executor);
-  EXPECT_FALSE(report.Cancelled);
+  flow.ForwardLatticeToCells(sites.Size(), labels.data(), options, context);
   for (std::int64_t& label : labels)
   {
     const std::int64_t k = sites.Find(label);
@@ -67,8 +64,7 @@ std::vector<std::int64_t> countLabels(const Labels& labels, std::int64_t count)
 template <int Dimension>
 void expectBalanced(const SiteDensity<Dimension>& sites, Labels labels, const std::string& what)
 {
-  ASSERT_TRUE(equalizeSiteCells<Dimension>(sites, unitSpacing<Dimension>(), labels.data(), {}))
-    << what;
+  equalizeSiteCells<Dimension>(sites, unitSpacing<Dimension>(), labels.data());
   const auto each = static_cast<std::int64_t>(labels.size()) / sites.NumberOfSites();
   const auto counts = countLabels(labels, sites.NumberOfPixels());
   for (std::int64_t k = 0; k < sites.NumberOfPixels(); ++k)
@@ -94,10 +90,14 @@ TEST(SiteCells, PixelsOfSites)
   EXPECT_EQ(pixels.Find(4), 1);
 
   std::vector<double> row(2);
-  pixels.ReadRow(2, 2, 2, row.data());
+  pixels.Read(10, 2, row.data());
   EXPECT_EQ(row, (std::vector<double>{ 0.0, 3.0 }));
-  pixels.ReadRow(0, 0, 2, row.data());
+  pixels.Read(0, 2, row.data());
   EXPECT_EQ(row, (std::vector<double>{ 0.0, 1.0 }));
+  // Cells are read across the ends of rows.
+  std::vector<double> rows(6);
+  pixels.Read(1, 6, rows.data());
+  EXPECT_EQ(rows, (std::vector<double>{ 1.0, 0.0, 0.0, 1.0, 0.0, 0.0 }));
 }
 
 // The oracle follows pixels to the sites by itself. Those that it and the flow send to different
@@ -246,7 +246,7 @@ TEST(SiteCells, FarBordersOnALineAreBalanced)
   const GridSize<1> size{ 10000 };
   const auto sites = pixelsOf<1>(size, { { 10.5 }, { 20.5 }, { 9000.5 } });
   Labels labels(10000, 1);
-  ASSERT_TRUE(equalizeSiteCells<1>(sites, { 1.0 }, labels.data(), {}));
+  equalizeSiteCells<1>(sites, { 1.0 }, labels.data());
   EXPECT_TRUE(std::is_sorted(labels.begin(), labels.end()));
   EXPECT_EQ(countLabels(labels, 3), (std::vector<std::int64_t>{ 3333, 3334, 3333 }));
 }
@@ -271,11 +271,11 @@ TEST(SiteCells, BalanceDoesNotDependOnTheUnit)
   const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 20, 2));
   const Labels flow = flowToSites(sites);
   Labels usual = flow;
-  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 2.0 }, usual.data(), {}));
+  equalizeSiteCells<2>(sites, { 1.0, 2.0 }, usual.data());
   for (const double unit : { 0x1p-600, 0x1p600 })
   {
     Labels labels = flow;
-    ASSERT_TRUE(equalizeSiteCells<2>(sites, { unit, 2.0 * unit }, labels.data(), {}));
+    equalizeSiteCells<2>(sites, { unit, 2.0 * unit }, labels.data());
     EXPECT_EQ(labels, usual) << unit;
   }
 }
@@ -316,7 +316,7 @@ TEST(SiteCells, BalanceMovesTheCheapestPixel)
     expected[cheapest(spacing)] = 1;
     EXPECT_NE(cheapest(spacing), cheapest(even));
     Labels found = labels;
-    ASSERT_TRUE(equalizeSiteCells<2>(sites, spacing, found.data(), {}));
+    equalizeSiteCells<2>(sites, spacing, found.data());
     EXPECT_EQ(found, expected);
   }
 }
@@ -327,7 +327,7 @@ TEST(SiteCells, OnePixelForEachSite)
   const GridSize<2> size{ 6, 5 };
   const auto sites = pixelsOf<2>(size, latticePoints<2>(size, size));
   Labels labels(30, 4);
-  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data());
   EXPECT_EQ(countLabels(labels, 30), std::vector<std::int64_t>(30, 1));
 }
 
@@ -342,14 +342,14 @@ TEST(SiteCells, BalanceMovesOnlyWhatItMust)
     equal[i] = i % 8 < 4 ? 0 : 1;
   }
   Labels labels = equal;
-  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data());
   EXPECT_EQ(labels, equal);
 
   for (std::size_t row = 0; row < 4; ++row)
   {
     labels[8 * row + 4] = 0; // a column too many
   }
-  ASSERT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), {}));
+  equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data());
   EXPECT_EQ(labels, equal);
 }
 
@@ -359,14 +359,16 @@ TEST(SiteCells, BalanceCanBeCancelled)
   const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 50));
   Labels labels(cellCount<2>(size), 0);
   std::vector<double> heard;
-  const Monitor monitor{ [&](double progress) { heard.push_back(progress); },
-    [&]() { return heard.size() > 2; } };
-  EXPECT_FALSE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), monitor));
+  const OpenMPExecutor threads;
+  Context context(
+    threads, [&](double progress) { heard.push_back(progress); },
+    [&]() { return heard.size() > 2; });
+  EXPECT_THROW(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), context), Cancelled);
   EXPECT_EQ(heard.size(), 3u);
 
   heard.clear();
-  const Monitor patient{ monitor.Progress, []() { return false; } };
-  EXPECT_TRUE(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), patient));
+  context.IsCancelled = []() { return false; };
+  equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), context);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_LE(heard.back(), 1.0);
 }
@@ -375,8 +377,7 @@ template <int Dimension>
 Labels shared(const SiteDensity<Dimension>& sites, const NotDeduced<Points<Dimension>>& places,
   Labels labels, const NotDeduced<Point<Dimension>>& spacing)
 {
-  EXPECT_TRUE(
-    splitSharedPixels<Dimension>(sites, places.data()->data(), spacing, labels.data(), {}));
+  splitSharedPixels<Dimension>(sites, places, spacing, labels.data());
   return labels;
 }
 
@@ -447,16 +448,17 @@ TEST(SiteCells, SharingCanBeCancelled)
   const GridSize<2> size{ 1024, 1024 };
   const Points<2> places(20000, Point<2>{ 4.5, 4.5 });
   const auto sites = pixelsOf<2>(size, places);
-  const auto share = [&](const Monitor& monitor) {
+  const OpenMPExecutor threads;
+  const auto share = [&](const Context& context) {
     Labels labels(cellCount<2>(size), 0);
-    return splitSharedPixels<2>(sites, places.data()->data(), { 1.0, 1.0 }, labels.data(), monitor);
+    splitSharedPixels<2>(sites, places, { 1.0, 1.0 }, labels.data(), context);
   };
   int asked = 0;
-  EXPECT_FALSE(share({ {}, [&]() { return ++asked > 60; } }));
+  EXPECT_THROW(share({ threads, {}, [&]() { return ++asked > 60; } }), Cancelled);
   EXPECT_EQ(asked, 61);
 
   std::vector<double> heard;
-  EXPECT_TRUE(share({ [&](double progress) { heard.push_back(progress); }, {} }));
+  share({ threads, [&](double progress) { heard.push_back(progress); } });
   EXPECT_GT(heard.size(), 10u);
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_LE(heard.back(), 1.0);

@@ -364,7 +364,7 @@ TEST(SplatInput, Scale)
       const SplatOptions options = splatOptions(kernel);
       Splatted whole = splat(particles, size, options);
       std::vector<double> half(whole.Cells.size());
-      splatMass<2, double>(particles, size, options, 0.5, half.data(), SerialExecutor(), {});
+      splatMass<2, double>(particles, size, options, 0.5, half.data(), SerialExecutor());
       for (double& cell : whole.Cells)
       {
         cell *= 0.5;
@@ -377,7 +377,7 @@ TEST(SplatInput, Scale)
 TEST(SplatInput, NoParticles)
 {
   const GridSize<1> size{ 100 };
-  const SplatParticles<1, double> none{ nullptr, 0, nullptr, 1.0, identityMap<1>() };
+  const SplatParticles<1, double> none{ {}, nullptr, 1.0, identityMap<1>() };
   EXPECT_EQ(splat(none, size, SplatOptions()).Cells, std::vector<double>(100, 0.0));
 }
 

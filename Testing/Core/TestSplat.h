@@ -40,17 +40,17 @@ private:
 };
 
 // Index space is physical space, with the further axes at 0.
-inline SplatMap<3> identityRows()
+inline IndexMap<3> identityRows()
 {
   return { { 0.0, 0.0, 0.0 }, { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
     { 1e-6, 1e-6, 1e-6 } };
 }
 
 template <int D>
-SplatMap<D> identityMap()
+IndexMap<D> identityMap()
 {
-  const SplatMap<3> rows = identityRows();
-  SplatMap<D> map;
+  const IndexMap<3> rows = identityRows();
+  IndexMap<D> map;
   std::copy_n(rows.Origin, 3, map.Origin);
   std::copy_n(&rows.Matrix[0][0], 9, &map.Matrix[0][0]);
   std::copy_n(rows.Tolerance, 3, map.Tolerance);
@@ -67,7 +67,7 @@ struct Cloud
   std::int64_t Count() const { return static_cast<std::int64_t>(this->Masses.size()); }
   SplatParticles<D, Real> Particles() const
   {
-    return { this->Points.data(), this->Count(), this->Masses.data(), 0.0, identityMap<D>() };
+    return { { this->Points.data(), this->Count() }, this->Masses.data(), 0.0, identityMap<D>() };
   }
   void Add(const Point<D>& point, double mass)
   {
@@ -158,7 +158,7 @@ Splatted splat(const SplatParticles<D, Real>& particles, const typename SizeOf<D
   // What was in memory does not count.
   Splatted result{ std::vector<double>(static_cast<std::size_t>(numberOfCells<D>(size)), -7.0) };
   result.Outside =
-    splatMass<D, Real>(particles, size, options, 1.0, result.Cells.data(), executor, {}).Outside;
+    splatMass<D, Real>(particles, size, options, 1.0, result.Cells.data(), executor).Outside;
   return result;
 }
 

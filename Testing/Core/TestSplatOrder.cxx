@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <functional>
 
 namespace RectifiedTransport
 {
@@ -22,9 +23,8 @@ Splatted oneByOne(const Cloud<D>& cloud, const GridSize<D>& size, const SplatOpt
   for (std::int64_t i = 0; i < cloud.Count(); ++i)
   {
     SplatParticles<D, double> one = cloud.Particles();
-    one.Points += 3 * i;
+    one.Points = one.Points.Part(i, 1);
     one.Masses += i;
-    one.Count = 1;
     const Splatted share = splat(one, size, options);
     sum.Outside += share.Outside;
     for (std::size_t cell = 0; cell < sum.Cells.size(); ++cell)
@@ -153,20 +153,20 @@ TEST(SplatOrder, InstructionSets)
 }
 #endif
 
-TEST(SplatMonitor, ProgressAndCancel)
+TEST(SplatContext, ProgressAndCancel)
 {
   const GridSize<3> size{ 90, 90, 90 };
   const Cloud<3> cloud = randomCloud<3>(size, 400000, 0.0, false);
   std::vector<double> cells(90 * 90 * 90);
   std::vector<double> heard;
-  Monitor monitor;
-  monitor.Progress = [&heard](double progress) { heard.push_back(progress); };
+  std::function<bool()> isCancelled;
   const SplatOptions options = splatOptions(SplatKernel::Gaussian);
   const auto run = [&](const Executor& executor) {
-    return splatMass<3, double>(
-      cloud.Particles(), size, options, 1.0, cells.data(), executor, monitor);
+    const Context context(
+      executor, [&heard](double progress) { heard.push_back(progress); }, isCancelled);
+    splatMass<3, double>(cloud.Particles(), size, options, 1.0, cells.data(), context);
   };
-  EXPECT_FALSE(run(SerialExecutor()).Cancelled);
+  run(SerialExecutor());
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_GT(heard.size(), 3u);
   EXPECT_NEAR(heard.back(), 1.0, 1e-12);
@@ -174,10 +174,11 @@ TEST(SplatMonitor, ProgressAndCancel)
   for (const int concurrency : { 1, 2 })
   {
     std::atomic<int> asked{ 0 };
-    monitor.Cancelled = [&asked]() { return ++asked > 4; };
+    isCancelled = [&asked]() { return ++asked > 4; };
     heard.clear();
-    EXPECT_TRUE(run(BackwardExecutor(concurrency)).Cancelled);
+    EXPECT_THROW(run(BackwardExecutor(concurrency)), Cancelled);
     EXPECT_LT(asked, 40);
+    EXPECT_TRUE(heard.empty() || heard.back() < 0.9) << "went on after it was cancelled";
   }
 }
 

@@ -2,7 +2,7 @@
 // The summed-area tables, node by node.
 #include "TestFlow.h"
 
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
 
 #include <gtest/gtest.h>
@@ -19,12 +19,8 @@ namespace
 template <int Dimension>
 std::unique_ptr<SummedAreaTables<Dimension>> build(const TestDensity<Dimension>& density)
 {
-  const Monitor silent;
-  Pacer pacer(silent);
-  auto tables =
-    std::make_unique<SummedAreaTables<Dimension>>(density.Source(), OpenMPExecutor(), pacer);
-  EXPECT_TRUE(tables->IsComplete());
-  return tables;
+  Progress progress((Context()));
+  return std::make_unique<SummedAreaTables<Dimension>>(density.Source(), progress);
 }
 
 // The record of a node of a level.

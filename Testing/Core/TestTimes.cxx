@@ -21,8 +21,7 @@ std::vector<Points<Dimension>> forwardAt(const RectifiedFlow<Dimension>& flow,
   const FlowOptions& options)
 {
   Points<Dimension> all(seeds.size() * times.size());
-  flow.ForwardAt(seeds.data()->data(), static_cast<std::int64_t>(seeds.size()), times,
-    all.data()->data(), options);
+  flow.ForwardAt(seeds, times, all, options);
   std::vector<Points<Dimension>> positions(times.size());
   for (std::size_t i = 0; i < all.size(); ++i)
   {
@@ -153,8 +152,7 @@ TEST(TimesWithHoles, ExecutorsAndSubsets)
     const auto all = forwardAt(flow, seeds, times, options);
     Points<2> reversed(seeds.rbegin(), seeds.rbegin() + static_cast<std::ptrdiff_t>(half));
     Points<2> positions(times.size() * half);
-    flow.ForwardAt(reversed.data()->data(), static_cast<std::int64_t>(half), times,
-      positions.data()->data(), options, SerialExecutor());
+    flow.ForwardAt(reversed, times, positions, options, SerialExecutor());
     std::int64_t different = 0;
     for (std::size_t i = 0; i < positions.size(); ++i)
     {

@@ -9,7 +9,9 @@
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <memory>
 #include <new>
+#include <utility>
 
 namespace
 {
@@ -37,13 +39,14 @@ public:
 void checkLongRanges(Checks& checks)
 {
   vtkNew<vtkTransportSampler> algorithm;
-  AlgorithmProgress host(algorithm);
+  auto executor = std::make_unique<CountingExecutor>();
+  std::vector<std::int64_t>& called = executor->Ranges;
+  AlgorithmProgress host(algorithm, std::move(executor));
   host.BeginStage(1.0);
-  CountingExecutor executor;
   constexpr std::int64_t count = 1030;
   std::vector<int> visits(count, 0);
-  host.Run(
-    executor, count, 100,
+  host.For(
+    count, 100,
     [&visits](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
@@ -52,9 +55,9 @@ void checkLongRanges(Checks& checks)
     },
     1);
   CHECK(checks, std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
-  executor.Ranges.pop_back();
-  CHECK(checks, !executor.Ranges.empty());
-  for (const std::int64_t ranges : executor.Ranges)
+  called.pop_back();
+  CHECK(checks, !called.empty());
+  for (const std::int64_t ranges : called)
   {
     CHECK(checks, ranges >= 4);
   }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/CommonFrame.h"
+#include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/MassSplat.h"
 #include "Core/Flow/WeightedMean.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -34,17 +35,17 @@ namespace
 constexpr double partOfMean = 0.2; // of the progress that is left when the maps are there
 constexpr double partOfParticles = 0.4;
 
-ImageFrame frameOf(const std::vector<BlendInput>& inputs, const int dimensions[3])
+ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimensions[3])
 {
-  std::vector<FramePart> parts;
+  std::vector<NamedGrid> grids;
   for (const BlendInput& input : inputs)
   {
-    parts.push_back({ ImageFrame(input.Image), input.Density->IsOnPoints(), input.Name });
+    grids.push_back({ input.Density->Geometry(), input.Name });
   }
-  return commonFrame(parts, dimensions);
+  return commonGrid(grids, dimensions);
 }
 
-std::array<std::int64_t, 3> gridOf(const ImageGeometry& geometry)
+std::array<std::int64_t, 3> cellsOf(const ImageGrid& geometry)
 {
   std::array<std::int64_t, 3> grid{ 1, 1, 1 };
   const GridSize<3> size = geometry.Size<3>();
@@ -90,14 +91,14 @@ double partOfMaps(std::size_t newMaps, int dimension, const FlowOptions& flow)
 } // namespace
 
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
-  FlowCache& tables, const Executor& executor, AlgorithmProgress& host, const BlendOutput& output)
+  FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
   const bool onPoints = inputs.front().Density->IsOnPoints();
-  const ImageFrame frame = frameOf(inputs, settings.Dimensions);
-  requireMemoryFor(frame.NumberOfValues(onPoints) * settings.ParticlesPerCell, inputs.size());
-  frame.CopyTo(output.Density);
-  const ImageGeometry geometry(output.Density, onPoints);
-  const LinearizedMapSettings pivot{ gridOf(geometry), settings.ParticlesPerCell, settings.Flow };
+  const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
+  requireMemoryFor(numberOfValues(geometry) * settings.ParticlesPerCell, inputs.size());
+  requireCells(geometry);
+  applyGrid(geometry, output.Density);
+  const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow };
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot);
   if (newMaps > 0)
@@ -105,22 +106,22 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
     this->Means = this->Masses = this->Density = nullptr; // the tables take their place
   }
   const double maps = partOfMaps(newMaps, geometry.Dimension(), settings.Flow);
-  const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, executor, host, maps);
+  const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, progress, maps);
 
-  host.BeginStage(maps + partOfMean * (1.0 - maps));
-  this->TakeMeans(inputs, executor, host);
+  progress.BeginStage(maps + partOfMean * (1.0 - maps));
+  this->TakeMeans(inputs, progress);
   const std::int64_t count = this->Means->GetNumberOfTuples();
   const double mass = this->TotalMass(inputs, settings.Mode);
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
   const double particles = maps + partOfParticles * (1.0 - maps);
-  this->WriteParticles(inputs, massEach, executor, host, particles, output.Particles);
+  this->WriteParticles(inputs, massEach, progress, particles, output.Particles);
   addFieldValue(output.Particles, "TotalMass", mass);
 
-  host.BeginStage(1.0);
+  progress.BeginStage(1.0);
   renew(this->Density, "Density", 1, geometry.NumberOfCells());
-  splatPoints(this->Means->GetPointer(0), count, massEach, target, executor, host, this->Density);
+  splatPoints(this->Means->GetPointer(0), count, massEach, target, progress, this->Density);
   output.Density->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
@@ -151,8 +152,7 @@ std::size_t DensityBlend::MatchMaps(
 }
 
 std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
-  const LinearizedMapSettings& settings, FlowCache& tables, const Executor& executor,
-  AlgorithmProgress& host, double progress)
+  const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end)
 {
   // They take as much memory as the particles, and a small part of the time to be built.
   struct Releaser
@@ -170,16 +170,15 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
     {
       this->Maps[i] = *made;
     }
-    const double end = progress * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
+    const double until = end * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
     nameFailures(inputs[i].Name, [&]() {
-      moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, executor, host, end);
+      moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, progress, until);
     });
   }
   return moved;
 }
 
-void DensityBlend::TakeMeans(
-  const std::vector<BlendInput>& inputs, const Executor& executor, AlgorithmProgress& host)
+void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress)
 {
   std::vector<WeightedPositions> parts;
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -190,7 +189,7 @@ void DensityBlend::TakeMeans(
   renew(this->Means, "Points", 3, count);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   double* means = this->Means->GetPointer(0);
-  host.Run(executor, count, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
     writeWeightedMean(parts, 3 * first, 3 * last, means);
   });
 }
@@ -212,7 +211,7 @@ double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode m
 }
 
 void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
-  const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output)
+  Progress& progress, double end, vtkPolyData* output)
 {
   const std::int64_t count = this->Means->GetNumberOfTuples();
   vtkNew<vtkPoints> points;
@@ -221,8 +220,8 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
   output->SetPoints(points);
   if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
   {
-    host.BeginStage(0.5 * (host.Reached() + progress));
-    this->Vertices = newParticleCells(count, 1, executor, host);
+    progress.BeginStage(0.5 * (progress.StageEnd() + end));
+    this->Vertices = newParticleCells(count, 1, progress);
   }
   output->SetVerts(this->Vertices);
 
@@ -237,11 +236,11 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
       output->GetPointData()->AddArray(named);
     }
   }
-  host.BeginStage(progress);
+  progress.BeginStage(end);
   renew(this->Masses, "Mass", 1, count);
   double* mass = this->Masses->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-  host.Run(executor, count, grain,
+  progress.For(count, grain,
     [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
   output->GetPointData()->AddArray(this->Masses);
 }

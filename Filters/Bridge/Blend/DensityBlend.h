@@ -59,23 +59,20 @@ class DensityBlend
 {
 public:
   // Maps of inputs that are not there any more are forgotten. Tables are built in `tables`, and
-  // not kept. Throws Failure, which names the input, and Aborted. Returns how many particles had
+  // not kept. Throws Failure, which names the input, and Cancelled. Returns how many particles had
   // to be moved out of empty cells to come to all densities, 0 where no map was new.
   std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
-    FlowCache& tables, const Executor& executor, AlgorithmProgress& host,
-    const BlendOutput& output);
+    FlowCache& tables, Progress& progress, const BlendOutput& output);
 
 private:
   std::size_t MatchMaps(
     const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings);
   std::int64_t UpdateMaps(const std::vector<BlendInput>& inputs,
-    const LinearizedMapSettings& settings, FlowCache& tables, const Executor& executor,
-    AlgorithmProgress& host, double progress);
-  void TakeMeans(
-    const std::vector<BlendInput>& inputs, const Executor& executor, AlgorithmProgress& host);
+    const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
+  void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
-  void WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
-    const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output);
+  void WriteParticles(const std::vector<BlendInput>& inputs, double massEach, Progress& progress,
+    double end, vtkPolyData* output);
 
   std::vector<LinearizedMap> Maps;
   vtkSmartPointer<vtkCellArray> Vertices; // the same for as many particles

@@ -2,12 +2,12 @@
 #include "Bridge/Blend/LinearizedMap.h"
 
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/PivotLattice.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDoubleArray.h"
 
@@ -21,11 +21,11 @@ namespace
 
 // From index space to physical space, which in 3D have their memory in common.
 template <int D>
-void toPhysical(const ImageGeometry& geometry, const double* positions, std::int64_t count,
-  const Executor& executor, AlgorithmProgress& host, double* physical)
+void toPhysical(const ImageGrid& geometry, const double* positions, std::int64_t count,
+  Progress& progress, double* physical)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  host.Run(executor, count, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       double index[D];
@@ -50,16 +50,16 @@ bool LinearizedMap::IsCandidate(const DensityImage& density) const
 }
 
 std::int64_t LinearizedMap::Update(DensityImage& density, const LinearizedMapSettings& settings,
-  FlowCache& tables, const Executor& executor, AlgorithmProgress& host, double progress)
+  FlowCache& tables, Progress& progress, double end)
 {
   if (!this->IsOutdated(density, settings))
   {
     return 0;
   }
   constexpr double partOfFingerprint = 0.01;
-  host.BeginStage(host.Reached() + partOfFingerprint * (progress - host.Reached()));
+  progress.BeginStage(progress.StageEnd() + partOfFingerprint * (end - progress.StageEnd()));
   ContentHash stamp = this->Stamp;
-  const bool isSame = stamp.Renew(density, executor, host) && this->Place == density.Geometry();
+  const bool isSame = stamp.Renew(density, progress) && this->Place == density.Geometry();
   if (isSame && this->Kept && this->Settings == settings)
   {
     this->Stamp = stamp;
@@ -69,22 +69,21 @@ std::int64_t LinearizedMap::Update(DensityImage& density, const LinearizedMapSet
   this->Settings = settings;
   this->Place = density.Geometry();
   const int dimension = density.Geometry().Dimension();
-  const std::int64_t moved = dimension == 1
-    ? this->Move<1>(density, tables, executor, host, progress)
-    : dimension == 2 ? this->Move<2>(density, tables, executor, host, progress)
-                     : this->Move<3>(density, tables, executor, host, progress);
+  const std::int64_t moved = dimension == 1 ? this->Move<1>(density, tables, progress, end)
+    : dimension == 2                        ? this->Move<2>(density, tables, progress, end)
+                                            : this->Move<3>(density, tables, progress, end);
   this->Stamp = stamp;
   return moved;
 }
 
 template <int D>
-std::int64_t LinearizedMap::Move(DensityImage& density, FlowCache& tables, const Executor& executor,
-  AlgorithmProgress& host, double progress)
+std::int64_t LinearizedMap::Move(
+  DensityImage& density, FlowCache& tables, Progress& progress, double end)
 {
   constexpr double partOfTables = 0.03;
   constexpr double partOfConversion = 0.02;
   tables.Update(
-    density, executor, host, host.Reached() + partOfTables * (progress - host.Reached()));
+    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
   const RectifiedFlow<D>& flow = tables.Flow<D>();
   this->Mass = tables.TotalMass();
 
@@ -105,23 +104,20 @@ std::int64_t LinearizedMap::Move(DensityImage& density, FlowCache& tables, const
   }
 
   std::int64_t moved = 0;
-  const double begin = host.Reached();
-  const double flowing = (1.0 - partOfConversion) * (progress - begin);
+  const double begin = progress.StageEnd();
+  const double flowing = (1.0 - partOfConversion) * (end - begin);
   for (std::int64_t place = 0; place < places; ++place)
   {
-    host.BeginStage(begin + flowing * static_cast<double>(place + 1) / static_cast<double>(places));
-    const FlowReport report =
-      flow.ForwardLattice(samples.Lattice, positions + place * each * D, this->Settings.Options,
-        executor, host.GetMonitor(), samples.Places[static_cast<std::size_t>(place)]);
-    if (report.Cancelled)
-    {
-      throw Aborted();
-    }
-    moved += report.MovedToMass;
+    progress.BeginStage(
+      begin + flowing * static_cast<double>(place + 1) / static_cast<double>(places));
+    moved +=
+      flow
+        .ForwardLattice(samples.Lattice, { positions + place * each * D, each },
+          this->Settings.Options, progress.Stage(), samples.Places[static_cast<std::size_t>(place)])
+        .MovedToMass;
   }
-  host.BeginStage(progress);
-  toPhysical<D>(
-    density.Geometry(), positions, each * places, executor, host, physical->GetPointer(0));
+  progress.BeginStage(end);
+  toPhysical<D>(density.Geometry(), positions, each * places, progress, physical->GetPointer(0));
   this->Kept = physical;
   return moved;
 }

@@ -43,11 +43,11 @@ public:
   bool IsCandidate(const DensityImage& density) const;
 
   // Moves the particles if the density or the settings are others; progress then reaches
-  // `progress`. The tables are built in `tables`. Throws Failure and Aborted; the next update then
-  // moves them. Returns how many particles, of those that it has moved, ended in an empty cell and
-  // were put on the nearest mass.
+  // `progress`. The tables are built in `tables`. Throws Failure and Cancelled; the next update
+  // then moves them. Returns how many particles, of those that it has moved, ended in an empty cell
+  // and were put on the nearest mass.
   std::int64_t Update(DensityImage& density, const LinearizedMapSettings& settings,
-    FlowCache& tables, const Executor& executor, AlgorithmProgress& host, double progress);
+    FlowCache& tables, Progress& progress, double end);
 
   // Physical, 3 components; tuples are in the order of PivotLattice. Not to be written to.
   vtkDoubleArray* Positions() const { return this->Kept; }
@@ -56,11 +56,10 @@ public:
 
 private:
   template <int D>
-  std::int64_t Move(DensityImage& density, FlowCache& tables, const Executor& executor,
-    AlgorithmProgress& host, double progress);
+  std::int64_t Move(DensityImage& density, FlowCache& tables, Progress& progress, double end);
 
   ContentHash Stamp;
-  ImageGeometry Place; // the stamp is of the values alone, the positions are physical
+  ImageGrid Place; // the stamp is of the values alone, the positions are physical
   LinearizedMapSettings Settings{};
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;

@@ -26,11 +26,11 @@ public:
 
   // Takes the stamp of a density, as the work of the host's current stage. Returns whether it is
   // the one that was stamped before, down to its values where only its image is another. Throws
-  // Aborted, and is then of no density.
-  bool Renew(const DensityImage& density, const Executor& executor, AlgorithmProgress& host)
+  // Cancelled, and is then of no density.
+  bool Renew(const DensityImage& density, Progress& progress)
   {
-    return this->Stamp.Renew(density.GetIdentity(), density.ImageTime(),
-      [&]() { return density.Fingerprint(executor, host); });
+    return this->Stamp.Renew(
+      density.GetIdentity(), density.ImageTime(), [&]() { return density.Fingerprint(progress); });
   }
 
 private:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Density/Fingerprint.h"
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -72,7 +73,8 @@ DensityImage::DensityImage(
     throw Failure(message.str());
   }
   requireComponent(this->Name, rules.Component, array->GetNumberOfComponents());
-  this->Place = ImageGeometry(image, onPoints);
+  this->Place = gridOf(image, onPoints);
+  requireCells(this->Place);
   this->FindBlanks(image, onPoints);
   this->Reader = makeDensityReader(array);
 
@@ -95,9 +97,9 @@ DensityImage::DensityImage(
 
 DensityImage::~DensityImage() = default;
 
-std::uint64_t DensityImage::Fingerprint(const Executor& executor, AlgorithmProgress& host) const
+std::uint64_t DensityImage::Fingerprint(Progress& progress) const
 {
-  return fingerprint({ this->Sources.begin(), this->Sources.end() }, executor, host);
+  return fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);
 }
 
 void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
@@ -115,11 +117,11 @@ void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
   this->HiddenPoints = points;
 }
 
-void DensityImage::Prepare(const Executor& executor, AlgorithmProgress& host)
+void DensityImage::Prepare(Progress& progress)
 {
   if (this->HiddenPoints)
   {
-    this->BlankCellsOfHiddenPoints(executor, host);
+    this->BlankCellsOfHiddenPoints(progress);
   }
   const int components = this->Array->GetNumberOfComponents();
   const bool alpha = this->Rules.Component < 0 && (components == 2 || components == 4);
@@ -132,10 +134,10 @@ void DensityImage::Prepare(const Executor& executor, AlgorithmProgress& host)
     this->White = std::numeric_limits<unsigned char>::max();
     return;
   }
-  this->FindWhite(executor, host);
+  this->FindWhite(progress);
 }
 
-void DensityImage::BlankCellsOfHiddenPoints(const Executor& executor, AlgorithmProgress& host)
+void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 {
   const GridSize<3> size = this->Place.Size<3>();
   const int dimension = this->Place.Dimension();
@@ -147,7 +149,7 @@ void DensityImage::BlankCellsOfHiddenPoints(const Executor& executor, AlgorithmP
   this->CombinedFlags.resize(static_cast<std::size_t>(this->Place.NumberOfCells()));
   unsigned char* combined = this->CombinedFlags.data();
   const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / cells[0]);
-  host.Run(executor, cells[1] * cells[2], rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
+  progress.For(cells[1] * cells[2], rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t row = first; row < last; ++row)
     {
       const unsigned char* points =
@@ -169,11 +171,11 @@ void DensityImage::BlankCellsOfHiddenPoints(const Executor& executor, AlgorithmP
   this->Flags = combined;
 }
 
-void DensityImage::FindWhite(const Executor& executor, AlgorithmProgress& host)
+void DensityImage::FindWhite(Progress& progress)
 {
   const std::int64_t cells = this->Place.NumberOfCells();
   std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain));
-  host.Run(executor, cells, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
     maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first,
       this->Rules.Component, this->Flags ? this->Flags + first : nullptr, this->FlagMask);
   });

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DensityImage_h
 #define RectifiedTransport_DensityImage_h
 
-#include "Bridge/Image/ImageGeometry.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Tables/Density.h"
 
 #include "vtkSmartPointer.h"
@@ -26,7 +26,7 @@ namespace RectifiedTransport
 
 class DensityReader;
 class Executor;
-class AlgorithmProgress;
+class Progress;
 
 // How the values of an array become a density; see vtkDensityAlgorithm.
 struct DensityRules
@@ -36,7 +36,7 @@ struct DensityRules
   bool ClampNegative = false;
 };
 
-class DensityImage
+class DensityImage final : public DensityValues
 {
 public:
   // What makes two densities the same one, the time of the image aside.
@@ -45,35 +45,34 @@ public:
   // Throws Failure where the array cannot be a density whatever its values. `array` belongs to the
   // points or the cells of `image`.
   DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
-  ~DensityImage();
+  ~DensityImage() override;
   DensityImage(const DensityImage&) = delete;
   DensityImage& operator=(const DensityImage&) = delete;
 
-  const ImageGeometry& Geometry() const { return this->Place; }
+  const ImageGrid& Geometry() const { return this->Place; }
   const Identity& GetIdentity() const { return this->Key; }
   // When the image itself last changed.
   std::uint64_t ImageTime() const { return this->Time; }
   // Of the array's values and the ghost arrays, as the function of that name gives it.
-  std::uint64_t Fingerprint(const Executor& executor, AlgorithmProgress& host) const;
+  std::uint64_t Fingerprint(Progress& progress) const;
   // Whether its values are those of points.
   bool IsOnPoints() const { return this->OnPoints; }
 
   // Finds what single rows cannot tell, such as the largest value. Call it before reading.
-  void Prepare(const Executor& executor, AlgorithmProgress& host);
+  void Prepare(Progress& progress);
 
-  // Values of the cells [first, first + count), axis 0 fastest.
-  void Read(std::int64_t first, std::int64_t count, double* values) const;
+  void Read(std::int64_t first, std::int64_t count, double* values) const override;
 
   // Throws the Failure that says what is wrong with the density, in the user's terms.
   [[noreturn]] void Explain(const DensitySummary& summary) const;
 
 private:
   void FindBlanks(vtkImageData* image, bool onPoints);
-  void BlankCellsOfHiddenPoints(const Executor& executor, AlgorithmProgress& host);
-  void FindWhite(const Executor& executor, AlgorithmProgress& host);
+  void BlankCellsOfHiddenPoints(Progress& progress);
+  void FindWhite(Progress& progress);
   bool IsBlank(std::int64_t cell) const;
 
-  ImageGeometry Place;
+  ImageGrid Place;
   bool OnPoints;
   vtkSmartPointer<vtkDataArray> Array;
   std::unique_ptr<DensityReader> Reader;
@@ -89,28 +88,6 @@ private:
   unsigned char FlagMask = 0;
   const unsigned char* HiddenPoints = nullptr;
   std::vector<unsigned char> CombinedFlags;
-};
-
-// What the core sees of a DensityImage of its dimension.
-template <int D>
-class DensityImageSource final : public DensitySource<D>
-{
-public:
-  explicit DensityImageSource(const DensityImage& image)
-    : Image(image)
-    , Dims(image.Geometry().Size<D>())
-  {
-  }
-  GridSize<D> Size() const override { return this->Dims; }
-  void ReadRow(
-    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override
-  {
-    this->Image.Read(row * this->Dims[0] + first, count, values);
-  }
-
-private:
-  const DensityImage& Image;
-  GridSize<D> Dims;
 };
 
 } // namespace RectifiedTransport

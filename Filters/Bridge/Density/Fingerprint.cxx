@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/Fingerprint.h"
 
-#include "Bridge/Run/AlgorithmProgress.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDataArray.h"
 #include "vtkType.h"
@@ -63,8 +63,7 @@ std::int64_t bytesOf(vtkDataArray* array)
 
 } // namespace
 
-std::uint64_t fingerprint(
-  const std::vector<vtkDataArray*>& arrays, const Executor& executor, AlgorithmProgress& host)
+std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress)
 {
   constexpr std::int64_t chunk = std::int64_t{ 1 } << 16;
   struct Piece
@@ -93,7 +92,7 @@ std::uint64_t fingerprint(
   // All arrays are one stage, so that progress does not begin again with each.
   std::vector<std::uint64_t> parts(pieces.size());
   const auto all = static_cast<std::int64_t>(pieces.size()) * chunk;
-  host.Run(executor, all, chunk, [&](std::int64_t first, std::int64_t last) {
+  progress.For(all, chunk, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first / chunk; i < last / chunk; ++i)
     {
       const Piece& piece = pieces[static_cast<std::size_t>(i)];

@@ -4,7 +4,7 @@
 #define RectifiedTransport_Fingerprint_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Progress.h"
 
 #include <cstdint>
 #include <utility>
@@ -17,12 +17,11 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 // A number that follows from the bits of the arrays' values, as the work of the current stage; 0 if
-// they are not in memory as they are. Arrays may be null. Throws Aborted.
-std::uint64_t fingerprint(
-  const std::vector<vtkDataArray*>& arrays, const Executor& executor, AlgorithmProgress& host);
+// they are not in memory as they are. Arrays may be null. Throws Cancelled.
+std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
 // Of data that are known by a key, such as the times of arrays, and by the time of the data set
 // around them. Who writes into an array often says so to the data set alone; but hosts also make

@@ -2,9 +2,9 @@
 #include "Bridge/Density/FlowCache.h"
 
 #include "Bridge/Image/GridText.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/TableView.h"
 
 #include <cmath>
@@ -44,8 +44,7 @@ bool FlowCache::IsOutdated(const DensityImage& density) const
   return !this->HasFlow() || !this->Stamp.IsOf(density);
 }
 
-void FlowCache::Update(
-  DensityImage& density, const Executor& executor, AlgorithmProgress& host, double progress)
+void FlowCache::Update(DensityImage& density, Progress& progress, double end)
 {
   if (!this->IsOutdated(density))
   {
@@ -53,28 +52,28 @@ void FlowCache::Update(
   }
   constexpr double partOfFingerprint = 0.05;
   constexpr double partOfPreparation = 0.1;
-  host.BeginStage(host.Reached() + partOfFingerprint * (progress - host.Reached()));
+  progress.BeginStage(progress.StageEnd() + partOfFingerprint * (end - progress.StageEnd()));
   ContentHash stamp = this->Stamp;
-  const bool isSame = stamp.Renew(density, executor, host);
+  const bool isSame = stamp.Renew(density, progress);
   if (isSame && this->HasFlow())
   {
     this->Stamp = stamp;
     return;
   }
   this->Stamp = ContentHash(); // until the tables are whole
-  host.BeginStage(host.Reached() + partOfPreparation * (progress - host.Reached()));
-  density.Prepare(executor, host);
-  host.BeginStage(progress);
+  progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
+  density.Prepare(progress);
+  progress.BeginStage(end);
   switch (density.Geometry().Dimension())
   {
     case 1:
-      this->Build<1>(density, executor, host);
+      this->Build<1>(density, progress);
       break;
     case 2:
-      this->Build<2>(density, executor, host);
+      this->Build<2>(density, progress);
       break;
     default:
-      this->Build<3>(density, executor, host);
+      this->Build<3>(density, progress);
   }
   this->Stamp = stamp;
   this->Built.Modified();
@@ -82,32 +81,27 @@ void FlowCache::Update(
 
 // Old and new tables side by side would double the peak.
 template <int D>
-RectifiedFlow<D> FlowCache::BuildFlow(
-  DensityImage& density, const Executor& executor, const Monitor& monitor)
+RectifiedFlow<D> FlowCache::BuildFlow(DensityImage& density, const Context& context)
 {
-  const DensityImageSource<D> source(density);
+  const DensitySource<D> source{ density.Geometry().Size<D>(), density };
   auto kept = std::exchange(this->Kept, std::monostate());
   if (auto* previous = std::get_if<RectifiedFlow<D>>(&kept))
   {
-    return RectifiedFlow<D>(source, std::move(*previous), executor, monitor);
+    return RectifiedFlow<D>(source, std::move(*previous), context);
   }
   kept = std::monostate();
-  return RectifiedFlow<D>(source, executor, monitor);
+  return RectifiedFlow<D>(source, context);
 }
 
 template <int D>
-void FlowCache::Build(DensityImage& density, const Executor& executor, AlgorithmProgress& host)
+void FlowCache::Build(DensityImage& density, Progress& progress)
 {
   const GridSize<D> size = density.Geometry().Size<D>();
   withMemory(describeTables<D>(size), tableBytes<D>(size), [&]() {
-    const Monitor monitor = host.GetMonitor();
+    const Context context = progress.Stage();
     try
     {
-      RectifiedFlow<D> flow = this->BuildFlow<D>(density, executor, monitor);
-      if (!flow)
-      {
-        throw Aborted();
-      }
+      RectifiedFlow<D> flow = this->BuildFlow<D>(density, context);
       DensitySummary found;
       found.Total = flow.Total() * density.Geometry().CellMeasure();
       if (!(found.Total > 0.0) || std::isinf(found.Total))

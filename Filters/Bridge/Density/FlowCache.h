@@ -14,7 +14,7 @@
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 class FlowCache
 {
@@ -23,10 +23,9 @@ public:
   bool IsOutdated(const DensityImage& density) const;
 
   // Builds the tables if the density is another one, down to its values where only its image is
-  // another; progress then reaches `progress`. Throws
-  // Failure and Aborted; the next update then builds.
-  void Update(
-    DensityImage& density, const Executor& executor, AlgorithmProgress& host, double progress);
+  // another; progress then reaches `end`. Throws
+  // Failure and Cancelled; the next update then builds.
+  void Update(DensityImage& density, Progress& progress, double end);
 
   // Gives the tables' memory back; the next update builds.
   void Release() { this->Kept = std::monostate(); }
@@ -46,10 +45,9 @@ public:
 private:
   bool HasFlow() const { return !std::holds_alternative<std::monostate>(this->Kept); }
   template <int D>
-  RectifiedFlow<D> BuildFlow(
-    DensityImage& density, const Executor& executor, const Monitor& monitor);
+  RectifiedFlow<D> BuildFlow(DensityImage& density, const Context& context);
   template <int D>
-  void Build(DensityImage& density, const Executor& executor, AlgorithmProgress& host);
+  void Build(DensityImage& density, Progress& progress);
 
   std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>> Kept;
   ContentHash Stamp;

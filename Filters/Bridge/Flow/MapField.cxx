@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/MapField.h"
 
-#include "Bridge/Image/LengthScale.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/MapDerivatives.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -39,7 +39,7 @@ Point<D> stepOf(const GridSize<D>& lattice, const GridSize<D>& size)
 
 template <int D>
 MapField<D>::MapField(
-  const ImageGeometry& geometry, const GridSize<D>& lattice, const std::string& purpose)
+  const ImageGrid& geometry, const GridSize<D>& lattice, const std::string& purpose)
   : Geometry(geometry)
   , Lattice(lattice)
   , Size(geometry.Size<D>())
@@ -57,26 +57,26 @@ MapField<D>::MapField(
 }
 
 template <int D>
-double* MapField<D>::Positions()
+PointSpan<D> MapField<D>::Positions()
 {
-  return D == 3 ? this->Displacement->GetPointer(0) : this->PositionBuffer.data();
+  return { D == 3 ? this->Displacement->GetPointer(0) : this->PositionBuffer.data(),
+    this->NumberOfSamples };
 }
 
 template <int D>
-double MapField<D>::Write(const RectifiedFlow<D>* flow, const Executor& executor,
-  AlgorithmProgress& host, double progress, vtkDataSetAttributes* output)
+double MapField<D>::Write(
+  const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output)
 {
   constexpr double partOfDerivatives = 0.4;
   output->SetVectors(this->Displacement);
-  host.BeginStage(host.Reached() + partOfDerivatives * (progress - host.Reached()));
-  this->WriteDerivatives(executor, host, output);
-  host.BeginStage(progress);
-  return this->WriteDisplacement(flow, executor, host);
+  progress.BeginStage(progress.StageEnd() + partOfDerivatives * (end - progress.StageEnd()));
+  this->WriteDerivatives(progress, output);
+  progress.BeginStage(end);
+  return this->WriteDisplacement(flow, progress);
 }
 
 template <int D>
-void MapField<D>::WriteDerivatives(
-  const Executor& executor, AlgorithmProgress& host, vtkDataSetAttributes* output)
+void MapField<D>::WriteDerivatives(Progress& progress, vtkDataSetAttributes* output)
 {
   auto divergences = newArray<vtkDoubleArray>("Divergence", 1, this->NumberOfSamples);
   auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, this->NumberOfSamples);
@@ -86,15 +86,14 @@ void MapField<D>::WriteDerivatives(
   double* determinant = determinants->GetPointer(0);
   const MapDerivatives<D> derivatives(
     this->Lattice, stepOf<D>(this->Lattice, this->Size), this->Positions());
-  host.Run(executor, this->NumberOfSamples, chunk, [&](std::int64_t first, std::int64_t last) {
+  progress.For(this->NumberOfSamples, chunk, [&](std::int64_t first, std::int64_t last) {
     derivatives.Write(first, last, divergence, determinant);
   });
 }
 
 // Sums of fixed chunks make the mean the same for every executor.
 template <int D>
-double MapField<D>::WriteDisplacement(
-  const RectifiedFlow<D>* flow, const Executor& executor, AlgorithmProgress& host)
+double MapField<D>::WriteDisplacement(const RectifiedFlow<D>* flow, Progress& progress)
 {
   struct Sums
   {
@@ -105,7 +104,7 @@ double MapField<D>::WriteDisplacement(
   const Point<D> step = stepOf<D>(this->Lattice, this->Size);
   const LengthScale scale(this->Geometry);
   double* displacement = this->Displacement->GetPointer(0);
-  const double* positions = this->Positions();
+  const double* positions = this->Positions().data();
   const auto write = [&](std::int64_t i, Sums& sums) {
     double moved[D];
     Point<D> low;
@@ -126,7 +125,7 @@ double MapField<D>::WriteDisplacement(
     sums.Weight += weight;
   };
   std::vector<Sums> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  host.Run(executor, count, chunk, [&](std::int64_t first, std::int64_t last) {
+  progress.For(count, chunk, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t begin = first; begin < last; begin += chunk)
     {
       Sums& sums = parts[static_cast<std::size_t>(begin / chunk)];

@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_MapField_h
 #define RectifiedTransport_MapField_h
 
-#include "Bridge/Image/ImageGeometry.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkSmartPointer.h"
 
@@ -22,7 +22,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 template <int Dimension>
 class RectifiedFlow;
@@ -34,27 +34,25 @@ class MapField
 public:
   // Memory for a lattice on the domain of `geometry`. Throws Failure before anything is allocated
   // if it is too much for the system; `purpose` completes "not enough memory for".
-  MapField(const ImageGeometry& geometry, const GridSize<D>& lattice, const std::string& purpose);
+  MapField(const ImageGrid& geometry, const GridSize<D>& lattice, const std::string& purpose);
 
   std::int64_t Count() const { return this->NumberOfSamples; }
 
-  // Where the map takes the samples, in index space, D doubles each.
-  double* Positions();
+  // Where the map takes the samples, in index space.
+  PointSpan<D> Positions();
 
   // Turns positions into Displacement, Divergence and JacobianDeterminant. Positions are gone
   // afterwards. Returns the mean squared displacement: of the samples, or if `flow` is given
-  // weighted with the mass of its density in their cells. Progress reaches `progress`. Throws
-  // Failure and Aborted.
-  double Write(const RectifiedFlow<D>* flow, const Executor& executor, AlgorithmProgress& host,
-    double progress, vtkDataSetAttributes* output);
+  // weighted with the mass of its density in their cells. Progress reaches `end`. Throws
+  // Failure and Cancelled.
+  double Write(
+    const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output);
 
 private:
-  void WriteDerivatives(
-    const Executor& executor, AlgorithmProgress& host, vtkDataSetAttributes* output);
-  double WriteDisplacement(
-    const RectifiedFlow<D>* flow, const Executor& executor, AlgorithmProgress& host);
+  void WriteDerivatives(Progress& progress, vtkDataSetAttributes* output);
+  double WriteDisplacement(const RectifiedFlow<D>* flow, Progress& progress);
 
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   GridSize<D> Lattice;
   GridSize<D> Size;
   std::int64_t NumberOfSamples;

@@ -12,16 +12,16 @@
 namespace RectifiedTransport
 {
 
-void SolidGrid::RequireRanges(int resolution, double padding)
+void requireSolidGrid(int resolution, double padding)
 {
   requireResolution("Resolution", resolution);
   requireThat(padding >= 0.0 && std::isfinite(padding), "Padding", padding,
     "0 or a positive number, a share of the longest side");
 }
 
-SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
+ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double padding)
 {
-  SolidGrid::RequireRanges(resolution, padding);
+  requireSolidGrid(resolution, padding);
   double longest = 0.0;
   double farthest = 0.0;
   for (std::size_t a = 0; a < 3; ++a)
@@ -38,18 +38,20 @@ SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double
             << "; the box around it must have finite sides";
     throw Failure(message.str());
   }
-  this->Width = grown / resolution;
+  const double width = grown / resolution;
   // Or neither the image's own coordinates nor the surface's would tell cells apart.
   constexpr double smallest = 1e-12;
-  if (!(this->Width >= std::max(smallest * farthest, std::numeric_limits<double>::min())))
+  if (!(width >= std::max(smallest * farthest, std::numeric_limits<double>::min())))
   {
     std::ostringstream message;
-    message << "Resolution is " << resolution << ", which makes cells of " << this->Width
+    message << "Resolution is " << resolution << ", which makes cells of " << width
             << " for coordinates of up to " << farthest
             << "; cells must be at least 1e-12 of that: lower Resolution, or move the surface "
                "nearer to the origin";
     throw Failure(message.str());
   }
+  std::array<int, 6> extent{};
+  Eigen::Vector3d corner;
   for (std::size_t a = 0; a < 3; ++a)
   {
     // What a side has more than whole cells by rounding is no cell.
@@ -57,22 +59,11 @@ SolidGrid::SolidGrid(const std::array<double, 6>& bounds, int resolution, double
     const double length = bounds[2 * a + 1] - bounds[2 * a];
     const double part = (length + 2.0 * padding * longest) / grown;
     const double cells = std::min(std::ceil(part * resolution - rounding), 1.0 * resolution);
-    this->Size[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(cells));
+    extent[2 * a + 1] = std::max(1, static_cast<int>(cells));
     const double centre = bounds[2 * a] + 0.5 * length;
-    this->Low[a] = centre - 0.5 * this->Width * static_cast<double>(this->Size[a]);
+    corner[static_cast<Eigen::Index>(a)] = centre - 0.5 * width * extent[2 * a + 1];
   }
-}
-
-ImageFrame SolidGrid::Frame(bool onPoints) const
-{
-  std::array<int, 3> points;
-  std::array<double, 3> origin = this->Low;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    points[a] = static_cast<int>(this->Size[a]) + (onPoints ? 0 : 1);
-    origin[a] += onPoints ? 0.5 * this->Width : 0.0;
-  }
-  return ImageFrame(points, origin, { this->Width, this->Width, this->Width });
+  return { extent, corner, Eigen::Vector3d::Constant(width), ImageGrid::Matrix::Identity(), false };
 }
 
 } // namespace RectifiedTransport

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/ParticleCells.h"
 
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
@@ -11,14 +11,14 @@ namespace RectifiedTransport
 {
 
 vtkSmartPointer<vtkCellArray> newParticleCells(
-  vtkIdType count, vtkIdType pointsEach, const Executor& executor, AlgorithmProgress& host)
+  vtkIdType count, vtkIdType pointsEach, Progress& progress)
 {
   auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, count + 1);
   auto connectivity = newArray<vtkIdTypeArray>("Connectivity", 1, count * pointsEach);
   vtkIdType* offset = offsets->GetPointer(0);
   vtkIdType* id = connectivity->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  host.Run(executor, count, grain, [=](std::int64_t first, std::int64_t last) {
+  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       offset[i] = i * pointsEach;

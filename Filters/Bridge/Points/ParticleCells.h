@@ -4,7 +4,7 @@
 #define RectifiedTransport_ParticleCells_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -16,11 +16,11 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
-// As the work of the host's current stage. Throws Failure and Aborted.
+// As the work of the host's current stage. Throws Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
-  vtkIdType count, vtkIdType pointsEach, const Executor& executor, AlgorithmProgress& host);
+  vtkIdType count, vtkIdType pointsEach, Progress& progress);
 
 } // namespace RectifiedTransport
 

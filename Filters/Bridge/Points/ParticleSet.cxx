@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/ParticleSet.h"
 
-#include "Bridge/Image/LengthScale.h"
 #include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -33,7 +33,7 @@ double squaredDistance(const LengthScale& scale, const double* a, const double* 
 } // namespace
 
 template <int D>
-ParticleSet<D>::ParticleSet(const ImageGeometry& geometry, const std::string& purpose, double count,
+ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpose, double count,
   std::int64_t times, bool seedsGiven)
   : Geometry(geometry)
   , Times(times)
@@ -89,13 +89,12 @@ double* ParticleSet<D>::PhysicalSeeds()
 // particle(i) returns a number; sums of fixed chunks make the mean the same for every executor.
 template <int D>
 template <class Particle>
-double ParticleSet<D>::MeanOverParticles(
-  const Executor& executor, AlgorithmProgress& host, const Particle& particle) const
+double ParticleSet<D>::MeanOverParticles(Progress& progress, const Particle& particle) const
 {
   const std::int64_t count = this->NumberOfParticles;
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
   std::vector<double> sums(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  host.Run(executor, count, chunk, [&](std::int64_t first, std::int64_t last) {
+  progress.For(count, chunk, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t begin = first; begin < last; begin += chunk)
     {
       double sum = 0.0;
@@ -148,8 +147,8 @@ void ParticleSet<D>::SetPoints(vtkPolyData* output) const
 }
 
 template <int D>
-double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor,
-  AlgorithmProgress& host, double progress, vtkPolyData* output)
+double ParticleSet<D>::WriteParticles(
+  double totalMass, Progress& progress, double end, vtkPolyData* output)
 {
   const std::int64_t count = this->NumberOfParticles;
   auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
@@ -165,8 +164,8 @@ double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor
   const double share = totalMass / static_cast<double>(count);
   const LengthScale scale(this->Geometry);
 
-  host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
-  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
+  const double squares = this->MeanOverParticles(progress, [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
     double* seed = physicalSeeds + i * 3;
@@ -183,8 +182,8 @@ double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor
   });
 
   const double cost = scale.CostFromUnits(squares);
-  host.BeginStage(progress);
-  output->SetVerts(newParticleCells(count, 1, executor, host));
+  progress.BeginStage(end);
+  output->SetVerts(newParticleCells(count, 1, progress));
   this->SetPoints(output);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
@@ -196,7 +195,7 @@ double ParticleSet<D>::WriteParticles(double totalMass, const Executor& executor
 
 template <int D>
 double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& times,
-  const Executor& executor, AlgorithmProgress& host, double progress, vtkPolyData* output)
+  Progress& progress, double end, vtkPolyData* output)
 {
   const std::int64_t count = this->NumberOfParticles;
   const std::int64_t each = this->Times;
@@ -212,8 +211,8 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   const double share = totalMass / static_cast<double>(count);
   const LengthScale scale(this->Geometry);
 
-  host.BeginStage(host.Reached() + partOfPoints * (progress - host.Reached()));
-  const double squares = this->MeanOverParticles(executor, host, [&](std::int64_t i) {
+  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
+  const double squares = this->MeanOverParticles(progress, [&](std::int64_t i) {
     const double* index = seeds + i * D;
     double seed[3];
     this->ToPhysicalSeed(i, index, seed);
@@ -228,8 +227,8 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   });
 
   const double cost = scale.CostFromUnits(squares);
-  host.BeginStage(progress);
-  output->SetLines(newParticleCells(count, each, executor, host));
+  progress.BeginStage(end);
+  output->SetLines(newParticleCells(count, each, progress));
   this->SetPoints(output);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);

@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_ParticleSet_h
 #define RectifiedTransport_ParticleSet_h
 
-#include "Bridge/Image/ImageGeometry.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkSmartPointer.h"
 
@@ -23,7 +23,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 // Positions of particles, each at one time or along a path of several. What is large is not copied:
 // in 3D, index space and physical space share their memory.
@@ -34,7 +34,7 @@ public:
   // Memory for `count` particles at `times` times each. Throws Failure before anything is allocated
   // if it is too much for the system, whatever `count` is; `purpose` completes "not enough memory
   // for". `seedsGiven`: PhysicalSeeds will be written, not computed.
-  ParticleSet(const ImageGeometry& geometry, const std::string& purpose, double count,
+  ParticleSet(const ImageGrid& geometry, const std::string& purpose, double count,
     std::int64_t times, bool seedsGiven);
 
   std::int64_t Count() const { return this->NumberOfParticles; }
@@ -47,24 +47,22 @@ public:
 
   // Turns positions into points with vertices, SeedId, SeedPosition, Displacement and Mass.
   // Positions are gone afterwards. Returns the mean squared displacement. Progress reaches
-  // `progress`. Throws Failure and Aborted.
-  double WriteParticles(double totalMass, const Executor& executor, AlgorithmProgress& host,
-    double progress, vtkPolyData* output);
+  // `end`. Throws Failure and Cancelled.
+  double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.
-  double WritePaths(double totalMass, const std::vector<double>& times, const Executor& executor,
-    AlgorithmProgress& host, double progress, vtkPolyData* output);
+  double WritePaths(double totalMass, const std::vector<double>& times, Progress& progress,
+    double end, vtkPolyData* output);
 
 private:
   template <class Particle>
-  double MeanOverParticles(
-    const Executor& executor, AlgorithmProgress& host, const Particle& particle) const;
+  double MeanOverParticles(Progress& progress, const Particle& particle) const;
   void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
   void ToPhysical(
     const double* index, const double* indexSeed, const double* seed, double* x) const;
   void SetPoints(vtkPolyData* output) const;
 
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   std::int64_t NumberOfParticles;
   std::int64_t Times;
   bool SeedsGiven;

@@ -3,9 +3,8 @@
 #ifndef RectifiedTransport_PointInput_h
 #define RectifiedTransport_PointInput_h
 
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -56,11 +55,11 @@ public:
   }
 
   template <class ArrayT>
-  void operator()(ArrayT* array, const Executor& executor, AlgorithmProgress& host)
+  void operator()(ArrayT* array, Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-    host.Run(executor, array->GetNumberOfTuples(), grain,
-      [this, array](std::int64_t first, std::int64_t last) {
+    progress.For(
+      array->GetNumberOfTuples(), grain, [this, array](std::int64_t first, std::int64_t last) {
         this->Range(vtk::DataArrayTupleRange<3>(array, first, last), first);
       });
   }
@@ -98,17 +97,17 @@ private:
 };
 
 // Calls visit(i, x) for every point of a set, on several threads, as the work of the current stage.
-// Throws Failure for coordinates that are not finite, naming the input as `what`, and Aborted.
+// Throws Failure for coordinates that are not finite, naming the input as `what`, and Cancelled.
 template <class Visit>
-void visitPoints(vtkPointSet* points, const std::string& what, const Executor& executor,
-  AlgorithmProgress& host, const Visit& visit)
+void visitPoints(
+  vtkPointSet* points, const std::string& what, Progress& progress, const Visit& visit)
 {
   PointPass<Visit> pass(visit);
   vtkDataArray* coordinates = points->GetPoints()->GetData();
   using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
-  if (!Dispatch::Execute(coordinates, pass, executor, host))
+  if (!Dispatch::Execute(coordinates, pass, progress))
   {
-    pass(coordinates, executor, host);
+    pass(coordinates, progress);
   }
   pass.NotFinite.RequireNone(what);
 }

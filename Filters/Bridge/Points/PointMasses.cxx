@@ -2,9 +2,9 @@
 #include "Bridge/Points/PointMasses.h"
 
 #include "Bridge/Points/GhostFlags.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -64,18 +64,18 @@ public:
   }
 
   template <class ArrayT>
-  void operator()(ArrayT* array, const Executor& executor, AlgorithmProgress& host)
+  void operator()(ArrayT* array, Progress& progress)
   {
-    host.Run(executor, this->Count, grain, [this, array](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, grain, [this, array](std::int64_t first, std::int64_t last) {
       const auto values = vtk::DataArrayValueRange<1>(array, first, last);
       auto value = values.begin();
       this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
     });
   }
 
-  void ReadOnes(const Executor& executor, AlgorithmProgress& host)
+  void ReadOnes(Progress& progress)
   {
-    host.Run(executor, this->Count, grain, [this](std::int64_t first, std::int64_t last) {
+    progress.For(this->Count, grain, [this](std::int64_t first, std::int64_t last) {
       this->Read(first, last, []() { return 1.0; });
     });
   }
@@ -170,8 +170,7 @@ vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
   return requireMasses(points, found, "The mass array '" + name + "'");
 }
 
-PointMasses::PointMasses(
-  vtkPointSet* points, vtkDataArray* array, const Executor& executor, AlgorithmProgress& host)
+PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress)
 {
   const vtkIdType count = points->GetNumberOfPoints();
   const unsigned char* ghosts = ghostFlags(points, vtkDataObject::POINT, "input point set");
@@ -186,11 +185,11 @@ PointMasses::PointMasses(
   using Dispatch = vtkArrayDispatch::Dispatch;
   if (!array)
   {
-    read.ReadOnes(executor, host);
+    read.ReadOnes(progress);
   }
-  else if (!Dispatch::Execute(array, read, executor, host))
+  else if (!Dispatch::Execute(array, read, progress))
   {
-    read(array, executor, host);
+    read(array, progress);
   }
   const RangeOfMasses all = read.All();
   this->Sum = all.Sum;

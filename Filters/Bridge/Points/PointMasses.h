@@ -4,7 +4,7 @@
 #define RectifiedTransport_PointMasses_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -19,7 +19,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 // The array of masses of that name; nullptr for no name, and for "None", which is no array's.
 // Throws Failure if it is missing, not numeric or has several components.
@@ -34,9 +34,8 @@ public:
   PointMasses() = default;
   // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
   // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of
-  // another length, and Aborted.
-  PointMasses(
-    vtkPointSet* points, vtkDataArray* array, const Executor& executor, AlgorithmProgress& host);
+  // another length, and Cancelled.
+  PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress);
 
   // One a point; nullptr for 1 each.
   const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }

@@ -17,7 +17,7 @@ template <int D>
 class PlaceSeed
 {
 public:
-  PlaceSeed(const ImageGeometry& geometry, double* indexSeeds, double* physicalSeeds)
+  PlaceSeed(const ImageGrid& geometry, double* indexSeeds, double* physicalSeeds)
     : Geometry(geometry)
     , Diagonal(geometry.Diagonal())
     , IndexSeeds(indexSeeds)
@@ -44,7 +44,7 @@ public:
   }
 
 private:
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   double Diagonal;
   double* IndexSeeds;
   double* PhysicalSeeds;
@@ -53,12 +53,12 @@ private:
 } // namespace
 
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGeometry& geometry,
-  const Executor& executor, AlgorithmProgress& host, double* indexSeeds, double* physicalSeeds)
+std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& geometry,
+  Progress& progress, double* indexSeeds, double* physicalSeeds)
 {
   const PlaceSeed<D> place(geometry, indexSeeds, physicalSeeds);
   std::atomic<std::int64_t> moved{ 0 };
-  visitPoints(points, what, executor, host, [&](std::int64_t i, const double* x) {
+  visitPoints(points, what, progress, [&](std::int64_t i, const double* x) {
     if (place(i, x))
     {
       ++moved;
@@ -67,11 +67,11 @@ std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const Image
   return moved;
 }
 
-template std::int64_t readSeeds<1>(vtkPointSet*, const std::string&, const ImageGeometry&,
-  const Executor&, AlgorithmProgress&, double*, double*);
-template std::int64_t readSeeds<2>(vtkPointSet*, const std::string&, const ImageGeometry&,
-  const Executor&, AlgorithmProgress&, double*, double*);
-template std::int64_t readSeeds<3>(vtkPointSet*, const std::string&, const ImageGeometry&,
-  const Executor&, AlgorithmProgress&, double*, double*);
+template std::int64_t readSeeds<1>(
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
+template std::int64_t readSeeds<2>(
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
+template std::int64_t readSeeds<3>(
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
 
 } // namespace RectifiedTransport

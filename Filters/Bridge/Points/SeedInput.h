@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_SeedInput_h
 #define RectifiedTransport_SeedInput_h
 
-#include "Bridge/Image/ImageGeometry.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Progress.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
@@ -14,16 +14,16 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 // Writes the points of a set in index space (D doubles each), moved to the domain's border where
 // they lie outside, and where they then are in physical space (3 doubles each; a point inside keeps
 // its own coordinates to the last bit). Returns how many were moved by more than a millionth of the
 // domain's size, by which single precision may miss the border. Throws Failure for coordinates that
-// are not finite, naming the input as `what`, and Aborted.
+// are not finite, naming the input as `what`, and Cancelled.
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGeometry& geometry,
-  const Executor& executor, AlgorithmProgress& host, double* indexSeeds, double* physicalSeeds);
+std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& geometry,
+  Progress& progress, double* indexSeeds, double* physicalSeeds);
 
 } // namespace RectifiedTransport
 

@@ -31,18 +31,20 @@ UnitSeeds<D>::UnitSeeds(SeedPattern pattern, const GridSize<D>& grid, int random
 }
 
 template <int D>
-bool UnitSeeds<D>::Generate(double* points, const Monitor& monitor) const
+void UnitSeeds<D>::Generate(PointSpan<D> points, const Context& context) const
 {
   if (!this->OnGrid)
   {
-    return generateSeeds<D>(this->Pattern, this->Lengths, static_cast<std::int64_t>(this->Number),
-      this->RandomSeed, points, monitor);
+    generateSeeds<D>(this->Pattern, this->Lengths, this->RandomSeed, points, context);
   }
-  if (this->Pattern == SeedPattern::Lattice)
+  else if (this->Pattern == SeedPattern::Lattice)
   {
-    return generateLattice<D>(this->Grid, points, monitor);
+    generateLattice<D>(this->Grid, points, context);
   }
-  return generateJitteredLattice<D>(this->Grid, this->RandomSeed, points, monitor);
+  else
+  {
+    generateJitteredLattice<D>(this->Grid, this->RandomSeed, points, context);
+  }
 }
 
 template class UnitSeeds<1>;

@@ -24,8 +24,8 @@ public:
 
   // How many there are. Not an integer, because it may exceed every integer.
   double Count() const { return this->Number; }
-  // Writes Count() * D doubles. False if the monitor cancelled it. Throws std::bad_alloc.
-  bool Generate(double* points, const Monitor& monitor) const;
+  // Makes Count() points. Throws std::bad_alloc and Cancelled.
+  void Generate(PointSpan<D> points, const Context& context) const;
 
 private:
   SeedPattern Pattern;

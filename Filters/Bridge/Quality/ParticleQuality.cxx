@@ -3,13 +3,13 @@
 
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/LengthScale.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/LengthScale.h"
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Quality/NearestNeighbours.h"
 
 #include "vtkDataArray.h"
@@ -89,17 +89,15 @@ template <int D>
 class QualityRun
 {
 public:
-  QualityRun(vtkPointSet* particles, const CountedPoints& counted, const ImageGeometry& geometry,
-    std::int64_t blockSize, const FlowCache& cache, const Executor& executor,
-    AlgorithmProgress& host)
+  QualityRun(vtkPointSet* particles, const CountedPoints& counted, const ImageGrid& geometry,
+    std::int64_t blockSize, const FlowCache& cache, Progress& progress)
     : Input(particles)
     , Counted(counted)
     , Geometry(geometry)
     , Scale(geometry)
     , BlockSize(blockSize)
     , Flow(cache.Flow<D>())
-    , Threads(executor)
-    , Host(host)
+    , Work(progress)
     , Count(counted.Count())
     , Size(geometry.Size<D>())
     , Blocks(1)
@@ -129,7 +127,7 @@ public:
   ParticleQuality Measure(double tablesDone)
   {
     const auto stage = [&](double part) {
-      this->Host.BeginStage(tablesDone + part * (1.0 - tablesDone));
+      this->Work.BeginStage(tablesDone + part * (1.0 - tablesDone));
     };
     stage(0.1);
     this->Place();
@@ -153,7 +151,7 @@ private:
   template <class Kernel>
   void InOrder(std::int64_t count, const Kernel& kernel)
   {
-    this->Host.Run(SerialExecutor(), count, grain, kernel);
+    this->Work.ForInOrder(count, grain, kernel);
   }
 
   // Finds the points that count, and which block each is in: -1 if it is outside of the domain.
@@ -162,8 +160,8 @@ private:
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
     const double tolerance = this->Geometry.BorderTolerance();
-    visitPoints(this->Input, "input point set", this->Threads, this->Host,
-      [&](std::int64_t point, const double* x) {
+    visitPoints(
+      this->Input, "input point set", this->Work, [&](std::int64_t point, const double* x) {
         const std::int64_t i = this->Counted.NumberOf(point);
         if (i < 0)
         {
@@ -291,7 +289,7 @@ private:
       }
     });
     stage(0.4);
-    this->Host.Run(this->Threads, this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
+    this->Work.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t block = first; block < last; ++block)
       {
         const auto [low, high] = this->BlockBox(block);
@@ -334,15 +332,11 @@ private:
 
   void FindNeighbours()
   {
-    const bool complete = withMemory("the neighbours of the particles",
+    withMemory("the neighbours of the particles",
       8.0 * sizeof(double) * static_cast<double>(this->Count), [&]() {
-        return nearestDistances(this->Points.data(), this->Count, this->Spacing.data(),
-          this->Threads, this->Host.GetMonitor());
+        nearestDistances(
+          { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
       });
-    if (!complete)
-    {
-      throw Aborted();
-    }
   }
 
   // Divides the distance of each nearest neighbour by the largest spacing that the density has room
@@ -357,8 +351,8 @@ private:
     const double side = this->Scale.ToUnits(root<D>(this->Geometry.CellMeasure()));
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
-    this->Host.Run(
-      this->Threads, this->Count, smallGrain,
+    this->Work.For(
+      this->Count, smallGrain,
       [=](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
         {
@@ -411,12 +405,11 @@ private:
 
   vtkPointSet* Input;
   const CountedPoints& Counted;
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   const LengthScale Scale;
   const std::int64_t BlockSize;
   const RectifiedFlow<D>& Flow;
-  const Executor& Threads;
-  AlgorithmProgress& Host;
+  Progress& Work;
   const std::int64_t Count;
   const GridSize<D> Size;
   GridSize<D> BlockCounts;
@@ -432,10 +425,10 @@ private:
 
 template <int D>
 ParticleQuality measure(vtkPointSet* particles, const CountedPoints& counted,
-  const DensityImage& density, int blockSize, const FlowCache& cache, const Executor& executor,
-  AlgorithmProgress& host, double tablesDone)
+  const DensityImage& density, int blockSize, const FlowCache& cache, Progress& progress,
+  double tablesDone)
 {
-  QualityRun<D> run(particles, counted, density.Geometry(), blockSize, cache, executor, host);
+  QualityRun<D> run(particles, counted, density.Geometry(), blockSize, cache, progress);
   ParticleQuality quality = run.Measure(tablesDone);
   quality.TotalMass = cache.TotalMass();
   return quality;
@@ -444,23 +437,22 @@ ParticleQuality measure(vtkPointSet* particles, const CountedPoints& counted,
 } // namespace
 
 ParticleQuality measureQuality(vtkPointSet* particles, const CountedPoints& counted,
-  DensityImage& density, int blockSize, FlowCache& cache, const Executor& executor,
-  AlgorithmProgress& host)
+  DensityImage& density, int blockSize, FlowCache& cache, Progress& progress)
 {
   // Nanoseconds, as measured.
   const double tables =
     cache.IsOutdated(density) ? 10.0 * static_cast<double>(density.Geometry().NumberOfCells()) : 0;
   const double rest = 4000.0 * static_cast<double>(counted.Count());
   const double tablesDone = tables / (tables + rest);
-  cache.Update(density, executor, host, tablesDone);
+  cache.Update(density, progress, tablesDone);
   switch (density.Geometry().Dimension())
   {
     case 1:
-      return measure<1>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
+      return measure<1>(particles, counted, density, blockSize, cache, progress, tablesDone);
     case 2:
-      return measure<2>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
+      return measure<2>(particles, counted, density, blockSize, cache, progress, tablesDone);
     default:
-      return measure<3>(particles, counted, density, blockSize, cache, executor, host, tablesDone);
+      return measure<3>(particles, counted, density, blockSize, cache, progress, tablesDone);
   }
 }
 

@@ -4,7 +4,7 @@
 #define RectifiedTransport_ParticleQuality_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Progress.h"
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ namespace RectifiedTransport
 class CountedPoints;
 class DensityImage;
 class FlowCache;
-class AlgorithmProgress;
+class Progress;
 
 struct ParticleQuality
 {
@@ -33,10 +33,9 @@ struct ParticleQuality
 };
 
 // Compares the particles that count, of which there must be some, with a density; the density's
-// tables are those of the cache, which is brought up to date. Throws Failure and Aborted.
+// tables are those of the cache, which is brought up to date. Throws Failure and Cancelled.
 ParticleQuality measureQuality(vtkPointSet* particles, const CountedPoints& counted,
-  DensityImage& density, int blockSize, FlowCache& cache, const Executor& executor,
-  AlgorithmProgress& host);
+  DensityImage& density, int blockSize, FlowCache& cache, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/ExceptionBarrier.h"
 
-#include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Context.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -155,7 +155,7 @@ int runBehindBarrier(
   {
     return body();
   }
-  catch (const Aborted&)
+  catch (const Cancelled&)
   {
     return emptyOutputs(outputs) ? 1 : 0;
   }

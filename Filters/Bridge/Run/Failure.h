@@ -16,11 +16,6 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// The host asked to stop.
-class Aborted
-{
-};
-
 // Runs a function whose failures concern one of several things, and say which.
 template <class Function>
 void nameFailures(const std::string& name, Function&& function)

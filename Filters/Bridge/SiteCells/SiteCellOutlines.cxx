@@ -4,7 +4,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/SiteLabels.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -43,7 +43,7 @@ template <int D>
 class Outlines
 {
 public:
-  Outlines(const ImageGeometry& geometry, const std::int64_t* labels)
+  Outlines(const ImageGrid& geometry, const std::int64_t* labels)
     : Geometry(geometry)
     , Size(geometry.Size<D>())
     , Mirrored(geometry.IsMirrored())
@@ -59,26 +59,19 @@ public:
     this->Upper = this->Lower;
   }
 
-  void Run(AlgorithmProgress& host)
+  void Run(Progress& progress)
   {
-    const Monitor monitor = host.GetMonitor();
-    Pacer pacer(monitor);
-    const std::int64_t layers = this->Size[D - 1];
-    pacer.BeginStage(1.0, layers + 1);
+    const std::int64_t layers = this->Size[D - 1] + 1;
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
-    const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->LayerPixels);
-    for (std::int64_t layer = 0; layer <= layers;)
-    {
-      const std::int64_t slice = std::min(layers + 1 - layer, pacer.NextSlice(smallest));
-      for (const std::int64_t end = layer + slice; layer < end; ++layer)
-      {
-        this->AddLayer(layer);
-      }
-      if (!pacer.EndSlice(slice))
-      {
-        throw Aborted();
-      }
-    }
+    progress.ForInOrder(
+      layers, 1,
+      [this](std::int64_t first, std::int64_t last) {
+        for (std::int64_t layer = first; layer < last; ++layer)
+        {
+          this->AddLayer(layer);
+        }
+      },
+      pixels / this->LayerPixels);
   }
 
   void Write(vtkPolyData* output)
@@ -257,7 +250,7 @@ private:
     return static_cast<vtkIdType>(point);
   }
 
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   const GridSize<D> Size;
   const bool Mirrored;
   const std::int64_t* Labels;
@@ -274,19 +267,16 @@ private:
 } // namespace
 
 template <int D>
-void outlineSiteCells(const ImageGeometry& geometry, const std::int64_t* labels,
-  AlgorithmProgress& host, vtkPolyData* output)
+void outlineSiteCells(
+  const ImageGrid& geometry, const std::int64_t* labels, Progress& progress, vtkPolyData* output)
 {
   Outlines<D> outlines(geometry, labels);
-  outlines.Run(host);
+  outlines.Run(progress);
   outlines.Write(output);
 }
 
-template void outlineSiteCells<1>(
-  const ImageGeometry&, const std::int64_t*, AlgorithmProgress&, vtkPolyData*);
-template void outlineSiteCells<2>(
-  const ImageGeometry&, const std::int64_t*, AlgorithmProgress&, vtkPolyData*);
-template void outlineSiteCells<3>(
-  const ImageGeometry&, const std::int64_t*, AlgorithmProgress&, vtkPolyData*);
+template void outlineSiteCells<1>(const ImageGrid&, const std::int64_t*, Progress&, vtkPolyData*);
+template void outlineSiteCells<2>(const ImageGrid&, const std::int64_t*, Progress&, vtkPolyData*);
+template void outlineSiteCells<3>(const ImageGrid&, const std::int64_t*, Progress&, vtkPolyData*);
 
 } // namespace RectifiedTransport

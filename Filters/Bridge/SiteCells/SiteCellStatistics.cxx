@@ -77,7 +77,7 @@ template <int D>
 class CellSums
 {
 public:
-  CellSums(vtkPointSet* sites, const ImageGeometry& geometry, const std::int64_t* labels)
+  CellSums(vtkPointSet* sites, const ImageGrid& geometry, const std::int64_t* labels)
     : Geometry(geometry)
     , Size(geometry.Size<D>())
     , Labels(labels)
@@ -91,8 +91,7 @@ public:
 
   // The sums of fixed chunks make the result the same for every executor. Their number keeps the
   // memory for them below that of the labels.
-  std::vector<CellSum<D>> Run(
-    const CostNorm& norm, const Executor& executor, AlgorithmProgress& host) const
+  std::vector<CellSum<D>> Run(const CostNorm& norm, Progress& progress) const
   {
     const auto sites = static_cast<std::int64_t>(this->Sites.size() / 3);
     const auto pixels = static_cast<std::int64_t>(numberOfCells<D>(this->Size));
@@ -104,13 +103,14 @@ public:
       part.resize(static_cast<std::size_t>(sites));
     }
     const bool isSquare = norm.Norm == 2.0 && norm.Exponent == 2.0;
-    host.Run(executor, pixels, chunk, [&](std::int64_t first, std::int64_t last) {
+    progress.For(pixels, chunk, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t begin = first; begin < last; begin += chunk)
       {
         CellSum<D>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
         const std::int64_t end = std::min(begin + chunk, last);
         // With many sites there are few chunks, and long ones.
-        for (std::int64_t slice = begin; slice < end && !host.IsCancelled(); slice += sliceOfPixels)
+        for (std::int64_t slice = begin; slice < end && !progress.ShouldStop();
+             slice += sliceOfPixels)
         {
           const std::int64_t sliceEnd = std::min(slice + sliceOfPixels, end);
           if (isSquare)
@@ -172,7 +172,7 @@ private:
     }
   }
 
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   const GridSize<D> Size;
   const std::int64_t* Labels;
   std::vector<double> Sites;
@@ -182,8 +182,8 @@ private:
 
 template <int D>
 double writeSiteCellStatistics(vtkPointSet* sites, const SiteDensity<D>& grid,
-  const ImageGeometry& geometry, const SiteIdArray* labels, const CostNorm& norm,
-  const Executor& executor, AlgorithmProgress& host, vtkPointData* output)
+  const ImageGrid& geometry, const SiteIdArray* labels, const CostNorm& norm, Progress& progress,
+  vtkPointData* output)
 {
   const vtkIdType count = sites->GetNumberOfPoints();
   auto masses = newArray<vtkDoubleArray>("CellMass", 1, count);
@@ -198,7 +198,7 @@ double writeSiteCellStatistics(vtkPointSet* sites, const SiteDensity<D>& grid,
     withMemory(purpose, static_cast<double>(count) * 2.0 * sizeof(CellSum<D>), [&]() {
       // Only GetPointer wants an array that is not const.
       auto* array = const_cast<SiteIdArray*>(labels);
-      return CellSums<D>(sites, geometry, array->GetPointer(0)).Run(norm, executor, host);
+      return CellSums<D>(sites, geometry, array->GetPointer(0)).Run(norm, progress);
     });
 
   double total = 0.0;
@@ -243,14 +243,11 @@ double writeSiteCellStatistics(vtkPointSet* sites, const SiteDensity<D>& grid,
   return total;
 }
 
-template double writeSiteCellStatistics<1>(vtkPointSet*, const SiteDensity<1>&,
-  const ImageGeometry&, const SiteIdArray*, const CostNorm&, const Executor&, AlgorithmProgress&,
-  vtkPointData*);
-template double writeSiteCellStatistics<2>(vtkPointSet*, const SiteDensity<2>&,
-  const ImageGeometry&, const SiteIdArray*, const CostNorm&, const Executor&, AlgorithmProgress&,
-  vtkPointData*);
-template double writeSiteCellStatistics<3>(vtkPointSet*, const SiteDensity<3>&,
-  const ImageGeometry&, const SiteIdArray*, const CostNorm&, const Executor&, AlgorithmProgress&,
-  vtkPointData*);
+template double writeSiteCellStatistics<1>(vtkPointSet*, const SiteDensity<1>&, const ImageGrid&,
+  const SiteIdArray*, const CostNorm&, Progress&, vtkPointData*);
+template double writeSiteCellStatistics<2>(vtkPointSet*, const SiteDensity<2>&, const ImageGrid&,
+  const SiteIdArray*, const CostNorm&, Progress&, vtkPointData*);
+template double writeSiteCellStatistics<3>(vtkPointSet*, const SiteDensity<3>&, const ImageGrid&,
+  const SiteIdArray*, const CostNorm&, Progress&, vtkPointData*);
 
 } // namespace RectifiedTransport

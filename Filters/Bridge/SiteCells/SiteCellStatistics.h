@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_SiteCellStatistics_h
 #define RectifiedTransport_SiteCellStatistics_h
 
-#include "Bridge/Image/ImageGeometry.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/SiteCells/SiteLabels.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Progress.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointData;
@@ -25,11 +25,11 @@ struct CostNorm
 
 // Adds `CellMass`, `CellCentroid` and `CellCost` to the sites' data. Returns the cost: the mean of
 // |x - site|_p^q over the pixels' centres x. Throws Failure for a cost past the largest double or
-// memory that is not there, and Aborted.
+// memory that is not there, and Cancelled.
 template <int D>
 double writeSiteCellStatistics(vtkPointSet* sites, const SiteDensity<D>& grid,
-  const ImageGeometry& geometry, const SiteIdArray* labels, const CostNorm& norm,
-  const Executor& executor, AlgorithmProgress& host, vtkPointData* output);
+  const ImageGrid& geometry, const SiteIdArray* labels, const CostNorm& norm, Progress& progress,
+  vtkPointData* output);
 
 } // namespace RectifiedTransport
 

@@ -35,17 +35,16 @@ std::uint64_t timeOf(vtkPointSet* sites)
 
 } // namespace
 
-bool SiteLabels::IsFor(
-  vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const
+bool SiteLabels::IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const
 {
-  return this->Labels && this->Frame == frame && this->Options == options &&
+  return this->Labels && this->Grid == grid && this->Options == options &&
     this->Stamp.IsOf(keyOf(sites), timeOf(sites));
 }
 
-bool SiteLabels::Renew(vtkPointSet* sites, const Executor& executor, AlgorithmProgress& host)
+bool SiteLabels::Renew(vtkPointSet* sites, Progress& progress)
 {
   return this->Stamp.Renew(keyOf(sites), timeOf(sites),
-    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, executor, host); });
+    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, progress); });
 }
 
 namespace
@@ -58,16 +57,15 @@ constexpr double recordBytes(int dimension)
 
 } // namespace
 
-void SiteLabels::RequireMemory(const ImageFrame& frame)
+void SiteLabels::RequireMemory(const ImageGrid& grid)
 {
-  const double bytes = sizeof(std::int64_t) + recordBytes(frame.NumberOfAxes());
-  requireMemory("labels of " + frame.DescribeValues(false) + " pixels (see Resolution)",
-    frame.NumberOfValues(false) * bytes);
+  const double bytes = sizeof(std::int64_t) + recordBytes(grid.Dimension());
+  requireMemory(
+    "labels of " + describeValues(grid) + " pixels (see Resolution)", numberOfValues(grid) * bytes);
 }
 
 template <int D>
-SiteGrid<D>::SiteGrid(vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor,
-  AlgorithmProgress& host)
+SiteGrid<D>::SiteGrid(vtkPointSet* sites, const ImageGrid& geometry, Progress& progress)
   : Geometry(geometry)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
@@ -83,14 +81,15 @@ SiteGrid<D>::SiteGrid(vtkPointSet* sites, const ImageGeometry& geometry, const E
     this->Coordinates = LargeBuffer<double>(count * D);
     LargeBuffer<double> inside(count * 3);
     this->Outside = readSeeds<D>(
-      sites, "input point set", geometry, executor, host, this->Coordinates.data(), inside.data());
-    this->Grid = std::make_unique<SiteDensity<D>>(size, this->Coordinates.data(), count);
+      sites, "input point set", geometry, progress, this->Coordinates.data(), inside.data());
+    this->Grid =
+      std::make_unique<SiteDensity<D>>(size, ConstPointSpan<D>(this->Coordinates.data(), count));
   });
 }
 
 template <int D>
-vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(const FlowOptions& options,
-  const Executor& executor, AlgorithmProgress& host, double progress) const
+vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(
+  const FlowOptions& options, Progress& progress, double end) const
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const SiteDensity<D>& grid = *this->Grid;
@@ -99,14 +98,8 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(const FlowOptions& options,
   const std::string purpose = "labels of " + describeSize<D>(size) + " pixels";
   auto array = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
   std::int64_t* labels = array->GetPointer(0);
-  const double begin = host.Reached();
-  const auto beginStage = [&](double part) { host.BeginStage(begin + part * (progress - begin)); };
-  const auto require = [](bool complete) {
-    if (!complete)
-    {
-      throw Aborted();
-    }
-  };
+  const double begin = progress.StageEnd();
+  const auto beginStage = [&](double part) { progress.BeginStage(begin + part * (end - begin)); };
   if (grid.NumberOfPixels() == 1)
   {
     std::fill_n(labels, array->GetNumberOfTuples(), std::int64_t{ 0 });
@@ -115,18 +108,15 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(const FlowOptions& options,
   {
     withMemory(purpose, pixels * recordBytes(D), [&]() {
       beginStage(0.03);
-      const RectifiedFlow<D> flow(grid, executor, host.GetMonitor());
-      require(static_cast<bool>(flow));
+      const RectifiedFlow<D> flow(grid, progress.Stage());
       beginStage(0.93);
-      require(
-        !flow.ForwardLatticeToCells(size, labels, options, executor, host.GetMonitor()).Cancelled);
+      flow.ForwardLatticeToCells(size, labels, options, progress.Stage());
     });
     beginStage(0.95);
-    host.Run(
-      executor, array->GetNumberOfTuples(), grain, [&](std::int64_t first, std::int64_t last) {
-        std::transform(labels + first, labels + last, labels + first,
-          [&grid](std::int64_t pixel) { return grid.Find(pixel); });
-      });
+    progress.For(array->GetNumberOfTuples(), grain, [&](std::int64_t first, std::int64_t last) {
+      std::transform(labels + first, labels + last, labels + first,
+        [&grid](std::int64_t pixel) { return grid.Find(pixel); });
+    });
   }
   const Point<D> lengths = this->Geometry.template Lengths<D>();
   Point<D> spacing;
@@ -136,10 +126,10 @@ vtkSmartPointer<SiteIdArray> SiteGrid<D>::MakeLabels(const FlowOptions& options,
   }
   withMemory(purpose, pixels * sizeof(std::int64_t), [&]() {
     beginStage(0.99);
-    require(equalizeSiteCells<D>(grid, spacing, labels, host.GetMonitor()));
+    equalizeSiteCells<D>(grid, spacing, labels, progress.Stage());
     beginStage(1.0);
-    require(
-      splitSharedPixels<D>(grid, this->Coordinates.data(), spacing, labels, host.GetMonitor()));
+    splitSharedPixels<D>(
+      grid, { this->Coordinates.data(), grid.NumberOfSites() }, spacing, labels, progress.Stage());
   });
   return array;
 }

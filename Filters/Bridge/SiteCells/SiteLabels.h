@@ -4,12 +4,12 @@
 #define RectifiedTransport_SiteLabels_h
 
 #include "Bridge/Density/Fingerprint.h"
-#include "Bridge/Image/ImageFrame.h"
-#include "Bridge/Image/ImageGeometry.h"
-#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/SiteDensity.h"
 
 #include "vtkLongArray.h"
@@ -37,28 +37,28 @@ class SiteLabels
 {
 public:
   // Throws Failure if there is no memory to make labels.
-  static void RequireMemory(const ImageFrame& frame);
+  static void RequireMemory(const ImageGrid& grid);
 
   // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
-  bool IsFor(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options) const;
+  bool IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const;
 
   // The labels of such sites on such a grid: those that are kept, or those that make() makes. The
-  // work of the host's current stage is to look whether the sites are the same. Throws Aborted, and
-  // what make() throws; then no labels are kept.
+  // work of the host's current stage is to look whether the sites are the same. Throws Cancelled,
+  // and what make() throws; then no labels are kept.
   template <class Make>
-  SiteIdArray* Update(vtkPointSet* sites, const ImageFrame& frame, const FlowOptions& options,
-    const Executor& executor, AlgorithmProgress& host, const Make& make)
+  SiteIdArray* Update(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options,
+    Progress& progress, const Make& make)
   {
-    if (this->IsFor(sites, frame, options))
+    if (this->IsFor(sites, grid, options))
     {
       return this->Labels;
     }
-    const bool sameSites = this->Renew(sites, executor, host);
-    if (!sameSites || !this->IsFor(sites, frame, options))
+    const bool sameSites = this->Renew(sites, progress);
+    if (!sameSites || !this->IsFor(sites, grid, options))
     {
       this->Labels = nullptr; // what is outdated need not take memory meanwhile
       this->Labels = make();
-      this->Frame = frame;
+      this->Grid = grid;
       this->Options = options;
     }
     return this->Labels;
@@ -66,11 +66,11 @@ public:
 
 private:
   // Returns whether the sites are those of the run before.
-  bool Renew(vtkPointSet* sites, const Executor& executor, AlgorithmProgress& host);
+  bool Renew(vtkPointSet* sites, Progress& progress);
 
   vtkSmartPointer<SiteIdArray> Labels;
   DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
-  ImageFrame Frame;
+  ImageGrid Grid;
   FlowOptions Options;
 };
 
@@ -79,21 +79,21 @@ template <int D>
 class SiteGrid
 {
 public:
-  // Throws Failure for coordinates that are not finite and for more sites than pixels, and Aborted.
-  SiteGrid(vtkPointSet* sites, const ImageGeometry& geometry, const Executor& executor,
-    AlgorithmProgress& host);
+  // Throws Failure for coordinates that are not finite and for more sites than pixels, and
+  // Cancelled.
+  SiteGrid(vtkPointSet* sites, const ImageGrid& geometry, Progress& progress);
 
   const SiteDensity<D>& Pixels() const { return *this->Grid; }
   // How many sites are outside of the domain and count as the nearest point of its border.
   std::int64_t NumberOutside() const { return this->Outside; }
 
-  // The label of each pixel, axis 0 fastest. Progress ends at `progress`. Throws Failure for memory
-  // that is not there, and Aborted.
-  vtkSmartPointer<SiteIdArray> MakeLabels(const FlowOptions& options, const Executor& executor,
-    AlgorithmProgress& host, double progress) const;
+  // The label of each pixel, axis 0 fastest. Progress ends at `end`. Throws Failure for memory
+  // that is not there, and Cancelled.
+  vtkSmartPointer<SiteIdArray> MakeLabels(
+    const FlowOptions& options, Progress& progress, double end) const;
 
 private:
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   LargeBuffer<double> Coordinates; // in index space, inside
   std::unique_ptr<SiteDensity<D>> Grid;
   std::int64_t Outside = 0;

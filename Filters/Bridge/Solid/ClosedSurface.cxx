@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Solid/ClosedSurface.h"
 
-#include "Bridge/Image/SolidGrid.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Solid/SurfaceOrientation.h"
 
 #include "vtkArrayDispatch.h"
@@ -86,24 +86,20 @@ void requireIds(vtkCellArray* cells, std::int64_t points)
 }
 
 // Passes on the progress of a filter of VTK, and the host's wish to stop.
-void runInside(vtkAlgorithm* filter, AlgorithmProgress& host)
+void runInside(vtkAlgorithm* filter, Progress& progress)
 {
-  struct Ears
-  {
-    AlgorithmProgress& Host;
-    Monitor Progress;
-  } ears{ host, host.GetMonitor() };
-  vtkNew<vtkCallbackCommand> progress;
-  progress->SetClientData(&ears);
-  progress->SetCallback([](vtkObject* caller, unsigned long, void* data, void* fraction) {
-    auto* hears = static_cast<Ears*>(data);
-    hears->Progress.Progress(*static_cast<double*>(fraction));
-    if (hears->Host.IsCancelled())
+  const Context stage = progress.Stage();
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(const_cast<Context*>(&stage));
+  observer->SetCallback([](vtkObject* caller, unsigned long, void* data, void* fraction) {
+    const auto* context = static_cast<const Context*>(data);
+    context->Report(*static_cast<double*>(fraction));
+    if (context->IsCancelled && context->IsCancelled())
     {
       static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
     }
   });
-  filter->AddObserver(vtkCommand::ProgressEvent, progress);
+  filter->AddObserver(vtkCommand::ProgressEvent, observer);
   // What it cannot do is seen in its output, and said once.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
@@ -112,13 +108,13 @@ void runInside(vtkAlgorithm* filter, AlgorithmProgress& host)
   filter->Update();
   if (filter->GetAbortExecute())
   {
-    throw Aborted();
+    throw Cancelled();
   }
 }
 
 // Polygons and strips as triangles, in the order of the polygons.
 vtkSmartPointer<vtkCellArray> triangulate(
-  vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, AlgorithmProgress& host)
+  vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress)
 {
   const std::int64_t expected = countTriangles(polygons) + countTriangles(strips);
   // vtkTriangleFilter ends the program when there is no memory for its cells to grow: at the end,
@@ -133,7 +129,7 @@ vtkSmartPointer<vtkCellArray> triangulate(
   filter->SetInputData(surface);
   filter->PassVertsOff();
   filter->PassLinesOff();
-  runInside(filter, host);
+  runInside(filter, progress);
   vtkCellArray* triangles = filter->GetOutput()->GetPolys();
   const std::int64_t missing = expected - triangles->GetNumberOfCells();
   if (missing != 0)
@@ -149,10 +145,9 @@ vtkSmartPointer<vtkCellArray> triangulate(
 struct CopyIds
 {
   template <class ArrayT>
-  void operator()(
-    ArrayT* ids, std::int64_t* copy, const Executor& executor, AlgorithmProgress& host) const
+  void operator()(ArrayT* ids, std::int64_t* copy, Progress& progress) const
   {
-    host.Run(executor, ids->GetNumberOfValues(), Grain, [&](std::int64_t first, std::int64_t last) {
+    progress.For(ids->GetNumberOfValues(), Grain, [&](std::int64_t first, std::int64_t last) {
       std::int64_t* to = copy + first;
       for (const auto id : vtk::DataArrayValueRange<1>(ids, first, last))
       {
@@ -201,19 +196,18 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   return bounds;
 }
 
-ClosedSurface::ClosedSurface(
-  vtkPolyData* input, const Executor& executor, AlgorithmProgress& host, double end)
+ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   : NumberOfPoints(input->GetNumberOfPoints())
 {
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
-  const double begin = host.Reached();
-  const auto stage = [&host, begin, end](
-                       double part) { host.BeginStage(begin + part * (end - begin)); };
+  const double begin = progress.StageEnd();
+  const auto stage = [&progress, begin, end](
+                       double part) { progress.BeginStage(begin + part * (end - begin)); };
   withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
     this->Points = LargeBuffer<double>(3 * this->NumberOfPoints);
     double* copy = this->Points.data();
     stage(0.1);
-    visitPoints(input, "input surface", executor, host,
+    visitPoints(input, "input surface", progress,
       [copy](std::int64_t i, const double* x) { std::copy_n(x, 3, copy + 3 * i); });
   });
   if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
@@ -229,38 +223,38 @@ ClosedSurface::ClosedSurface(
   stage(0.25);
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
-    [this, &host]() { this->EnterPoints(host); });
+    [this, &progress]() { this->EnterPoints(progress); });
   vtkSmartPointer<vtkCellArray> triangles = polygons;
   if (strips->GetNumberOfCells() > 0 || polygons->IsHomogeneous() != 3)
   {
     stage(0.3);
-    triangles = this->MergeCorners(polygons, host);
+    triangles = this->MergeCorners(polygons, progress);
     stage(0.4);
-    triangles = triangulate(input->GetPoints(), triangles, strips, host);
+    triangles = triangulate(input->GetPoints(), triangles, strips, progress);
   }
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
       stage(0.45);
-      this->ReadTriangles(triangles, executor, host);
+      this->ReadTriangles(triangles, progress);
       stage(0.6);
-      this->DropDegenerateTriangles(host);
-      this->RequireClosed(executor, host, end);
+      this->DropDegenerateTriangles(progress);
+      this->RequireClosed(progress, end);
     });
 }
 
-void ClosedSurface::EnterPoints(AlgorithmProgress& host)
+void ClosedSurface::EnterPoints(Progress& progress)
 {
   this->Equal = std::make_unique<MergePoints>(this->Points.data(), this->NumberOfPoints);
   MergePoints& equal = *this->Equal;
-  host.Run(
-    SerialExecutor(), this->NumberOfPoints, Grain,
+  progress.ForInOrder(
+    this->NumberOfPoints, Grain,
     [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); }, Slow);
 }
 
 // The polygons without corners at the place of the one before, as at the poles of a sphere of
 // quads; those of fewer than three corners are dropped.
 vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
-  vtkCellArray* polygons, AlgorithmProgress& host) const
+  vtkCellArray* polygons, Progress& progress) const
 {
   const vtkIdType cells = polygons->GetNumberOfCells();
   const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
@@ -269,8 +263,8 @@ vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
   auto merged = vtkSmartPointer<vtkCellArray>::New();
   merged->AllocateExact(cells, ids);
   vtkNew<vtkIdList> corners;
-  host.Run(
-    SerialExecutor(), cells, Grain,
+  progress.ForInOrder(
+    cells, Grain,
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t polygon = first; polygon < last; ++polygon)
       {
@@ -298,25 +292,24 @@ vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
   return merged;
 }
 
-void ClosedSurface::ReadTriangles(
-  vtkCellArray* triangles, const Executor& executor, AlgorithmProgress& host)
+void ClosedSurface::ReadTriangles(vtkCellArray* triangles, Progress& progress)
 {
   this->Count = triangles->GetNumberOfCells();
   this->Triangles = LargeBuffer<std::int64_t>(3 * this->Count);
   vtkDataArray* ids = triangles->GetConnectivityArray();
   const CopyIds copy;
-  if (!DispatchIds::Execute(ids, copy, this->Triangles.data(), executor, host))
+  if (!DispatchIds::Execute(ids, copy, this->Triangles.data(), progress))
   {
-    copy(ids, this->Triangles.data(), executor, host);
+    copy(ids, this->Triangles.data(), progress);
   }
 }
 
 // Triangles with two corners at one point are dropped: their other two sides are then one edge.
-void ClosedSurface::DropDegenerateTriangles(AlgorithmProgress& host)
+void ClosedSurface::DropDegenerateTriangles(Progress& progress)
 {
   const MergePoints& equal = *this->Equal;
   std::int64_t kept = 0;
-  host.Run(SerialExecutor(), this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
+  progress.ForInOrder(this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t triangle = first; triangle < last; ++triangle)
     {
       const std::int64_t* from = this->Triangles.data() + 3 * triangle;
@@ -337,24 +330,23 @@ void ClosedSurface::DropDegenerateTriangles(AlgorithmProgress& host)
   this->Equal.reset();
 }
 
-void ClosedSurface::RequireClosed(const Executor& executor, AlgorithmProgress& host, double end)
+void ClosedSurface::RequireClosed(Progress& progress, double end)
 {
-  const SerialExecutor inOrder;
-  const double begin = host.Reached();
+  const double begin = progress.StageEnd();
   this->Edges =
     std::make_unique<SurfaceEdges>(this->Triangles.data(), this->Count, this->NumberOfPoints);
   SurfaceEdges& edges = *this->Edges;
-  host.BeginStage(begin + 0.2 * (end - begin));
-  host.Run(
-    inOrder, this->Count, Grain,
+  progress.BeginStage(begin + 0.2 * (end - begin));
+  progress.ForInOrder(
+    this->Count, Grain,
     [&edges](std::int64_t first, std::int64_t last) { edges.Count(first, last); }, Slow);
-  host.BeginStage(begin + 0.5 * (end - begin));
-  host.Run(
-    inOrder, this->Count, Grain,
+  progress.BeginStage(begin + 0.5 * (end - begin));
+  progress.ForInOrder(
+    this->Count, Grain,
     [&edges](std::int64_t first, std::int64_t last) { edges.Sort(first, last); }, Slow);
-  host.BeginStage(end);
-  host.Run(
-    executor, this->NumberOfPoints, Grain,
+  progress.BeginStage(end);
+  progress.For(
+    this->NumberOfPoints, Grain,
     [&edges](std::int64_t first, std::int64_t last) { edges.Pair(first, last); }, Slower);
   if (edges.Open() > 0 || edges.NonManifold() > 0)
   {
@@ -367,40 +359,40 @@ void ClosedSurface::RequireClosed(const Executor& executor, AlgorithmProgress& h
   }
 }
 
-TriangleSurface ClosedSurface::InCells(
-  const SolidGrid& grid, const Executor& executor, AlgorithmProgress& host, double end)
+TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
 {
   double* points = this->Points.data();
-  const double spacing = grid.Spacing();
-  const std::array<double, 3> corner = grid.Corner();
-  host.BeginStage(0.5 * (host.Reached() + end));
-  host.Run(executor, this->NumberOfPoints, Grain, [=](std::int64_t first, std::int64_t last) {
+  const double spacing = grid.Spacing()[0];
+  const Eigen::Vector3d corner = grid.Origin();
+  progress.BeginStage(0.5 * (progress.StageEnd() + end));
+  progress.For(this->NumberOfPoints, Grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (std::size_t a = 0; a < 3; ++a)
       {
         points[3 * i + static_cast<std::int64_t>(a)] =
-          (points[3 * i + static_cast<std::int64_t>(a)] - corner[a]) / spacing;
+          (points[3 * i + static_cast<std::int64_t>(a)] - corner[static_cast<Eigen::Index>(a)]) /
+          spacing;
       }
     }
   });
-  host.BeginStage(end);
+  progress.BeginStage(end);
   if (this->Edges->Reversed() > 0)
   {
     withMemory("the orientation of the surface's triangles",
       static_cast<double>(this->Count) * (sizeof(std::int64_t) + 1),
-      [this, &host]() { this->Orient(host); });
+      [this, &progress]() { this->Orient(progress); });
   }
   this->Edges.reset();
-  return { this->Points.data(), this->Triangles.data(), this->Count };
+  return { { this->Points.data(), this->NumberOfPoints }, this->Triangles.data(), this->Count };
 }
 
-void ClosedSurface::Orient(AlgorithmProgress& host)
+void ClosedSurface::Orient(Progress& progress)
 {
   SurfaceOrientation orientation(
     this->Points.data(), this->Triangles.data(), this->Count, *this->Edges);
-  host.Run(
-    SerialExecutor(), this->Count, Grain,
+  progress.ForInOrder(
+    this->Count, Grain,
     [&orientation](std::int64_t first, std::int64_t last) { orientation.Visit(last - first); },
     Slow);
   orientation.Visit(1); // turns the last component

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_ClosedSurface_h
 #define RectifiedTransport_ClosedSurface_h
 
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Solid/MergePoints.h"
 #include "Core/Solid/SolidCoverage.h"
 #include "Core/Solid/SurfaceEdges.h"
@@ -24,7 +24,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class SolidGrid;
+class ImageGrid;
 
 // The bounds of the points that polygons and strips use; the first is above the second if there are
 // none.
@@ -36,21 +36,20 @@ public:
   // Merges points of equal coordinates and cuts polygons and strips into triangles, as stages of
   // the run up to the progress `end`; lines and vertices do not count. Throws Failure where the
   // input has no polygons, coordinates that are not finite, or edges that have not two triangles,
-  // and Aborted.
-  ClosedSurface(vtkPolyData* input, const Executor& executor, AlgorithmProgress& host, double end);
+  // and Cancelled.
+  ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // Gives the points in cells of a grid, and the triangles of each component one orientation, as
-  // stages up to the progress `end`. Throws Failure where there is no orientation, and Aborted.
-  TriangleSurface InCells(
-    const SolidGrid& grid, const Executor& executor, AlgorithmProgress& host, double end);
+  // stages up to the progress `end`. Throws Failure where there is no orientation, and Cancelled.
+  TriangleSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:
-  void EnterPoints(AlgorithmProgress& host);
-  vtkSmartPointer<vtkCellArray> MergeCorners(vtkCellArray* polygons, AlgorithmProgress& host) const;
-  void ReadTriangles(vtkCellArray* triangles, const Executor& executor, AlgorithmProgress& host);
-  void DropDegenerateTriangles(AlgorithmProgress& host);
-  void RequireClosed(const Executor& executor, AlgorithmProgress& host, double end);
-  void Orient(AlgorithmProgress& host);
+  void EnterPoints(Progress& progress);
+  vtkSmartPointer<vtkCellArray> MergeCorners(vtkCellArray* polygons, Progress& progress) const;
+  void ReadTriangles(vtkCellArray* triangles, Progress& progress);
+  void DropDegenerateTriangles(Progress& progress);
+  void RequireClosed(Progress& progress, double end);
+  void Orient(Progress& progress);
 
   LargeBuffer<double> Points;
   LargeBuffer<std::int64_t> Triangles;

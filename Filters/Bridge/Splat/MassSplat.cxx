@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Splat/MassSplat.h"
 
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDoubleArray.h"
@@ -21,40 +21,35 @@ namespace
 template <class Real>
 struct MassPoints
 {
-  const Real* Points;
-  std::int64_t Count;
+  ConstPointSpan<3, Real> Points;
   const double* Masses;
   double MassEach;
 };
 
 template <int D, class Real>
-SplatReport splatInto(const MassPoints<Real>& input, const SplatTarget& target,
-  const Executor& executor, AlgorithmProgress& host, double* cells)
+SplatReport splatInto(
+  const MassPoints<Real>& input, const SplatTarget& target, Progress& progress, double* cells)
 {
-  const ImageGeometry& geometry = target.Geometry;
-  const SplatParticles<D, Real> particles{ input.Points, input.Count, input.Masses, input.MassEach,
+  const ImageGrid& geometry = target.Geometry;
+  const SplatParticles<D, Real> particles{ input.Points, input.Masses, input.MassEach,
     geometry.ToIndexMap<D>() };
   const double scale = target.DivideByVolume ? 1.0 / geometry.CellMeasure() : 1.0;
-  const double bytes = 8.0 * static_cast<double>(input.Count);
+  const double bytes = 8.0 * static_cast<double>(input.Points.size());
   return withMemory("putting the points in order", bytes, [&]() {
     return splatMass<D, Real>(
-      particles, geometry.Size<D>(), target.Options, scale, cells, executor, host.GetMonitor());
+      particles, geometry.Size<D>(), target.Options, scale, cells, progress.Stage());
   });
 }
 
 template <class Real>
-std::int64_t splatAll(const MassPoints<Real>& input, const SplatTarget& target,
-  const Executor& executor, AlgorithmProgress& host, vtkDoubleArray* array)
+std::int64_t splatAll(const MassPoints<Real>& input, const SplatTarget& target, Progress& progress,
+  vtkDoubleArray* array)
 {
   double* cells = array->GetPointer(0);
   const int dimension = target.Geometry.Dimension();
-  const SplatReport report = dimension == 1 ? splatInto<1>(input, target, executor, host, cells)
-    : dimension == 2                        ? splatInto<2>(input, target, executor, host, cells)
-                                            : splatInto<3>(input, target, executor, host, cells);
-  if (report.Cancelled)
-  {
-    throw Aborted();
-  }
+  const SplatReport report = dimension == 1 ? splatInto<1>(input, target, progress, cells)
+    : dimension == 2                        ? splatInto<2>(input, target, progress, cells)
+                                            : splatInto<3>(input, target, progress, cells);
   return report.Outside;
 }
 
@@ -75,21 +70,19 @@ void requireFiniteDensity(
 }
 
 std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
-  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
-  vtkDoubleArray* cells)
+  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells)
 {
-  return splatAll<double>({ points, count, nullptr, massEach }, target, executor, host, cells);
+  return splatAll<double>({ { points, count }, nullptr, massEach }, target, progress, cells);
 }
 
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
-  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
-  vtkDoubleArray* cells)
+  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells)
 {
   const vtkIdType count = points->GetNumberOfTuples();
   if (auto* single = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
   {
     return splatAll<float>(
-      { single->GetPointer(0), count, masses, massEach }, target, executor, host, cells);
+      { { single->GetPointer(0), count }, masses, massEach }, target, progress, cells);
   }
   vtkSmartPointer<vtkDataArray> copy;
   auto* whole = vtkAOSDataArrayTemplate<double>::FastDownCast(points);
@@ -100,17 +93,16 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
     whole = vtkAOSDataArrayTemplate<double>::FastDownCast(copy);
   }
   return splatAll<double>(
-    { whole->GetPointer(0), count, masses, massEach }, target, executor, host, cells);
+    { { whole->GetPointer(0), count }, masses, massEach }, target, progress, cells);
 }
 
-double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor,
-  AlgorithmProgress& host)
+double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const vtkIdType count = cells->GetNumberOfTuples();
   const double* values = cells->GetPointer(0);
   std::vector<double> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0.0);
-  host.Run(executor, count, grain, [&sums, values](std::int64_t first, std::int64_t last) {
+  progress.For(count, grain, [&sums, values](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       sums[static_cast<std::size_t>(i / grain)] += values[i];

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_MassSplat_h
 #define RectifiedTransport_MassSplat_h
 
-#include "Bridge/Image/ImageGeometry.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Splat/Splat.h"
 
 #include <cstdint>
@@ -18,12 +18,12 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class AlgorithmProgress;
+class Progress;
 
 // Where the mass goes, and how.
 struct SplatTarget
 {
-  const ImageGeometry& Geometry;
+  const ImageGrid& Geometry;
   SplatOptions Options;
   bool DivideByVolume; // densities, else masses
 };
@@ -36,20 +36,17 @@ void requireFiniteDensity(
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
 // component and a tuple for each, as the work of the current stage. Points have 3 finite
 // coordinates each. Returns how many of them are outside of the domain (see SplatReport). Throws
-// Failure where memory is short, and Aborted.
+// Failure where memory is short, and Cancelled.
 std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
-  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
-  vtkDoubleArray* cells);
+  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
 // The same of an array of points and one mass for each; without masses they have `massEach`.
 // Points of a type other than double and float are copied.
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
-  const SplatTarget& target, const Executor& executor, AlgorithmProgress& host,
-  vtkDoubleArray* cells);
+  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The mass of all cells that have been written, as the work of the current stage. Throws Aborted.
-double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, const Executor& executor,
-  AlgorithmProgress& host);
+// The mass of all cells that have been written, as the work of the current stage. Throws Cancelled.
+double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 
 } // namespace RectifiedTransport
 

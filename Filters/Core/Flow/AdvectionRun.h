@@ -7,8 +7,7 @@
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Flow/LatticeOrder.h"
-#include "Core/Parallel/Executor.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 
 #include <algorithm>
@@ -114,11 +113,11 @@ class RangeAdvection
 {
 public:
   RangeAdvection(
-    const FlowJob<Dimension>& job, int firstRefinement, Counters& counters, Pacer& pacer)
+    const FlowJob<Dimension>& job, int firstRefinement, Counters& counters, Progress& progress)
     : Job(job)
     , First(firstRefinement)
     , Count(counters)
-    , Pace(pacer)
+    , Pace(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
@@ -190,7 +189,7 @@ private:
   const FlowJob<Dimension>& Job;
   const int First;
   Counters& Count;
-  Pacer& Pace;
+  Progress& Pace;
   const AdvectBlock<Dimension> Advect;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
@@ -202,17 +201,16 @@ template <int Dimension>
 class LeftoverAdvection
 {
 public:
-  LeftoverAdvection(const FlowJob<Dimension>& job, Counters& counters, Pacer& pacer)
+  LeftoverAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
     : Job(job)
     , Count(counters)
-    , Pace(pacer)
+    , Pace(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
 
   // With ever more steps, twice as many each time, from `refinement` on.
-  void Run(
-    const std::vector<Leftovers<Dimension>>& ranges, int refinement, const Executor& executor)
+  void Run(const std::vector<Leftovers<Dimension>>& ranges, int refinement)
   {
     for (const Leftovers<Dimension>& range : ranges)
     {
@@ -222,10 +220,10 @@ public:
     this->Troubled.resize(this->Index.size());
     for (; !this->Index.empty() && refinement <= refinements; ++refinement)
     {
-      this->Pass(refinement, executor);
+      this->Pass(refinement);
     }
     const auto left = static_cast<std::int64_t>(this->Index.size());
-    executor.For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
+    this->Pace.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last && !this->Pace.ShouldStop(); ++i)
       {
         moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
@@ -234,19 +232,20 @@ public:
   }
 
 private:
-  void Pass(int refinement, const Executor& executor)
+  void Pass(int refinement)
   {
     const auto count = static_cast<std::int64_t>(this->Index.size());
-    executor.For(count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
-      if (this->Pace.ShouldStop())
-      {
-        return;
-      }
-      bool troubled[BlockSize] = {};
-      this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
-        this->Index.data() + first, static_cast<int>(last - first), refinement, troubled);
-      std::copy(troubled, troubled + (last - first), this->Troubled.data() + first);
-    });
+    this->Pace.Threads().For(
+      count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
+        if (this->Pace.ShouldStop())
+        {
+          return;
+        }
+        bool troubled[BlockSize] = {};
+        this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
+          this->Index.data() + first, static_cast<int>(last - first), refinement, troubled);
+        std::copy(troubled, troubled + (last - first), this->Troubled.data() + first);
+      });
     std::size_t left = 0;
     for (std::size_t i = 0; i < this->Index.size(); ++i)
     {
@@ -263,7 +262,7 @@ private:
 
   const FlowJob<Dimension>& Job;
   Counters& Count;
-  Pacer& Pace;
+  Progress& Pace;
   const AdvectBlock<Dimension> Advect;
   std::vector<std::int64_t> Index;
   std::vector<double> Seeds;
@@ -340,9 +339,9 @@ class AdvectionRun
 public:
   AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
     double* positions, bool backward, const FlowOptions& options, std::int64_t count,
-    const Monitor& monitor, bool toPoints = false)
+    const Context& context, bool toPoints = false)
     : First(toPoints ? firstRefinement(options) : 0)
-    , Pace(monitor)
+    , Pace(context)
   {
     check(options);
     this->Job.Tables = tables;
@@ -365,7 +364,7 @@ public:
       }
     }
     this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
-    this->Job.ShouldStop = [](void* host) { return static_cast<Pacer*>(host)->ShouldStop(); };
+    this->Job.ShouldStop = [](void* host) { return static_cast<Progress*>(host)->ShouldStop(); };
     this->Job.Host = &this->Pace;
     this->Pace.BeginStage(1.0, count);
     // A range is short enough to be waited for, however many steps there are.
@@ -378,9 +377,9 @@ public:
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
-  // Advects the first `count` particles of a source. False if the host wants to stop.
+  // Advects the first `count` particles of a source. Throws Cancelled.
   template <class Source>
-  bool Advect(const Source& source, std::int64_t count, const Executor& executor)
+  void Advect(const Source& source, std::int64_t count)
   {
     constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
     std::vector<Leftovers<Dimension>> leftovers;
@@ -388,7 +387,7 @@ public:
     const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
       const std::size_t before = leftovers.size();
       leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
-      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+      this->Pace.Threads().For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
         range.RunOnce(source, begin + first, static_cast<int>(last - first),
           leftovers[before + static_cast<std::size_t>(first / this->Grain)]);
@@ -400,20 +399,19 @@ public:
       if (left >= enough || begin + slice == count)
       {
         LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
-          .Run(leftovers, this->First + 1, executor);
+          .Run(leftovers, this->First + 1);
         leftovers.clear();
         left = 0;
       }
     };
-    return this->Run(count, executor, runSlice);
+    this->Run(count, runSlice);
   }
 
-  // Advects the samples of a lattice and writes the cell that each comes to.
-  bool AdvectToCells(
-    const LatticeOrder<Dimension>& lattice, std::int64_t* cells, const Executor& executor)
+  // Advects the samples of a lattice and writes the cell that each comes to. Throws Cancelled.
+  void AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
     const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
-      executor.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+      this->Pace.Threads().For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
         RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
@@ -424,7 +422,7 @@ public:
         }
       });
     };
-    return this->Run(lattice.Count(), executor, runSlice);
+    this->Run(lattice.Count(), runSlice);
   }
 
   FlowReport Report() const
@@ -433,33 +431,28 @@ public:
     report.Redone = this->Count.Redone;
     report.MovedToMass = this->Count.MovedToMass;
     report.Evaluations = this->Count.Evaluations;
-    report.Cancelled = this->Pace.IsCancelled();
     return report;
   }
 
 private:
   template <class RunSlice>
-  bool Run(std::int64_t count, const Executor& executor, const RunSlice& runSlice)
+  void Run(std::int64_t count, const RunSlice& runSlice)
   {
     for (std::int64_t begin = 0; begin < count;)
     {
-      const std::int64_t slice =
-        std::min(count - begin, this->Pace.NextSlice(this->Grain * executor.Concurrency()));
+      const std::int64_t slice = std::min(
+        count - begin, this->Pace.NextSlice(this->Grain * this->Pace.Threads().Concurrency()));
       runSlice(begin, slice);
       begin += slice;
-      if (!this->Pace.EndSlice(slice))
-      {
-        return false;
-      }
+      this->Pace.EndSlice(slice);
     }
-    return true;
   }
 
   const int First;
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;
   Counters Count;
-  Pacer Pace;
+  Progress Pace;
   std::int64_t Grain = BlockSize;
 };
 

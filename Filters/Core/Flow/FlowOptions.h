@@ -43,7 +43,6 @@ struct FlowReport
   std::int64_t Redone = 0;      // particles that met an empty box or ended in an empty cell
   std::int64_t MovedToMass = 0; // those that no smaller step helped: put on the nearest mass
   std::int64_t Evaluations = 0; // velocity evaluations
-  bool Cancelled = false;       // positions are then undefined
 };
 
 } // namespace RectifiedTransport

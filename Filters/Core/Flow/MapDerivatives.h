@@ -19,10 +19,10 @@ template <int Dimension>
 class MapDerivatives
 {
 public:
-  // `positions` are where the map takes the centres of the cells, Dimension doubles each, axis 0
-  // fastest; `step` is the width of a cell in the same units.
-  MapDerivatives(
-    const GridSize<Dimension>& lattice, const Point<Dimension>& step, const double* positions)
+  // `positions` are where the map takes the centres of the cells, axis 0 fastest; `step` is the
+  // width of a cell in the same units.
+  MapDerivatives(const GridSize<Dimension>& lattice, const Point<Dimension>& step,
+    ConstPointSpan<Dimension> positions)
     : Lattice(lattice)
     , Step(step)
     , Positions(positions)
@@ -35,7 +35,7 @@ public:
 private:
   GridSize<Dimension> Lattice;
   Point<Dimension> Step;
-  const double* Positions;
+  ConstPointSpan<Dimension> Positions;
 };
 
 } // namespace RectifiedTransport

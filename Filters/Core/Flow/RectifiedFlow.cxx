@@ -4,7 +4,7 @@
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/ParticleOrder.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/NearestMass.h"
 #include "Core/Tables/SummedAreaTables.h"
@@ -41,6 +41,15 @@ void check(const std::vector<double>& times)
   }
 }
 
+void checkCount(std::int64_t positions, double expected)
+{
+  if (static_cast<double>(positions) != expected)
+  {
+    throw std::invalid_argument("there is memory for " + std::to_string(positions) +
+      " positions, there must be " + std::to_string(static_cast<std::int64_t>(expected)));
+  }
+}
+
 template <int Dimension>
 void check(const GridSize<Dimension>& size, const char* what)
 {
@@ -58,7 +67,7 @@ void check(const GridSize<Dimension>& size, const char* what)
 template <int Dimension>
 struct SortedPoints
 {
-  const double* Points;
+  ConstPointSpan<Dimension> Points;
   const std::int64_t* Order;
 
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
@@ -66,64 +75,73 @@ struct SortedPoints
     for (int i = 0; i < count; ++i)
     {
       index[i] = this->Order[first + i];
-      std::copy_n(this->Points + index[i] * Dimension, Dimension, points + i * Dimension);
+      std::copy_n(this->Points[index[i]], Dimension, points + i * Dimension);
     }
   }
 };
+
+template <int Dimension>
+SummedAreaTables<Dimension> build(
+  const DensitySource<Dimension>& density, const Context& context, TableMemory memory)
+{
+  check<Dimension>(density.Size, "a density");
+  Progress progress(context);
+  return SummedAreaTables<Dimension>(density, progress, std::move(memory));
+}
 
 } // namespace
 
 template <int Dimension>
 struct RectifiedFlow<Dimension>::Internals
 {
-  Internals(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer,
-    TableMemory memory = {})
-    : Size(density.Size())
-    , Tables(density, executor, pacer, std::move(memory))
+  Internals(
+    const DensitySource<Dimension>& density, const Context& context, TableMemory memory = {})
+    : Size(density.Size)
+    , Tables(build(density, context, std::move(memory)))
   {
   }
 
-  FlowReport Advect(const double* points, std::int64_t count, const std::vector<double>& times,
-    double* positions, bool backward, const FlowOptions& options, const Executor& executor,
-    const Monitor& monitor) const;
+  FlowReport Advect(ConstPointSpan<Dimension> points, const std::vector<double>& times,
+    PointSpan<Dimension> positions, bool backward, const FlowOptions& options,
+    const Context& context) const;
   FlowReport AdvectLattice(const GridSize<Dimension>& lattice, const Point<Dimension>& place,
-    double* positions, bool backward, const FlowOptions& options, const Executor& executor,
-    const Monitor& monitor) const;
+    PointSpan<Dimension> positions, bool backward, const FlowOptions& options,
+    const Context& context) const;
 
   GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
 };
 
 template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::Internals::Advect(const double* points, std::int64_t count,
-  const std::vector<double>& times, double* positions, bool backward, const FlowOptions& options,
-  const Executor& executor, const Monitor& monitor) const
+FlowReport RectifiedFlow<Dimension>::Internals::Advect(ConstPointSpan<Dimension> points,
+  const std::vector<double>& times, PointSpan<Dimension> positions, bool backward,
+  const FlowOptions& options, const Context& context) const
 {
+  const std::size_t each = std::max<std::size_t>(times.size(), 1);
+  checkCount(positions.size(), static_cast<double>(points.size()) * static_cast<double>(each));
   AdvectionRun<Dimension> run(
-    this->Tables.View(), times, positions, backward, options, count, monitor);
+    this->Tables.View(), times, positions.data(), backward, options, points.size(), context);
   ParticleOrder<Dimension> order;
-  for (std::int64_t chunk = 0; chunk < count; chunk += chunkParticles)
+  for (std::int64_t chunk = 0; chunk < points.size(); chunk += chunkParticles)
   {
-    const std::int64_t length = std::min(chunkParticles, count - chunk);
-    const std::int64_t wrong = order.Sort(points, chunk, length, particlesPerTile);
+    const std::int64_t length = std::min(chunkParticles, points.size() - chunk);
+    const std::int64_t wrong = order.Sort(points.data(), chunk, length, particlesPerTile);
     if (wrong >= 0)
     {
       throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
     }
-    if (!run.Advect(SortedPoints<Dimension>{ points, order.Order() }, length, executor))
-    {
-      break;
-    }
+    run.Advect(SortedPoints<Dimension>{ points, order.Order() }, length);
   }
   return run.Report();
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Internals::AdvectLattice(const GridSize<Dimension>& lattice,
-  const Point<Dimension>& place, double* positions, bool backward, const FlowOptions& options,
-  const Executor& executor, const Monitor& monitor) const
+  const Point<Dimension>& place, PointSpan<Dimension> positions, bool backward,
+  const FlowOptions& options, const Context& context) const
 {
   check<Dimension>(lattice, "a lattice");
+  checkCount(positions.size(), numberOfCells<Dimension>(lattice));
   for (const double coordinate : place)
   {
     if (!(coordinate >= 0.0 && coordinate <= 1.0))
@@ -134,33 +152,28 @@ FlowReport RectifiedFlow<Dimension>::Internals::AdvectLattice(const GridSize<Dim
   }
   const LatticeOrder<Dimension> order(lattice, this->Size, place);
   AdvectionRun<Dimension> run(
-    this->Tables.View(), {}, positions, backward, options, order.Count(), monitor);
-  run.Advect(order, order.Count(), executor);
+    this->Tables.View(), {}, positions.data(), backward, options, order.Count(), context);
+  run.Advect(order, order.Count());
   return run.Report();
 }
 
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
-  const DensitySource<Dimension>& density, const Executor& executor, const Monitor& monitor)
+  const DensitySource<Dimension>& density, const Context& context)
+  : Data(std::make_unique<Internals>(density, context))
 {
-  check<Dimension>(density.Size(), "a density");
-  Pacer pacer(monitor);
-  this->Data = std::make_unique<Internals>(density, executor, pacer);
 }
 
 template <int Dimension>
-RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
-  RectifiedFlow&& previous, const Executor& executor, const Monitor& monitor)
+RectifiedFlow<Dimension>::RectifiedFlow(
+  const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
 {
-  check<Dimension>(density.Size(), "a density");
-  Pacer pacer(monitor);
   TableMemory memory;
-  if (previous.Data)
+  if (const std::unique_ptr<Internals> data = std::move(previous.Data))
   {
-    memory = previous.Data->Tables.ReleaseMemory();
-    previous.Data.reset();
+    memory = data->Tables.ReleaseMemory();
   }
-  this->Data = std::make_unique<Internals>(density, executor, pacer, std::move(memory));
+  this->Data = std::make_unique<Internals>(density, context, std::move(memory));
 }
 
 template <int Dimension>
@@ -171,12 +184,6 @@ RectifiedFlow<Dimension>::RectifiedFlow(RectifiedFlow&&) noexcept = default;
 
 template <int Dimension>
 RectifiedFlow<Dimension>& RectifiedFlow<Dimension>::operator=(RectifiedFlow&&) noexcept = default;
-
-template <int Dimension>
-RectifiedFlow<Dimension>::operator bool() const
-{
-  return this->Data && this->Data->Tables.IsComplete();
-}
 
 template <int Dimension>
 const GridSize<Dimension>& RectifiedFlow<Dimension>::Size() const
@@ -225,71 +232,62 @@ double RectifiedFlow<Dimension>::MeasureOfShare(
 }
 
 template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::Forward(const double* seeds, std::int64_t count,
-  double* positions, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+FlowReport RectifiedFlow<Dimension>::Forward(ConstPointSpan<Dimension> seeds,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Data->Advect(seeds, count, {}, positions, false, options, executor, monitor);
+  return this->Data->Advect(seeds, {}, positions, false, options, context);
 }
 
 template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::ForwardAt(const double* seeds, std::int64_t count,
-  const std::vector<double>& times, double* positions, const FlowOptions& options,
-  const Executor& executor, const Monitor& monitor) const
+FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
+  const std::vector<double>& times, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context) const
 {
   check(times);
-  return this->Data->Advect(seeds, count, times, positions, false, options, executor, monitor);
+  return this->Data->Advect(seeds, times, positions, false, options, context);
 }
 
 template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::Backward(const double* points, std::int64_t count,
-  double* positions, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Data->Advect(points, count, {}, positions, true, options, executor, monitor);
+  return this->Data->Advect(points, {}, positions, true, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  double* positions, const FlowOptions& options, const Executor& executor, const Monitor& monitor,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context,
   const Point<Dimension>& place) const
 {
-  return this->Data->AdvectLattice(lattice, place, positions, false, options, executor, monitor);
+  return this->Data->AdvectLattice(lattice, place, positions, false, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
-  double* positions, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
   return this->Data->AdvectLattice(
-    lattice, cellCentre<Dimension>(), positions, true, options, executor, monitor);
+    lattice, cellCentre<Dimension>(), positions, true, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimension>& lattice,
-  std::int64_t* cells, const FlowOptions& options, const Executor& executor,
-  const Monitor& monitor) const
+  std::int64_t* cells, const FlowOptions& options, const Context& context) const
 {
   check<Dimension>(lattice, "a lattice");
   const LatticeOrder<Dimension> order(lattice, this->Data->Size);
   AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, nullptr, false, options, order.Count(), monitor, true);
-  run.AdvectToCells(order, cells, executor);
+    this->Data->Tables.View(), {}, nullptr, false, options, order.Count(), context, true);
+  run.AdvectToCells(order, cells);
   return run.Report();
 }
 
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
-  const std::vector<Point<Dimension>>& seeds, const FlowOptions& options)
+  ConstPointSpan<Dimension> seeds, const FlowOptions& options)
 {
-  const RectifiedFlow<Dimension> flow(density);
-  std::vector<Point<Dimension>> positions(seeds.size());
-  if (!seeds.empty())
-  {
-    flow.Forward(
-      seeds[0].data(), static_cast<std::int64_t>(seeds.size()), positions[0].data(), options);
-  }
+  std::vector<Point<Dimension>> positions(static_cast<std::size_t>(seeds.size()));
+  RectifiedFlow<Dimension>(density).Forward(seeds, positions, options);
   return positions;
 }
 
@@ -297,10 +295,10 @@ template class RectifiedFlow<1>;
 template class RectifiedFlow<2>;
 template class RectifiedFlow<3>;
 template std::vector<Point<1>> transportPoints<1>(
-  const DensitySource<1>&, const std::vector<Point<1>>&, const FlowOptions&);
+  const DensitySource<1>&, ConstPointSpan<1>, const FlowOptions&);
 template std::vector<Point<2>> transportPoints<2>(
-  const DensitySource<2>&, const std::vector<Point<2>>&, const FlowOptions&);
+  const DensitySource<2>&, ConstPointSpan<2>, const FlowOptions&);
 template std::vector<Point<3>> transportPoints<3>(
-  const DensitySource<3>&, const std::vector<Point<3>>&, const FlowOptions&);
+  const DensitySource<3>&, ConstPointSpan<3>, const FlowOptions&);
 
 } // namespace RectifiedTransport

@@ -11,13 +11,13 @@
 //   RectifiedFlow<2> flow(source);                                  // keeps the tables
 //   FlowOptions options;
 //   options.NumberOfSteps = 64;
-//   flow.Forward(seeds[0].data(), seeds.size(), particles[0].data(), options);
-//   flow.Backward(particles[0].data(), seeds.size(), seeds[0].data(), options);
+//   flow.Forward(seeds, particles, options);
+//   flow.Backward(particles, seeds, options);
 #ifndef RectifiedTransport_RectifiedFlow_h
 #define RectifiedTransport_RectifiedFlow_h
 
 #include "Core/Flow/FlowOptions.h"
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
@@ -30,23 +30,20 @@ namespace RectifiedTransport
 // The summed-area tables of one density and the flow that they define. Construction costs
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
 // Every particle's result depends on its seed and the density alone, to the last bit.
-// Throws InvalidDensity, std::invalid_argument (options) and std::bad_alloc.
+// Throws InvalidDensity, std::invalid_argument (options, sizes), std::bad_alloc and Cancelled.
 template <int Dimension>
 class RectifiedFlow
 {
 public:
-  explicit RectifiedFlow(const DensitySource<Dimension>& density,
-    const Executor& executor = OpenMPExecutor(), const Monitor& monitor = {});
+  explicit RectifiedFlow(
+    const DensitySource<Dimension>& density, const Context& context = Context());
   // The same in the memory of `previous`, where its tables are as large: for a density that changes
   // with time. It takes about half the time that new memory takes, and never holds both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,
-    const Executor& executor = OpenMPExecutor(), const Monitor& monitor = {});
+    const Context& context = Context());
   ~RectifiedFlow();
   RectifiedFlow(RectifiedFlow&&) noexcept;
   RectifiedFlow& operator=(RectifiedFlow&&) noexcept;
-
-  // False if the monitor cancelled the construction; nothing else may be called then.
-  explicit operator bool() const;
 
   const GridSize<Dimension>& Size() const;
   double Total() const;              // sum of the density over the cells
@@ -61,40 +58,36 @@ public:
   double MeasureOfShare(
     const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
 
-  // Advects points of time 0 (uniform) to time 1 (distributed like the density). Arrays hold
-  // count * Dimension doubles, a point's coordinates together, and may be the same array. Points
-  // outside the box are taken from its border.
-  FlowReport Forward(const double* seeds, std::int64_t count, double* positions,
-    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+  // Advects points of time 0 (uniform) to time 1 (distributed like the density). There are as many
+  // positions as seeds, and both may be in the same memory. Points outside the box are taken from
+  // its border.
+  FlowReport Forward(ConstPointSpan<Dimension> seeds, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context()) const;
 
-  // The positions at several times of [0,1], ascending, from one run: positions holds count *
-  // times.size() * Dimension doubles, all times of a particle together.
-  FlowReport ForwardAt(const double* seeds, std::int64_t count, const std::vector<double>& times,
-    double* positions, const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+  // The positions at several times of [0,1], ascending, from one run: all times of a particle
+  // together.
+  FlowReport ForwardAt(ConstPointSpan<Dimension> seeds, const std::vector<double>& times,
+    PointSpan<Dimension> positions, const FlowOptions& options = {},
+    const Context& context = Context()) const;
 
   // Advects points of time 1 back to time 0: the inverse map, density to uniform.
-  FlowReport Backward(const double* points, std::int64_t count, double* positions,
-    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+  FlowReport Backward(ConstPointSpan<Dimension> points, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context()) const;
 
   // The same for the centres of a grid of cells that fill the box, axis 0 fastest; cells along an
-  // axis: 1 to 2^30. It needs neither an array of points nor a sort. Positions hold as many points.
-  // Forwards also for the points at another `place` in the cells, in [0,1].
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, double* positions,
-    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}, const Point<Dimension>& place = cellCentre<Dimension>()) const;
-  FlowReport BackwardLattice(const GridSize<Dimension>& lattice, double* positions,
-    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+  // axis: 1 to 2^30. It needs neither an array of points nor a sort. Forwards also for the points
+  // at another `place` in the cells, in [0,1].
+  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context(),
+    const Point<Dimension>& place = cellCentre<Dimension>()) const;
+  FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context()) const;
 
   // Forwards too, but of every sample only the cell of the density that it comes to, which has
   // mass: cells are numbered with axis 0 fastest. For densities of few cells scattered like points,
   // which most particles miss at first: fewer than 128 steps become up to 32 times as many at once.
   FlowReport ForwardLatticeToCells(const GridSize<Dimension>& lattice, std::int64_t* cells,
-    const FlowOptions& options = {}, const Executor& executor = OpenMPExecutor(),
-    const Monitor& monitor = {}) const;
+    const FlowOptions& options = {}, const Context& context = Context()) const;
 
 private:
   struct Internals;
@@ -104,7 +97,7 @@ private:
 // One-off: builds the tables, transports the points, forgets the tables.
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
-  const std::vector<Point<Dimension>>& seeds, const FlowOptions& options = {});
+  ConstPointSpan<Dimension> seeds, const FlowOptions& options = {});
 
 } // namespace RectifiedTransport
 

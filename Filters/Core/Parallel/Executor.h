@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -80,15 +79,6 @@ class OpenMPExecutor final : public Executor
 public:
   void For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const override;
   int Concurrency() const override;
-};
-
-// What the host wants to hear and may say during long work. Progress is in [0,1] and called on
-// the thread that called the library only; Cancelled may be called on any thread, one at a time.
-// Neither may throw.
-struct Monitor
-{
-  std::function<void(double)> Progress;
-  std::function<bool()> Cancelled;
 };
 
 } // namespace RectifiedTransport

@@ -2,7 +2,7 @@
 #include "Core/Quality/NearestNeighbours.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <array>
@@ -36,38 +36,8 @@ struct TreeBox
   std::int64_t Second;
 };
 
-// Work of a known number of units in pieces short enough for the host.
-class Pieces
-{
-public:
-  static constexpr std::int64_t Most = std::int64_t{ 1 } << 15;
-
-  Pieces(Pacer& pacer, double end, std::int64_t units)
-    : Pace(pacer)
-  {
-    pacer.BeginStage(end, units);
-    this->Slice = pacer.NextSlice(Most);
-  }
-
-  // False if the host wants to stop.
-  bool Finish(std::int64_t units)
-  {
-    this->Done += units;
-    if (this->Done < this->Slice)
-    {
-      return true;
-    }
-    const bool goOn = this->Pace.EndSlice(this->Done);
-    this->Done = 0;
-    this->Slice = this->Pace.NextSlice(Most);
-    return goOn;
-  }
-
-private:
-  Pacer& Pace;
-  std::int64_t Done = 0;
-  std::int64_t Slice = 0;
-};
+// Points between two looks whether to stop.
+constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
 
 class PointTree
 {
@@ -77,8 +47,8 @@ public:
   {
   }
 
-  // False if the host wants to stop.
-  bool Build(const double* points, Pacer& pacer, double progress)
+  // Throws Cancelled.
+  void Build(ConstPointSpan<3> points, Progress& progress, double end)
   {
     struct Task
     {
@@ -93,11 +63,8 @@ public:
     {
       passes += 2;
     }
-    Pieces pieces(pacer, progress, passes * count);
-    if (!this->Read(points, pieces))
-    {
-      return false;
-    }
+    progress.BeginStage(end, passes * count);
+    this->Read(points, progress);
     std::vector<Task> tasks{ { 0, count, -1 } };
     while (!tasks.empty())
     {
@@ -109,23 +76,15 @@ public:
         this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
       }
       TreeBox made = EmptyBox(task.First, task.Last);
-      if (!this->Bound(made, pieces))
-      {
-        return false;
-      }
+      this->Bound(made, progress);
       this->Boxes.push_back(made);
-      std::int64_t middle = task.First;
-      if (!this->Divide(made, middle, pieces))
-      {
-        return false;
-      }
+      const std::int64_t middle = this->Divide(made, progress);
       if (middle > task.First)
       {
         tasks.push_back({ middle, task.Last, box });
         tasks.push_back({ task.First, middle, -1 });
       }
     }
-    return true;
   }
 
   const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
@@ -169,30 +128,26 @@ private:
       -1 };
   }
 
-  bool Read(const double* points, Pieces& pieces)
+  void Read(ConstPointSpan<3> points, Progress& progress)
   {
     TreePoint* to = this->Points.data();
-    for (std::int64_t first = 0; first < this->Points.size(); first += Pieces::Most)
+    for (std::int64_t first = 0; first < this->Points.size(); first += mostAtOnce)
     {
-      const std::int64_t last = std::min(first + Pieces::Most, this->Points.size());
+      const std::int64_t last = std::min(first + mostAtOnce, this->Points.size());
       for (std::int64_t i = first; i < last; ++i)
       {
-        std::copy_n(points + 3 * i, 3, to[i].X);
+        std::copy_n(points[i], 3, to[i].X);
         to[i].Id = i;
       }
-      if (!pieces.Finish(last - first))
-      {
-        return false;
-      }
+      progress.Add(last - first);
     }
-    return true;
   }
 
-  bool Bound(TreeBox& box, Pieces& pieces) const
+  void Bound(TreeBox& box, Progress& progress) const
   {
-    for (std::int64_t first = box.First; first < box.Last; first += Pieces::Most)
+    for (std::int64_t first = box.First; first < box.Last; first += mostAtOnce)
     {
-      const std::int64_t last = std::min(first + Pieces::Most, box.Last);
+      const std::int64_t last = std::min(first + mostAtOnce, box.Last);
       for (int r = 0; r < 3; ++r)
       {
         double low = box.Low[r];
@@ -205,19 +160,15 @@ private:
         box.Low[r] = low;
         box.High[r] = high;
       }
-      if (!pieces.Finish(last - first))
-      {
-        return false;
-      }
+      progress.Add(last - first);
     }
-    return true;
   }
 
   // Sorts the points of a box into two parts along its widest axis, about the median of a sample.
-  // The second begins at `middle`, the first point of the box if it stays whole.
-  bool Divide(const TreeBox& box, std::int64_t& middle, Pieces& pieces)
+  // Returns where the second begins, the first point of the box if it stays whole.
+  std::int64_t Divide(const TreeBox& box, Progress& progress)
   {
-    middle = box.First;
+    std::int64_t middle = box.First;
     int axis = 0;
     for (int r = 1; r < 3; ++r)
     {
@@ -226,7 +177,7 @@ private:
     const std::int64_t count = box.Last - box.First;
     if (count <= leafPoints || !(box.High[axis] > box.Low[axis]))
     {
-      return true;
+      return middle;
     }
     std::array<double, 63> sample;
     const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
@@ -247,7 +198,7 @@ private:
     while (middle < last)
     {
       const std::int64_t open = last - middle;
-      while (middle < last && open - (last - middle) < Pieces::Most)
+      while (middle < last && open - (last - middle) < mostAtOnce)
       {
         if (isBelow(points[middle]))
         {
@@ -262,12 +213,9 @@ private:
           std::swap(points[middle++], points[--last]);
         }
       }
-      if (!pieces.Finish(open - (last - middle)))
-      {
-        return false;
-      }
+      progress.Add(open - (last - middle));
     }
-    return true;
+    return middle;
   }
 
   // The squared distance of a point from a box.
@@ -289,37 +237,25 @@ private:
 
 } // namespace
 
-bool nearestDistances(const double* points, std::int64_t count, double* distances,
-  const Executor& executor, const Monitor& monitor)
+void nearestDistances(ConstPointSpan<3> points, double* distances, const Context& context)
 {
-  Pacer pacer(monitor);
-  PointTree tree(count);
-  if (!tree.Build(points, pacer, 0.4))
-  {
-    return false;
-  }
-  pacer.BeginStage(1.0, count);
   constexpr std::int64_t grain = 512;
-  for (std::int64_t begin = 0; begin < count;)
-  {
-    const std::int64_t slice =
-      std::min(count - begin, pacer.NextSlice(grain * executor.Concurrency()));
-    executor.For(slice, grain, [&](std::int64_t first, std::int64_t last) {
+  Progress progress(context);
+  PointTree tree(points.size());
+  tree.Build(points, progress, 0.4);
+  progress.BeginStage(1.0);
+  progress.For(
+    points.size(), grain,
+    [&](std::int64_t first, std::int64_t last) {
       // Neighbours in the tree are neighbours in space.
-      for (std::int64_t i = begin + first; i < begin + last; ++i)
+      for (std::int64_t i = first; i < last; ++i)
       {
         const TreePoint& point = tree.At(i);
         distances[point.Id] =
           std::sqrt(tree.Search(point, std::numeric_limits<double>::infinity()));
       }
-    });
-    begin += slice;
-    if (!pacer.EndSlice(slice))
-    {
-      return false;
-    }
-  }
-  return true;
+    },
+    grain);
 }
 
 } // namespace RectifiedTransport

@@ -3,19 +3,19 @@
 #ifndef RectifiedTransport_NearestNeighbours_h
 #define RectifiedTransport_NearestNeighbours_h
 
-#include "Core/Parallel/Executor.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 
 namespace RectifiedTransport
 {
 
-// Writes the distance of each of `count` points, 3 coordinates each, from the nearest other one:
-// infinite if there is no other. A tree of boxes, halved along their widest axis, so that clusters
-// cost no more than spread points; O(count log count). Returns false if the monitor cancelled.
-// Throws std::bad_alloc.
-bool nearestDistances(const double* points, std::int64_t count, double* distances,
-  const Executor& executor, const Monitor& monitor);
+// Writes the distance of each point from the nearest other one: infinite if there is no other. A
+// tree of boxes, halved along their widest axis, so that clusters cost no more than spread points;
+// O(count log count). Throws std::bad_alloc and Cancelled.
+void nearestDistances(
+  ConstPointSpan<3> points, double* distances, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

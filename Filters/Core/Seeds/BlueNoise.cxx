@@ -2,8 +2,8 @@
 #include "Core/Seeds/BlueNoise.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoiseTile.h"
-#include "Core/Seeds/SeedPace.h"
 
 #include <algorithm>
 #include <limits>
@@ -82,9 +82,9 @@ class Window
   static constexpr int BinsPerTile = 1 << (TileLevel * Dimension);
 
 public:
-  Window(
-    const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed, SeedPace& pace)
-    : Pace(pace)
+  Window(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
+    Progress& progress)
+    : Pace(progress)
     , Count(count)
     , Axes(applySymmetry<Dimension>(windowAxes<Dimension>(), randomWord(randomSeed, Dimension)))
   {
@@ -363,7 +363,7 @@ private:
     return origin;
   }
 
-  SeedPace& Pace;
+  Progress& Pace;
   std::int64_t Count;
   Matrix<Dimension> Axes;
   Matrix<Dimension> ToWindow;
@@ -382,14 +382,14 @@ private:
 };
 
 void generateJitteredLine(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
 {
   const double n = static_cast<double>(count);
   for (std::int64_t i = 0; i < count; ++i)
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
     unitPoints[i] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
-    pace.Add(2);
+    progress.Add(2);
   }
 }
 
@@ -397,14 +397,14 @@ void generateJitteredLine(
 // golden ratio in 2D and the square root of 2 in 3D: a rod has both.
 template <int Dimension>
 void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  std::uint64_t randomSeed, double* unitPoints, Progress& progress)
 {
   Point<Dimension - 1> rest;
   for (int a = 0; a < Dimension - 1; ++a)
   {
     rest[a] = lengths[a < thin ? a : a + 1];
   }
-  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints, pace);
+  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints, progress);
   constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
   const std::uint64_t shift = randomWord(~randomSeed, Dimension);
   for (std::int64_t i = count - 1; i >= 0; --i)
@@ -416,7 +416,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
     }
     point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * step);
     std::copy(point.begin(), point.end(), unitPoints + i * Dimension);
-    pace.Add(1);
+    progress.Add(1);
   }
 }
 
@@ -424,7 +424,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
 
 template <int Dimension>
 void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  std::uint64_t randomSeed, double* unitPoints, Progress& progress)
 {
   if (count == 0)
   {
@@ -432,7 +432,7 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
   }
   if constexpr (Dimension == 1)
   {
-    generateJitteredLine(count, randomSeed, unitPoints, pace);
+    generateJitteredLine(count, randomSeed, unitPoints, progress);
   }
   else
   {
@@ -448,20 +448,20 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
     }
     if (power < thinnest)
     {
-      generateFlat<Dimension>(lengths, thin, count, randomSeed, unitPoints, pace);
+      generateFlat<Dimension>(lengths, thin, count, randomSeed, unitPoints, progress);
     }
     else
     {
-      Window<Dimension>(lengths, count, randomSeed, pace).Generate(unitPoints);
+      Window<Dimension>(lengths, count, randomSeed, progress).Generate(unitPoints);
     }
   }
 }
 
 template void generateBlueNoise<1>(
-  const Point<1>&, std::int64_t, std::uint64_t, double*, SeedPace&);
+  const Point<1>&, std::int64_t, std::uint64_t, double*, Progress&);
 template void generateBlueNoise<2>(
-  const Point<2>&, std::int64_t, std::uint64_t, double*, SeedPace&);
+  const Point<2>&, std::int64_t, std::uint64_t, double*, Progress&);
 template void generateBlueNoise<3>(
-  const Point<3>&, std::int64_t, std::uint64_t, double*, SeedPace&);
+  const Point<3>&, std::int64_t, std::uint64_t, double*, Progress&);
 
 } // namespace RectifiedTransport

@@ -3,18 +3,18 @@
 #ifndef RectifiedTransport_BlueNoise_h
 #define RectifiedTransport_BlueNoise_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/Points.h"
 
 #include <cstdint>
 
 namespace RectifiedTransport
 {
 
-class SeedPace;
+class Progress;
 
 // Exactly `count` points in the unit box, evenly spaced in a box of sides `lengths`; O(count) time,
 // O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked. Adds about
-// 2 * count to the pace.
+// 2 * count to the progress. Throws Cancelled.
 //
 // 2D and 3D: a relaxed toroidal tile is repeated over space, and a window of the box's shape grows
 // from a corner until it holds `count` points. The window is turned against the tile by a fixed
@@ -26,7 +26,7 @@ class SeedPace;
 // 0.5 and 1.5 of the mean.
 template <int Dimension>
 void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, SeedPace& pace);
+  std::uint64_t randomSeed, double* unitPoints, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -2,9 +2,9 @@
 #include "Core/Seeds/Seeds.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoise.h"
 #include "Core/Seeds/LowDiscrepancy.h"
-#include "Core/Seeds/SeedPace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,13 +151,13 @@ template <int Dimension>
 class JitteredBoxes
 {
 public:
-  JitteredBoxes(
-    const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints,
+    Progress& progress)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
     , UnitPoints(unitPoints)
-    , Pace(pace)
+    , Pace(progress)
   {
   }
 
@@ -204,38 +204,23 @@ private:
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
   double* UnitPoints;
-  SeedPace& Pace;
+  Progress& Pace;
 };
-
-// False if it was cancelled on the way.
-template <class F>
-bool runToEnd(F&& generate)
-{
-  try
-  {
-    generate();
-    return true;
-  }
-  catch (const SeedPace::Cancelled&)
-  {
-    return false;
-  }
-}
 
 template <int Dimension>
 void generateRandom(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
 {
   for (std::int64_t i = 0; i < count * Dimension; ++i)
   {
     unitPoints[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
-    pace.Add(1);
+    progress.Add(1);
   }
 }
 
 template <int Dimension>
 void generateLowDiscrepancy(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, SeedPace& pace)
+  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
 {
   for (int a = 0; a < Dimension; ++a)
   {
@@ -244,33 +229,35 @@ void generateLowDiscrepancy(
     {
       fraction += lowDiscrepancyStep<Dimension>(a);
       unitPoints[i * Dimension + a] = unitReal(fraction);
-      pace.Add(1);
+      progress.Add(1);
     }
   }
 }
 
-// Calls visit(cell) for every cell, axis 0 fastest. False if the monitor cancelled.
+// Calls visit(cell) for every cell, axis 0 fastest.
 template <int Dimension, class F>
-bool visitCells(const GridSize<Dimension>& size, const Monitor& monitor, F&& visit)
+void visitCells(
+  const GridSize<Dimension>& size, std::int64_t points, const Context& context, F&& visit)
 {
-  std::int64_t total = 1;
-  for (std::int64_t n : size)
+  checkGrid<Dimension>(size);
+  const double cells = numberOfCells<Dimension>(size);
+  if (static_cast<double>(points) != cells)
   {
-    total *= n;
+    throw std::invalid_argument("there is memory for " + std::to_string(points) +
+      " seeds, but the grid has " + std::to_string(static_cast<std::int64_t>(cells)) + " cells");
   }
-  SeedPace pace(monitor, total);
-  return runToEnd([&]() {
-    GridSize<Dimension> cell{};
-    for (std::int64_t i = 0; i < total; ++i)
+  Progress progress(context);
+  progress.BeginStage(1.0, points);
+  GridSize<Dimension> cell{};
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    visit(cell);
+    for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
     {
-      visit(cell);
-      for (int a = 0; a < Dimension && ++cell[a] == size[a]; ++a)
-      {
-        cell[a] = 0;
-      }
-      pace.Add(1);
+      cell[a] = 0;
     }
-  });
+    progress.Add(1);
+  }
 }
 
 } // namespace
@@ -288,31 +275,29 @@ GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t co
 }
 
 template <int Dimension>
-bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor)
+void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, const Context& context)
 {
+  const std::int64_t count = unitPoints.size();
   checkLengths<Dimension>(lengths);
   checkCount(count);
   if (count == 0)
   {
-    return true;
+    return;
   }
-  const std::int64_t passes = pattern == SeedPattern::BlueNoise ? 2 : Dimension;
-  SeedPace pace(monitor, passes * count);
+  Progress progress(context);
+  progress.BeginStage(1.0, (pattern == SeedPattern::BlueNoise ? 2 : Dimension) * count);
   switch (pattern)
   {
     case SeedPattern::BlueNoise:
-      return runToEnd(
-        [&]() { generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints, pace); });
+      return generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints.data(), progress);
     case SeedPattern::Jittered:
-      return runToEnd([&]() {
-        JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints, pace).Fill(0, 0, count);
-      });
+      return JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints.data(), progress)
+        .Fill(0, 0, count);
     case SeedPattern::LowDiscrepancy:
-      return runToEnd(
-        [&]() { generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints, pace); });
+      return generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints.data(), progress);
     case SeedPattern::Random:
-      return runToEnd([&]() { generateRandom<Dimension>(count, randomSeed, unitPoints, pace); });
+      return generateRandom<Dimension>(count, randomSeed, unitPoints.data(), progress);
     case SeedPattern::Lattice:
       break;
   }
@@ -321,28 +306,29 @@ bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::in
 }
 
 template <int Dimension>
-bool generateLattice(const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor)
+void generateLattice(
+  const GridSize<Dimension>& size, PointSpan<Dimension> unitPoints, const Context& context)
 {
-  checkGrid<Dimension>(size);
-  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
+  double* point = unitPoints.data();
+  visitCells<Dimension>(size, unitPoints.size(), context, [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
-      *unitPoints++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
+      *point++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
     }
   });
 }
 
 template <int Dimension>
-bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
-  double* unitPoints, const Monitor& monitor)
+void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, const Context& context)
 {
-  checkGrid<Dimension>(size);
+  double* point = unitPoints.data();
   std::uint64_t counter = 0;
-  return visitCells<Dimension>(size, monitor, [&](const GridSize<Dimension>& cell) {
+  visitCells<Dimension>(size, unitPoints.size(), context, [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
       const double jitter = unitReal(randomWord(randomSeed, counter++));
-      *unitPoints++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
+      *point++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
     }
   });
 }
@@ -351,22 +337,22 @@ template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
 template GridSize<2> latticeSize<2>(const Point<2>&, std::int64_t);
 template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
 
-template bool generateSeeds<1>(
-  SeedPattern, const Point<1>&, std::int64_t, std::uint64_t, double*, const Monitor&);
-template bool generateSeeds<2>(
-  SeedPattern, const Point<2>&, std::int64_t, std::uint64_t, double*, const Monitor&);
-template bool generateSeeds<3>(
-  SeedPattern, const Point<3>&, std::int64_t, std::uint64_t, double*, const Monitor&);
+template void generateSeeds<1>(
+  SeedPattern, const Point<1>&, std::uint64_t, PointSpan<1>, const Context&);
+template void generateSeeds<2>(
+  SeedPattern, const Point<2>&, std::uint64_t, PointSpan<2>, const Context&);
+template void generateSeeds<3>(
+  SeedPattern, const Point<3>&, std::uint64_t, PointSpan<3>, const Context&);
 
-template bool generateLattice<1>(const GridSize<1>&, double*, const Monitor&);
-template bool generateLattice<2>(const GridSize<2>&, double*, const Monitor&);
-template bool generateLattice<3>(const GridSize<3>&, double*, const Monitor&);
+template void generateLattice<1>(const GridSize<1>&, PointSpan<1>, const Context&);
+template void generateLattice<2>(const GridSize<2>&, PointSpan<2>, const Context&);
+template void generateLattice<3>(const GridSize<3>&, PointSpan<3>, const Context&);
 
-template bool generateJitteredLattice<1>(
-  const GridSize<1>&, std::uint64_t, double*, const Monitor&);
-template bool generateJitteredLattice<2>(
-  const GridSize<2>&, std::uint64_t, double*, const Monitor&);
-template bool generateJitteredLattice<3>(
-  const GridSize<3>&, std::uint64_t, double*, const Monitor&);
+template void generateJitteredLattice<1>(
+  const GridSize<1>&, std::uint64_t, PointSpan<1>, const Context&);
+template void generateJitteredLattice<2>(
+  const GridSize<2>&, std::uint64_t, PointSpan<2>, const Context&);
+template void generateJitteredLattice<3>(
+  const GridSize<3>&, std::uint64_t, PointSpan<3>, const Context&);
 
 } // namespace RectifiedTransport

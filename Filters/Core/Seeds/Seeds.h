@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Uniform points to start from. All patterns are reproducible from their arguments alone, to the
 // last bit on every machine. Counts and grid sizes that are negative, and sides that are not
-// positive and finite, throw std::invalid_argument. What makes points returns false if the monitor
-// cancelled it; the points are then undefined.
+// positive and finite, throw std::invalid_argument. What makes points runs on the thread that calls
+// it, whatever the executor, and may throw Cancelled.
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
-#include "Core/Parallel/Executor.h"
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 
@@ -28,22 +28,21 @@ enum class SeedPattern
 template <int Dimension>
 GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count);
 
-// Exactly `count` points in the unit box [0,1]^Dimension (count * Dimension doubles), spread evenly
-// in a box of sides `lengths`, each > 0 and of any unit. Not for Lattice, whose count is
-// latticeSize's.
+// As many points as there is room for in the unit box [0,1]^Dimension, spread evenly in a box of
+// sides `lengths`, each > 0 and of any unit. Not for Lattice, whose count is latticeSize's.
 template <int Dimension>
-bool generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, const Monitor& monitor = {});
+void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, const Context& context = Context());
 
-// The centres of a grid of cells on the unit box, axis 0 fastest.
+// The centres of a grid of cells on the unit box, axis 0 fastest, one for each.
 template <int Dimension>
-bool generateLattice(
-  const GridSize<Dimension>& size, double* unitPoints, const Monitor& monitor = {});
+void generateLattice(const GridSize<Dimension>& size, PointSpan<Dimension> unitPoints,
+  const Context& context = Context());
 
 // One random point in each cell of a grid on the unit box, axis 0 fastest.
 template <int Dimension>
-bool generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
-  double* unitPoints, const Monitor& monitor = {});
+void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/BorderMaxFlow.h"
 
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <limits>
@@ -39,8 +39,8 @@ std::int64_t BorderMaxFlow::Find(std::int64_t low, std::int64_t high) const
   return this->Numbers.find(this->Key(low, high))->second;
 }
 
-bool BorderMaxFlow::Plan(
-  const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count, Pacer& pacer)
+void BorderMaxFlow::Plan(const std::vector<std::int64_t>& excess,
+  const std::vector<std::int64_t>& count, Progress& progress)
 {
   this->FindNeighbours();
   this->Open = excess;
@@ -50,9 +50,9 @@ bool BorderMaxFlow::Plan(
     this->Next.assign(this->FirstNeighbour.begin(), this->FirstNeighbour.end() - 1);
     for (std::int64_t cell = 0; cell < this->Cells; ++cell)
     {
-      if (this->Open[cell] > 0 && this->Steps[cell] != unreached && pacer.ShouldStop())
+      if (this->Open[cell] > 0 && this->Steps[cell] != unreached)
       {
-        return false;
+        progress.Check();
       }
       while (this->Open[cell] > 0 && this->FindWay(cell))
       {
@@ -60,7 +60,7 @@ bool BorderMaxFlow::Plan(
       }
     }
   }
-  return !pacer.ShouldStop();
+  progress.Check();
 }
 
 void BorderMaxFlow::FindNeighbours()

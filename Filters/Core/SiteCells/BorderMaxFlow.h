@@ -11,7 +11,7 @@
 namespace RectifiedTransport
 {
 
-class Pacer;
+class Progress;
 
 struct SiteCellBorder
 {
@@ -41,9 +41,9 @@ public:
   // to neighbour to those that have too few, on the shortest ways first: all ways of one length,
   // then what is left on longer ones (as in Dinic's algorithm for a maximum flow). No more goes
   // over a border than half of its faces, that it stays where it is, and none leaves that had not
-  // been there (`count`). What finds no way stays. False if the host wants to stop.
-  bool Plan(
-    const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count, Pacer& pacer);
+  // been there (`count`). What finds no way stays. Throws Cancelled.
+  void Plan(const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count,
+    Progress& progress);
 
 private:
   struct Neighbour

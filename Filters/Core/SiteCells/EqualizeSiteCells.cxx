@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SiteCells/EqualizeSiteCells.h"
 
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/BorderMaxFlow.h"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ class Balance
 {
 public:
   Balance(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
-    std::int64_t* owners, Pacer& pacer)
+    std::int64_t* owners, Progress& progress)
     : Sites(sites)
     , Size(sites.Size())
     , Owners(owners)
-    , Pace(pacer)
+    , Pace(progress)
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
@@ -45,26 +45,23 @@ public:
     this->Rows = this->Stride[Dimension - 1] * this->Size[Dimension - 1] / this->Size[0];
   }
 
-  // False if the host wants to stop.
-  bool Run()
+  // Throws Cancelled.
+  void Run()
   {
     this->Pace.BeginStage(0.2, this->Rows);
-    if (!this->VisitRows([this](std::int64_t row) {
-          const std::int64_t* owner = this->Owners + row * this->Size[0];
-          for (std::int64_t i = 0; i < this->Size[0]; ++i)
-          {
-            ++this->Count[owner[i]];
-          }
-        }))
-    {
-      return false;
-    }
+    this->VisitRows([this](std::int64_t row) {
+      const std::int64_t* owner = this->Owners + row * this->Size[0];
+      for (std::int64_t i = 0; i < this->Size[0]; ++i)
+      {
+        ++this->Count[owner[i]];
+      }
+    });
     this->SettleEmptyCells();
     this->SetTargets();
     if constexpr (Dimension == 1)
     {
       this->FillIntervals();
-      return true;
+      return;
     }
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
@@ -81,17 +78,14 @@ public:
       }
       this->Pace.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
       this->Moved = 0;
-      if (!this->FindContacts() || !this->Contacts.Plan(this->Excess, this->Count, this->Pace) ||
-        !this->Move())
-      {
-        return false;
-      }
+      this->FindContacts();
+      this->Contacts.Plan(this->Excess, this->Count, this->Pace);
+      this->Move();
       if (this->Moved == 0)
       {
         break;
       }
     }
-    return true;
   }
 
 private:
@@ -106,7 +100,7 @@ private:
   };
 
   template <class Visit>
-  bool VisitRows(const Visit& visit)
+  void VisitRows(const Visit& visit)
   {
     constexpr std::int64_t pixels = std::int64_t{ 1 } << 16;
     const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->Size[0]);
@@ -117,19 +111,15 @@ private:
       {
         visit(row);
       }
-      if (!this->Pace.EndSlice(slice))
-      {
-        return false;
-      }
+      this->Pace.EndSlice(slice);
     }
-    return true;
   }
 
   // Calls visit(pixel, neighbour) for all faces between pixels of two cells.
   template <class Visit>
-  bool VisitBorders(const Visit& visit)
+  void VisitBorders(const Visit& visit)
   {
-    return this->VisitRows([&](std::int64_t row) {
+    this->VisitRows([&](std::int64_t row) {
       std::int64_t position[Dimension] = {};
       for (std::int64_t rest = row, axis = 1; axis < Dimension; ++axis)
       {
@@ -221,10 +211,10 @@ private:
         std::int64_t sum, std::int64_t excess) { return sum + std::max<std::int64_t>(excess, 0); });
   }
 
-  bool FindContacts()
+  void FindContacts()
   {
     this->Contacts.Clear();
-    return this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
+    this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
       const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
       ++this->Contacts[this->Contacts.Add(low, high)].Faces;
     });
@@ -250,7 +240,7 @@ private:
     return cost;
   }
 
-  bool Move()
+  void Move()
   {
     std::vector<std::int64_t> first(this->Contacts.Size() + 1, 0);
     for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
@@ -259,33 +249,26 @@ private:
     }
     std::vector<Candidate> candidates(static_cast<std::size_t>(first.back()));
     std::vector<std::int64_t> next(first);
-    if (!this->VisitBorders([&](std::int64_t pixel, std::int64_t other) {
-          std::int64_t low = this->Owners[pixel];
-          std::int64_t high = this->Owners[other];
-          if (low > high)
-          {
-            std::swap(low, high);
-            std::swap(pixel, other);
-          }
-          const std::int64_t number = this->Contacts.Find(low, high);
-          const std::int64_t flow = this->Contacts[number].Flow;
-          if (flow != 0)
-          {
-            candidates[next[number]++] = flow > 0
-              ? Candidate{ this->CostOf(pixel, low, high), pixel }
-              : Candidate{ this->CostOf(other, high, low), other };
-          }
-        }))
-    {
-      return false;
-    }
+    this->VisitBorders([&](std::int64_t pixel, std::int64_t other) {
+      std::int64_t low = this->Owners[pixel];
+      std::int64_t high = this->Owners[other];
+      if (low > high)
+      {
+        std::swap(low, high);
+        std::swap(pixel, other);
+      }
+      const std::int64_t number = this->Contacts.Find(low, high);
+      const std::int64_t flow = this->Contacts[number].Flow;
+      if (flow != 0)
+      {
+        candidates[next[number]++] = flow > 0 ? Candidate{ this->CostOf(pixel, low, high), pixel }
+                                              : Candidate{ this->CostOf(other, high, low), other };
+      }
+    });
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
     {
-      if (this->Pace.ShouldStop())
-      {
-        return false;
-      }
+      this->Pace.Check();
       if (this->Contacts[i].Flow != 0)
       {
         std::sort(candidates.begin() + first[i], candidates.begin() + first[i + 1]);
@@ -306,12 +289,8 @@ private:
         }
       }
       waiting.resize(kept);
-      if (this->Pace.ShouldStop())
-      {
-        return false;
-      }
+      this->Pace.Check();
     }
-    return true;
   }
 
   // A pixel with two faces to the other cell is there twice, and one between three cells may have
@@ -342,7 +321,7 @@ private:
   const SiteDensity<Dimension>& Sites;
   const GridSize<Dimension> Size;
   std::int64_t* Owners;
-  Pacer& Pace;
+  Progress& Pace;
   const std::int64_t Cells;
   std::vector<std::int64_t> Excess; // pixels that a cell has too many
   std::vector<std::int64_t> Count;
@@ -356,18 +335,18 @@ private:
 } // namespace
 
 template <int Dimension>
-bool equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
-  std::int64_t* owners, const Monitor& monitor)
+void equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
+  std::int64_t* owners, const Context& context)
 {
-  Pacer pacer(monitor);
-  return Balance<Dimension>(sites, spacing, owners, pacer).Run();
+  Progress progress(context);
+  Balance<Dimension>(sites, spacing, owners, progress).Run();
 }
 
-template bool equalizeSiteCells<1>(
-  const SiteDensity<1>&, const Point<1>&, std::int64_t*, const Monitor&);
-template bool equalizeSiteCells<2>(
-  const SiteDensity<2>&, const Point<2>&, std::int64_t*, const Monitor&);
-template bool equalizeSiteCells<3>(
-  const SiteDensity<3>&, const Point<3>&, std::int64_t*, const Monitor&);
+template void equalizeSiteCells<1>(
+  const SiteDensity<1>&, const Point<1>&, std::int64_t*, const Context&);
+template void equalizeSiteCells<2>(
+  const SiteDensity<2>&, const Point<2>&, std::int64_t*, const Context&);
+template void equalizeSiteCells<3>(
+  const SiteDensity<3>&, const Point<3>&, std::int64_t*, const Context&);
 
 } // namespace RectifiedTransport

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_EqualizeSiteCells_h
 #define RectifiedTransport_EqualizeSiteCells_h
 
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Context.h"
 #include "Core/SiteCells/SiteDensity.h"
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace RectifiedTransport
 // on the borders to a neighbour, until each has its share of all pixels for every site in it: as
 // many as others or one more (in 1D: intervals in the order of the sites). Those move that add
 // least to the sum of squared distances; `spacing` are the lengths of a pixel's sides. There must
-// be a pixel for each site. Returns false if the monitor cancelled.
+// be a pixel for each site. Throws Cancelled.
 template <int Dimension>
-bool equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
-  std::int64_t* owners, const Monitor& monitor);
+void equalizeSiteCells(const SiteDensity<Dimension>& sites, const Point<Dimension>& spacing,
+  std::int64_t* owners, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -9,17 +9,18 @@ namespace RectifiedTransport
 
 template <int Dimension>
 SiteDensity<Dimension>::SiteDensity(
-  const GridSize<Dimension>& size, const double* sites, std::int64_t count)
+  const GridSize<Dimension>& size, ConstPointSpan<Dimension> sites)
   : Grid(size)
-  , Sites(static_cast<std::size_t>(count))
+  , Sites(static_cast<std::size_t>(sites.size()))
 {
+  const std::int64_t count = sites.size();
   std::vector<std::int64_t> pixels(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i)
   {
     std::int64_t pixel = 0;
     for (int axis = Dimension; axis-- > 0;)
     {
-      const auto along = static_cast<std::int64_t>(sites[i * Dimension + axis]);
+      const auto along = static_cast<std::int64_t>(sites[i][axis]);
       pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
     }
     pixels[i] = pixel;
@@ -40,15 +41,13 @@ SiteDensity<Dimension>::SiteDensity(
 }
 
 template <int Dimension>
-void SiteDensity<Dimension>::ReadRow(
-  std::int64_t row, std::int64_t first, std::int64_t count, double* values) const
+void SiteDensity<Dimension>::Read(std::int64_t first, std::int64_t count, double* values) const
 {
   std::fill_n(values, count, 0.0);
-  const std::int64_t begin = row * this->Grid[0] + first;
-  auto next = std::lower_bound(this->Pixels.begin(), this->Pixels.end(), begin);
-  for (; next != this->Pixels.end() && *next < begin + count; ++next)
+  auto next = std::lower_bound(this->Pixels.begin(), this->Pixels.end(), first);
+  for (; next != this->Pixels.end() && *next < first + count; ++next)
   {
-    values[*next - begin] = static_cast<double>(this->SitesIn(next - this->Pixels.begin()));
+    values[*next - first] = static_cast<double>(this->SitesIn(next - this->Pixels.begin()));
   }
 }
 

@@ -14,15 +14,15 @@ namespace RectifiedTransport
 // The pixels that hold sites, in ascending order, and the sites of each. Pixels are numbered with
 // axis 0 fastest.
 template <int Dimension>
-class SiteDensity final : public DensitySource<Dimension>
+class SiteDensity final : public DensityValues
 {
 public:
-  // `sites` holds count * Dimension coordinates in the box [0, size].
-  SiteDensity(const GridSize<Dimension>& size, const double* sites, std::int64_t count);
+  // The sites lie in the box [0, size].
+  SiteDensity(const GridSize<Dimension>& size, ConstPointSpan<Dimension> sites);
 
-  GridSize<Dimension> Size() const override { return this->Grid; }
-  void ReadRow(
-    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override;
+  operator DensitySource<Dimension>() const { return { this->Grid, *this }; }
+  const GridSize<Dimension>& Size() const { return this->Grid; }
+  void Read(std::int64_t first, std::int64_t count, double* values) const override;
 
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Sites.size()); }
   std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }

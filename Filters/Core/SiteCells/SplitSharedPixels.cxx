@@ -2,7 +2,7 @@
 #include "Core/SiteCells/SplitSharedPixels.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <utility>
@@ -57,19 +57,20 @@ template <int Dimension>
 class CellCut
 {
 public:
-  CellCut(const SiteDensity<Dimension>& sites, const double* coordinates,
-    const Point<Dimension>& spacing, std::int64_t* labels, Pacer& pacer, std::int64_t largestCell)
+  CellCut(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
+    const Point<Dimension>& spacing, std::int64_t* labels, Progress& progress,
+    std::int64_t largestCell)
     : Coordinates(coordinates)
     , Spacing(spacing)
     , Labels(labels)
-    , Pace(pacer)
+    , Pace(progress)
     , Place(sites.Size())
     , Behind(largestCell)
   {
   }
 
-  // The pixels ascend, and do so in each of the parts. False if the host wants to stop.
-  bool Cut(
+  // The pixels ascend, and do so in each of the parts. Throws Cancelled.
+  void Cut(
     std::int64_t* sites, std::int64_t siteCount, std::int64_t* pixels, std::int64_t pixelCount)
   {
     if (siteCount == 1)
@@ -78,13 +79,9 @@ public:
       {
         this->Labels[pixels[i]] = *sites;
       }
-      return this->Finish(pixelCount);
+      return this->Pace.Add(pixelCount);
     }
-    Box box;
-    if (!this->FindBox(pixels, pixelCount, box))
-    {
-      return false;
-    }
+    const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
     const std::int64_t half = siteCount / 2;
     // Each gets as many as any other, or one more.
@@ -93,13 +90,13 @@ public:
     const std::int64_t part = each * half + more;
     std::nth_element(
       sites, sites + half, sites + siteCount, [this, axis](std::int64_t a, std::int64_t b) {
-        const double x = this->Coordinates[a * Dimension + axis];
-        const double y = this->Coordinates[b * Dimension + axis];
+        const double x = this->Coordinates[a][axis];
+        const double y = this->Coordinates[b][axis];
         return x != y ? x < y : a < b;
       });
-    return this->Divide(pixels, pixelCount, part, axis, box) &&
-      this->Cut(sites, half, pixels, part) &&
-      this->Cut(sites + half, siteCount - half, pixels + part, pixelCount - part);
+    this->Divide(pixels, pixelCount, part, axis, box);
+    this->Cut(sites, half, pixels, part);
+    this->Cut(sites + half, siteCount - half, pixels + part, pixelCount - part);
   }
 
 private:
@@ -110,7 +107,7 @@ private:
   };
 
   template <class Visit>
-  bool ForPixels(const std::int64_t* pixels, std::int64_t count, const Visit& visit)
+  void ForPixels(const std::int64_t* pixels, std::int64_t count, const Visit& visit)
   {
     for (std::int64_t begin = 0; begin < count; begin += sliceOfPixels)
     {
@@ -123,28 +120,26 @@ private:
       if (this->Visited >= sliceOfPixels)
       {
         this->Visited = 0;
-        if (this->Pace.ShouldStop())
-        {
-          return false;
-        }
+        this->Pace.Check();
       }
     }
-    return true;
   }
 
-  bool FindBox(const std::int64_t* pixels, std::int64_t count, Box& box)
+  Box FindBox(const std::int64_t* pixels, std::int64_t count)
   {
+    Box box;
     if (count > 0)
     {
       box.Low = box.High = this->Place.At(*pixels);
     }
-    return this->ForPixels(pixels, count, [&box](std::int64_t, const GridSize<Dimension>& place) {
+    this->ForPixels(pixels, count, [&box](std::int64_t, const GridSize<Dimension>& place) {
       for (int axis = 0; axis < Dimension; ++axis)
       {
         box.Low[axis] = std::min(box.Low[axis], place[axis]);
         box.High[axis] = std::max(box.High[axis], place[axis]);
       }
     });
+    return box;
   }
 
   // Along which the sites differ most, or where they do not differ the pixels.
@@ -154,11 +149,11 @@ private:
     std::pair<double, int> byPixels(-1.0, 0);
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      double low = this->Coordinates[*sites * Dimension + axis];
+      double low = this->Coordinates[*sites][axis];
       double high = low;
       for (std::int64_t i = 1; i < count; ++i)
       {
-        const double x = this->Coordinates[sites[i] * Dimension + axis];
+        const double x = this->Coordinates[sites[i]][axis];
         low = std::min(low, x);
         high = std::max(high, x);
       }
@@ -172,17 +167,13 @@ private:
   }
 
   // Brings the `first` pixels along an axis to the front, of those at one place the lowest.
-  bool Divide(
+  void Divide(
     std::int64_t* pixels, std::int64_t count, std::int64_t first, int axis, const Box& box)
   {
     const std::int64_t low = box.Low[axis];
     this->Layers.assign(static_cast<std::size_t>(box.High[axis] - low + 1), 0);
-    if (!this->ForPixels(pixels, count, [&](std::int64_t, const GridSize<Dimension>& place) {
-          ++this->Layers[place[axis] - low];
-        }))
-    {
-      return false;
-    }
+    this->ForPixels(pixels, count,
+      [&](std::int64_t, const GridSize<Dimension>& place) { ++this->Layers[place[axis] - low]; });
     std::int64_t border = 0; // the layer that the parts share
     std::int64_t left = first;
     while (left > this->Layers[border])
@@ -192,73 +183,38 @@ private:
     border += low;
     std::int64_t* behind = this->Behind.data();
     std::int64_t* front = pixels;
-    if (!this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
-          const std::int64_t layer = place[axis];
-          if (layer < border || (layer == border && left-- > 0))
-          {
-            *front++ = pixel;
-          }
-          else
-          {
-            *behind++ = pixel;
-          }
-        }))
-    {
-      return false;
-    }
-    return this->ForPixels(this->Behind.data(), count - first,
+    this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
+      const std::int64_t layer = place[axis];
+      if (layer < border || (layer == border && left-- > 0))
+      {
+        *front++ = pixel;
+      }
+      else
+      {
+        *behind++ = pixel;
+      }
+    });
+    this->ForPixels(this->Behind.data(), count - first,
       [&front](std::int64_t pixel, const GridSize<Dimension>&) { *front++ = pixel; });
   }
 
-  // Reports pixels that have their label.
-  bool Finish(std::int64_t pixels)
-  {
-    this->Finished += pixels;
-    if (this->Finished < sliceOfPixels)
-    {
-      return true;
-    }
-    this->Pace.NextSlice(1);
-    return this->Pace.EndSlice(std::exchange(this->Finished, 0));
-  }
-
-  const double* Coordinates;
+  ConstPointSpan<Dimension> Coordinates;
   const Point<Dimension> Spacing;
   std::int64_t* Labels;
-  Pacer& Pace;
+  Progress& Pace;
   PixelPlace<Dimension> Place;
-  std::int64_t Visited = 0;  // since the host was asked
-  std::int64_t Finished = 0; // since the host was told
+  std::int64_t Visited = 0; // since the host was asked
   Numbers Layers;
   LargeBuffer<std::int64_t> Behind; // room for the largest cell
 };
 
-// Calls visit(pixel) for all pixels. False if the host wants to stop.
-template <class Visit>
-bool forAll(std::int64_t pixels, Pacer& pacer, const Visit& visit)
-{
-  for (std::int64_t begin = 0; begin < pixels;)
-  {
-    const std::int64_t slice = std::min(pixels - begin, pacer.NextSlice(sliceOfPixels));
-    for (const std::int64_t end = begin + slice; begin < end; ++begin)
-    {
-      visit(begin);
-    }
-    if (!pacer.EndSlice(slice))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 } // namespace
 
 template <int Dimension>
-bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordinates,
-  const Point<Dimension>& spacing, std::int64_t* owners, const Monitor& monitor)
+void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners, const Context& context)
 {
-  Pacer pacer(monitor);
+  Progress progress(context);
   std::int64_t pixels = 1;
   for (const std::int64_t cells : sites.Size())
   {
@@ -267,13 +223,13 @@ bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordi
   // The pixels of each cell of several sites.
   const std::int64_t cells = sites.NumberOfPixels();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
-  pacer.BeginStage(0.1, pixels);
-  if (!forAll(pixels, pacer, [&](std::int64_t pixel) {
-        first[owners[pixel] + 1] += sites.SitesIn(owners[pixel]) > 1 ? 1 : 0;
-      }))
-  {
-    return false;
-  }
+  progress.BeginStage(0.1);
+  progress.ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t pixel = begin; pixel < end; ++pixel)
+    {
+      first[owners[pixel] + 1] += sites.SitesIn(owners[pixel]) > 1 ? 1 : 0;
+    }
+  });
   const std::int64_t largest = *std::max_element(first.begin(), first.end());
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
@@ -281,20 +237,20 @@ bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordi
   }
   LargeBuffer<std::int64_t> members(first.back());
   Numbers next(first);
-  pacer.BeginStage(0.2, pixels);
-  if (!forAll(pixels, pacer, [&](std::int64_t pixel) {
-        const std::int64_t cell = owners[pixel];
-        if (sites.SitesIn(cell) > 1)
-        {
-          members.data()[next[cell]++] = pixel;
-        }
-        owners[pixel] = sites.Site(cell, 0);
-      }))
-  {
-    return false;
-  }
-  pacer.BeginStage(1.0, first.back());
-  CellCut<Dimension> cut(sites, coordinates, spacing, owners, pacer, largest);
+  progress.BeginStage(0.2);
+  progress.ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t pixel = begin; pixel < end; ++pixel)
+    {
+      const std::int64_t cell = owners[pixel];
+      if (sites.SitesIn(cell) > 1)
+      {
+        members.data()[next[cell]++] = pixel;
+      }
+      owners[pixel] = sites.Site(cell, 0);
+    }
+  });
+  progress.BeginStage(1.0, first.back());
+  CellCut<Dimension> cut(sites, coordinates, spacing, owners, progress, largest);
   Numbers group;
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
@@ -303,21 +259,19 @@ bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordi
     {
       group.push_back(sites.Site(cell, i));
     }
-    if (group.size() > 1 &&
-      !cut.Cut(group.data(), sites.SitesIn(cell), members.data() + first[cell],
-        first[cell + 1] - first[cell]))
+    if (group.size() > 1)
     {
-      return false;
+      cut.Cut(group.data(), sites.SitesIn(cell), members.data() + first[cell],
+        first[cell + 1] - first[cell]);
     }
   }
-  return true;
 }
 
-template bool splitSharedPixels<1>(
-  const SiteDensity<1>&, const double*, const Point<1>&, std::int64_t*, const Monitor&);
-template bool splitSharedPixels<2>(
-  const SiteDensity<2>&, const double*, const Point<2>&, std::int64_t*, const Monitor&);
-template bool splitSharedPixels<3>(
-  const SiteDensity<3>&, const double*, const Point<3>&, std::int64_t*, const Monitor&);
+template void splitSharedPixels<1>(
+  const SiteDensity<1>&, ConstPointSpan<1>, const Point<1>&, std::int64_t*, const Context&);
+template void splitSharedPixels<2>(
+  const SiteDensity<2>&, ConstPointSpan<2>, const Point<2>&, std::int64_t*, const Context&);
+template void splitSharedPixels<3>(
+  const SiteDensity<3>&, ConstPointSpan<3>, const Point<3>&, std::int64_t*, const Context&);
 
 } // namespace RectifiedTransport

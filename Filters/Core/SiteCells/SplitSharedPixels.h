@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SplitSharedPixels_h
 #define RectifiedTransport_SplitSharedPixels_h
 
-#include "Core/Parallel/Executor.h"
+#include "Core/Parallel/Context.h"
 #include "Core/SiteCells/SiteDensity.h"
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace RectifiedTransport
 // numbers of sites. A cell of several sites is cut into halves, and these again, until each has
 // a part, equal to the pixel: across the axis along which the sites differ most, or where they do
 // not differ the cell's longest one. `coordinates` are the sites', `spacing` the lengths of a
-// pixel's sides. Returns false if the monitor cancelled.
+// pixel's sides. Throws Cancelled.
 template <int Dimension>
-bool splitSharedPixels(const SiteDensity<Dimension>& sites, const double* coordinates,
-  const Point<Dimension>& spacing, std::int64_t* owners, const Monitor& monitor);
+void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -2,7 +2,7 @@
 #include "Core/Solid/SolidCoverage.h"
 
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <array>
@@ -30,29 +30,25 @@ class TriangleLayers
 {
 public:
   TriangleLayers(
-    const TriangleSurface& surface, Index layers, int supersampling, const Monitor& monitor)
+    const TriangleSurface& surface, Index layers, int supersampling, Progress& progress)
     : Surface(surface)
     , Layers(layers)
     , Squares(supersampling)
     , First(layers + 2)
-    , Pace(monitor)
+    , Pace(progress)
   {
   }
 
-  // False if the host wants to stop.
-  bool Build()
+  // Throws Cancelled.
+  void Build()
   {
     // Counted as differences along the layers, so that high triangles take no longer than others.
     std::fill_n(this->First.data(), this->Layers + 2, Index{ 0 });
     this->Pace.BeginStage(0.05, this->Surface.NumberOfTriangles);
-    const bool counted = this->ForTriangles([this](Index, const Range& range) {
+    this->ForTriangles([this](Index, const Range& range) {
       ++this->First.data()[range.First + 1];
       --this->First.data()[range.End + 1];
     });
-    if (!counted)
-    {
-      return false;
-    }
     Index* first = this->First.data();
     Index open = 0;
     Index sum = 0;
@@ -66,7 +62,7 @@ public:
     LargeBuffer<Index> next(this->Layers);
     std::copy_n(first, this->Layers, next.data());
     this->Pace.BeginStage(0.1, sum);
-    return this->ForTriangles([this, &next](Index triangle, const Range& range) {
+    this->ForTriangles([this, &next](Index triangle, const Range& range) {
       for (Index k = range.First; k < range.End; ++k)
       {
         this->Triangles.data()[next.data()[k]++] = triangle;
@@ -91,7 +87,7 @@ private:
     double z[3];
     for (int i = 0; i < 3; ++i)
     {
-      z[i] = this->Surface.Points[3 * corners[i] + 2] * this->Squares;
+      z[i] = this->Surface.Points[corners[i]][2] * this->Squares;
     }
     const Index rows = this->Layers * this->Squares;
     const Index first = firstLineFrom(std::min({ z[0], z[1], z[2] }), rows);
@@ -100,34 +96,19 @@ private:
       first < end ? (end - 1) / this->Squares + 1 : first / this->Squares };
   }
 
-  // Calls visit(triangle, range) for all, in order, in slices of about equal numbers of layers.
+  // Calls visit(triangle, range) for all, in order.
   template <class Visit>
-  bool ForTriangles(const Visit& visit)
+  void ForTriangles(const Visit& visit)
   {
-    constexpr Index step = Index{ 1 } << 16;
-    Index done = 0;
     for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
     {
-      if (done == 0)
-      {
-        this->Pace.NextSlice(step);
-      }
       const Range range = this->LayersOf(i);
       if (range.First < range.End)
       {
         visit(i, range);
       }
-      done += 1 + range.End - range.First;
-      if (done >= step)
-      {
-        if (!this->Pace.EndSlice(done))
-        {
-          return false;
-        }
-        done = 0;
-      }
+      this->Pace.Add(1 + range.End - range.First);
     }
-    return done == 0 || this->Pace.EndSlice(done);
   }
 
   TriangleSurface Surface;
@@ -135,7 +116,7 @@ private:
   int Squares;
   LargeBuffer<Index> First;
   LargeBuffer<Index> Triangles;
-  Pacer Pace;
+  Progress& Pace;
 };
 
 // Where a line goes through the surface, and to which side.
@@ -186,7 +167,7 @@ class CoverageRun
 {
 public:
   CoverageRun(const TriangleSurface& surface, const TriangleLayers& layers,
-    const GridSize<3>& cells, int supersampling, double* coverage, Pacer& pace)
+    const GridSize<3>& cells, int supersampling, double* coverage, Progress& progress)
     : Surface(surface)
     , Layers(layers)
     , Cells(cells)
@@ -194,7 +175,7 @@ public:
     , LinesPerCell(supersampling * supersampling)
     , Lines(cells[1] * supersampling)
     , Coverage(coverage)
-    , Pace(pace)
+    , Pace(progress)
   {
   }
 
@@ -288,7 +269,7 @@ private:
       Corner corners[3];
       for (int i = 0; i < 3; ++i)
       {
-        const double* point = this->Surface.Points + 3 * ids[i];
+        const double* point = this->Surface.Points[ids[i]];
         corners[i] = { point[0], point[1] * squares, point[2] * squares };
       }
       for (Index row = 0; row < this->Squares; ++row)
@@ -424,46 +405,23 @@ private:
   int LinesPerCell;
   Index Lines; // of a row
   double* Coverage;
-  Pacer& Pace;
+  Progress& Pace;
   std::atomic<Index> NumberOfOpenLines{ 0 };
 };
 
 } // namespace
 
 CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
-  int supersampling, double* coverage, const Executor& executor, const Monitor& monitor)
+  int supersampling, double* coverage, const Context& context)
 {
-  CoverageReport report;
-  TriangleLayers layers(surface, cells[2], supersampling, monitor);
-  if (!layers.Build())
-  {
-    report.Cancelled = true;
-    return report;
-  }
-  const Monitor rest{ [&monitor](double fraction) {
-                       if (monitor.Progress)
-                       {
-                         monitor.Progress(0.1 + 0.9 * fraction);
-                       }
-                     },
-    monitor.Cancelled };
-  Pacer pace(rest);
-  CoverageRun run(surface, layers, cells, supersampling, coverage, pace);
-  pace.BeginStage(1.0, cells[2]);
-  for (Index begin = 0; begin < cells[2];)
-  {
-    const Index slice = std::min(cells[2] - begin, pace.NextSlice(executor.Concurrency()));
-    executor.For(slice, 1,
-      [&run, begin](Index first, Index last) { run.CoverLayers(begin + first, begin + last); });
-    begin += slice;
-    if (!pace.EndSlice(slice))
-    {
-      report.Cancelled = true;
-      return report;
-    }
-  }
-  report.OpenLines = run.OpenLines();
-  return report;
+  Progress progress(context);
+  TriangleLayers layers(surface, cells[2], supersampling, progress);
+  layers.Build();
+  CoverageRun run(surface, layers, cells, supersampling, coverage, progress);
+  progress.BeginStage(1.0);
+  progress.For(
+    cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
+  return { run.OpenLines() };
 }
 
 } // namespace RectifiedTransport

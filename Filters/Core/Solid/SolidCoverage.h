@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SolidCoverage_h
 #define RectifiedTransport_SolidCoverage_h
 
-#include "Core/Parallel/Executor.h"
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 
@@ -15,14 +15,13 @@ namespace RectifiedTransport
 // cells of the grid: cell (i, j, k) covers [i, i+1] x [j, j+1] x [k, k+1].
 struct TriangleSurface
 {
-  const double* Points;
+  ConstPointSpan<3> Points;
   const std::int64_t* Triangles;
   std::int64_t NumberOfTriangles;
 };
 
 struct CoverageReport
 {
-  bool Cancelled = false;
   // Lines that leave the solid another number of times than they enter it; none if every edge has
   // two triangles that run along it in opposite directions.
   std::int64_t OpenLines = 0;
@@ -43,10 +42,9 @@ struct CoverageReport
 //
 // O(cells + triangles x rows of lines that they cross + crossings of lines). Memory: 8 bytes for
 // each layer of cells that a triangle has a part in, and a layer's crossings, 16 bytes each, for
-// each thread. Throws std::bad_alloc.
+// each thread. Throws std::bad_alloc and Cancelled.
 CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
-  int supersampling, double* coverage, const Executor& executor = SerialExecutor(),
-  const Monitor& monitor = {});
+  int supersampling, double* coverage, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

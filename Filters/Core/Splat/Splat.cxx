@@ -5,7 +5,7 @@
 #include "Core/Splat/Splat.h"
 
 #include "Core/Flow/Kernels/FlowKernels.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Splat/Kernels/SplatKernels.h"
 #include "Core/Splat/SlabPartition.h"
 #include "Core/Splat/SplatTiles.h"
@@ -42,10 +42,8 @@ class SplatRun
 {
 public:
   SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-    const SplatOptions& options, double scale, double* cells, const Executor& executor,
-    Pacer& pacer)
-    : Threads(executor)
-    , Pace(pacer)
+    const SplatOptions& options, double scale, double* cells, Progress& progress)
+    : Pace(progress)
     , Tiles(this->Job)
   {
     this->Job.Particles = particles;
@@ -85,20 +83,18 @@ public:
 
   SplatReport Run()
   {
-    SplatReport report;
-    const std::int64_t count = this->Job.Particles.Count;
-    report.Cancelled = !this->Clear(count > 0 ? 0.1 : 1.0);
+    const std::int64_t count = this->Job.Particles.Points.size();
+    this->Clear(count > 0 ? 0.1 : 1.0);
     this->Pace.BeginStage(1.0, count);
-    for (std::int64_t begin = 0; begin < count && !report.Cancelled;)
+    for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t slice =
         std::min({ count - begin, this->Pace.NextSlice(this->ShortestSlice), longestSlice });
       this->AddSlice(begin, slice);
       begin += slice;
-      report.Cancelled = !this->Pace.EndSlice(slice);
+      this->Pace.EndSlice(slice);
     }
-    report.Outside = this->Outside;
-    return report;
+    return { this->Outside };
   }
 
 private:
@@ -116,37 +112,27 @@ private:
     this->Job.AtOffset = this->AtOffset.data();
   }
 
-  // Returns false if the host wants to stop.
-  bool Clear(double end)
+  void Clear(double end)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-    this->Pace.BeginStage(end, this->NumberOfCells);
-    for (std::int64_t begin = 0; begin < this->NumberOfCells;)
-    {
-      const std::int64_t slice =
-        std::min(this->NumberOfCells - begin, this->Pace.NextSlice(16 * grain));
-      double* cells = this->Job.Cells + begin;
-      this->Threads.For(slice, grain, [cells](std::int64_t first, std::int64_t last) {
-        std::fill(cells + first, cells + last, 0.0);
-      });
-      begin += slice;
-      if (!this->Pace.EndSlice(slice))
-      {
-        return false;
-      }
-    }
-    return true;
+    double* cells = this->Job.Cells;
+    this->Pace.BeginStage(end);
+    this->Pace.For(
+      this->NumberOfCells, grain,
+      [cells](
+        std::int64_t first, std::int64_t last) { std::fill(cells + first, cells + last, 0.0); },
+      16 * grain);
   }
 
   void AddSlice(std::int64_t first, std::int64_t count)
   {
-    const int tasks = this->Threads.Concurrency();
+    const int tasks = this->Pace.Threads().Concurrency();
     if (tasks == 1)
     {
       this->AddInOrder(first, count);
       return;
     }
-    this->Survey.Look(first, count, this->Threads);
+    this->Survey.Look(first, count, this->Pace.Threads());
     double visits = 0.0;
     for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
@@ -177,7 +163,7 @@ private:
   {
     const std::int64_t slabs = this->Survey.NumberOfSlabs();
     this->MakeScratch(slabs);
-    this->Threads.For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Pace.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t slab = begin; slab < end; ++slab)
       {
         const CellBox<Dimension> box = this->Survey.Slab(slab);
@@ -204,7 +190,7 @@ private:
 
   void AddByTiles(std::int64_t first, std::int64_t count)
   {
-    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Threads, this->Pace);
+    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Pace);
     if (this->Pace.IsCancelled())
     {
       return;
@@ -212,7 +198,7 @@ private:
     const std::int64_t tiles = this->Tiles.Count();
     const std::int64_t groups = std::min(tiles, groupsOfTiles);
     this->MakeScratch(groups);
-    this->Threads.For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Pace.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t group = begin; group < end; ++group)
       {
         for (std::int64_t tile = group * tiles / groups;
@@ -248,8 +234,7 @@ private:
 
   SplatJob<Dimension, Real> Job{};
   SplatKernels<Dimension, Real> Kernels;
-  const Executor& Threads;
-  Pacer& Pace;
+  Progress& Pace;
   SlabPartition<Dimension, Real> Survey;
   SplatTiles<Dimension, Real> Tiles;
   std::int64_t NumberOfCells = 0;
@@ -278,24 +263,24 @@ SplatKernels<Dimension, Real> splatKernels(SplatKernel kernel)
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
-  const Executor& executor, const Monitor& monitor)
+  const Context& context)
 {
-  Pacer pacer(monitor);
-  return SplatRun<Dimension, Real>(particles, size, options, scale, cells, executor, pacer).Run();
+  Progress progress(context);
+  return SplatRun<Dimension, Real>(particles, size, options, scale, cells, progress).Run();
 }
 
 template SplatReport splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
-  const SplatOptions&, double, double*, const Executor&, const Monitor&);
+  const SplatOptions&, double, double*, const Context&);
 template SplatKernels<1, float> splatKernels<1, float>(SplatKernel);
 template SplatKernels<2, float> splatKernels<2, float>(SplatKernel);
 template SplatKernels<3, float> splatKernels<3, float>(SplatKernel);

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_Splat_h
 #define RectifiedTransport_Splat_h
 
-#include "Core/Parallel/Executor.h"
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 
@@ -41,27 +41,13 @@ struct SplatOptions
   static constexpr double LargestRadius = 10000.0;
 };
 
-// Places a point x of physical space: coordinate a of index space, where cell i is [i, i + 1], is
-// Matrix[a] . (x - Origin). In 1D and 2D the further rows give the distances from the line or plane
-// of the grid, in any unit.
-template <int Dimension>
-struct SplatMap
-{
-  double Origin[3];
-  double Matrix[3][3];
-  // A particle is outside if it is further than this from [0, size], or for the further rows from
-  // 0. What is nearer is moved to the border.
-  double Tolerance[3];
-};
-
 template <int Dimension, class Real>
 struct SplatParticles
 {
-  const Real* Points; // 3 each, finite
-  std::int64_t Count;
-  const double* Masses; // any finite numbers; null: Mass each
+  ConstPointSpan<3, Real> Points; // finite
+  const double* Masses;           // any finite numbers; null: Mass each
   double Mass;
-  SplatMap<Dimension> ToIndex;
+  IndexMap<Dimension> ToIndex;
 };
 
 struct SplatReport
@@ -69,16 +55,15 @@ struct SplatReport
   // Particles that are outside: Renormalize moves them to the nearest point of the border, Drop
   // leaves them out.
   std::int64_t Outside = 0;
-  bool Cancelled = false; // then the cells are undefined
 };
 
 // Writes `scale` times the mass of every cell, axis 0 fastest, of at most 2^30 cells an axis. The
 // shares of a cell are added in the order of the particles, so that the result is that of a loop
-// over them, to the last bit, whoever runs it. Throws std::bad_alloc.
+// over them, to the last bit, whoever runs it. Throws std::bad_alloc and Cancelled.
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
-  const Executor& executor, const Monitor& monitor);
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Splat/SplatTiles.h"
 
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <atomic>
@@ -69,8 +69,8 @@ void SplatTiles<Dimension, Real>::VisitTiles(const std::int32_t* cells, const Vi
 }
 
 template <int Dimension, class Real>
-std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, std::int64_t first,
-  std::int64_t count, const Executor& executor, Pacer& pacer)
+std::int64_t SplatTiles<Dimension, Real>::Sort(
+  FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count, Progress& progress)
 {
   const std::int64_t part = std::max<std::int64_t>((count + parts - 1) / parts, splatBlock);
   const std::int64_t used = (count + part - 1) / part;
@@ -81,7 +81,7 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
     std::int32_t cells[3 * found];
     std::int64_t outside = 0;
     const std::int64_t end = std::min((number + 1) * part, count);
-    for (std::int64_t begin = number * part; begin < end && !pacer.ShouldStop(); begin += found)
+    for (std::int64_t begin = number * part; begin < end && !progress.ShouldStop(); begin += found)
     {
       const int lanes = static_cast<int>(std::min(found, end - begin));
       outside += find(this->Job, first + begin, lanes, cells);
@@ -94,7 +94,7 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
   };
 
   std::atomic<std::int64_t> outside{ 0 };
-  executor.For(used, 1, [&](std::int64_t begin, std::int64_t end) {
+  progress.Threads().For(used, 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t number = begin; number < end; ++number)
     {
       std::int64_t* counts = this->Position.data() + number * this->NumberOfTiles;
@@ -114,12 +114,12 @@ std::int64_t SplatTiles<Dimension, Real>::Sort(FindCells<Dimension, Real> find, 
     }
   }
   this->Start.back() = sum;
-  if (pacer.IsCancelled())
+  if (progress.IsCancelled())
   {
     return outside;
   }
   this->Index.resize(static_cast<std::size_t>(sum));
-  executor.For(used, 1, [&](std::int64_t begin, std::int64_t end) {
+  progress.Threads().For(used, 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t number = begin; number < end; ++number)
     {
       std::int64_t* positions = this->Position.data() + number * this->NumberOfTiles;

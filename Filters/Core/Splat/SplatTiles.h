@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-class Pacer;
+class Progress;
 
 template <int Dimension, class Real>
 class SplatTiles
@@ -28,8 +28,8 @@ public:
 
   // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; what is found is
   // undefined once the host wants to stop. Throws std::bad_alloc.
-  std::int64_t Sort(FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count,
-    const Executor& executor, Pacer& pacer);
+  std::int64_t Sort(
+    FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count, Progress& progress);
 
   std::int64_t Count() const { return this->NumberOfTiles; }
   CellBox<Dimension> Box(std::int64_t tile) const;

@@ -4,68 +4,45 @@
 #ifndef RectifiedTransport_Density_h
 #define RectifiedTransport_Density_h
 
-#include <array>
+#include "Core/Geometry/GridSize.h"
+
 #include <cstdint>
 #include <stdexcept>
 
 namespace RectifiedTransport
 {
 
-template <int Dimension>
-using GridSize = std::array<std::int64_t, Dimension>;
-
-template <int Dimension>
-using Point = std::array<double, Dimension>;
-
-// The place of a point in its cell, of unit sides.
-template <int Dimension>
-Point<Dimension> cellCentre()
-{
-  Point<Dimension> centre;
-  centre.fill(0.5);
-  return centre;
-}
-
-// Not an integer: what a user asks for may be more than fits into one.
-template <int Dimension>
-double numberOfCells(const GridSize<Dimension>& size)
-{
-  double count = 1.0;
-  for (const std::int64_t cells : size)
-  {
-    count *= static_cast<double>(cells);
-  }
-  return count;
-}
-
-// Cell (i0, i1, i2) covers [i0, i0+1] x ... of index space; axis 0 runs fastest. A row is a line
-// of cells along axis 0; row numbers run over the other axes, axis 1 fastest.
-template <int Dimension>
-class DensitySource
+// The values of the cells, which are numbered with axis 0 fastest.
+class DensityValues
 {
 public:
-  virtual ~DensitySource() = default;
-  virtual GridSize<Dimension> Size() const = 0;
-  // Writes the values of cells [first, first + count) of a row. Called from several threads.
-  virtual void ReadRow(
-    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const = 0;
+  virtual ~DensityValues() = default;
+  // Writes the values of cells [first, first + count). Called from several threads.
+  virtual void Read(std::int64_t first, std::int64_t count, double* values) const = 0;
+};
+
+// Cell (i0, i1, i2) covers [i0, i0+1] x ... of index space.
+template <int Dimension>
+struct DensitySource
+{
+  GridSize<Dimension> Size;
+  const DensityValues& Values;
 };
 
 // A contiguous array of any arithmetic type, not owned.
 template <int Dimension, class T>
-class DensityArray final : public DensitySource<Dimension>
+class DensityArray final : public DensityValues
 {
 public:
   DensityArray(const T* values, const GridSize<Dimension>& size)
     : Values(values)
-    , Dims(size)
+    , Size(size)
   {
   }
-  GridSize<Dimension> Size() const override { return this->Dims; }
-  void ReadRow(
-    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override
+  operator DensitySource<Dimension>() const { return { this->Size, *this }; }
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
   {
-    const T* source = this->Values + row * this->Dims[0] + first;
+    const T* source = this->Values + first;
     for (std::int64_t i = 0; i < count; ++i)
     {
       values[i] = static_cast<double>(source[i]);
@@ -74,7 +51,7 @@ public:
 
 private:
   const T* Values;
-  GridSize<Dimension> Dims;
+  GridSize<Dimension> Size;
 };
 
 // What one pass over a density finds. Indices count cells, axis 0 fastest; -1 if there are none.

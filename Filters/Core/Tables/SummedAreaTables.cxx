@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/SummedAreaTables.h"
 
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/TableBuild.h"
 
 #include <algorithm>
@@ -67,20 +67,17 @@ void resize(LargeBuffer<T>& buffer, std::int64_t size)
 }
 
 // A density times a power of two.
-template <int Dimension>
-class ScaledDensity final : public DensitySource<Dimension>
+class ScaledDensity final : public DensityValues
 {
 public:
-  ScaledDensity(const DensitySource<Dimension>& density, double scale)
+  ScaledDensity(const DensityValues& density, double scale)
     : Density(density)
     , Scale(scale)
   {
   }
-  GridSize<Dimension> Size() const override { return this->Density.Size(); }
-  void ReadRow(
-    std::int64_t row, std::int64_t first, std::int64_t count, double* values) const override
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
   {
-    this->Density.ReadRow(row, first, count, values);
+    this->Density.Read(first, count, values);
     for (std::int64_t i = 0; i < count; ++i)
     {
       values[i] *= this->Scale;
@@ -88,22 +85,19 @@ public:
   }
 
 private:
-  const DensitySource<Dimension>& Density;
+  const DensityValues& Density;
   double Scale;
 };
 
 } // namespace
 
 template <int Dimension>
-SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& density,
-  const Executor& executor, Pacer& pacer, TableMemory memory)
+SummedAreaTables<Dimension>::SummedAreaTables(
+  const DensitySource<Dimension>& density, Progress& progress, TableMemory memory)
   : Memory(std::move(memory))
 {
-  this->Allocate(density.Size());
-  if (!this->Build(density, executor, pacer))
-  {
-    return;
-  }
+  this->Allocate(density.Size);
+  this->Build(density.Values, progress);
   const DensitySummary found = this->Found;
   if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
   {
@@ -116,11 +110,8 @@ SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& de
   if (found.Maximum > extreme || found.Maximum < 1.0 / extreme)
   {
     const int exponent = std::max(-1000, std::min(1000, -std::ilogb(found.Maximum)));
-    const ScaledDensity<Dimension> scaled(density, std::ldexp(1.0, exponent));
-    if (!this->Build(scaled, executor, pacer))
-    {
-      return;
-    }
+    const ScaledDensity scaled(density.Values, std::ldexp(1.0, exponent));
+    this->Build(scaled, progress);
     this->Found = found;
     this->Tables.Largest = std::ldexp(found.Maximum, exponent);
   }
@@ -145,7 +136,6 @@ SummedAreaTables<Dimension>::SummedAreaTables(const DensitySource<Dimension>& de
     full = this->Memory.Occupied.data()[word] == ~std::uint64_t{ 0 };
   }
   tables.Occupied = full ? nullptr : this->Memory.Occupied.data();
-  this->Complete = true;
 }
 
 template <int Dimension>
@@ -200,13 +190,12 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
 }
 
 template <int Dimension>
-bool SummedAreaTables<Dimension>::Build(
-  const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer)
+void SummedAreaTables<Dimension>::Build(const DensityValues& density, Progress& progress)
 {
   this->Found = {};
-  pacer.BeginStage(1.0, this->Tables.Cells[Dimension - 1]);
-  return buildTables(TableBuild<Dimension>{ density, executor, pacer, this->Tables,
-    this->Memory.Nodes.data(), this->Memory.Occupied.data(), this->Found });
+  progress.BeginStage(1.0, this->Tables.Cells[Dimension - 1]);
+  buildTables(TableBuild<Dimension>{ density, progress, this->Tables, this->Memory.Nodes.data(),
+    this->Memory.Occupied.data(), this->Found });
 }
 
 template class SummedAreaTables<1>;

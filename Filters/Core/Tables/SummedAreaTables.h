@@ -3,7 +3,6 @@
 #ifndef RectifiedTransport_SummedAreaTables_h
 #define RectifiedTransport_SummedAreaTables_h
 
-#include "Core/Parallel/Executor.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/Density.h"
 #include "Core/Tables/TableView.h"
@@ -14,7 +13,7 @@
 namespace RectifiedTransport
 {
 
-class Pacer;
+class Progress;
 
 // What tables are kept in.
 struct TableMemory
@@ -31,15 +30,13 @@ template <int Dimension>
 class SummedAreaTables
 {
 public:
-  // Uses `memory` if it has the right size. Throws InvalidDensity and std::bad_alloc.
-  SummedAreaTables(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer,
-    TableMemory memory = {});
+  // Uses `memory` if it has the right size. Throws InvalidDensity, Cancelled and std::bad_alloc.
+  SummedAreaTables(
+    const DensitySource<Dimension>& density, Progress& progress, TableMemory memory = {});
 
   // Nothing but destruction may follow.
   TableMemory ReleaseMemory() { return std::move(this->Memory); }
 
-  // False if the build was cancelled.
-  bool IsComplete() const { return this->Complete; }
   const TableView<Dimension>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
   std::int64_t MemorySize() const
@@ -49,12 +46,11 @@ public:
 
 private:
   void Allocate(const GridSize<Dimension>& size);
-  bool Build(const DensitySource<Dimension>& density, const Executor& executor, Pacer& pacer);
+  void Build(const DensityValues& density, Progress& progress);
 
   TableMemory Memory;
   TableView<Dimension> Tables;
   DensitySummary Found;
-  bool Complete = false;
 };
 
 } // namespace RectifiedTransport

@@ -3,7 +3,7 @@
 
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Pacer.h"
+#include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
 
 #include <algorithm>
@@ -68,14 +68,14 @@ public:
     }
   }
 
-  bool Run()
+  void Run()
   {
-    const Executor& run = this->Build.Run;
-    Pacer& pace = this->Build.Pace;
+    Progress& pace = this->Build.Pace;
+    const Executor& threads = pace.Threads();
     while (this->Begin < this->Rows)
     {
       this->Count = std::min({ this->Slab, this->Rows - this->Begin, pace.NextSlice(this->Slab) });
-      run.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
+      threads.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
         const std::int64_t end = pace.ShouldStop() ? first : last;
         for (std::int64_t j = first; j < end; ++j)
         {
@@ -86,19 +86,15 @@ public:
       {
         merge(this->Found[j], this->Build.Found);
       }
-      run.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+      threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
         {
           this->AddStrip(strip);
         }
       });
       this->Begin += this->Count;
-      if (!pace.EndSlice(this->Count))
-      {
-        return false;
-      }
+      pace.EndSlice(this->Count);
     }
-    return true;
   }
 
 private:
@@ -114,7 +110,7 @@ private:
     {
       const std::int64_t start = strip * stripCells;
       const std::int64_t length = std::min(stripCells, this->Columns - start);
-      this->Build.Density.ReadRow(row, start, length, cells + start);
+      this->Build.Density.Read(row * this->Columns + start, length, cells + start);
       double* prefix = this->Prefixes.data() + (j * this->Strips + strip) * 2;
       prefix[0] = sum;
       prefix[1] = moment;
@@ -199,15 +195,15 @@ public:
     }
   }
 
-  bool Run()
+  void Run()
   {
-    const Executor& run = this->Build.Run;
-    Pacer& pace = this->Build.Pace;
+    Progress& pace = this->Build.Pace;
+    const Executor& threads = pace.Threads();
     while (this->Begin < this->Slices)
     {
       this->Count =
         std::min({ this->Slab, this->Slices - this->Begin, pace.NextSlice(this->Slab) });
-      run.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+      threads.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t task = first; task < last && !pace.ShouldStop(); ++task)
         {
           this->SumStrip(task);
@@ -217,25 +213,21 @@ public:
       {
         merge(this->Found[task], this->Build.Found);
       }
-      run.For(this->Count, 1, [&](std::int64_t first, std::int64_t last) {
+      threads.For(this->Count, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first; k < last && !pace.ShouldStop(); ++k)
         {
           this->SumBefore(k);
         }
       });
-      run.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+      threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
         {
           this->AddStrip(strip);
         }
       });
       this->Begin += this->Count;
-      if (!pace.EndSlice(this->Count))
-      {
-        return false;
-      }
+      pace.EndSlice(this->Count);
     }
-    return true;
   }
 
 private:
@@ -253,7 +245,7 @@ private:
     {
       const std::int64_t row = (this->Begin + k) * this->Rows + j;
       double* cells = this->Values.data() + (k * this->Rows + j) * this->Columns;
-      this->Build.Density.ReadRow(row, 0, this->Columns, cells);
+      this->Build.Density.Read(row * this->Columns, this->Columns, cells);
       const RowInspection sums = inspectCells(cells, this->Columns, row * this->Columns,
         this->Build.Occupied + row * this->Build.Tables.WordsPerRow, part);
       part.Total += sums.Sum;
@@ -360,7 +352,7 @@ private:
 
 } // namespace
 
-bool buildTables(const TableBuild<1>& build)
+void buildTables(const TableBuild<1>& build)
 {
   const std::int64_t size = build.Tables.Cells[0];
   constexpr std::int64_t segment = 1 << 16;
@@ -376,7 +368,7 @@ bool buildTables(const TableBuild<1>& build)
   {
     build.Pace.NextSlice(1);
     const std::int64_t count = std::min(segment, size - first);
-    build.Density.ReadRow(0, first, count, values.data());
+    build.Density.Read(first, count, values.data());
     DensitySummary part;
     part.Total = inspectCells(values.data(), count, first, build.Occupied + first / 64, part).Sum;
     merge(part, build.Found);
@@ -392,22 +384,18 @@ bool buildTables(const TableBuild<1>& build)
     {
       copyToLevel<2>(nodes.data(), first, count, size, level, build.Level(level));
     }
-    if (!build.Pace.EndSlice(count))
-    {
-      return false;
-    }
+    build.Pace.EndSlice(count);
   }
-  return true;
 }
 
-bool buildTables(const TableBuild<2>& build)
+void buildTables(const TableBuild<2>& build)
 {
-  return Builder2D(build).Run();
+  Builder2D(build).Run();
 }
 
-bool buildTables(const TableBuild<3>& build)
+void buildTables(const TableBuild<3>& build)
 {
-  return Builder3D(build).Run();
+  Builder3D(build).Run();
 }
 
 } // namespace RectifiedTransport

@@ -3,7 +3,6 @@
 #ifndef RectifiedTransport_TableBuild_h
 #define RectifiedTransport_TableBuild_h
 
-#include "Core/Parallel/Executor.h"
 #include "Core/Tables/Density.h"
 #include "Core/Tables/TableView.h"
 
@@ -12,14 +11,13 @@
 namespace RectifiedTransport
 {
 
-class Pacer;
+class Progress;
 
 template <int Dimension>
 struct TableBuild
 {
-  const DensitySource<Dimension>& Density;
-  const Executor& Run;
-  Pacer& Pace;
+  const DensityValues& Density;
+  Progress& Pace;
   const TableView<Dimension>& Tables;
   double* Nodes; // of all levels
   std::uint64_t* Occupied;
@@ -31,11 +29,10 @@ struct TableBuild
   }
 };
 
-// Fills all levels and the bits of occupied cells, and adds to what is found. False if the host
-// wants to stop.
-bool buildTables(const TableBuild<1>& build);
-bool buildTables(const TableBuild<2>& build);
-bool buildTables(const TableBuild<3>& build);
+// Fills all levels and the bits of occupied cells, and adds to what is found. Throws Cancelled.
+void buildTables(const TableBuild<1>& build);
+void buildTables(const TableBuild<2>& build);
+void buildTables(const TableBuild<3>& build);
 
 } // namespace RectifiedTransport
 

@@ -73,7 +73,7 @@ struct Axes
   RT_INLINE explicit Axes(const SplatJob<Dimension, Real>& job)
   {
     constexpr double roundings = 0x1p-50;
-    const SplatMap<Dimension>& map = job.Particles.ToIndex;
+    const IndexMap<Dimension>& map = job.Particles.ToIndex;
     this->AreParallel = true;
     for (int j = 0; j < coordinatePeriod; ++j)
     {
@@ -114,7 +114,7 @@ struct Block
 
 template <int Dimension>
 RT_INLINE void mapTurned(
-  const SplatMap<Dimension>& map, const double* __restrict from, double* __restrict x)
+  const IndexMap<Dimension>& map, const double* __restrict from, double* __restrict x)
 {
   for (int i = 0; i < splatBlock; ++i)
   {
@@ -162,7 +162,7 @@ RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* poin
     low[j - whole] = points[j] < low[j - whole] ? points[j] : low[j - whole];
     high[j - whole] = points[j] > high[j - whole] ? points[j] : high[j - whole];
   }
-  const SplatMap<Dimension>& map = job.Particles.ToIndex;
+  const IndexMap<Dimension>& map = job.Particles.ToIndex;
   for (int a = 0; a < Dimension; ++a)
   {
     least[a] = 0.0;
@@ -248,7 +248,7 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
   for (int i = 0; i < splatBlock; ++i)
   {
     const std::int64_t at = begin + smaller(i, block.Count - 1);
-    const Real* point = job.Particles.Points + 3 * (first + (index ? index[at] : at));
+    const Real* point = job.Particles.Points.data() + 3 * (first + (index ? index[at] : at));
     for (int r = 0; r < 3; ++r)
     {
       from[3 * i + r] = point[r];

@@ -317,7 +317,7 @@ public:
     constexpr double rounding = 0x1p-10; // more than there is
     double least[Dimension];
     double most[Dimension];
-    findBounds(job, job.Particles.Points + 3 * first, count, least, most);
+    findBounds(job, job.Particles.Points.data() + 3 * first, count, least, most);
     CellBox<Dimension> box;
     for (int a = 0; a < Dimension; ++a)
     {
@@ -347,7 +347,7 @@ private:
       readBlock(this->Job, this->Along, first, index, begin, this->Particles);
       return this->WeighPlaced();
     }
-    const Real* points = this->Job.Particles.Points + 3 * (first + begin);
+    const Real* points = this->Job.Particles.Points.data() + 3 * (first + begin);
     this->IsInside = weighBlock<true, true>(this->Along, points, this->Weighed);
     if (!this->IsInside && !weighBlock<false, true>(this->Along, points, this->Weighed))
     {

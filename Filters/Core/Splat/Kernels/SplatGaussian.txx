@@ -207,7 +207,7 @@ struct GaussianSplat
     constexpr double rounding = 0x1p-10; // more than there is
     double least[Dimension];
     double most[Dimension];
-    findBounds(job, job.Particles.Points + 3 * first, count, least, most);
+    findBounds(job, job.Particles.Points.data() + 3 * first, count, least, most);
     CellBox<Dimension> box;
     for (int a = 0; a < Dimension; ++a)
     {

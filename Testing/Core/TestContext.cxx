@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <thread>
 
 namespace RectifiedTransport
@@ -22,13 +23,15 @@ struct Listener
   std::thread::id Thread = std::this_thread::get_id();
   bool OtherThread = false;
 
-  RectifiedTransport::Monitor Monitor()
+  RectifiedTransport::Context Context()
   {
-    return { [this](double progress) {
-              this->OtherThread = this->OtherThread || std::this_thread::get_id() != this->Thread;
-              this->Heard.push_back(progress);
-              this->Last = progress;
-            },
+    static const OpenMPExecutor threads;
+    return { threads,
+      [this](double progress) {
+        this->OtherThread = this->OtherThread || std::this_thread::get_id() != this->Thread;
+        this->Heard.push_back(progress);
+        this->Last = progress;
+      },
       [this]() { return this->Last >= this->Limit; } };
   }
 
@@ -51,103 +54,85 @@ const TestDensity<3>& volume()
 
 constexpr std::size_t ParticleCount = 60000;
 
-TEST(Monitor, ProgressOfTheTables)
+TEST(Context, ProgressOfTheTables)
 {
   Listener listener;
-  const RectifiedFlow<3> flow(volume().Source(), OpenMPExecutor(), listener.Monitor());
-  EXPECT_TRUE(static_cast<bool>(flow));
+  const RectifiedFlow<3> flow(volume().Source(), listener.Context());
   listener.ExpectMonotone("tables");
 }
 
-TEST(Monitor, ProgressOfTheFlow)
+TEST(Context, ProgressOfTheFlow)
 {
   const RectifiedFlow<3> flow = makeFlow(volume());
   const Points<3> seeds = randomPoints<3>(flow.Size(), ParticleCount);
   Points<3> positions(seeds.size());
-  const double* from = seeds.data()->data();
-  double* to = positions.data()->data();
   for (const Integrator method : AllIntegrators)
   {
     Listener forth;
-    EXPECT_FALSE(
-      flow.Forward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), forth.Monitor())
-        .Cancelled);
+    flow.Forward(seeds, positions, steps(16, method), forth.Context());
     forth.ExpectMonotone("forward, " + nameOf(method));
     Listener back;
-    EXPECT_FALSE(
-      flow.Backward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), back.Monitor())
-        .Cancelled);
+    flow.Backward(seeds, positions, steps(16, method), back.Context());
     back.ExpectMonotone("backward, " + nameOf(method));
   }
   Points<3> path(3 * seeds.size());
   Listener at;
-  EXPECT_FALSE(flow
-                 .ForwardAt(from, ParticleCount, { 0.1, 0.5, 1.0 }, path.data()->data(), steps(16),
-                   OpenMPExecutor(), at.Monitor())
-                 .Cancelled);
+  flow.ForwardAt(seeds, { 0.1, 0.5, 1.0 }, path, steps(16), at.Context());
   at.ExpectMonotone("at times");
 }
 
-TEST(Monitor, DoesNotChangeTheResult)
+TEST(Context, DoesNotChangeTheResult)
 {
   Listener listener;
-  const RectifiedFlow<3> watched(volume().Source(), OpenMPExecutor(), listener.Monitor());
+  const RectifiedFlow<3> watched(volume().Source(), listener.Context());
   const RectifiedFlow<3> flow = makeFlow(volume());
   const Points<3> seeds = randomPoints<3>(flow.Size(), 5000);
   Points<3> positions(seeds.size());
   Listener other;
-  watched.Forward(seeds.data()->data(), 5000, positions.data()->data(), FlowOptions(),
-    OpenMPExecutor(), other.Monitor());
+  watched.Forward(seeds, positions, FlowOptions(), other.Context());
   EXPECT_TRUE(sameBits<3>(positions, runForward(flow, seeds)));
 }
 
-TEST(Monitor, CancelTheTables)
+TEST(Context, CancelTheTables)
 {
   Listener listener;
   listener.Limit = 0.0;
-  const RectifiedFlow<3> flow(volume().Source(), OpenMPExecutor(), listener.Monitor());
-  EXPECT_FALSE(static_cast<bool>(flow));
+  EXPECT_THROW(RectifiedFlow<3>(volume().Source(), listener.Context()), Cancelled);
+  EXPECT_LT(listener.Last, 0.9) << "went on after it was cancelled";
 }
 
-TEST(Monitor, CancelTheFlow)
+TEST(Context, CancelTheFlow)
 {
   const RectifiedFlow<3> flow = makeFlow(volume());
   const Points<3> seeds = randomPoints<3>(flow.Size(), ParticleCount);
-  Points<3> positions(3 * seeds.size());
-  const double* from = seeds.data()->data();
-  double* to = positions.data()->data();
+  Points<3> positions(seeds.size());
+  Points<3> path(3 * seeds.size());
   for (const double limit : { 0.0, 0.3 })
   {
     for (const Integrator method : AllIntegrators)
     {
       Listener forth;
       forth.Limit = limit;
-      EXPECT_TRUE(
-        flow.Forward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), forth.Monitor())
-          .Cancelled)
+      EXPECT_THROW(flow.Forward(seeds, positions, steps(16, method), forth.Context()), Cancelled)
         << nameOf(method);
       EXPECT_LT(forth.Last, limit == 0.0 ? 0.9 : 1.1) << "went on after it was cancelled";
       Listener back;
       back.Limit = limit;
-      EXPECT_TRUE(
-        flow.Backward(from, ParticleCount, to, steps(16, method), OpenMPExecutor(), back.Monitor())
-          .Cancelled)
+      EXPECT_THROW(flow.Backward(seeds, positions, steps(16, method), back.Context()), Cancelled)
         << nameOf(method);
       EXPECT_LT(back.Last, limit == 0.0 ? 0.9 : 1.1) << "went on after it was cancelled";
     }
     Listener at;
     at.Limit = limit;
-    EXPECT_TRUE(flow
-                  .ForwardAt(from, ParticleCount, { 0.1, 0.5, 1.0 }, to, FlowOptions(),
-                    OpenMPExecutor(), at.Monitor())
-                  .Cancelled);
+    EXPECT_THROW(
+      flow.ForwardAt(seeds, { 0.1, 0.5, 1.0 }, path, FlowOptions(), at.Context()), Cancelled);
   }
 }
 
-TEST(Monitor, ProgressAndCancelOfTheSeeds)
+TEST(Context, ProgressAndCancelOfTheSeeds)
 {
   constexpr std::int64_t count = 300000;
-  std::vector<double> points(3 * count);
+  Points<3> points(count);
   const Point<3> lengths = { 1.0, 2.0, 3.0 };
   for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
          SeedPattern::LowDiscrepancy, SeedPattern::Random })
@@ -156,22 +141,34 @@ TEST(Monitor, ProgressAndCancelOfTheSeeds)
     {
       Listener listener;
       listener.Limit = limit;
-      const bool complete =
-        generateSeeds<3>(pattern, lengths, count, 1, points.data(), listener.Monitor());
-      EXPECT_EQ(complete, limit > 1.0) << static_cast<int>(pattern);
+      const bool complete = limit > 1.0;
+      const auto generate = [&]() {
+        generateSeeds<3>(pattern, lengths, 1, points, listener.Context());
+      };
+      if (complete)
+      {
+        EXPECT_NO_THROW(generate()) << static_cast<int>(pattern);
+      }
+      else
+      {
+        EXPECT_THROW(generate(), Cancelled) << static_cast<int>(pattern);
+      }
       EXPECT_EQ(listener.Heard.size() > 1, complete) << static_cast<int>(pattern);
       EXPECT_TRUE(std::is_sorted(listener.Heard.begin(), listener.Heard.end()));
     }
   }
   Listener listener;
   listener.Limit = 0.0;
-  EXPECT_FALSE(generateLattice<3>({ 50, 60, 70 }, points.data(), listener.Monitor()));
-  EXPECT_FALSE(generateJitteredLattice<3>({ 50, 60, 70 }, 1, points.data(), listener.Monitor()));
+  points.resize(50 * 60 * 70);
+  EXPECT_THROW(generateLattice<3>({ 50, 60, 70 }, points, listener.Context()), Cancelled);
+  EXPECT_THROW(
+    generateJitteredLattice<3>({ 50, 60, 70 }, 1, points, listener.Context()), Cancelled);
   EXPECT_EQ(listener.Heard.size(), 2u);
 }
 
-// However many steps a block of particles takes, the host is asked in between.
-TEST(Monitor, CancelManySteps)
+// However many steps a block of particles takes, the host is asked in between. What goes on after
+// the host said stop asks again: it must not be much.
+TEST(Context, CancelManySteps)
 {
   const RectifiedFlow<3> flow = makeFlow(volume());
   const Points<3> seeds = randomPoints<3>(flow.Size(), 64);
@@ -183,15 +180,20 @@ TEST(Monitor, CancelManySteps)
       FlowOptions options = steps(10000, method);
       options.Tolerance = 1e-14;
       int asked = 0;
-      const Monitor monitor = { {}, [&asked]() { return ++asked > 3; } };
-      const double* from = seeds.data()->data();
-      double* to = positions.data()->data();
-      const FlowReport report = backward
-        ? flow.Backward(from, 64, to, options, SerialExecutor(), monitor)
-        : flow.Forward(from, 64, to, options, SerialExecutor(), monitor);
-      EXPECT_TRUE(report.Cancelled) << nameOf(method);
-      EXPECT_LE(report.Evaluations, 64 * 4 * 256) << nameOf(method);
-      EXPECT_GT(report.Evaluations, 0) << nameOf(method);
+      int limit = std::numeric_limits<int>::max();
+      const SerialExecutor serial;
+      const RectifiedTransport::Context context(serial, {}, [&]() { return ++asked > limit; });
+      const auto run = [&]() {
+        return backward ? flow.Backward(seeds, positions, options, context)
+                        : flow.Forward(seeds, positions, options, context);
+      };
+      const FlowReport report = run();
+      EXPECT_LE(report.Evaluations, 64 * 256 * std::int64_t{ asked }) << nameOf(method);
+      EXPECT_GT(report.Evaluations, 64 * 4 * 256) << nameOf(method);
+      asked = 0;
+      limit = 3;
+      EXPECT_THROW(run(), Cancelled) << nameOf(method);
+      EXPECT_LE(asked, limit + 2) << nameOf(method); // the last at the end of the slice
     }
   }
 }

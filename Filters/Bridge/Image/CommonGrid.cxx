@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Image/CommonFrame.h"
+#include "Bridge/Image/CommonGrid.h"
 
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
+
+#include "vtkMatrix3x3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +20,66 @@ constexpr double rounding = 1e-9;       // of lengths that are meant to be the s
 constexpr double planeTolerance = 1e-6; // of the longest side: single precision
 constexpr const char* property = "Dimensions";
 
-using Sides = std::array<ImageFrame::Side, 3>;
-
-Sides sidesOf(const FramePart& part)
+// The part of the domain along an axis. Places are measured from the origin of space along the
+// grid's own directions. Without an axis there, Low is the place of the one point.
+struct Side
 {
-  return { part.Frame.GetSide(0, part.OnPoints), part.Frame.GetSide(1, part.OnPoints),
-    part.Frame.GetSide(2, part.OnPoints) };
+  double Low; // where the first cell begins; the highest end if Spacing is negative
+  double Spacing;
+  int Cells;
+  bool IsAxis;
+};
+
+using Sides = std::array<Side, 3>;
+
+Sides sidesOf(const ImageGrid& grid)
+{
+  double inverse[9] = {}; // so it stays where there is none
+  vtkMatrix3x3::Invert(grid.Direction().data(), inverse);
+  Sides sides;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double* row = inverse + 3 * i;
+    const double spacing = grid.Spacing()[static_cast<Eigen::Index>(i)];
+    const int first = grid.Extent()[2 * i];
+    const double index = grid.IsAxis(i) && grid.IsOnPoints() ? first - 0.5 : first;
+    const Eigen::Vector3d& origin = grid.Origin();
+    const double low =
+      row[0] * origin[0] + row[1] * origin[1] + row[2] * origin[2] + spacing * index;
+    sides[i] = { low, spacing, grid.NumberOfValues()[i], grid.IsAxis(i) };
+  }
+  return sides;
+}
+
+// The grid that has these sides in the directions of another, and whose extent begins at 0.
+ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
+{
+  std::array<int, 6> extent{};
+  Eigen::Vector3d spacing;
+  Eigen::Vector3d place;
+  Eigen::Vector3d origin;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Side& side = sides[i];
+    const auto axis = static_cast<Eigen::Index>(i);
+    spacing[axis] = side.Spacing;
+    extent[2 * i + 1] = !side.IsAxis ? 0 : grid.IsOnPoints() ? side.Cells - 1 : side.Cells;
+    place[axis] = side.IsAxis && grid.IsOnPoints() ? side.Low + 0.5 * side.Spacing : side.Low;
+  }
+  vtkMatrix3x3::MultiplyPoint(grid.Direction().data(), place.data(), origin.data());
+  return { extent, origin, spacing, grid.Direction(), grid.IsOnPoints() };
+}
+
+bool haveSameDirection(const ImageGrid& a, const ImageGrid& b)
+{
+  return ((a.Direction() - b.Direction()).cwiseAbs().array() <= rounding).all();
+}
+
+// An axis of one point need not have a direction of its own.
+bool hasInverse(const ImageGrid& grid)
+{
+  constexpr double flat = 1e-12;
+  return std::abs(vtkMatrix3x3::Determinant(grid.Direction().data())) > flat;
 }
 
 std::string axesOf(const Sides& sides)
@@ -39,7 +96,7 @@ std::string axesOf(const Sides& sides)
   return axes.empty() ? "no axis" : "the axes " + axes;
 }
 
-double lengthOf(const ImageFrame::Side& side)
+double lengthOf(const Side& side)
 {
   return std::abs(side.Spacing) * side.Cells;
 }
@@ -47,17 +104,17 @@ double lengthOf(const ImageFrame::Side& side)
 double longestOf(const Sides& sides)
 {
   double longest = 0.0;
-  for (const ImageFrame::Side& side : sides)
+  for (const Side& side : sides)
   {
     longest = std::max(longest, side.IsAxis ? lengthOf(side) : 0.0);
   }
   return longest;
 }
 
-void requireAlike(const FramePart& first, const FramePart& other)
+void requireAlike(const NamedGrid& first, const NamedGrid& other)
 {
-  const Sides a = sidesOf(first);
-  const Sides b = sidesOf(other);
+  const Sides a = sidesOf(first.Grid);
+  const Sides b = sidesOf(other.Grid);
   std::ostringstream message;
   if (axesOf(a) != axesOf(b))
   {
@@ -65,14 +122,14 @@ void requireAlike(const FramePart& first, const FramePart& other)
             << "; all must have the same number of dimensions, along the same axes";
     throw Failure(message.str());
   }
-  if (!first.Frame.HasDirectionOf(other.Frame))
+  if (!haveSameDirection(first.Grid, other.Grid))
   {
     message << first.Name << " and " << other.Name
             << " have different direction matrices; all must have the same one (Resample To Image "
                "makes it so)";
     throw Failure(message.str());
   }
-  if (!first.Frame.HasInverse())
+  if (!hasInverse(first.Grid))
   {
     message << first.Name << " has a direction matrix without an inverse, and its geometry is not "
             << "that of " << other.Name << "; give axes of one point a direction of their own";
@@ -132,7 +189,7 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
   double finest = std::abs(all.front()[axis].Spacing);
   for (const Sides& sides : all)
   {
-    const ImageFrame::Side& side = sides[axis];
+    const Side& side = sides[axis];
     low = std::min(low, sign * side.Low);
     high = std::max(high, sign * side.Low + lengthOf(side));
     finest = std::min(finest, std::abs(side.Spacing));
@@ -143,24 +200,24 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
 
 } // namespace
 
-ImageFrame commonFrame(const std::vector<FramePart>& parts, const int dimensions[3])
+ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3])
 {
-  const FramePart& first = parts.front();
+  const ImageGrid& first = grids.front().Grid;
   std::vector<Sides> all{ sidesOf(first) };
   bool same = true;
-  for (const FramePart& part : parts)
+  for (const NamedGrid& grid : grids)
   {
-    if (part.Frame == first.Frame && part.OnPoints == first.OnPoints)
+    if (grid.Grid == first)
     {
       continue;
     }
-    requireAlike(first, part);
-    all.push_back(sidesOf(part));
+    requireAlike(grids.front(), grid);
+    all.push_back(sidesOf(grid.Grid));
     same = same && isSame(all.front(), all.back());
   }
   if (same)
   {
-    return first.Frame.WithValues(dimensions, first.OnPoints, property);
+    return gridWithValues(first, dimensions, property);
   }
 
   constexpr double most = 1 << 30; // cells an axis, as in the core
@@ -186,11 +243,10 @@ ImageFrame commonFrame(const std::vector<FramePart>& parts, const int dimensions
     sides[i].Cells = static_cast<int>(cells);
     sides[i].Spacing = unions[i].Sign * unions[i].Length / cells;
   }
-  const ImageFrame exact =
-    first.Frame.WithSides(sides, first.OnPoints).WithValues(dimensions, first.OnPoints, property);
+  const Sides exact = sidesOf(gridWithValues(withSides(first, sides), dimensions, property));
   for (std::size_t i = 0; i < 3; ++i)
   {
-    sides[i] = exact.GetSide(i, first.OnPoints);
+    sides[i] = exact[i];
     if (sides[i].IsAxis && dimensions[i] == 0)
     {
       sides[i].Spacing = unions[i].Sign * unions[i].Finest;
@@ -200,7 +256,7 @@ ImageFrame commonFrame(const std::vector<FramePart>& parts, const int dimensions
       sides[i].Low = unions[i].Sign * unions[i].Low;
     }
   }
-  return first.Frame.WithSides(sides, first.OnPoints);
+  return withSides(first, sides);
 }
 
 } // namespace RectifiedTransport

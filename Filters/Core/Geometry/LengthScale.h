@@ -3,11 +3,11 @@
 #ifndef RectifiedTransport_LengthScale_h
 #define RectifiedTransport_LengthScale_h
 
-#include "Bridge/Image/ImageGeometry.h"
-#include "Bridge/Run/Failure.h"
+#include "Core/Geometry/ImageGrid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace RectifiedTransport
 {
@@ -16,8 +16,8 @@ namespace RectifiedTransport
 class LengthScale
 {
 public:
-  explicit LengthScale(const ImageGeometry& geometry)
-    : Exponent(std::clamp(std::ilogb(geometry.Diagonal()), -most, most))
+  explicit LengthScale(const ImageGrid& grid)
+    : Exponent(std::clamp(std::ilogb(grid.Diagonal()), -most, most))
     , UnitsALength(std::ldexp(1.0, -this->Exponent))
     , LengthOfUnit(std::ldexp(1.0, this->Exponent))
   {
@@ -34,14 +34,16 @@ public:
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   }
 
-  // The cost that is a mean of such squares. Throws Failure where it passes the largest double.
+  // The cost that is a mean of such squares. Throws std::overflow_error where it passes the largest
+  // double.
   double CostFromUnits(double squares) const
   {
     const double cost = std::ldexp(squares, 2 * this->Exponent);
     if (!std::isfinite(cost))
     {
-      throw Failure("TransportCost, the mean of the squared displacements, passes the largest "
-                    "double; the spacing of the density must be smaller");
+      throw std::overflow_error(
+        "TransportCost, the mean of the squared displacements, passes the largest "
+        "double; the spacing of the density must be smaller");
     }
     return cost;
   }

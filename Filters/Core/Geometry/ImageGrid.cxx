@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Geometry/ImageGrid.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Matrix = ImageGrid::Matrix;
+
+// Neither overflows nor underflows.
+double length(const Eigen::Vector3d& v)
+{
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+// The measure that the first `count` rows span.
+double measure(const Matrix& rows, int count)
+{
+  const Eigen::Vector3d a = rows.row(0);
+  if (count == 1)
+  {
+    return length(a);
+  }
+  const Eigen::Vector3d cross = a.cross(Eigen::Vector3d(rows.row(1)));
+  return count == 2
+    ? length(cross)
+    : std::abs(cross[0] * rows(2, 0) + cross[1] * rows(2, 1) + cross[2] * rows(2, 2));
+}
+
+double dot(const Matrix& rows, int a, int b)
+{
+  return rows(a, 0) * rows(b, 0) + rows(a, 1) * rows(b, 1) + rows(a, 2) * rows(b, 2);
+}
+
+// The adjugate over the determinant, which is exact for the identity.
+Matrix inverseOf(const Matrix& matrix)
+{
+  Matrix adjugate;
+  for (int i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d next = matrix.row((i + 1) % 3);
+    adjugate.col(i) = next.cross(Eigen::Vector3d(matrix.row((i + 2) % 3)));
+  }
+  const double determinant =
+    matrix(0, 0) * adjugate(0, 0) + matrix(0, 1) * adjugate(1, 0) + matrix(0, 2) * adjugate(2, 0);
+  return adjugate / determinant;
+}
+
+} // namespace
+
+ImageGrid::ImageGrid(const std::array<int, 6>& extent, const Eigen::Vector3d& origin,
+  const Eigen::Vector3d& spacing, const Matrix& direction, bool onPoints)
+  : PointExtent(extent)
+  , PointOrigin(origin)
+  , PointSpacing(spacing)
+  , AxisDirection(direction)
+  , OnPoints(onPoints)
+{
+  this->FindCells();
+}
+
+bool ImageGrid::operator==(const ImageGrid& other) const
+{
+  return this->PointExtent == other.PointExtent && this->PointOrigin == other.PointOrigin &&
+    this->PointSpacing == other.PointSpacing && this->AxisDirection == other.AxisDirection &&
+    this->OnPoints == other.OnPoints;
+}
+
+bool ImageGrid::IsEmpty() const
+{
+  const auto& e = this->PointExtent;
+  return e[0] > e[1] || e[2] > e[3] || e[4] > e[5];
+}
+
+std::array<int, 3> ImageGrid::NumberOfPoints() const
+{
+  std::array<int, 3> points;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    points[i] = this->PointExtent[2 * i + 1] - this->PointExtent[2 * i] + 1;
+  }
+  return points;
+}
+
+std::array<int, 3> ImageGrid::NumberOfValues() const
+{
+  std::array<int, 3> values = this->NumberOfPoints();
+  for (int& count : values)
+  {
+    count -= this->OnPoints || count == 1 ? 0 : 1;
+  }
+  return values;
+}
+
+ImageGrid ImageGrid::WithValuesOn(bool points) const
+{
+  return { this->PointExtent, this->PointOrigin, this->PointSpacing, this->AxisDirection, points };
+}
+
+ImageGrid ImageGrid::WithValues(const std::array<int, 3>& wanted) const
+{
+  ImageGrid grid = *this;
+  const std::array<int, 3> values = this->NumberOfValues();
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (wanted[i] != 0 && wanted[i] != values[i])
+    {
+      // Where the new index is 0, in the old one.
+      const double ratio = static_cast<double>(values[i]) / wanted[i];
+      const double start = this->PointExtent[2 * i] + (this->OnPoints ? 0.5 * (ratio - 1.0) : 0.0);
+      grid.SetAxis(i, start, this->OnPoints ? wanted[i] : wanted[i] + 1);
+      grid.PointSpacing[static_cast<Eigen::Index>(i)] *= ratio;
+    }
+  }
+  grid.FindCells();
+  return grid;
+}
+
+ImageGrid ImageGrid::AtCellCentres() const
+{
+  ImageGrid grid = *this;
+  grid.OnPoints = true;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (this->IsAxis(i))
+    {
+      grid.SetAxis(i, this->PointExtent[2 * i] + 0.5, this->NumberOfPoints()[i] - 1);
+    }
+  }
+  grid.FindCells();
+  return grid;
+}
+
+ImageGrid ImageGrid::WithDualCells() const
+{
+  ImageGrid grid = *this;
+  grid.OnPoints = false;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (this->IsAxis(i))
+    {
+      grid.SetAxis(i, this->PointExtent[2 * i] - 0.5, this->NumberOfPoints()[i] + 1);
+    }
+  }
+  grid.FindCells();
+  return grid;
+}
+
+void ImageGrid::SetAxis(std::size_t axis, double first, int points)
+{
+  const auto a = static_cast<Eigen::Index>(axis);
+  for (Eigen::Index r = 0; r < 3; ++r)
+  {
+    this->PointOrigin[r] += this->AxisDirection(r, a) * this->PointSpacing[a] * first;
+  }
+  this->PointExtent[2 * axis] = 0;
+  this->PointExtent[2 * axis + 1] = points - 1;
+}
+
+void ImageGrid::FindCells()
+{
+  this->AxisCount = 0;
+  this->Step = this->AxisDirection * this->PointSpacing.asDiagonal();
+  this->Inverse.setZero();
+  this->Normal.setZero();
+  Matrix axes = Matrix::Zero(); // as rows
+  const std::array<int, 3> points = this->NumberOfPoints();
+  for (int i = 0; i < 3; ++i)
+  {
+    const auto image = static_cast<std::size_t>(i);
+    this->First[image] = this->PointExtent[2 * image];
+    if (points[image] <= 1)
+    {
+      continue;
+    }
+    if (this->OnPoints)
+    {
+      this->First[image] -= 0.5;
+    }
+    const int a = this->AxisCount++;
+    this->Axis[static_cast<std::size_t>(a)] = i;
+    this->Cells[static_cast<std::size_t>(a)] = points[image] - (this->OnPoints ? 0 : 1);
+    axes.row(a) = this->Step.col(i).transpose();
+    this->CellLength[a] = length(axes.row(a));
+  }
+  this->Measure = this->AxisCount > 0 ? measure(axes, this->AxisCount) : 0.0;
+  const double zero[3] = { 0.0, 0.0, 0.0 };
+  this->ToPhysical<3>(zero, this->Corner.data());
+  Eigen::Vector3d farthest = this->Corner.cwiseAbs() + this->PointOrigin.cwiseAbs();
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    farthest += axes.row(a).transpose().cwiseAbs() *
+      static_cast<double>(this->Cells[static_cast<std::size_t>(a)]);
+    axes.row(a) *= 1.0 / this->CellLength[a];
+  }
+  constexpr double parallel = 1e-12;
+  this->Valid = this->AxisCount > 0 && std::isfinite(this->Measure) &&
+    std::isfinite(length(farthest)) && this->Measure > 0.0 &&
+    measure(axes, this->AxisCount) > parallel;
+  if (!this->Valid)
+  {
+    return;
+  }
+
+  // Least squares on axes of unit length: (U U^T)^-1 U.
+  Matrix gram = Matrix::Identity();
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    for (int b = 0; b < this->AxisCount; ++b)
+    {
+      gram(a, b) = a == b ? 1.0 : dot(axes, a, b);
+    }
+  }
+  const Matrix inverse = inverseOf(gram);
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    for (int b = 0; b < this->AxisCount; ++b)
+    {
+      this->Inverse.row(a) += inverse(a, b) * axes.row(b);
+    }
+  }
+  const Eigen::Vector3d first = axes.row(0);
+  if (this->AxisCount == 1)
+  {
+    const Eigen::Vector3d across = first.unitOrthogonal();
+    this->Normal.row(1) = across;
+    this->Normal.row(2) = first.cross(across);
+  }
+  else if (this->AxisCount == 2)
+  {
+    this->Normal.row(2) = first.cross(Eigen::Vector3d(axes.row(1))).normalized();
+  }
+}
+
+std::int64_t ImageGrid::NumberOfCells() const
+{
+  std::int64_t cells = 1;
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    cells *= this->Cells[static_cast<std::size_t>(a)];
+  }
+  return cells;
+}
+
+bool ImageGrid::IsMirrored() const
+{
+  return this->AxisCount == 3 && this->Step.determinant() < 0.0;
+}
+
+double ImageGrid::Diagonal() const
+{
+  Eigen::Vector3d lengths = Eigen::Vector3d::Zero();
+  for (int a = 0; a < this->AxisCount; ++a)
+  {
+    lengths[a] =
+      this->CellLength[a] * static_cast<double>(this->Cells[static_cast<std::size_t>(a)]);
+  }
+  return length(lengths);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parallel/Context.h"
+
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+const Executor& defaultExecutor()
+{
+  static const OpenMPExecutor executor;
+  return executor;
+}
+
+} // namespace
+
+Context::Context()
+  : Threads(&defaultExecutor())
+{
+}
+
+Context::Context(
+  const Executor& threads, std::function<void(double)> report, std::function<bool()> isCancelled)
+  : Threads(&threads)
+  , Report(std::move(report))
+  , IsCancelled(std::move(isCancelled))
+{
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a computation runs in: the threads of its host, and the host's wishes.
+#ifndef RectifiedTransport_Context_h
+#define RectifiedTransport_Context_h
+
+#include "Core/Parallel/Executor.h"
+
+#include <functional>
+
+namespace RectifiedTransport
+{
+
+// Thrown by what was cancelled; its results are then undefined. Not an error, hence no
+// std::exception.
+class Cancelled
+{
+};
+
+// An executor, which has to outlive its use, and two functions, which may be empty and may not
+// throw. By default OpenMP's threads, and nobody to follow or to cancel.
+struct Context
+{
+  Context();
+  Context(const Executor& threads) // NOLINT: an executor is a context
+    : Threads(&threads)
+  {
+  }
+  Context(const Executor& threads, std::function<void(double)> report,
+    std::function<bool()> isCancelled = {});
+
+  const Executor* Threads;
+  // Hears how much is done, in [0,1], on the thread that called the library only.
+  std::function<void(double)> Report;
+  // Whether to stop. Asked on any thread, by one at a time.
+  std::function<bool()> IsCancelled;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+Progress::Progress(Context context)
+  : Host(std::move(context))
+{
+}
+
+void Progress::BeginStage(double end, std::int64_t units)
+{
+  this->Begin = this->End;
+  this->End = end;
+  this->Units = std::max<std::int64_t>(units, 1);
+  this->Done = 0;
+  this->SliceUnits = 0;
+  this->Pending = 0;
+  this->SliceStart = Clock::now();
+}
+
+Context Progress::Stage()
+{
+  return Context(
+    *this->Host.Threads, [this](double fraction) { this->Report(fraction); },
+    this->Host.IsCancelled);
+}
+
+void Progress::For(std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
+{
+  this->Run(*this->Host.Threads, count, grain, kernel, units);
+}
+
+void Progress::ForInOrder(
+  std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
+{
+  this->Run(SerialExecutor(), count, grain, kernel, units);
+}
+
+void Progress::Run(const Executor& executor, std::int64_t count, std::int64_t grain,
+  const RangeKernel& kernel, std::int64_t units)
+{
+  this->Units = std::max<std::int64_t>(count, 1);
+  this->Done = 0;
+  this->SliceUnits = 0;
+  // Ranges for all threads, however few units of work there are.
+  const std::int64_t ranges =
+    std::max<std::int64_t>((units + grain - 1) / grain, executor.Concurrency());
+  for (std::int64_t begin = 0; begin < count;)
+  {
+    const std::int64_t slice = std::min(count - begin, this->NextSlice(ranges * grain));
+    executor.For(slice, grain,
+      [&](std::int64_t first, std::int64_t last) { kernel(begin + first, begin + last); });
+    begin += slice;
+    this->EndSlice(slice);
+  }
+}
+
+std::int64_t Progress::NextSlice(std::int64_t smallest)
+{
+  this->SliceUnits = std::max(this->SliceUnits / smallest, std::int64_t{ 1 }) * smallest;
+  this->SliceStart = Clock::now();
+  return this->SliceUnits;
+}
+
+void Progress::EndSlice(std::int64_t units)
+{
+  constexpr double sliceSeconds = 0.03;
+  this->Done += units;
+  this->Report(std::min(static_cast<double>(this->Done) / static_cast<double>(this->Units), 1.0));
+  this->Ask();
+  const double seconds = std::chrono::duration<double>(Clock::now() - this->SliceStart).count();
+  const double factor = std::min(std::max(sliceSeconds / std::max(seconds, 1e-9), 0.25), 4.0);
+  this->SliceUnits = static_cast<std::int64_t>(
+    std::min(static_cast<double>(units) * factor, static_cast<double>(this->Units)) + 1.0);
+  if (this->IsCancelled())
+  {
+    throw Cancelled();
+  }
+}
+
+void Progress::Add(std::int64_t units)
+{
+  constexpr std::int64_t interval = std::int64_t{ 1 } << 16;
+  this->Pending += units;
+  if (this->Pending >= interval)
+  {
+    this->EndSlice(std::exchange(this->Pending, 0));
+  }
+}
+
+bool Progress::ShouldStop()
+{
+  if (this->Host.IsCancelled && !this->Asking.test_and_set(std::memory_order_acquire))
+  {
+    this->Ask();
+    this->Asking.clear(std::memory_order_release);
+  }
+  return this->IsCancelled();
+}
+
+void Progress::Check()
+{
+  if (this->ShouldStop())
+  {
+    throw Cancelled();
+  }
+}
+
+// Several loops may be the work of one stage: what was reported is not taken back.
+void Progress::Report(double fractionOfStage)
+{
+  this->Reported =
+    std::max(this->Reported, this->Begin + (this->End - this->Begin) * fractionOfStage);
+  if (this->Host.Report)
+  {
+    this->Host.Report(this->Reported);
+  }
+}
+
+void Progress::Ask()
+{
+  if (this->Host.IsCancelled && this->Host.IsCancelled())
+  {
+    this->Stop.store(true, std::memory_order_relaxed);
+  }
+}
+
+} // namespace RectifiedTransport
