@@ -14,12 +14,16 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, os.pardir, "Testing", "Data")
 
 
-def load_plugin():
-    """Loads the plugin from RT_PLUGIN, else from build/, else from where ParaView looks itself."""
+def plugin_path():
+    """The plugin that RT_PLUGIN names, else the one in build/, else None: ParaView looks itself."""
     built = glob.glob(os.path.join(HERE, os.pardir, "build", "lib*", "**", "RectifiedTransport.so"),
                       recursive=True)
-    path = os.environ.get("RT_PLUGIN") or next(
-        (p for p in built if os.sep + "plugins" + os.sep in p), None)
+    return os.environ.get("RT_PLUGIN") or next(
+        (path for path in built if os.sep + "plugins" + os.sep in path), None)
+
+
+def load_plugin():
+    path = plugin_path()
     if path:
         simple.LoadPlugin(path, remote=False, ns=vars(simple))
     else:

@@ -2,14 +2,12 @@
 """ParaView's own window: all entries are chosen from the menus and applied, pictures are kept."""
 import os
 import shutil
-import subprocess
 import tempfile
-import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from paraview.simple import GetParaViewSourceVersion
 from rt_testing import OUTPUT, SOURCE, main, need_display
+from rt_window import APPLY, PANEL, choose, first_stippling, play, tick, write_settings
 
 OPEN = """
 from paraview.simple import *
@@ -34,76 +32,43 @@ selected = servermanager.ProxyManager().GetSelectionModel('ActiveSources')
 selected.Select(photograph.SMProxy, 2)
 """
 
-WINDOW = "pqClientMainWindow/"
-PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
-         "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
 PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
-APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
 # In the dialog that asks for the second input: the first source, and OK.
 DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
            ("SelectInputDialog/pipelineView", "currentChanged", "/0/0|0"),
            ("SelectInputDialog/buttonBox/1QPushButton0", "activate", ""))
 
 
-def choose(menu, name):
-    return "menubar/menu%s/Transport" % menu, "activate", name
-
-
-def events(path, *steps):
-    root = ElementTree.Element("pqevents")
-    for target, command, arguments in steps:
-        ElementTree.SubElement(root, "pqevent", object=WINDOW + target, command=command,
-                               arguments=arguments)
-    ElementTree.ElementTree(root).write(path)
-
-
 class Gui(unittest.TestCase):
     def setUp(self):
         self.home = tempfile.mkdtemp(dir=OUTPUT)
         self.addCleanup(shutil.rmtree, self.home)
-        settings = os.path.join(self.home, ".config", "ParaView")
-        os.makedirs(settings)
-        version = str(GetParaViewSourceVersion()).split()[-1]
-        with open(os.path.join(settings, "ParaView%s.ini" % version), "w") as file:
-            file.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
-
-    def play(self, script, recording, picture):
-        """Starts ParaView, plays a recording, keeps a picture of the screen, ends ParaView."""
-        log_path = os.path.join(self.home, "log")
-        with open(log_path, "w") as log:
-            window = subprocess.Popen(
-                ["paraview", "--plugins=RectifiedTransport", "--script=" + script,
-                 "--test-script=" + recording, "--test-directory=" + self.home],
-                env={**os.environ, "HOME": self.home,
-                     "PV_PLUGIN_PATH": os.path.dirname(os.environ["RT_PLUGIN"])},
-                stdout=log, stderr=subprocess.STDOUT)
-        try:
-            for _ in range(120):
-                time.sleep(1)
-                with open(log_path, encoding="utf-8", errors="replace") as log:
-                    said = log.read()
-                if "is finished" in said or window.poll() is not None:
-                    break
-            time.sleep(2)  # the window draws what the last event changed
-            subprocess.run(["import", "-window", "root", os.path.join(OUTPUT, picture)],
-                           check=True)
-        finally:
-            window.kill()
-            window.wait()
-        return said
+        write_settings(self.home)
 
     def state_after(self, picture, *steps, script_text=OPEN):
         """The state that ParaView saves after these steps, begun with a photograph."""
-        script, recording, state = (os.path.join(self.home, name)
-                                    for name in ("open.py", "play.xml", "state.pvsm"))
+        script, state = (os.path.join(self.home, name) for name in ("open.py", "state.pvsm"))
         with open(script, "w", encoding="utf-8") as file:
             file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
-        events(recording, *steps, ("menubar/menu_File", "activate", "actionFileSaveServerState"),
-               ("FileSaveServerStateDialog", "filesSelected", state))
-        said = self.play(script, recording, picture)
+        save = (("menubar/menu_File", "activate", "actionFileSaveServerState"),
+                ("FileSaveServerStateDialog", "filesSelected", state))
+        said = play(self.home, [*steps, *save], os.environ["RT_PLUGIN"],
+                    os.path.join(OUTPUT, picture), ["--script=" + script])
         self.assertRegex(said, r"Success =\s+true")
         self.assertNotIn("ERR|", said)
         return ElementTree.parse(state).getroot()
+
+    def test_first_stippling(self):
+        """The README's five clicks, by which ParaView itself opens the photograph."""
+        photograph = os.path.join(SOURCE, "Testing", "Data", "raccoon.png")
+        saved = self.state_after("gui-first-stippling.png", *first_stippling(photograph),
+                                 script_text="# %s")
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        self.assertIn("PNGSeriesReader", found)
+        inverted = [prop.find("Element").get("value")
+                    for prop in found["TransportSampler"].iter("Property")
+                    if prop.get("name") == "InvertDensity"]
+        self.assertEqual(inverted, ["1"])
 
     def test_menus(self):
         saved = self.state_after("gui.png", choose("Filters", "TransportSampler"), APPLY,
@@ -154,7 +119,7 @@ class Gui(unittest.TestCase):
         target = ("SelectInputDialog/buttonFrame/Target", *DENSITY[0][1:])
         saved = self.state_after(
             "gui-morph.png", choose("Filters", "TransportInterpolator"), target, *DENSITY[1:],
-            (PANEL + "PublishTime/CheckBox", "set_boolean", "true"), APPLY, PLAY,
+            tick("PublishTime"), APPLY, PLAY,
             script_text=OPEN_TWO)
         found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
 

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the README's picture of ParaView's window after the README's five clicks."""
+import argparse
+import os
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [os.path.join(ROOT, "Examples"), os.path.join(ROOT, "Testing", "Python")]
+import rectified_example as example
+import rt_window
+
+SIZE = 1100, 800
+# The panel beside the view, wide and high enough for what is on it.
+STYLE = """
+#propertiesPanel { min-width: 370px; }
+#pipelineBrowserDock { max-height: 125px; }
+"""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--output", help="folder of the picture, by default the documentation's",
+                        default=os.path.join(ROOT, "Documentation", "Images"))
+    folder = parser.parse_args().output
+    os.makedirs(folder, exist_ok=True)
+    picture = os.path.join(folder, "window.png")
+    if not os.environ.get("DISPLAY"):
+        sys.exit('Needs a display: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython ...')
+    steps = (*rt_window.first_stippling(os.path.join(example.DATA, "raccoon.png")),
+             rt_window.ZOOM_CLOSEST_TO_DATA)
+    with tempfile.TemporaryDirectory() as home:
+        style = os.path.join(home, "style.qss")
+        with open(style, "w", encoding="utf-8") as file:
+            file.write(STYLE)
+        rt_window.write_settings(home, SIZE)
+        said = rt_window.play(home, steps, example.plugin_path(), "PNG8:" + picture,
+                              ["-stylesheet", style],
+                              ["-crop", "%dx%d+0+0" % SIZE, "+repage", "+dither", "-colors", "256"])
+    if "Success =  true" not in said:
+        sys.exit(said)
+    print("window: " + folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView's own window, driven by a recording: for TestGui and the README's picture of it."""
+import os
+import subprocess
+import time
+import xml.etree.ElementTree as ElementTree
+
+from paraview.simple import GetParaViewSourceVersion
+
+WINDOW = "pqClientMainWindow/"
+PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
+         "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
+APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
+ZOOM_CLOSEST_TO_DATA = ("cameraToolbar/1QToolButton3", "activate", "")
+
+
+def choose(menu, name):
+    return "menubar/menu%s/Transport" % menu, "activate", name
+
+
+def tick(name):
+    return PANEL + name + "/CheckBox", "set_boolean", "true"
+
+
+def first_stippling(photograph):
+    """The README's five clicks; a name that begins with / is not within the window."""
+    return (("menubar/menu_File", "activate", "actionFileOpen"),
+            ("FileOpenDialog", "filesSelected", photograph),
+            ("pqSelectReaderDialog/listWidget", "currentChanged", "/1|0"),  # PNG Series Reader
+            ("pqSelectReaderDialog/okButton", "activate", ""),
+            APPLY,
+            choose("Filters", "TransportSampler"),
+            tick("InvertDensity"),
+            APPLY,
+            ("MainControlsToolbar/1QToolButton12", "activate", ""),
+            ("/LoadPaletteMenu", "activate", "White Background"))
+
+
+def write_events(path, steps):
+    root = ElementTree.Element("pqevents")
+    for target, command, arguments in steps:
+        ElementTree.SubElement(
+            root, "pqevent", command=command, arguments=arguments,
+            object=target[1:] if target.startswith("/") else WINDOW + target)
+    ElementTree.ElementTree(root).write(path)
+
+
+def write_settings(home, size=None):
+    """Settings of a user whom ParaView does not welcome; and the size of the window."""
+    folder = os.path.join(home, ".config", "ParaView")
+    os.makedirs(folder)
+    version = str(GetParaViewSourceVersion()).split()[-1]
+    with open(os.path.join(folder, "ParaView%s.ini" % version), "w", encoding="utf-8") as file:
+        file.write("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+        if size:
+            file.write("[MainWindow]\nPosition=@Point(0 0)\nSize=@Size(%d %d)\n" % size)
+
+
+def play(home, steps, plugin, picture, options=(), import_options=()):
+    """Starts ParaView, plays the steps, keeps a picture of the screen and ends ParaView. Returns
+    what it said: "Success = true" if it could play all. `plugin` is the plugin's file, or None if
+    ParaView finds it."""
+    recording, log_path = (os.path.join(home, name) for name in ("play.xml", "log"))
+    write_events(recording, steps)
+    environment = {**os.environ, "HOME": home}
+    if plugin:
+        environment["PV_PLUGIN_PATH"] = os.path.dirname(plugin)
+    with open(log_path, "w", encoding="utf-8") as log:
+        window = subprocess.Popen(
+            ["paraview", *options, "--plugins=RectifiedTransport", "--test-script=" + recording,
+             "--test-directory=" + home], env=environment, stdout=log, stderr=subprocess.STDOUT)
+    try:
+        for _ in range(120):
+            time.sleep(1)
+            with open(log_path, encoding="utf-8", errors="replace") as log:
+                said = log.read()
+            if "is finished" in said or window.poll() is not None:
+                break
+        time.sleep(2)  # the window draws what the last event changed
+        subprocess.run(["import", "-window", "root", *import_options, picture], check=True)
+    finally:
+        window.kill()
+        window.wait()
+    return said
