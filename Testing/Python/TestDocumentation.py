@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python in README.md and Documentation/ runs as it stands, from the project's folder."""
+"""The Python in README.md and Documentation/ runs as it stands, from the project's folder. Links lead
+somewhere, and files that are named are there."""
+import fnmatch
 import glob
 import importlib.util
 import os
@@ -24,6 +26,77 @@ def blocks():
 def is_installed(code):
     """Whether what a block imports beyond ParaView and the project is there."""
     return "scipy" not in code or importlib.util.find_spec("scipy")
+
+
+# Where the names of files in the text begin, and what is made only when something runs.
+ROOTS = ("", "Filters", "Filters/Core")
+MADE = ("Examples/output", "build")
+
+
+def read(page):
+    """A page's text, without and with what stands between fences."""
+    with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
+        text = file.read()
+    return re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL), text
+
+
+def anchors(page):
+    """What a link to a heading of a page ends with, as GitHub and GitLab make it of the heading."""
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+            for heading in re.findall(r"^#+ (.*)$", read(page)[0], re.MULTILINE)}
+
+
+def names():
+    """The names of all files of the project, built ones aside."""
+    found = set()
+    for folder in ("CMake", "Documentation", "Examples", "Filters", "Plugin", "Testing"):
+        for _, _, files in os.walk(os.path.join(SOURCE, folder)):
+            found.update(files)
+    return found
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.pages = [page for pattern in ("README.md", "Documentation/*.md", "Examples/*/README.md",
+                                           "Testing/*/README.md")
+                      for page in sorted(glob.glob(pattern, root_dir=SOURCE))]
+        self.assertGreater(len(self.pages), 20)
+
+    def test_links(self):
+        for page in self.pages:
+            text = read(page)[0]
+            links = re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text)
+            for link in links:
+                if link.startswith("http"):
+                    continue
+                with self.subTest("%s: %s" % (page, link)):
+                    path, _, anchor = link.partition("#")
+                    target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path \
+                        else page
+                    self.assertTrue(os.path.exists(os.path.join(SOURCE, target)))
+                    if anchor:
+                        self.assertIn(anchor, anchors(target))
+
+    def test_named_files(self):
+        """Paths in code spans and includes lead to files; so do names of sources without a path."""
+        known = names()
+        folders = [entry for entry in os.listdir(SOURCE) + os.listdir(os.path.join(SOURCE, "Filters"))
+                   if "." not in entry]
+        path = re.compile(r"(?:%s)/[\w.*/-]*" % "|".join(folders))
+        for page in self.pages:
+            text, whole = read(page)
+            spans = re.findall(r"`([^`\n]+)`", text)
+            named = [name for span in spans for name in path.findall(span)]
+            named += re.findall(r"#include [<\"](Core/[^>\"]+)", whole)
+            for name in named:
+                if name.startswith(MADE):
+                    continue
+                with self.subTest("%s: %s" % (page, name)):
+                    self.assertTrue(any(glob.glob(os.path.join(SOURCE, root, name))
+                                        for root in ROOTS))
+            for name in re.findall(r"^([\w*]+\.(?:h|cxx|txx|py))$", "\n".join(spans), re.MULTILINE):
+                with self.subTest("%s: %s" % (page, name)):
+                    self.assertTrue(fnmatch.filter(known, name))
 
 
 class Documentation(unittest.TestCase):
