@@ -28,8 +28,7 @@ def main():
     picture = os.path.join(folder, "window.png")
     if not os.environ.get("DISPLAY"):
         sys.exit('Needs a display: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython ...')
-    steps = (*rt_window.first_stippling(os.path.join(example.DATA, "raccoon.png")),
-             rt_window.ZOOM_CLOSEST_TO_DATA)
+    steps = rt_window.first_stippling(os.path.join(example.DATA, "raccoon.png"))
     with tempfile.TemporaryDirectory() as home:
         style = os.path.join(home, "style.qss")
         with open(style, "w", encoding="utf-8") as file:

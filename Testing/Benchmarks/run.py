@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the benchmarks and prints the tables of the README.
+"""Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
 usage: python3 run.py [--repetitions N] [--quality] [--morphs] PROGRAM
 

@@ -11,7 +11,6 @@ WINDOW = "pqClientMainWindow/"
 PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
          "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
-ZOOM_CLOSEST_TO_DATA = ("cameraToolbar/1QToolButton3", "activate", "")
 
 
 def choose(menu, name):
@@ -23,7 +22,7 @@ def tick(name):
 
 
 def first_stippling(photograph):
-    """The README's five clicks; a name that begins with / is not within the window."""
+    """A photograph is opened, and the README's five clicks follow."""
     return (("menubar/menu_File", "activate", "actionFileOpen"),
             ("FileOpenDialog", "filesSelected", photograph),
             ("pqSelectReaderDialog/listWidget", "currentChanged", "/1|0"),  # PNG Series Reader
@@ -32,11 +31,13 @@ def first_stippling(photograph):
             choose("Filters", "TransportSampler"),
             tick("InvertDensity"),
             APPLY,
-            ("MainControlsToolbar/1QToolButton12", "activate", ""),
-            ("/LoadPaletteMenu", "activate", "White Background"))
+            ("MainControlsToolbar/1QToolButton12", "activate", ""),  # palettes
+            ("/LoadPaletteMenu", "activate", "White Background"),
+            ("cameraToolbar/1QToolButton3", "activate", ""))  # Zoom Closest To Data
 
 
 def write_events(path, steps):
+    """A recording of (object, command, arguments); a name that begins with / is not in the window."""
     root = ElementTree.Element("pqevents")
     for target, command, arguments in steps:
         ElementTree.SubElement(
