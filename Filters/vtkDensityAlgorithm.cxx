@@ -2,9 +2,10 @@
 #include "vtkDensityAlgorithm.h"
 
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -46,12 +47,18 @@ bool isAssociation(int association)
 }
 } // namespace
 
+struct vtkDensityAlgorithm::vtkInternals
+{
+  RectifiedTransport::FlowCache Cache;
+};
+
 //------------------------------------------------------------------------------
 vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
   : Component(-1)
   , InvertDensity(false)
   , NegativeValues(NEGATIVE_VALUES_ERROR)
   , DensityPort(densityPort)
+  , Internals(new vtkInternals)
 {
   this->SetInputArrayToProcess(0, densityPort, 0,
     vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
@@ -67,14 +74,26 @@ const char* vtkDensityAlgorithm::GetNegativeValuesAsString()
 }
 
 //------------------------------------------------------------------------------
-RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
-  vtkInformationVector** inputVector)
+vtkMTimeType vtkDensityAlgorithm::GetTableBuildTime()
 {
-  return this->NewDensity(vtkDataObject::GetData(inputVector[this->DensityPort], 0));
+  return this->Internals->Cache.BuildTime();
 }
 
 //------------------------------------------------------------------------------
-RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
+RectifiedTransport::FlowCache& vtkDensityAlgorithm::GetFlowCache()
+{
+  return this->Internals->Cache;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RectifiedTransport::DensityImage> vtkDensityAlgorithm::ReadDensity(
+  vtkInformationVector** inputVector)
+{
+  return this->ReadDensity(vtkDataObject::GetData(inputVector[this->DensityPort], 0));
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RectifiedTransport::DensityImage> vtkDensityAlgorithm::ReadDensity(
   vtkDataObject* input, int arrayIndex)
 {
   RectifiedTransport::requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
@@ -107,7 +126,7 @@ RectifiedTransport::DensityImage* vtkDensityAlgorithm::NewDensity(
   rules.Component = this->Component;
   rules.Invert = this->InvertDensity != 0;
   rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
-  return new RectifiedTransport::DensityImage(
+  return std::make_unique<RectifiedTransport::DensityImage>(
     image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, rules);
 }
 
@@ -153,5 +172,6 @@ void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InvertDensity: " << (this->InvertDensity ? "On" : "Off") << "\n";
   os << indent << "NegativeValues: " << this->GetNegativeValuesAsString() << "\n";
   os << indent << "DensityPort: " << this->DensityPort << "\n";
+  os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -21,6 +21,11 @@
  * errors. The message names the array, how many values are wrong and the index of the first; the
  * output is then empty. An input without points gives an empty output without an error.
  *
+ * The summed-area tables of a density are built when they are needed, and kept until it changes
+ * (its values, ghost arrays, grid or the properties below), at a cost of O(cells) in time and of
+ * about 21, 34 and 33 bytes a cell in 1D, 2D and 3D in memory. Filters that read the same values
+ * share them; they are given back with the last of these filters.
+ *
  * @sa vtkTransportAlgorithm
  */
 #ifndef vtkDensityAlgorithm_h
@@ -28,10 +33,13 @@
 
 #include "vtkGuardedAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
+
 namespace RectifiedTransport
 {
 class DensityImage;
-}
+class FlowCache;
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
@@ -88,6 +96,11 @@ public:
   const char* GetNegativeValuesAsString();
   ///@}
 
+  /**
+   * When the density's tables were built: grows with each new build, 0 before the first.
+   */
+  vtkMTimeType GetTableBuildTime();
+
 protected:
   /**
    * The density is on input port `densityPort`.
@@ -96,7 +109,7 @@ protected:
   ~vtkDensityAlgorithm() override;
 
   /**
-   * The array that NewDensity reads, and whether it belongs to the points or the cells; nullptr if
+   * The array that ReadDensity reads, and whether it belongs to the points or the cells; nullptr if
    * there is none.
    */
   vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
@@ -108,15 +121,21 @@ protected:
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex = 0);
 
   /**
-   * The density of an image, read as input array `arrayIndex` says; the caller deletes it. nullptr
-   * if the image has no points. Throws what RequestData may throw.
+   * The density of an image, read as input array `arrayIndex` says; nullptr if the image has no
+   * points. Throws what RequestData may throw.
    */
-  RectifiedTransport::DensityImage* NewDensity(vtkDataObject* input, int arrayIndex = 0);
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(
+    vtkDataObject* input, int arrayIndex = 0);
 
   /**
    * The density on the port that the constructor was told, read as input array 0 says; as above.
    */
-  RectifiedTransport::DensityImage* NewDensity(vtkInformationVector** inputVector);
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkInformationVector** inputVector);
+
+  /**
+   * The tables that are kept between runs.
+   */
+  RectifiedTransport::FlowCache& GetFlowCache();
 
   int Component;
   vtkTypeBool InvertDensity;
@@ -124,6 +143,8 @@ protected:
 
 private:
   const int DensityPort;
+  struct vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
 
   vtkDensityAlgorithm(const vtkDensityAlgorithm&) = delete;
   void operator=(const vtkDensityAlgorithm&) = delete;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
-#include "Bridge/Flow/FlowSettings.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
@@ -9,7 +8,8 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/PropertyCheck.h"
 #include "Bridge/SiteCells/SiteCellOutlines.h"
 #include "Bridge/SiteCells/SiteCellStatistics.h"
 #include "Bridge/SiteCells/SiteLabels.h"
@@ -30,6 +30,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkEqualMassCells);
+vtkImplementFlowPropertiesMacro(vtkEqualMassCells);
 
 namespace
 {
@@ -105,11 +106,6 @@ vtkEqualMassCells::vtkEqualMassCells()
   : Resolution(512)
   , NormExponent(2.0)
   , CostExponent(2.0)
-  , Integrator(0)
-  , NumberOfSteps(32)
-  , Tolerance(0.01)
-  , TableLookup(0)
-  , Threading(0)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
@@ -118,31 +114,6 @@ vtkEqualMassCells::vtkEqualMassCells()
 
 //------------------------------------------------------------------------------
 vtkEqualMassCells::~vtkEqualMassCells() = default;
-
-//------------------------------------------------------------------------------
-FlowSettings vtkEqualMassCells::GetFlowSettings()
-{
-  return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup,
-    this->Threading };
-}
-
-//------------------------------------------------------------------------------
-const char* vtkEqualMassCells::GetIntegratorAsString()
-{
-  return this->GetFlowSettings().IntegratorText();
-}
-
-//------------------------------------------------------------------------------
-const char* vtkEqualMassCells::GetTableLookupAsString()
-{
-  return this->GetFlowSettings().TableLookupText();
-}
-
-//------------------------------------------------------------------------------
-const char* vtkEqualMassCells::GetThreadingAsString()
-{
-  return this->GetFlowSettings().ThreadingText();
-}
 
 //------------------------------------------------------------------------------
 void vtkEqualMassCells::SetDomainConnection(vtkAlgorithmOutput* domain)
@@ -253,9 +224,8 @@ int vtkEqualMassCells::RequestData(
   requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
     this->CostExponent, "a number above 0");
   requireResolution("Resolution", this->Resolution);
-  const FlowSettings settings = this->GetFlowSettings();
-  const FlowOptions options = settings.Options();
-  std::unique_ptr<Executor> executor = settings.MakeExecutor();
+  const FlowOptions options = this->GetFlowSettings().Options();
+  AlgorithmProgress progress(this, this->Threading);
 
   // All is in the first piece, whatever pieces a consumer asks for.
   vtkInformation* labelInformation = outputVector->GetInformationObject(0);
@@ -270,7 +240,6 @@ int vtkEqualMassCells::RequestData(
   {
     return 1;
   }
-  AlgorithmProgress progress(this, std::move(executor));
   if (!domain)
   {
     // Of such points there are no bounds.

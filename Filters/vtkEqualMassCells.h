@@ -58,14 +58,14 @@
 #define vtkEqualMassCells_h
 
 #include "vtkGuardedAlgorithm.h"
+#include "vtkTransportProperties.h" // for the integration of the flow
 
 #include <memory> // for std::unique_ptr
 
 namespace RectifiedTransport
 {
 class ImageGrid;
-struct FlowSettings;
-} // namespace RectifiedTransport
+}
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -107,63 +107,11 @@ public:
   vtkGetMacro(CostExponent, double);
   ///@}
 
-  ///@{
-  /**
-   * How the flow is integrated, a value of vtkTransportAlgorithm::IntegratorType: Multistep
-   * (default), RungeKutta4, Euler or Adaptive.
-   */
-  vtkSetMacro(Integrator, int);
-  vtkGetMacro(Integrator, int);
-  void SetIntegratorToMultistep() { this->SetIntegrator(0); }
-  void SetIntegratorToRungeKutta4() { this->SetIntegrator(1); }
-  void SetIntegratorToEuler() { this->SetIntegrator(2); }
-  void SetIntegratorToAdaptive() { this->SetIntegrator(3); }
-  const char* GetIntegratorAsString();
-  ///@}
+  // Fewer than 128 NumberOfSteps are doubled until there are that many, five times at most;
+  // Tolerance is in pixels.
+  vtkFlowPropertiesMacro();
 
-  ///@{
-  /**
-   * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. Default 32. Fewer than 128
-   * are doubled until there are that many, five times at most.
-   */
-  vtkSetMacro(NumberOfSteps, int);
-  vtkGetMacro(NumberOfSteps, int);
-  ///@}
-
-  ///@{
-  /**
-   * The error that Adaptive allows, in pixels, above 0. Default 0.01.
-   */
-  vtkSetMacro(Tolerance, double);
-  vtkGetMacro(Tolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * How sums over boxes are looked up, a value of vtkTransportAlgorithm::TableLookupType:
-   * Interpolated (default) or Nearest, which is coarser.
-   */
-  vtkSetMacro(TableLookup, int);
-  vtkGetMacro(TableLookup, int);
-  void SetTableLookupToInterpolated() { this->SetTableLookup(0); }
-  void SetTableLookupToNearest() { this->SetTableLookup(1); }
-  const char* GetTableLookupAsString();
-  ///@}
-
-  ///@{
-  /**
-   * Who runs the parallel loops, a value of vtkTransportAlgorithm::ThreadingType: Auto (default),
-   * VTK, OpenMP or Serial. It changes the time, never the result.
-   */
-  vtkSetMacro(Threading, int);
-  vtkGetMacro(Threading, int);
-  void SetThreadingToAuto() { this->SetThreading(0); }
-  void SetThreadingToVTK() { this->SetThreading(1); }
-  void SetThreadingToOpenMP() { this->SetThreading(2); }
-  void SetThreadingToSerial() { this->SetThreading(3); }
-  const char* GetThreadingAsString();
-  ///@}
-
+public:
   ///@{
   /**
    * Give the domain (input 1, optional) as the output of another filter, or as data.
@@ -198,14 +146,8 @@ protected:
   int Resolution;
   double NormExponent;
   double CostExponent;
-  int Integrator;
-  int NumberOfSteps;
-  double Tolerance;
-  int TableLookup;
-  int Threading;
 
 private:
-  RectifiedTransport::FlowSettings GetFlowSettings();
   RectifiedTransport::ImageGrid BoxAround(vtkPointSet* sites);
 
   struct vtkInternals;

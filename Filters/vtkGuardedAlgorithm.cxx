@@ -4,6 +4,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/SMPExecutor.h"
 #include "Bridge/Run/WholeInput.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -104,10 +105,19 @@ void emptyImages(vtkInformationVector* outputVector)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkGuardedAlgorithm::vtkGuardedAlgorithm() = default;
+vtkGuardedAlgorithm::vtkGuardedAlgorithm()
+  : Threading(THREADING_AUTO)
+{
+}
 
 //------------------------------------------------------------------------------
 vtkGuardedAlgorithm::~vtkGuardedAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkGuardedAlgorithm::GetThreadingAsString()
+{
+  return RectifiedTransport::threadingText(this->Threading);
+}
 
 //------------------------------------------------------------------------------
 void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
@@ -119,41 +129,40 @@ void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
 vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return RectifiedTransport::runBehindBarrier(
-    this, outputVector, [&]() { return this->AnswerRequest(request, inputVector, outputVector); });
-}
-
-//------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::AnswerRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  try
   {
-    return this->RequestDataObject(request, inputVector, outputVector);
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+    {
+      return this->RequestDataObject(request, inputVector, outputVector);
+    }
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+    {
+      publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
+      forgetArrays(outputVector);
+      return this->Inform(request, inputVector, outputVector);
+    }
+    if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
+    {
+      return this->InformOfTime(request, inputVector, outputVector);
+    }
+    if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+    {
+      this->NoteRequest(request, inputVector, outputVector);
+      return this->RequestUpdateExtent(request, inputVector, outputVector);
+    }
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+    {
+      emptyImages(outputVector);
+      this->RequireWhole(inputVector);
+      const int result = this->RequestData(request, inputVector, outputVector);
+      return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
+    }
+    return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  catch (...)
   {
-    publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
-    forgetArrays(outputVector);
-    return this->Inform(request, inputVector, outputVector);
+    return RectifiedTransport::answerException(this, outputVector);
   }
-  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
-  {
-    return this->InformOfTime(request, inputVector, outputVector);
-  }
-  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
-  {
-    this->NoteRequest(request, inputVector, outputVector);
-    return this->RequestUpdateExtent(request, inputVector, outputVector);
-  }
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
-  {
-    emptyImages(outputVector);
-    this->RequireWhole(inputVector);
-    const int result = this->RequestData(request, inputVector, outputVector);
-    return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
-  }
-  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------
@@ -303,7 +312,7 @@ void vtkGuardedAlgorithm::NoteRequest(
 }
 
 //------------------------------------------------------------------------------
-vtkDataObject* vtkGuardedAlgorithm::CompositeAt(int port, int connection)
+vtkCompositeDataSet* vtkGuardedAlgorithm::CompositeAt(int port, int connection)
 {
   const auto p = static_cast<std::size_t>(port);
   const auto c = static_cast<std::size_t>(connection);
@@ -319,7 +328,7 @@ bool vtkGuardedAlgorithm::IsAtBlock(vtkInformationVector** inputVector)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      auto* composite = vtkCompositeDataSet::SafeDownCast(this->CompositeAt(port, i));
+      vtkCompositeDataSet* composite = this->CompositeAt(port, i);
       if (composite && isLeafOf(composite, vtkDataObject::GetData(inputVector[port], i)))
       {
         return true;
@@ -414,5 +423,12 @@ void vtkGuardedAlgorithm::RequestWhole(vtkInformationVector* port)
       input->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threading: " << this->GetThreadingAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

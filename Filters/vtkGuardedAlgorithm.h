@@ -3,6 +3,9 @@
  * @class   vtkGuardedAlgorithm
  * @brief   what all filters of the module share as algorithms
  *
+ * Chooses who runs the parallel loops: results are the same to the last bit for every number of
+ * threads and every setting of Threading.
+ *
  * Passes the executive's requests to virtual methods. What they throw becomes one error of the
  * filter; after an error or an abort all outputs are empty, and images announce no extent.
  *
@@ -20,12 +23,40 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkCompositeDataSet;
 class vtkDataObject;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkGuardedAlgorithm : public vtkAlgorithm
 {
 public:
   vtkTypeMacro(vtkGuardedAlgorithm, vtkAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Threading may be.
+   */
+  enum ThreadingType
+  {
+    THREADING_AUTO = 0,
+    THREADING_VTK = 1,
+    THREADING_OPENMP = 2,
+    THREADING_SERIAL = 3
+  };
+
+  ///@{
+  /**
+   * Who runs the parallel loops: VTK (vtkSMPTools with the backend in use), OpenMP, or Serial. Auto
+   * (default) is OpenMP where VTK's backend is Sequential, else VTK. It changes the time, never the
+   * result.
+   */
+  vtkSetMacro(Threading, int);
+  vtkGetMacro(Threading, int);
+  void SetThreadingToAuto() { this->SetThreading(THREADING_AUTO); }
+  void SetThreadingToVTK() { this->SetThreading(THREADING_VTK); }
+  void SetThreadingToOpenMP() { this->SetThreading(THREADING_OPENMP); }
+  void SetThreadingToSerial() { this->SetThreading(THREADING_SERIAL); }
+  const char* GetThreadingAsString();
+  ///@}
 
   ///@{
   /**
@@ -105,17 +136,16 @@ protected:
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
 
-private:
-  int AnswerRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
+  int Threading;
 
+private:
   int Inform(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int InformOfTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   void NoteRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  vtkDataObject* CompositeAt(int port, int connection); // nullptr where there is none
+  vtkCompositeDataSet* CompositeAt(int port, int connection); // nullptr where there is none
   bool IsAtBlock(vtkInformationVector** inputVector);
   void RequireWhole(vtkInformationVector** inputVector);
 
@@ -123,7 +153,7 @@ private:
   // their blocks it shows one block at a time, of which the whole is asked for.
   int AskedPiece = 0;
   int AskedNumberOfPieces = 1;
-  std::vector<std::vector<vtkWeakPointer<vtkDataObject>>> Composites;
+  std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites;
   vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
   std::string Disagreement;              // what came of it, if not agreement
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used

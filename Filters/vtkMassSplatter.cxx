@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMassSplatter.h"
 
-#include "Bridge/Flow/FlowSettings.h"
-#include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Run/Memory.h"
-#include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Splat/MassSplat.h"
-#include "Bridge/Splat/SplatSettings.h"
+#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Settings/SplatSettings.h"
+#include "Bridge/Splat/MassSplatter.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -21,19 +16,20 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 
 #include <algorithm>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkMassSplatter);
+vtkImplementSplatPropertiesMacro(vtkMassSplatter);
 
 namespace
 {
 using namespace RectifiedTransport;
 
 const char* const AssociationTexts[] = { "Points", "Cells" };
+const char* const BoundaryTexts[] = { "Renormalize", "Drop" };
 
 void requireDimensions(const int dimensions[3])
 {
@@ -50,11 +46,8 @@ void requireDimensions(const int dimensions[3])
 vtkMassSplatter::vtkMassSplatter()
   : Dimensions{ 128, 128, 128 }
   , Association(POINTS)
-  , Kernel(CLOUD_IN_CELL)
-  , Radius(1.0)
   , Boundary(RENORMALIZE)
   , DivideByVolume(true)
-  , Threading(0)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -65,33 +58,15 @@ vtkMassSplatter::vtkMassSplatter()
 vtkMassSplatter::~vtkMassSplatter() = default;
 
 //------------------------------------------------------------------------------
-SplatSettings vtkMassSplatter::GetSplatSettings()
-{
-  return { this->Kernel, this->Radius, this->Boundary };
-}
-
-//------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetAssociationAsString()
 {
   return choiceText(AssociationTexts, this->Association);
 }
 
 //------------------------------------------------------------------------------
-const char* vtkMassSplatter::GetKernelAsString()
-{
-  return this->GetSplatSettings().KernelText();
-}
-
-//------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetBoundaryAsString()
 {
-  return this->GetSplatSettings().BoundaryText();
-}
-
-//------------------------------------------------------------------------------
-const char* vtkMassSplatter::GetThreadingAsString()
-{
-  return FlowSettings::OfThreading(this->Threading).ThreadingText();
+  return choiceText(BoundaryTexts, this->Boundary);
 }
 
 //------------------------------------------------------------------------------
@@ -133,28 +108,21 @@ int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-ImageGrid vtkMassSplatter::CellsAround(vtkPointSet* points)
+MassSplatter vtkMassSplatter::GetSplatter()
 {
-  double bounds[6];
-  findBounds(points, bounds);
-  const ImageGrid box = gridOfBox(bounds);
-  int dimensions[3];
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    dimensions[a] = box.IsAxis(a) ? this->Dimensions[a] : 1;
-  }
-  return gridWithValues(box, dimensions, "Dimensions");
+  return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
+    this->Association == POINTS, this->DivideByVolume != 0, {} };
 }
 
 //------------------------------------------------------------------------------
 int vtkMassSplatter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const bool onPoints = this->Association == POINTS;
-  ImageGrid grid = ImageGrid().WithValuesOn(onPoints);
+  const MassSplatter splatter = this->GetSplatter();
+  ImageGrid grid = ImageGrid().WithValuesOn(splatter.OnPoints);
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    grid = announcedGrid(inputVector[1]->GetInformationObject(0), onPoints);
+    grid = announcedGrid(inputVector[1]->GetInformationObject(0), splatter.OnPoints);
   }
   else
   {
@@ -163,8 +131,7 @@ int vtkMassSplatter::RequestInformation(
     requireDimensions(this->Dimensions);
     if (points && points->GetNumberOfPoints() > 0)
     {
-      const ImageGrid cells = this->CellsAround(points);
-      grid = onPoints ? cells.AtCellCentres() : cells;
+      grid = splatter.GridAround(points);
     }
   }
   announceDensity(grid, outputVector->GetInformationObject(0));
@@ -195,11 +162,13 @@ int vtkMassSplatter::RequestData(
 {
   requireDimensions(this->Dimensions);
   requireChoice("Association", this->Association, AssociationTexts);
-  const SplatOptions options = this->GetSplatSettings().Options();
-  std::unique_ptr<Executor> executor = FlowSettings::OfThreading(this->Threading).MakeExecutor();
+  requireChoice("Boundary", this->Boundary, BoundaryTexts);
+  MassSplatter splatter = this->GetSplatter();
+  splatter.Splat = this->GetSplatSettings().Options();
+  splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
+  AlgorithmProgress progress(this, this->Threading);
 
   // All is in the first piece, whatever pieces a consumer asks for.
-  vtkInformation* information = outputVector->GetInformationObject(0);
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -212,64 +181,18 @@ int vtkMassSplatter::RequestData(
   {
     return 1;
   }
-
-  AlgorithmProgress progress(this, std::move(executor));
-  PointMasses masses;
-  if (count > 0)
-  {
-    vtkDataArray* array = this->FindMasses(input);
-    progress.BeginStage(0.1);
-    visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
-    progress.BeginStage(0.2);
-    masses = PointMasses(input, array, progress);
-  }
+  vtkDataArray* masses = count > 0 ? this->FindMasses(input) : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const bool onPoints = this->Association == POINTS;
-  const ImageGrid cells = reference ? gridOf(reference, onPoints) : this->CellsAround(input);
-  if (cells.Dimension() == 0)
-  {
-    throw Failure(reference
-        ? "The Reference has one point along every axis; it needs at least one axis of two points "
-          "or more"
-        : "The input's points are all at one place, about which there is no box; connect an image "
-          "as the Reference, or points that differ");
-  }
-  if (!reference)
-  {
-    const std::array<int, 3> along = cells.NumberOfValues();
-    const GridSize<3> size{ along[0], along[1], along[2] };
-    requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
-      numberOfCells<3>(size) * sizeof(double));
-  }
-  requireCells(cells);
-  const SplatTarget target{ cells, options, this->DivideByVolume != 0 };
-  requireFiniteDensity(masses.TotalSize(), target, "The points' masses",
-    this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
-                         : "so that the sum of their sizes is a double");
-  const ImageGrid grid = onPoints && !reference ? cells.AtCellCentres() : cells;
-  applyGrid(grid, output);
-  announceGrid(grid, information); // without a Reference it is not known before the data
-
-  const auto density = newArray<vtkDoubleArray>("Density", 1, cells.NumberOfCells());
-  const double* noPoints = nullptr;
-  progress.BeginStage(0.95);
-  const std::int64_t outside = count > 0
-    ? splatPoints(input->GetPoints()->GetData(), masses.Values(), 1.0, target, progress, density)
-    : splatPoints(noPoints, 0, 1.0, target, progress, density);
-  progress.BeginStage(1.0);
-  const double total = options.Boundary == SplatBoundary::Renormalize
-    ? masses.Total()
-    : splatMassIn(density, target, progress);
-  output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->SetScalars(density);
-  addFieldValue(output, "TotalMass", total);
+  const std::int64_t outside = splatter.Run(input, masses, reference, progress, output);
+  // Without a Reference it is not known before the data.
+  announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));
   if (outside > 0)
   {
     vtkWarningMacro(<< outside << " of " << count
                     << (outside == 1 ? " points is outside the domain; its mass "
                                      : " points are outside the domain; their mass ")
-                    << (options.Boundary == SplatBoundary::Renormalize
-                           ? "went to the nearest points of its border"
-                           : "was left out"));
+                    << (this->Boundary == RENORMALIZE ? "went to the nearest points of its border"
+                                                      : "was left out"));
   }
   return 1;
 }
@@ -282,7 +205,7 @@ void vtkMassSplatter::PrintSelf(ostream& os, vtkIndent indent)
      << this->Dimensions[2] << "\n";
   os << indent << "Association: " << this->GetAssociationAsString() << "\n";
   this->GetSplatSettings().Print(os, indent);
+  os << indent << "Boundary: " << this->GetBoundaryAsString() << "\n";
   os << indent << "DivideByVolume: " << (this->DivideByVolume ? "On" : "Off") << "\n";
-  os << indent << "Threading: " << this->GetThreadingAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

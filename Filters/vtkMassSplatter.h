@@ -53,12 +53,12 @@
 #define vtkMassSplatter_h
 
 #include "vtkGuardedAlgorithm.h"
+#include "vtkTransportProperties.h" // for the kernel
 
 namespace RectifiedTransport
 {
-class ImageGrid;
-struct SplatSettings;
-} // namespace RectifiedTransport
+struct MassSplatter;
+}
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -80,17 +80,6 @@ public:
   {
     POINTS = 0,
     CELLS = 1
-  };
-
-  /**
-   * What Kernel may be.
-   */
-  enum KernelType
-  {
-    CLOUD_IN_CELL = 0,
-    NEAREST_CELL = 1,
-    TRIANGULAR_SHAPED_CLOUD = 2,
-    GAUSSIAN = 3
   };
 
   /**
@@ -123,31 +112,9 @@ public:
   const char* GetAssociationAsString();
   ///@}
 
-  ///@{
-  /**
-   * How a point's mass is spread: CloudInCell (default) linearly over 2 cells an axis, NearestCell
-   * into the cell that holds the point (on a face, the upper one), TriangularShapedCloud
-   * quadratically over 3 cells an axis, Gaussian as a Gaussian of the given Radius.
-   */
-  vtkSetMacro(Kernel, int);
-  vtkGetMacro(Kernel, int);
-  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
-  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
-  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
-  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
-  const char* GetKernelAsString();
-  ///@}
+  vtkSplatPropertiesMacro();
 
-  ///@{
-  /**
-   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
-   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
-   * cell it is the CloudInCell. Default 1.
-   */
-  vtkSetMacro(Radius, double);
-  vtkGetMacro(Radius, double);
-  ///@}
-
+public:
   ///@{
   /**
    * What happens to the part of a kernel that is beyond the border: Renormalize (default) gives it
@@ -167,20 +134,6 @@ public:
   vtkSetMacro(DivideByVolume, vtkTypeBool);
   vtkGetMacro(DivideByVolume, vtkTypeBool);
   vtkBooleanMacro(DivideByVolume, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
-   * Who runs the parallel loops, a value of vtkTransportAlgorithm::ThreadingType: Auto (default),
-   * VTK, OpenMP or Serial. It changes the time, never the result.
-   */
-  vtkSetMacro(Threading, int);
-  vtkGetMacro(Threading, int);
-  void SetThreadingToAuto() { this->SetThreading(0); }
-  void SetThreadingToVTK() { this->SetThreading(1); }
-  void SetThreadingToOpenMP() { this->SetThreading(2); }
-  void SetThreadingToSerial() { this->SetThreading(3); }
-  const char* GetThreadingAsString();
   ///@}
 
   ///@{
@@ -210,15 +163,11 @@ protected:
 
   int Dimensions[3];
   int Association;
-  int Kernel;
-  double Radius;
   int Boundary;
   vtkTypeBool DivideByVolume;
-  int Threading;
 
 private:
-  RectifiedTransport::SplatSettings GetSplatSettings();
-  RectifiedTransport::ImageGrid CellsAround(vtkPointSet* points);
+  RectifiedTransport::MassSplatter GetSplatter();
   vtkDataArray* FindMasses(vtkPointSet* points);
 
   vtkMassSplatter(const vtkMassSplatter&) = delete;

@@ -102,20 +102,6 @@ public:
   const char* GetAssociationAsString();
   ///@}
 
-  ///@{
-  /**
-   * Who runs the parallel loops, a value of vtkTransportAlgorithm::ThreadingType: Auto (default),
-   * VTK, OpenMP or Serial. It changes the time, never the result.
-   */
-  vtkSetMacro(Threading, int);
-  vtkGetMacro(Threading, int);
-  void SetThreadingToAuto() { this->SetThreading(0); }
-  void SetThreadingToVTK() { this->SetThreading(1); }
-  void SetThreadingToOpenMP() { this->SetThreading(2); }
-  void SetThreadingToSerial() { this->SetThreading(3); }
-  const char* GetThreadingAsString();
-  ///@}
-
   /**
    * The image.
    */
@@ -136,7 +122,6 @@ protected:
   int Supersampling;
   double Padding;
   int Association;
-  int Threading;
 
 private:
   vtkSolidDensity(const vtkSolidDensity&) = delete;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportBarycenter.h"
 
+#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 
 #include "vtkInformation.h"
@@ -18,8 +20,53 @@ vtkStandardNewMacro(vtkTransportBarycenter);
 
 namespace
 {
+using namespace RectifiedTransport;
+
 // Many more than there are inputs: each takes memory when it is set, before anything is checked.
 constexpr int mostWeights = 1000000;
+
+// Of as many inputs; they sum to 1. Throws Failure.
+std::vector<double> normalizedWeights(const std::vector<double>& list, std::size_t inputs)
+{
+  if (list.empty())
+  {
+    return std::vector<double>(inputs, 1.0 / static_cast<double>(inputs));
+  }
+  std::ostringstream message;
+  if (list.size() != inputs)
+  {
+    message << "The number of Weights is " << list.size() << " and that of inputs " << inputs
+            << "; there must be one for each, or none for equal weights";
+    throw Failure(message.str());
+  }
+  for (std::size_t i = 0; i < list.size(); ++i)
+  {
+    if (!(list[i] >= 0.0) || std::isinf(list[i]))
+    {
+      message << "Weight " << i << " of the Weights is " << list[i]
+              << "; weights must be finite and at least 0";
+      throw Failure(message.str());
+    }
+  }
+  const double largest = *std::max_element(list.begin(), list.end());
+  if (largest == 0.0)
+  {
+    throw Failure("All Weights are 0; at least one must be above 0");
+  }
+  // Those whose sum is 1 stay as they are; by the largest first only where the sum is not finite.
+  const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
+  std::vector<double> weights;
+  for (const double weight : list)
+  {
+    weights.push_back(fits ? weight : weight / largest);
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
 } // namespace
 
 struct vtkTransportBarycenter::vtkWeights
@@ -96,41 +143,29 @@ int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportBarycenter::ComputeWeights(int numberOfInputs, double* weights)
+int vtkTransportBarycenter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const std::vector<double>& list = this->Weights->List;
-  if (list.empty())
+  (void)this->GetBlendSettings(); // an error in any piece
+  AlgorithmProgress progress(this, this->Threading);
+
+  // All is in the first piece, whatever pieces a consumer asks for.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
-    std::fill_n(weights, numberOfInputs, 1.0 / numberOfInputs);
-    return;
+    return 1;
   }
-  std::ostringstream message;
-  if (list.size() != static_cast<std::size_t>(numberOfInputs))
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr);
+  if (inputs.empty())
   {
-    message << "The number of Weights is " << list.size() << " and that of inputs "
-            << numberOfInputs << "; there must be one for each, or none for equal weights";
-    throw RectifiedTransport::Failure(message.str());
+    return 1;
   }
-  for (std::size_t i = 0; i < list.size(); ++i)
+  const std::vector<double> weights = normalizedWeights(this->Weights->List, inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    if (!(list[i] >= 0.0) || std::isinf(list[i]))
-    {
-      message << "Weight " << i << " of the Weights is " << list[i]
-              << "; weights must be finite and at least 0";
-      throw RectifiedTransport::Failure(message.str());
-    }
+    inputs[i].Weight = weights[i];
   }
-  const double largest = *std::max_element(list.begin(), list.end());
-  if (largest == 0.0)
-  {
-    throw RectifiedTransport::Failure("All Weights are 0; at least one must be above 0");
-  }
-  // Those whose sum is 1 stay as they are; by the largest first only where the sum is not finite.
-  const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
-  std::transform(list.begin(), list.end(), weights,
-    [=](double weight) { return fits ? weight : weight / largest; });
-  const double sum = std::accumulate(weights, weights + numberOfInputs, 0.0);
-  std::for_each(weights, weights + numberOfInputs, [=](double& weight) { weight /= sum; });
+  this->WriteBlend(inputs, progress, outputVector);
+  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -49,8 +49,9 @@ protected:
   vtkTransportBarycenter();
   ~vtkTransportBarycenter() override;
 
-  void ComputeWeights(int numberOfInputs, double* weights) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 private:
   struct vtkWeights;

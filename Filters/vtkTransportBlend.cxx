@@ -8,8 +8,9 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Splat/SplatSettings.h"
+#include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Settings/SplatSettings.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -26,18 +27,13 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+vtkImplementSplatPropertiesMacro(vtkTransportBlend);
 
 namespace
 {
 using namespace RectifiedTransport;
 
 const char* const MassModeTexts[] = { "Linear", "Geometric", "Source", "Normalize" };
-
-// Particles between the inputs never leave the box of all: what a kernel has beyond it stays.
-SplatSettings splatSettings(int kernel, double radius)
-{
-  return { kernel, radius, static_cast<int>(SplatBoundary::Renormalize) };
-}
 
 struct GivenInput
 {
@@ -91,8 +87,6 @@ vtkTransportBlend::vtkTransportBlend()
   : Dimensions{ 0, 0, 0 }
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
-  , Kernel(CLOUD_IN_CELL)
-  , Radius(1.0)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfOutputPorts(2);
@@ -108,12 +102,6 @@ const char* vtkTransportBlend::GetMassModeAsString()
 }
 
 //------------------------------------------------------------------------------
-const char* vtkTransportBlend::GetKernelAsString()
-{
-  return splatSettings(this->Kernel, this->Radius).KernelText();
-}
-
-//------------------------------------------------------------------------------
 vtkImageData* vtkTransportBlend::GetDensity()
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
@@ -123,12 +111,6 @@ vtkImageData* vtkTransportBlend::GetDensity()
 vtkPolyData* vtkTransportBlend::GetParticles()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-const char* vtkTransportBlend::GetInputName(int)
-{
-  return nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -146,7 +128,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
   requireChoice("MassMode", this->MassMode, MassModeTexts);
   return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
     this->ParticlesPerCell, static_cast<RectifiedTransport::MassMode>(this->MassMode),
-    this->GetFlowOptions(), splatSettings(this->Kernel, this->Radius).Options() };
+    this->GetFlowSettings().Options(), this->GetSplatSettings().Options() };
 }
 
 //------------------------------------------------------------------------------
@@ -196,52 +178,37 @@ int vtkTransportBlend::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-int vtkTransportBlend::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+std::vector<BlendInput> vtkTransportBlend::ReadInputs(
+  vtkInformationVector** inputVector, const char* const* names)
 {
-  const BlendSettings settings = this->GetBlendSettings();
-  std::unique_ptr<Executor> executor(this->NewExecutor());
-  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1) };
-
-  // All is in the first piece, whatever pieces a consumer asks for.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   const std::vector<GivenInput> allGiven = gatherInputs(inputVector, this->GetNumberOfInputPorts());
   std::vector<BlendInput> inputs;
   for (const GivenInput& given : allGiven)
   {
-    const char* name = this->GetInputName(static_cast<int>(inputs.size()));
     inputs.emplace_back();
     BlendInput& input = inputs.back();
-    input.Name = name
-      ? name
-      : "Input " + std::to_string(inputs.size()) + " of " + std::to_string(allGiven.size());
-    input.PositionName = name ? std::string(name) + "Position" : "";
-    input.Image = vtkImageData::SafeDownCast(given.Data);
-    nameFailures(
-      input.Name, [&]() { input.Density.reset(this->NewDensity(given.Data, given.Port)); });
+    const std::size_t number = inputs.size();
+    input.Name = names
+      ? names[number - 1]
+      : "Input " + std::to_string(number) + " of " + std::to_string(allGiven.size());
+    input.PositionName = names ? input.Name + "Position" : "";
+    nameFailures(input.Name, [&]() { input.Density = this->ReadDensity(given.Data, given.Port); });
     if (!input.Density)
     {
-      return 1;
+      return {};
     }
   }
-  if (inputs.empty())
-  {
-    return 1;
-  }
-  std::vector<double> weights(inputs.size());
-  this->ComputeWeights(static_cast<int>(inputs.size()), weights.data());
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-  {
-    inputs[i].Weight = weights[i];
-  }
+  return inputs;
+}
 
-  AlgorithmProgress progress(this, std::move(executor));
-  const std::int64_t moved =
-    this->Internals->Blend.Run(inputs, settings, this->GetFlowCache(), progress, output);
+//------------------------------------------------------------------------------
+void vtkTransportBlend::WriteBlend(const std::vector<BlendInput>& inputs,
+  RectifiedTransport::Progress& progress, vtkInformationVector* outputVector)
+{
+  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
+    vtkPolyData::GetData(outputVector, 1) };
+  const std::int64_t moved = this->Internals->Blend.Run(
+    inputs, this->GetBlendSettings(), this->GetFlowCache(), progress, output);
   // Which array it is, is not always known before the data.
   announceGrid(gridOf(output.Density, true), outputVector->GetInformationObject(0));
   if (moved > 0)
@@ -250,7 +217,6 @@ int vtkTransportBlend::RequestData(
                     << " in empty cells moved to the nearest cell with mass (more "
                        "NumberOfSteps may spare them that)");
   }
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -39,10 +39,14 @@
 
 #include "vtkTransportAlgorithm.h"
 
+#include <vector> // for the inputs
+
 namespace RectifiedTransport
 {
+struct BlendInput;
 struct BlendSettings;
-}
+class Progress;
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -63,17 +67,6 @@ public:
     MASS_GEOMETRIC = 1,
     MASS_SOURCE = 2,
     MASS_NORMALIZE = 3
-  };
-
-  /**
-   * What Kernel may be.
-   */
-  enum KernelType
-  {
-    CLOUD_IN_CELL = 0,
-    NEAREST_CELL = 1,
-    TRIANGULAR_SHAPED_CLOUD = 2,
-    GAUSSIAN = 3
   };
 
   ///@{
@@ -110,30 +103,9 @@ public:
   const char* GetMassModeAsString();
   ///@}
 
-  ///@{
-  /**
-   * How a particle's mass is spread over the cells about it, as in vtkMassSplatter: CloudInCell
-   * (default) linearly over 2 cells along each axis, NearestCell over one, TriangularShapedCloud
-   * quadratically over 3, Gaussian as Radius says.
-   */
-  vtkSetMacro(Kernel, int);
-  vtkGetMacro(Kernel, int);
-  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
-  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
-  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
-  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
-  const char* GetKernelAsString();
-  ///@}
+  vtkSplatPropertiesMacro();
 
-  ///@{
-  /**
-   * The standard deviation of the Gaussian kernel, in cells of the output, above 0 and at most
-   * 10000; the kernel is cut at 3 of them. Default 1.
-   */
-  vtkSetMacro(Radius, double);
-  vtkGetMacro(Radius, double);
-  ///@}
-
+public:
   /**
    * The image between the densities, port 0.
    */
@@ -149,32 +121,33 @@ protected:
   ~vtkTransportBlend() override;
 
   /**
-   * Writes the weights of the inputs, which are at least 0 and sum to 1. Throws what RequestData
-   * may throw.
+   * Read the densities of all inputs; the blocks of composite inputs are inputs of their own. They
+   * are called by `names` in messages and, with "Position" after it, in the particles' arrays, or
+   * where that is nullptr by their numbers. Returns no inputs if one of them has no points. Throws
+   * what RequestData may throw.
    */
-  virtual void ComputeWeights(int numberOfInputs, double* weights) = 0;
+  std::vector<RectifiedTransport::BlendInput> ReadInputs(
+    vtkInformationVector** inputVector, const char* const* names);
 
   /**
-   * What an input is called in messages and, with "Position" after it, in the particles' arrays;
-   * nullptr for its number and no array.
+   * Write the outputs between the inputs, whose weights are at least 0 and sum to 1.
    */
-  virtual const char* GetInputName(int input);
+  void WriteBlend(const std::vector<RectifiedTransport::BlendInput>& inputs,
+    RectifiedTransport::Progress& progress, vtkInformationVector* outputVector);
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
   int Dimensions[3];
   int ParticlesPerCell;
   int MassMode;
-  int Kernel;
-  double Radius;
 
-private:
+  /**
+   * The properties, checked. Throws what RequestData may throw.
+   */
   RectifiedTransport::BlendSettings GetBlendSettings();
 
+private:
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 

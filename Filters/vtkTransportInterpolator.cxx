@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportInterpolator.h"
 
-#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Blend/DensityBlend.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -18,7 +20,7 @@ vtkStandardNewMacro(vtkTransportInterpolator);
 
 namespace
 {
-using RectifiedTransport::requireThat;
+using namespace RectifiedTransport;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 // Of what a host lists and shows; a list of them is published before anything is checked.
@@ -35,7 +37,6 @@ vtkTransportInterpolator::vtkTransportInterpolator()
   : Parameter(0.5)
   , PublishTime(false)
   , NumberOfTimeSteps(11)
-  , RunParameter(0.5)
 {
   this->SetNumberOfInputPorts(2);
   vtkTransportInterpolator::SetInputArrayToProcess(
@@ -66,12 +67,6 @@ void vtkTransportInterpolator::SetInputArrayToProcess(
   const bool isTarget = port == 1 || idx == 1;
   this->Superclass::SetInputArrayToProcess(
     isTarget ? 1 : idx, isTarget ? 0 : port, connection, fieldAssociation, name);
-}
-
-//------------------------------------------------------------------------------
-const char* vtkTransportInterpolator::GetInputName(int input)
-{
-  return input == 0 ? "Source" : "Target";
 }
 
 //------------------------------------------------------------------------------
@@ -153,6 +148,21 @@ int vtkTransportInterpolator::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+double vtkTransportInterpolator::FindParameter(
+  vtkInformation* request, vtkInformationVector* outputVector)
+{
+  const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
+  vtkInformation* asked = outputVector->GetInformationObject(port);
+  if (!this->PublishTime || !asked->Has(Pipeline::UPDATE_TIME_STEP()))
+  {
+    return this->Parameter;
+  }
+  const double time = asked->Get(Pipeline::UPDATE_TIME_STEP());
+  requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
+  return std::clamp(time, 0.0, 1.0);
+}
+
+//------------------------------------------------------------------------------
 int vtkTransportInterpolator::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -160,34 +170,29 @@ int vtkTransportInterpolator::RequestData(
     this->Parameter >= 0.0 && this->Parameter <= 1.0, "Parameter", this->Parameter, "from 0 to 1");
   requireThat(isNumberOfTimeSteps(this->NumberOfTimeSteps), "NumberOfTimeSteps",
     this->NumberOfTimeSteps, "from 2 to 1000000");
-  this->RunParameter = this->Parameter;
-  if (!this->PublishTime)
+  const double parameter = this->FindParameter(request, outputVector);
+  (void)this->GetBlendSettings(); // an error in any piece
+  AlgorithmProgress progress(this, this->Threading);
+
+  // All is in the first piece, whatever pieces a consumer asks for.
+  if (!vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
-    return this->Superclass::RequestData(request, inputVector, outputVector);
+    static const char* const names[] = { "Source", "Target" };
+    std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names);
+    if (!inputs.empty())
+    {
+      inputs[0].Weight = 1.0 - parameter;
+      inputs[1].Weight = parameter;
+      this->WriteBlend(inputs, progress, outputVector);
+    }
   }
-  const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
-  vtkInformation* asked = outputVector->GetInformationObject(port);
-  if (asked->Has(Pipeline::UPDATE_TIME_STEP()))
-  {
-    const double time = asked->Get(Pipeline::UPDATE_TIME_STEP());
-    requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
-    this->RunParameter = std::clamp(time, 0.0, 1.0);
-  }
-  const int result = this->Superclass::RequestData(request, inputVector, outputVector);
-  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
     vtkDataObject::GetData(outputVector, i)
       ->GetInformation()
-      ->Set(vtkDataObject::DATA_TIME_STEP(), this->RunParameter);
+      ->Set(vtkDataObject::DATA_TIME_STEP(), parameter);
   }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportInterpolator::ComputeWeights(int, double* weights)
-{
-  weights[0] = 1.0 - this->RunParameter;
-  weights[1] = this->RunParameter;
+  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -94,8 +94,6 @@ protected:
   vtkTransportInterpolator();
   ~vtkTransportInterpolator() override;
 
-  void ComputeWeights(int numberOfInputs, double* weights) override;
-  const char* GetInputName(int input) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -110,8 +108,7 @@ protected:
 
 private:
   void KeepTimeFromInputs(vtkInformationVector** inputVector);
-
-  double RunParameter; // of the run that is going on
+  double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
 
   vtkTransportInterpolator(const vtkTransportInterpolator&) = delete;
   void operator=(const vtkTransportInterpolator&) = delete;

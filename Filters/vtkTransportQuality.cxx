@@ -7,8 +7,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Quality/ParticleQuality.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/SMPExecutor.h"
+#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -37,16 +36,10 @@ void addColumn(vtkTable* table, const char* name, Value value)
 }
 } // namespace
 
-struct vtkTransportQuality::vtkInternals
-{
-  FlowCache Cache;
-};
-
 //------------------------------------------------------------------------------
 vtkTransportQuality::vtkTransportQuality()
   : vtkDensityAlgorithm(1)
   , BlockSize(8)
-  , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -65,12 +58,6 @@ void vtkTransportQuality::SetDensityConnection(vtkAlgorithmOutput* density)
 void vtkTransportQuality::SetDensityData(vtkDataObject* density)
 {
   this->SetInputData(1, density);
-}
-
-//------------------------------------------------------------------------------
-vtkMTimeType vtkTransportQuality::GetTableBuildTime()
-{
-  return this->Internals->Cache.BuildTime();
 }
 
 //------------------------------------------------------------------------------
@@ -98,13 +85,14 @@ int vtkTransportQuality::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
+  AlgorithmProgress progress(this, this->Threading);
   // The row is in the first piece, whatever pieces a consumer asks for.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
   }
   vtkPointSet* particles = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density(this->NewDensity(inputVector));
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
   if (!density || !particles || particles->GetNumberOfPoints() == 0)
   {
     return 1;
@@ -114,9 +102,8 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  AlgorithmProgress progress(this, makeExecutor(Threading::Auto));
   const ParticleQuality quality =
-    measureQuality(particles, counted, *density, this->BlockSize, this->Internals->Cache, progress);
+    measureQuality(particles, counted, *density, this->BlockSize, this->GetFlowCache(), progress);
 
   vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));
@@ -135,6 +122,5 @@ void vtkTransportQuality::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "BlockSize: " << this->BlockSize << "\n";
-  os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -30,7 +30,8 @@
  *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
  *   the domain has a neighbour.
  *
- * An input without points, or of ghosts alone, gives a table without rows, and so does every piece but the first.
+ * An input without points, or of ghosts alone, gives a table without rows, and so does every piece
+ * but the first.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
  * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables
@@ -83,11 +84,6 @@ public:
   ///@}
 
   /**
-   * When the density's tables were last built: grows with each build, 0 before the first.
-   */
-  vtkMTimeType GetTableBuildTime();
-
-  /**
    * The row of numbers.
    */
   vtkTable* GetOutput();
@@ -104,9 +100,6 @@ protected:
   int BlockSize;
 
 private:
-  struct vtkInternals;
-  std::unique_ptr<vtkInternals> Internals;
-
   vtkTransportQuality(const vtkTransportQuality&) = delete;
   void operator=(const vtkTransportQuality&) = delete;
 };

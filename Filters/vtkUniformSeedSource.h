@@ -28,17 +28,16 @@
 #ifndef vtkUniformSeedSource_h
 #define vtkUniformSeedSource_h
 
-#include "Bridge/VTKCompatibility.h"
-#include "vtkPolyDataAlgorithm.h"
-#include "vtkRectifiedTransportModule.h" // for the export macro
+#include "vtkGuardedAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkPolyDataAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkGuardedAlgorithm
 {
 public:
   static vtkUniformSeedSource* New();
-  vtkTypeMacro(vtkUniformSeedSource, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkUniformSeedSource, vtkGuardedAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -104,10 +103,16 @@ public:
   vtkGetMacro(RandomSeed, int);
   ///@}
 
+  /**
+   * The points, each a vertex.
+   */
+  vtkPolyData* GetOutput();
+
 protected:
   vtkUniformSeedSource();
   ~vtkUniformSeedSource() override;
 
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

@@ -135,12 +135,31 @@ inline double bumpy(vtkIdType i)
   return static_cast<double>(1 + (i * 37 + i * i % 11) % 23);
 }
 
-// Marks the array of a density as changed, so that tables are built anew.
-inline void changeDensity(vtkDataObject* data)
+inline vtkDataArray* densityOf(vtkDataObject* data)
 {
   auto* image = vtkImageData::SafeDownCast(data);
   vtkDataArray* onPoints = image->GetPointData()->GetScalars();
-  (onPoints ? onPoints : image->GetCellData()->GetScalars())->Modified();
+  return onPoints ? onPoints : image->GetCellData()->GetScalars();
+}
+
+// Makes it another density.
+inline void changeDensity(vtkDataObject* data)
+{
+  vtkDataArray* array = densityOf(data);
+  const double value = array->GetComponent(0, 0);
+  array->SetComponent(0, 0, value < 100.0 ? value + 1.0 : 1.0);
+  array->Modified();
+}
+
+// Lets a filter make its tables anew from the same values: those of others take their place.
+inline void forgetTables(vtkAlgorithm* filter, vtkDataObject* data)
+{
+  vtkDataArray* array = densityOf(data);
+  const double value = array->GetComponent(0, 0);
+  changeDensity(data);
+  filter->Update();
+  array->SetComponent(0, 0, value);
+  array->Modified();
 }
 
 inline vtkDataArray* pointArray(vtkPolyData* data, const char* name)

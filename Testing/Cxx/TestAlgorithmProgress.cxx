@@ -9,9 +9,7 @@
 #include "vtkSMPTools.h"
 
 #include <algorithm>
-#include <memory>
 #include <new>
-#include <utility>
 
 namespace
 {
@@ -38,14 +36,13 @@ public:
 // Work that is cut into few long ranges: all threads have one, but where the work ends.
 void checkLongRanges(Checks& checks)
 {
-  vtkNew<vtkTransportSampler> algorithm;
-  auto executor = std::make_unique<CountingExecutor>();
-  std::vector<std::int64_t>& called = executor->Ranges;
-  AlgorithmProgress host(algorithm, std::move(executor));
-  host.BeginStage(1.0);
+  const CountingExecutor executor;
+  std::vector<std::int64_t>& called = executor.Ranges;
+  Progress progress{ Context(executor) };
+  progress.BeginStage(1.0);
   constexpr std::int64_t count = 1030;
   std::vector<int> visits(count, 0);
-  host.For(
+  progress.For(
     count, 100,
     [&visits](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)

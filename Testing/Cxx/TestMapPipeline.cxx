@@ -179,7 +179,7 @@ void checkCache(Checks& checks)
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
   CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
-  changeDensity(image);
+  forgetTables(map, image);
   map->Update();
   CHECK(checks, map->GetTableBuildTime() > built);
   CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
@@ -197,7 +197,7 @@ void checkThreads(Checks& checks)
       map->SetDirection(direction);
       const auto run = [&](int threading) {
         map->SetThreading(threading);
-        changeDensity(image); // the tables, too
+        forgetTables(map, image);
         map->Update();
         Values all = mapValues(map->GetOutput(), "Displacement");
         for (const char* name : { "Divergence", "JacobianDeterminant" })

@@ -37,8 +37,8 @@ void checkThreads(Checks& checks, vtkImageData* source, vtkImageData* target, in
     morph->SetKernel(kernel);
     const auto run = [&](int threading) {
       morph->SetThreading(threading);
-      changeDensity(source); // the tables and maps, too
-      changeDensity(target);
+      forgetTables(morph, source); // the maps, too
+      forgetTables(morph, target);
       morph->Update();
       return allValues(morph);
     };

@@ -21,7 +21,7 @@ struct Result
 
 Result sampleWith(vtkTransportSampler* sampler, vtkImageData* image)
 {
-  changeDensity(image); // the tables, too
+  forgetTables(sampler, image);
   Result result;
   result.Points = sampleCoordinates(sampler);
   result.Mass = fieldValue(sampler->GetOutput(), "TotalMass");

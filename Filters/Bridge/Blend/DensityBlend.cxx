@@ -3,6 +3,7 @@
 #include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Failure.h"
@@ -40,7 +41,7 @@ ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimension
   std::vector<NamedGrid> grids;
   for (const BlendInput& input : inputs)
   {
-    grids.push_back({ input.Density->Geometry(), input.Name });
+    grids.push_back({ input.Density->Grid(), input.Name });
   }
   return commonGrid(grids, dimensions);
 }
@@ -79,34 +80,27 @@ void renew(
   array->Modified();
 }
 
-// What new maps cost beside what follows from them, in nanoseconds a particle, as measured.
-double partOfMaps(std::size_t newMaps, int dimension, const FlowOptions& flow)
-{
-  const double evaluations =
-    flow.NumberOfSteps * (flow.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
-  const double maps = static_cast<double>(newMaps) * evaluations * (dimension == 3 ? 60.0 : 15.0);
-  return maps / (maps + 60.0);
-}
-
 } // namespace
 
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
-  const bool onPoints = inputs.front().Density->IsOnPoints();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
   requireMemoryFor(numberOfValues(geometry) * settings.ParticlesPerCell, inputs.size());
   requireCells(geometry);
   applyGrid(geometry, output.Density);
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow };
 
-  const std::size_t newMaps = this->MatchMaps(inputs, pivot);
+  const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
   if (newMaps > 0)
   {
     this->Means = this->Masses = this->Density = nullptr; // the tables take their place
   }
-  const double maps = partOfMaps(newMaps, geometry.Dimension(), settings.Flow);
-  const std::int64_t moved = this->UpdateMaps(inputs, pivot, tables, progress, maps);
+  constexpr double meanAndSplat = 60.0; // nanoseconds a particle, as measured
+  const double maps =
+    stageEnds({ static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension()),
+      meanAndSplat })[0];
+  const std::int64_t moved = this->MakeMaps(inputs, pivot, tables, progress, maps);
 
   progress.BeginStage(maps + partOfMean * (1.0 - maps));
   this->TakeMeans(inputs, progress);
@@ -122,36 +116,45 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   progress.BeginStage(1.0);
   renew(this->Density, "Density", 1, geometry.NumberOfCells());
   splatPoints(this->Means->GetPointer(0), count, massEach, target, progress, this->Density);
-  output.Density->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
+  output.Density->GetAttributes(geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
   return moved;
 }
 
-// Each input takes the map of its density, wherever that was in the list before. Returns how many
-// may have to be made.
+// Each input takes the map of its density, wherever that was in the list before; it has none where
+// there was none. Returns how many are to be made.
 std::size_t DensityBlend::MatchMaps(
-  const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings)
+  const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings, Progress& progress)
 {
+  constexpr double partOfHashes = 0.01;
+  progress.BeginStage(partOfHashes);
   const std::vector<LinearizedMap> before = std::exchange(this->Maps, {});
-  std::size_t outdated = 0;
+  std::size_t missing = 0;
   for (const BlendInput& input : inputs)
   {
-    const DensityImage& density = *input.Density;
+    DensityImage& density = *input.Density;
+    this->Maps.emplace_back();
     auto match = std::find_if(before.begin(), before.end(),
-      [&](const LinearizedMap& map) { return !map.IsOutdated(density, settings); });
+      [&](const LinearizedMap& map) { return map.IsOf(density, settings); });
+    if (match == before.end() && !before.empty())
+    {
+      const ContentHash content(density, progress);
+      match = std::find_if(before.begin(), before.end(),
+        [&](const LinearizedMap& map) { return map.IsOf(content, density.Grid(), settings); });
+    }
     if (match == before.end())
     {
-      ++outdated;
-      match = std::find_if(before.begin(), before.end(),
-        [&](const LinearizedMap& map) { return map.IsCandidate(density); });
+      ++missing;
+      continue;
     }
-    this->Maps.push_back(match == before.end() ? LinearizedMap() : *match);
+    this->Maps.back() = *match;
+    this->Maps.back().Renew(density);
   }
-  return outdated;
+  return missing;
 }
 
-std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
+std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end)
 {
   // They take as much memory as the particles, and a small part of the time to be built.
@@ -163,17 +166,29 @@ std::int64_t DensityBlend::UpdateMaps(const std::vector<BlendInput>& inputs,
   std::int64_t moved = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
+    LinearizedMap& map = this->Maps[i];
+    DensityImage& density = *inputs[i].Density;
+    if (map.Positions())
+    {
+      continue;
+    }
     // One density may be several inputs.
     const auto made = std::find_if(this->Maps.begin(), this->Maps.begin() + i,
-      [&](const LinearizedMap& map) { return !map.IsOutdated(*inputs[i].Density, settings); });
+      [&](const LinearizedMap& other) { return other.IsOf(density, settings); });
     if (made != this->Maps.begin() + i)
     {
-      this->Maps[i] = *made;
+      map = *made;
+      continue;
     }
     const double until = end * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
-    nameFailures(inputs[i].Name, [&]() {
-      moved += this->Maps[i].Update(*inputs[i].Density, settings, tables, progress, until);
-    });
+    try
+    {
+      moved += map.Make(density, settings, tables, progress, until);
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(inputs[i].Name + ": " + failure.what());
+    }
   }
   return moved;
 }

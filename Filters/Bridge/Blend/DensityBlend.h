@@ -22,7 +22,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The values are those of the enumeration in vtkTransportBlend.
+// Of vtkTransportBlend.
 enum class MassMode
 {
   Linear,
@@ -34,7 +34,6 @@ enum class MassMode
 struct BlendInput
 {
   std::unique_ptr<DensityImage> Density;
-  vtkImageData* Image;
   std::string Name;         // as messages call it
   std::string PositionName; // of the array of the particles' positions; empty for none
   double Weight = 0.0;      // at least 0; all sum to 1
@@ -65,9 +64,9 @@ public:
     FlowCache& tables, Progress& progress, const BlendOutput& output);
 
 private:
-  std::size_t MatchMaps(
-    const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings);
-  std::int64_t UpdateMaps(const std::vector<BlendInput>& inputs,
+  std::size_t MatchMaps(const std::vector<BlendInput>& inputs,
+    const LinearizedMapSettings& settings, Progress& progress);
+  std::int64_t MakeMaps(const std::vector<BlendInput>& inputs,
     const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;

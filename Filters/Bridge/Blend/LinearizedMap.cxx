@@ -6,6 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/PivotLattice.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -37,56 +38,40 @@ void toPhysical(const ImageGrid& geometry, const double* positions, std::int64_t
 
 } // namespace
 
-bool LinearizedMap::IsOutdated(
-  const DensityImage& density, const LinearizedMapSettings& settings) const
+bool LinearizedMap::IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const
 {
-  return !this->Kept || !(this->Settings == settings) || !this->Stamp.IsOf(density) ||
-    !(this->Place == density.Geometry());
+  return this->Kept && this->Settings == settings && this->Content.IsOf(density) &&
+    this->Place == density.Grid();
 }
 
-bool LinearizedMap::IsCandidate(const DensityImage& density) const
+bool LinearizedMap::IsOf(
+  const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const
 {
-  return this->Stamp.IsLike(density) && this->Place == density.Geometry();
+  return this->Kept && this->Settings == settings && this->Content == content &&
+    this->Place == grid;
 }
 
-std::int64_t LinearizedMap::Update(DensityImage& density, const LinearizedMapSettings& settings,
+std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSettings& settings,
   FlowCache& tables, Progress& progress, double end)
 {
-  if (!this->IsOutdated(density, settings))
-  {
-    return 0;
-  }
-  constexpr double partOfFingerprint = 0.01;
-  progress.BeginStage(progress.StageEnd() + partOfFingerprint * (end - progress.StageEnd()));
-  ContentHash stamp = this->Stamp;
-  const bool isSame = stamp.Renew(density, progress) && this->Place == density.Geometry();
-  if (isSame && this->Kept && this->Settings == settings)
-  {
-    this->Stamp = stamp;
-    return 0;
-  }
-  this->Kept = nullptr; // until the particles have arrived
+  constexpr double partOfTables = 0.04;
   this->Settings = settings;
-  this->Place = density.Geometry();
-  const int dimension = density.Geometry().Dimension();
-  const std::int64_t moved = dimension == 1 ? this->Move<1>(density, tables, progress, end)
-    : dimension == 2                        ? this->Move<2>(density, tables, progress, end)
-                                            : this->Move<3>(density, tables, progress, end);
-  this->Stamp = stamp;
+  this->Place = density.Grid();
+  const SharedFlow& flow = tables.Update(
+    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
+  this->Mass = flow.TotalMass();
+  const std::int64_t moved = dispatchDimension(this->Place.Dimension(), [&](auto dimension) {
+    constexpr int D = decltype(dimension)::value;
+    return this->Move<D>(flow.Flow<D>(), progress, end);
+  });
+  this->Content = ContentHash(density, progress);
   return moved;
 }
 
 template <int D>
-std::int64_t LinearizedMap::Move(
-  DensityImage& density, FlowCache& tables, Progress& progress, double end)
+std::int64_t LinearizedMap::Move(const RectifiedFlow<D>& flow, Progress& progress, double end)
 {
-  constexpr double partOfTables = 0.03;
   constexpr double partOfConversion = 0.02;
-  tables.Update(
-    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
-  const RectifiedFlow<D>& flow = tables.Flow<D>();
-  this->Mass = tables.TotalMass();
-
   GridSize<D> grid;
   std::copy_n(this->Settings.Grid.begin(), D, grid.begin());
   const PivotLattice<D> samples = pivotLattice<D>(grid, this->Settings.PerCell);
@@ -117,7 +102,7 @@ std::int64_t LinearizedMap::Move(
         .MovedToMass;
   }
   progress.BeginStage(end);
-  toPhysical<D>(density.Geometry(), positions, each * places, progress, physical->GetPointer(0));
+  toPhysical<D>(this->Place, positions, each * places, progress, physical->GetPointer(0));
   this->Kept = physical;
   return moved;
 }

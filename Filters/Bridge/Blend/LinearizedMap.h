@@ -17,6 +17,8 @@ namespace RectifiedTransport
 {
 
 class FlowCache;
+template <int Dimension>
+class RectifiedFlow;
 
 // What maps must share to be one particle's ways to several densities.
 struct LinearizedMapSettings
@@ -35,19 +37,18 @@ struct LinearizedMapSettings
 class LinearizedMap
 {
 public:
-  // Whether Update has to look closer, and most likely moves all particles.
-  bool IsOutdated(const DensityImage& density, const LinearizedMapSettings& settings) const;
+  // Whether it is plainly that of a density. Else the density's content tells.
+  bool IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const;
+  bool IsOf(
+    const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
-  // Whether it was made from this density in this place, its image aside, so that Update may find
-  // it the same.
-  bool IsCandidate(const DensityImage& density) const;
-
-  // Moves the particles if the density or the settings are others; progress then reaches
-  // `progress`. The tables are built in `tables`. Throws Failure and Cancelled; the next update
-  // then moves them. Returns how many particles, of those that it has moved, ended in an empty cell
-  // and were put on the nearest mass.
-  std::int64_t Update(DensityImage& density, const LinearizedMapSettings& settings,
-    FlowCache& tables, Progress& progress, double end);
+  // Moves the particles to a density of this content; progress then reaches `end`. The tables are
+  // built in `tables`. Throws Failure and Cancelled. Returns how many particles ended in an empty
+  // cell and were put on the nearest mass.
+  std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
+    Progress& progress, double end);
+  // Of the same density, which may come in another image.
+  void Renew(const DensityImage& density) { this->Content.SetTimes(density); }
 
   // Physical, 3 components; tuples are in the order of PivotLattice. Not to be written to.
   vtkDoubleArray* Positions() const { return this->Kept; }
@@ -56,10 +57,10 @@ public:
 
 private:
   template <int D>
-  std::int64_t Move(DensityImage& density, FlowCache& tables, Progress& progress, double end);
+  std::int64_t Move(const RectifiedFlow<D>& flow, Progress& progress, double end);
 
-  ContentHash Stamp;
-  ImageGrid Place; // the stamp is of the values alone, the positions are physical
+  ContentHash Content;
+  ImageGrid Place; // the content is that of the values alone, the positions are physical
   LinearizedMapSettings Settings{};
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;

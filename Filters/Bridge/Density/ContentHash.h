@@ -4,7 +4,6 @@
 #define RectifiedTransport_ContentHash_h
 
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Density/Fingerprint.h"
 
 namespace RectifiedTransport
 {
@@ -12,29 +11,40 @@ namespace RectifiedTransport
 class ContentHash
 {
 public:
-  // Whether it is plainly the same density. Else Renew tells.
+  ContentHash() = default; // of no density
+  // Takes the content of a density, as the work of the current stage. Throws Cancelled.
+  ContentHash(DensityImage& density, Progress& progress)
+    : Known(true)
+    , Times(density.GetTimes())
+    , Content(density.GetContent(progress))
+  {
+  }
+
+  // Whether it is plainly of this density: nothing says that it was changed. Else its own hash
+  // tells.
   bool IsOf(const DensityImage& density) const
   {
-    return this->Stamp.IsOf(density.GetIdentity(), density.ImageTime());
+    DensityImage::Content reading = this->Content;
+    reading[0] = 0;
+    return this->Known && this->Times == density.GetTimes() && reading == density.GetReading();
   }
 
-  // Whether it may be the same density, in another image.
-  bool IsLike(const DensityImage& density) const
+  // Where values are not in memory as they are, equal content tells nothing.
+  bool operator==(const ContentHash& other) const
   {
-    return this->Stamp.IsLike(density.GetIdentity());
+    return this->Known && other.Known && this->Content == other.Content &&
+      (this->IsComplete() || this->Times == other.Times);
   }
+  // Of the same density, which may come in another image.
+  void SetTimes(const DensityImage& density) { this->Times = density.GetTimes(); }
 
-  // Takes the stamp of a density, as the work of the host's current stage. Returns whether it is
-  // the one that was stamped before, down to its values where only its image is another. Throws
-  // Cancelled, and is then of no density.
-  bool Renew(const DensityImage& density, Progress& progress)
-  {
-    return this->Stamp.Renew(
-      density.GetIdentity(), density.ImageTime(), [&]() { return density.Fingerprint(progress); });
-  }
+  bool IsComplete() const { return this->Content[0] != 0; }
+  bool operator<(const ContentHash& other) const { return this->Content < other.Content; }
 
 private:
-  DataStamp<DensityImage::Identity> Stamp;
+  bool Known = false;
+  DensityImage::Times Times{};
+  DensityImage::Content Content{};
 };
 
 } // namespace RectifiedTransport

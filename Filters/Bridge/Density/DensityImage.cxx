@@ -57,8 +57,7 @@ void requireComponent(const std::string& name, int component, int count)
 
 DensityImage::DensityImage(
   vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
-  : OnPoints(onPoints)
-  , Array(array)
+  : Array(array)
   , Rules(rules)
   , Name(array->GetName() ? std::string("density array '") + array->GetName() + "'"
                           : std::string("density array (which has no name)"))
@@ -75,45 +74,54 @@ DensityImage::DensityImage(
   requireComponent(this->Name, rules.Component, array->GetNumberOfComponents());
   this->Place = gridOf(image, onPoints);
   requireCells(this->Place);
-  this->FindBlanks(image, onPoints);
-  this->Reader = makeDensityReader(array);
+  this->Reader = makeDensityReader(array, rules);
+  this->FindBlanks(image);
 
   const auto time = [](vtkObject* object) {
     return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
   };
-  // The image's own time, not that of all its arrays.
-  this->Time = static_cast<std::uint64_t>(image->vtkObject::GetMTime());
   this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
+  // The image's own time, not that of all its arrays.
+  this->Changed = { time(this->Sources[0]), time(this->Sources[1]), time(this->Sources[2]),
+    static_cast<std::uint64_t>(image->vtkObject::GetMTime()) };
   const double measure = this->Place.CellMeasure();
   std::uint64_t measureBits = 0;
   std::memcpy(&measureBits, &measure, sizeof(measure));
-  this->Key = { time(array), time(image->GetPointGhostArray()), time(image->GetCellGhostArray()),
-    static_cast<std::uint64_t>(onPoints), static_cast<std::uint64_t>(this->Place.Dimension()), 0, 0,
-    0, static_cast<std::uint64_t>(rules.Component + 1), rules.Invert, rules.ClampNegative,
-    measureBits };
   const GridSize<3> size = this->Place.Size<3>();
-  std::copy(size.begin(), size.end(), this->Key.begin() + 5);
+  const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };
+  const auto has = [this](std::size_t source) { return this->Sources[source] ? 1 : 0; };
+  this->Reading = { 0, number(this->Array->GetDataType()),
+    number(this->Array->GetNumberOfComponents()), number(this->Place.Dimension()), number(size[0]),
+    number(size[1]), number(size[2]), number(this->Rules.Component + 2),
+    number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative),
+    number(this->Place.IsOnPoints()), number(has(1) + 2 * has(2)), measureBits };
 }
 
 DensityImage::~DensityImage() = default;
 
-std::uint64_t DensityImage::Fingerprint(Progress& progress) const
+const DensityImage::Content& DensityImage::GetContent(Progress& progress)
 {
-  return fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);
+  if (this->Hashed != Content{})
+  {
+    return this->Hashed;
+  }
+  const std::uint64_t bits = fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);
+  this->Hashed = this->Reading;
+  this->Hashed[0] = bits;
+  return this->Hashed;
 }
 
-void DensityImage::FindBlanks(vtkImageData* image, bool onPoints)
+void DensityImage::FindBlanks(vtkImageData* image)
 {
   constexpr const char* what = "input image";
   const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
-  if (onPoints)
+  if (this->Place.IsOnPoints())
   {
-    this->Flags = points;
-    this->FlagMask = ghostPoint;
+    this->Reader->SetBlanks(points, ghostPoint);
     return;
   }
-  this->Flags = ghostFlags(image, vtkDataObject::CELL, what);
-  this->FlagMask = ghostCell;
+  this->CellFlags = ghostFlags(image, vtkDataObject::CELL, what);
+  this->Reader->SetBlanks(this->CellFlags, ghostCell);
   this->HiddenPoints = points;
 }
 
@@ -125,16 +133,12 @@ void DensityImage::Prepare(Progress& progress)
   }
   const int components = this->Array->GetNumberOfComponents();
   const bool alpha = this->Rules.Component < 0 && (components == 2 || components == 4);
-  if (!this->Rules.Invert && !alpha)
+  if (this->Rules.Invert || alpha)
   {
-    return;
+    this->Reader->SetWhite(this->Array->GetDataType() == VTK_UNSIGNED_CHAR
+        ? std::numeric_limits<unsigned char>::max()
+        : this->FindWhite(progress));
   }
-  if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
-  {
-    this->White = std::numeric_limits<unsigned char>::max();
-    return;
-  }
-  this->FindWhite(progress);
 }
 
 void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
@@ -163,49 +167,25 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
             points[i + (corner & 1) + (corner >> 1 & 1) * rowStep + (corner >> 2) * planeStep];
         }
         const std::int64_t cell = row * cells[0] + i;
-        const unsigned char own = this->Flags ? this->Flags[cell] : 0;
-        combined[cell] = (hidden & vtkDataSetAttributes::HIDDENPOINT) ? this->FlagMask : own;
+        const unsigned char own = this->CellFlags ? this->CellFlags[cell] : 0;
+        combined[cell] = (hidden & vtkDataSetAttributes::HIDDENPOINT) ? ghostCell : own;
       }
     }
   });
-  this->Flags = combined;
+  this->Reader->SetBlanks(combined, ghostCell);
 }
 
-void DensityImage::FindWhite(Progress& progress)
+double DensityImage::FindWhite(Progress& progress) const
 {
   const std::int64_t cells = this->Place.NumberOfCells();
-  std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain));
+  std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain),
+    -std::numeric_limits<double>::infinity()); // a range may hold several times the grain
   progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
-    maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first,
-      this->Rules.Component, this->Flags ? this->Flags + first : nullptr, this->FlagMask);
+    maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first);
   });
   const double largest = *std::max_element(maxima.begin(), maxima.end());
   // Without a finite value there is no density either, which the tables will say.
-  this->White = std::isfinite(largest) ? largest : 0.0;
-}
-
-void DensityImage::Read(std::int64_t first, std::int64_t count, double* values) const
-{
-  this->Reader->Read(
-    first, count, { this->Rules.Component, this->Rules.Invert, this->White }, values);
-  if (this->Rules.ClampNegative)
-  {
-    // Minus infinity stays, to be found.
-    constexpr double lowest = std::numeric_limits<double>::lowest();
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      values[i] = values[i] < 0.0 && values[i] >= lowest ? 0.0 : values[i];
-    }
-  }
-  if (this->Flags)
-  {
-    const unsigned char* flags = this->Flags + first;
-    const unsigned char mask = this->FlagMask;
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      values[i] = (flags[i] & mask) ? 0.0 : values[i];
-    }
-  }
+  return std::isfinite(largest) ? largest : 0.0;
 }
 
 void DensityImage::Explain(const DensitySummary& summary) const
@@ -231,7 +211,7 @@ void DensityImage::Explain(const DensitySummary& summary) const
   else
   {
     message << "a total mass of zero"
-            << (this->Flags ? " (duplicate and blanked ghosts carry none)" : "")
+            << (this->Reader->HasBlanks() ? " (duplicate and blanked ghosts carry none)" : "")
             << "; at least one value must be positive";
   }
   throw Failure(message.str());

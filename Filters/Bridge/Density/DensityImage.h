@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array of an image as the density that the core reads, without a copy.
+// An array of an image as a density: where its cells lie, what they hold, and what tells it from
+// another one.
 #ifndef RectifiedTransport_DensityImage_h
 #define RectifiedTransport_DensityImage_h
 
+#include "Bridge/Density/DensityReader.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Tables/Density.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 #include <array>
 #include <cstdint>
@@ -24,69 +24,59 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class DensityReader;
-class Executor;
 class Progress;
 
-// How the values of an array become a density; see vtkDensityAlgorithm.
-struct DensityRules
-{
-  int Component = -1;
-  bool Invert = false;
-  bool ClampNegative = false;
-};
-
-class DensityImage final : public DensityValues
+class DensityImage
 {
 public:
-  // What makes two densities the same one, the time of the image aside.
-  using Identity = std::array<std::uint64_t, 12>;
+  // When the array, the ghost arrays and the image itself last changed.
+  using Times = std::array<std::uint64_t, 4>;
+  // All that the tables of a density depend on: the bits of the values and of the ghost arrays, as
+  // a hash, and how they are read. The hash is 0 if the values are not in memory as they are.
+  using Content = std::array<std::uint64_t, 12>;
 
   // Throws Failure where the array cannot be a density whatever its values. `array` belongs to the
   // points or the cells of `image`.
   DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
-  ~DensityImage() override;
+  ~DensityImage();
   DensityImage(const DensityImage&) = delete;
   DensityImage& operator=(const DensityImage&) = delete;
 
-  const ImageGrid& Geometry() const { return this->Place; }
-  const Identity& GetIdentity() const { return this->Key; }
-  // When the image itself last changed.
-  std::uint64_t ImageTime() const { return this->Time; }
-  // Of the array's values and the ghost arrays, as the function of that name gives it.
-  std::uint64_t Fingerprint(Progress& progress) const;
-  // Whether its values are those of points.
-  bool IsOnPoints() const { return this->OnPoints; }
+  const ImageGrid& Grid() const { return this->Place; }
+  const Times& GetTimes() const { return this->Changed; }
+  // The content without the hash.
+  const Content& GetReading() const { return this->Reading; }
+  // Found once, as the work of the current stage. Throws Cancelled.
+  const Content& GetContent(Progress& progress);
 
-  // Finds what single rows cannot tell, such as the largest value. Call it before reading.
+  // Finds what single cells cannot tell, such as the largest value. Call it before reading.
   void Prepare(Progress& progress);
-
-  void Read(std::int64_t first, std::int64_t count, double* values) const override;
+  template <int D>
+  DensitySource<D> Source() const
+  {
+    return { this->Place.Size<D>(), *this->Reader };
+  }
 
   // Throws the Failure that says what is wrong with the density, in the user's terms.
   [[noreturn]] void Explain(const DensitySummary& summary) const;
 
 private:
-  void FindBlanks(vtkImageData* image, bool onPoints);
+  void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
-  void FindWhite(Progress& progress);
-  bool IsBlank(std::int64_t cell) const;
+  double FindWhite(Progress& progress) const;
 
   ImageGrid Place;
-  bool OnPoints;
   vtkSmartPointer<vtkDataArray> Array;
+  const DensityRules Rules;
+  const std::string Name;
   std::unique_ptr<DensityReader> Reader;
-  DensityRules Rules;
-  std::string Name;
-  Identity Key;
-  std::uint64_t Time;
   std::array<vtkSmartPointer<vtkDataArray>, 3> Sources; // all that is read; some may be null
-  double White = 0.0;
+  Times Changed;
+  Content Reading;
+  Content Hashed{}; // all 0 before GetContent
 
-  // Cells without mass: those whose flags meet the mask.
-  const unsigned char* Flags = nullptr;
-  unsigned char FlagMask = 0;
-  const unsigned char* HiddenPoints = nullptr;
+  const unsigned char* CellFlags = nullptr;    // of an array of the cells
+  const unsigned char* HiddenPoints = nullptr; // beside it
   std::vector<unsigned char> CombinedFlags;
 };
 

@@ -6,9 +6,11 @@
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -48,20 +50,19 @@ double positivePart(double value)
 
 // The loops, over tuples that begin(i)[c] indexes.
 template <class Tuples>
-void readTuples(const Tuples& begin, int components, vtkIdType count, const TupleReading& reading,
-  double* __restrict values)
+void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
+  double white, double* __restrict values)
 {
-  const double white = reading.White;
-  if (reading.Component >= 0 || components == 1)
+  if (rules.Component >= 0 || components == 1)
   {
-    const int c = reading.Component < 0 ? 0 : reading.Component;
-    for (vtkIdType i = 0; i < count; ++i)
+    const int c = rules.Component < 0 ? 0 : rules.Component;
+    for (std::int64_t i = 0; i < count; ++i)
     {
       values[i] = static_cast<double>(begin(i, c));
     }
-    if (reading.Invert)
+    if (rules.Invert)
     {
-      for (vtkIdType i = 0; i < count; ++i)
+      for (std::int64_t i = 0; i < count; ++i)
       {
         values[i] = white - values[i];
       }
@@ -70,23 +71,23 @@ void readTuples(const Tuples& begin, int components, vtkIdType count, const Tupl
   }
   if (components >= 3)
   {
-    for (vtkIdType i = 0; i < count; ++i)
+    for (std::int64_t i = 0; i < count; ++i)
     {
       values[i] = luminance(begin(i, 0), begin(i, 1), begin(i, 2));
     }
   }
   else
   {
-    for (vtkIdType i = 0; i < count; ++i)
+    for (std::int64_t i = 0; i < count; ++i)
     {
       values[i] = static_cast<double>(begin(i, 0));
     }
   }
   if (components == 3)
   {
-    if (reading.Invert)
+    if (rules.Invert)
     {
-      for (vtkIdType i = 0; i < count; ++i)
+      for (std::int64_t i = 0; i < count; ++i)
       {
         values[i] = positivePart(white - values[i]);
       }
@@ -94,153 +95,204 @@ void readTuples(const Tuples& begin, int components, vtkIdType count, const Tupl
     return;
   }
   const int alpha = components - 1;
-  for (vtkIdType i = 0; i < count; ++i)
+  for (std::int64_t i = 0; i < count; ++i)
   {
     const double opacity = white > 0.0 ? static_cast<double>(begin(i, alpha)) / white : 1.0;
     const double ink = (white - values[i]) * opacity;
-    values[i] = reading.Invert ? positivePart(ink) : white - ink;
+    values[i] = rules.Invert ? positivePart(ink) : white - ink;
   }
 }
 
-template <class Tuples>
-double maximumOfTuples(const Tuples& begin, int firstComponent, int endComponent, vtkIdType count,
-  const unsigned char* blank, unsigned char mask)
+// Of components [First, End), where the mask does not meet the flags, which may be null.
+struct MaximumOf
 {
-  double maximum = -std::numeric_limits<double>::infinity();
-  for (vtkIdType i = 0; i < count; ++i)
+  int First;
+  int End;
+  const unsigned char* Flags;
+  unsigned char Mask;
+
+  template <class Tuples>
+  double operator()(const Tuples& begin, std::int64_t count) const
   {
-    if (blank && (blank[i] & mask))
+    double maximum = -std::numeric_limits<double>::infinity();
+    for (std::int64_t i = 0; i < count; ++i)
     {
-      continue;
-    }
-    for (int c = firstComponent; c < endComponent; ++c)
-    {
-      const double value = static_cast<double>(begin(i, c));
-      if (value > maximum && value <= std::numeric_limits<double>::max())
+      if (this->Flags && (this->Flags[i] & this->Mask))
       {
-        maximum = value;
+        continue;
+      }
+      for (int c = this->First; c < this->End; ++c)
+      {
+        const double value = static_cast<double>(begin(i, c));
+        if (value > maximum && value <= std::numeric_limits<double>::max())
+        {
+          maximum = value;
+        }
       }
     }
+    return maximum;
   }
-  return maximum;
-}
+};
 
-// Arrays whose tuples lie in one block of memory. The number of components is a constant where that
-// lets the loops be vectorised.
-template <class T>
-class BlockReader final : public DensityReader
+// Arrays of which `Tuples` gives a run of tuples: tuples(first, count)(i, c) is a value.
+template <class Tuples>
+class TupleReader final : public DensityReader
 {
 public:
-  explicit BlockReader(vtkAOSDataArrayTemplate<T>* array)
+  TupleReader(const Tuples& tuples, int components, const DensityRules& rules)
+    : DensityReader(rules)
+    , Run(tuples)
+    , Components(components)
+  {
+  }
+
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
+  {
+    this->Run.VisitTuples(first, count, [&](const auto& begin, int components) {
+      readTuples(begin, components, count, this->Rules, this->White, values);
+    });
+    this->Finish(first, count, values);
+  }
+
+  double Maximum(std::int64_t first, std::int64_t count) const override
+  {
+    const int component = this->Rules.Component;
+    const MaximumOf maximum{ std::max(component, 0),
+      component < 0 ? this->Components : component + 1, this->Flags ? this->Flags + first : nullptr,
+      this->Mask };
+    double found = 0.0;
+    this->Run.VisitTuples(
+      first, count, [&](const auto& begin, int) { found = maximum(begin, count); });
+    return found;
+  }
+
+private:
+  Tuples Run;
+  int Components;
+};
+
+// Tuples that lie in one block of memory. Their number of components is a constant where that lets
+// the loops be vectorised.
+template <class T>
+class BlockOfTuples
+{
+public:
+  explicit BlockOfTuples(vtkAOSDataArrayTemplate<T>* array)
     : Values(array->GetPointer(0))
     , Components(array->GetNumberOfComponents())
   {
   }
 
-  void Read(
-    vtkIdType first, vtkIdType count, const TupleReading& reading, double* values) const override
+  template <class Visit>
+  void VisitTuples(std::int64_t first, std::int64_t, const Visit& visit) const
   {
     const T* block = this->Values + first * this->Components;
+    const auto visitAs = [&](auto components) {
+      constexpr int N = decltype(components)::value;
+      visit([block](std::int64_t i, int c) { return block[i * N + c]; }, N);
+    };
     switch (this->Components)
     {
       case 1:
-        return ReadBlock<1>(block, count, reading, values);
+        return visitAs(std::integral_constant<int, 1>());
       case 2:
-        return ReadBlock<2>(block, count, reading, values);
+        return visitAs(std::integral_constant<int, 2>());
       case 3:
-        return ReadBlock<3>(block, count, reading, values);
+        return visitAs(std::integral_constant<int, 3>());
       case 4:
-        return ReadBlock<4>(block, count, reading, values);
+        return visitAs(std::integral_constant<int, 4>());
       default:
-        return readTuples(
-          [block, n = this->Components](vtkIdType i, int c) { return block[i * n + c]; },
-          this->Components, count, reading, values);
+        return visit(
+          [block, n = this->Components](std::int64_t i, int c) { return block[i * n + c]; },
+          this->Components);
     }
   }
 
-  double Maximum(vtkIdType first, vtkIdType count, int component, const unsigned char* blank,
-    unsigned char mask) const override
-  {
-    const T* block = this->Values + first * this->Components;
-    return maximumOfTuples(
-      [block, n = this->Components](vtkIdType i, int c) { return block[i * n + c]; },
-      component < 0 ? 0 : component, component < 0 ? this->Components : component + 1, count, blank,
-      mask);
-  }
-
 private:
-  template <int N>
-  static void ReadBlock(
-    const T* block, vtkIdType count, const TupleReading& reading, double* values)
-  {
-    readTuples([block](vtkIdType i, int c) { return block[i * N + c]; }, N, count, reading, values);
-  }
-
   const T* Values;
   int Components;
 };
 
 // Every other layout.
 template <class ArrayT>
-class RangeReader final : public DensityReader
+class RangeOfTuples
 {
 public:
-  explicit RangeReader(ArrayT* array)
+  explicit RangeOfTuples(ArrayT* array)
     : Array(array)
     , Components(array->GetNumberOfComponents())
   {
   }
 
-  void Read(
-    vtkIdType first, vtkIdType count, const TupleReading& reading, double* values) const override
-  {
-    readTuples(this->Tuples(first, count), this->Components, count, reading, values);
-  }
-
-  double Maximum(vtkIdType first, vtkIdType count, int component, const unsigned char* blank,
-    unsigned char mask) const override
-  {
-    return maximumOfTuples(this->Tuples(first, count), component < 0 ? 0 : component,
-      component < 0 ? this->Components : component + 1, count, blank, mask);
-  }
-
-private:
-  auto Tuples(vtkIdType first, vtkIdType count) const
+  template <class Visit>
+  void VisitTuples(std::int64_t first, std::int64_t count, const Visit& visit) const
   {
     const auto range = vtk::DataArrayValueRange(
       this->Array, first * this->Components, (first + count) * this->Components);
-    return [range, n = this->Components](vtkIdType i, int c) {
-      using Value = typename decltype(range)::ValueType;
-      return static_cast<Value>(range[i * n + c]);
-    };
+    visit(
+      [&range, n = this->Components](std::int64_t i, int c) {
+        using Value = typename std::decay_t<decltype(range)>::ValueType;
+        return static_cast<Value>(range[i * n + c]);
+      },
+      this->Components);
   }
 
+private:
   ArrayT* Array;
   int Components;
 };
 
 struct MakeReader
 {
+  const DensityRules& Rules;
   std::unique_ptr<DensityReader> Reader;
 
   template <class T>
   void operator()(vtkAOSDataArrayTemplate<T>* array)
   {
-    this->Reader = std::make_unique<BlockReader<T>>(array);
+    this->Make(BlockOfTuples<T>(array), array->GetNumberOfComponents());
   }
 
   template <class ArrayT>
   void operator()(ArrayT* array)
   {
-    this->Reader = std::make_unique<RangeReader<ArrayT>>(array);
+    this->Make(RangeOfTuples<ArrayT>(array), array->GetNumberOfComponents());
+  }
+
+  template <class Tuples>
+  void Make(const Tuples& tuples, int components)
+  {
+    this->Reader = std::make_unique<TupleReader<Tuples>>(tuples, components, this->Rules);
   }
 };
 
 } // namespace
 
-std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array)
+void DensityReader::Finish(std::int64_t first, std::int64_t count, double* values) const
 {
-  MakeReader make;
+  if (this->Rules.ClampNegative)
+  {
+    // Minus infinity stays, to be found.
+    constexpr double lowest = std::numeric_limits<double>::lowest();
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = values[i] < 0.0 && values[i] >= lowest ? 0.0 : values[i];
+    }
+  }
+  if (this->Flags)
+  {
+    const unsigned char* flags = this->Flags + first;
+    const unsigned char mask = this->Mask;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] = (flags[i] & mask) ? 0.0 : values[i];
+    }
+  }
+}
+
+std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules)
+{
+  MakeReader make{ rules, nullptr };
   if (!vtkArrayDispatch::Dispatch::Execute(array, make))
   {
     make(array);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads runs of tuples of a data array as densities, fast for every numeric type.
+// An array of any type and layout as the density that the core reads, without a copy.
 #ifndef RectifiedTransport_DensityReader_h
 #define RectifiedTransport_DensityReader_h
 
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Tables/Density.h"
 
-#include "vtkType.h"
-
+#include <cstdint>
 #include <memory>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -16,27 +16,47 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Which numbers of a tuple make its density.
-struct TupleReading
+// How the values of an array become a density; see vtkDensityAlgorithm.
+struct DensityRules
 {
   int Component = -1;  // an index, or -1 for luminance
   bool Invert = false; // white - value
-  double White = 0.0;  // for Invert and alpha
+  bool ClampNegative = false;
 };
 
-class DensityReader
+class DensityReader : public DensityValues
 {
 public:
-  virtual ~DensityReader() = default;
-  virtual void Read(
-    vtkIdType first, vtkIdType count, const TupleReading& reading, double* values) const = 0;
-  // The largest finite value of a component, or of all (-1), among the tuples for which `blank`
-  // (may be null) has none of the bits of `mask`; minus infinity if there is none.
-  virtual double Maximum(vtkIdType first, vtkIdType count, int component,
-    const unsigned char* blank, unsigned char mask) const = 0;
+  explicit DensityReader(const DensityRules& rules)
+    : Rules(rules)
+  {
+  }
+
+  // The value of white, for Invert and alpha.
+  void SetWhite(double white) { this->White = white; }
+  // Cells whose flags have one of the bits of `mask` are read as 0.
+  void SetBlanks(const unsigned char* flags, unsigned char mask)
+  {
+    this->Flags = flags;
+    this->Mask = mask;
+  }
+  bool HasBlanks() const { return this->Flags != nullptr; }
+
+  // The largest finite value of the component, or of all (luminance), among the cells that are not
+  // blank; minus infinity if there is none.
+  virtual double Maximum(std::int64_t first, std::int64_t count) const = 0;
+
+protected:
+  // What rules and blanks make of values that were read.
+  void Finish(std::int64_t first, std::int64_t count, double* values) const;
+
+  const DensityRules Rules;
+  double White = 0.0;
+  const unsigned char* Flags = nullptr;
+  unsigned char Mask = 0;
 };
 
-std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array);
+std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules);
 
 } // namespace RectifiedTransport
 

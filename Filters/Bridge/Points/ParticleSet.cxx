@@ -69,21 +69,23 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
 }
 
 template <int D>
-double* ParticleSet<D>::Seeds()
+PointSpan<D> ParticleSet<D>::Seeds()
 {
-  return this->SeedBuffer.data() ? this->SeedBuffer.data() : this->SeedPosition->GetPointer(0);
+  double* own = this->SeedBuffer.data();
+  return { own ? own : this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
 template <int D>
-double* ParticleSet<D>::Positions()
+PointSpan<D> ParticleSet<D>::Positions()
 {
-  return this->PositionBuffer.data() ? this->PositionBuffer.data() : this->Points->GetPointer(0);
+  double* own = this->PositionBuffer.data();
+  return { own ? own : this->Points->GetPointer(0), this->NumberOfParticles * this->Times };
 }
 
 template <int D>
-double* ParticleSet<D>::PhysicalSeeds()
+PointSpan<3> ParticleSet<D>::PhysicalSeeds()
 {
-  return this->SeedPosition->GetPointer(0);
+  return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
 // particle(i) returns a number; sums of fixed chunks make the mean the same for every executor.
@@ -159,8 +161,8 @@ double ParticleSet<D>::WriteParticles(
   double* mass = masses->GetPointer(0);
   double* points = this->Points->GetPointer(0);
   double* physicalSeeds = this->SeedPosition->GetPointer(0);
-  const double* seeds = this->Seeds();
-  const double* positions = this->Positions();
+  const double* seeds = this->Seeds().data();
+  const double* positions = this->Positions().data();
   const double share = totalMass / static_cast<double>(count);
   const LengthScale scale(this->Geometry);
 
@@ -206,8 +208,8 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   double* time = timeArray->GetPointer(0);
   double* mass = masses->GetPointer(0);
   double* points = this->Points->GetPointer(0);
-  const double* seeds = this->Seeds();
-  const double* positions = this->Positions();
+  const double* seeds = this->Seeds().data();
+  const double* positions = this->Positions().data();
   const double share = totalMass / static_cast<double>(count);
   const LengthScale scale(this->Geometry);
 

@@ -39,11 +39,11 @@ public:
 
   std::int64_t Count() const { return this->NumberOfParticles; }
 
-  // In index space, D doubles each; the positions of a particle together.
-  double* Seeds();
-  double* Positions();
-  // In physical space, 3 doubles each.
-  double* PhysicalSeeds();
+  // In index space; the positions of a particle together.
+  PointSpan<D> Seeds();
+  PointSpan<D> Positions();
+  // In physical space.
+  PointSpan<3> PhysicalSeeds();
 
   // Turns positions into points with vertices, SeedId, SeedPosition, Displacement and Mass.
   // Positions are gone afterwards. Returns the mean squared displacement. Progress reaches

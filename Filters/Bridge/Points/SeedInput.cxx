@@ -17,7 +17,7 @@ template <int D>
 class PlaceSeed
 {
 public:
-  PlaceSeed(const ImageGrid& geometry, double* indexSeeds, double* physicalSeeds)
+  PlaceSeed(const ImageGrid& geometry, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
     : Geometry(geometry)
     , Diagonal(geometry.Diagonal())
     , IndexSeeds(indexSeeds)
@@ -28,8 +28,8 @@ public:
   // Returns whether the seed was moved.
   bool operator()(std::int64_t i, const double* x) const
   {
-    double* index = this->IndexSeeds + i * D;
-    double* seed = this->PhysicalSeeds + i * 3;
+    double* index = this->IndexSeeds[i];
+    double* seed = this->PhysicalSeeds[i];
     this->Geometry.template ToIndex<D>(x, index);
     const bool inside = this->Geometry.template ClampToDomain<D>(index);
     this->Geometry.template ToPhysical<D>(index, seed);
@@ -46,17 +46,17 @@ public:
 private:
   const ImageGrid& Geometry;
   double Diagonal;
-  double* IndexSeeds;
-  double* PhysicalSeeds;
+  PointSpan<D> IndexSeeds;
+  PointSpan<3> PhysicalSeeds;
 };
 
 } // namespace
 
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& geometry,
-  Progress& progress, double* indexSeeds, double* physicalSeeds)
+std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
+  Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
 {
-  const PlaceSeed<D> place(geometry, indexSeeds, physicalSeeds);
+  const PlaceSeed<D> place(grid, indexSeeds, physicalSeeds);
   std::atomic<std::int64_t> moved{ 0 };
   visitPoints(points, what, progress, [&](std::int64_t i, const double* x) {
     if (place(i, x))
@@ -68,10 +68,10 @@ std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const Image
 }
 
 template std::int64_t readSeeds<1>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<1>, PointSpan<3>);
 template std::int64_t readSeeds<2>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<2>, PointSpan<3>);
 template std::int64_t readSeeds<3>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, double*, double*);
+  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<3>, PointSpan<3>);
 
 } // namespace RectifiedTransport

@@ -90,13 +90,13 @@ class QualityRun
 {
 public:
   QualityRun(vtkPointSet* particles, const CountedPoints& counted, const ImageGrid& geometry,
-    std::int64_t blockSize, const FlowCache& cache, Progress& progress)
+    std::int64_t blockSize, const SharedFlow& flow, Progress& progress)
     : Input(particles)
     , Counted(counted)
     , Geometry(geometry)
     , Scale(geometry)
     , BlockSize(blockSize)
-    , Flow(cache.Flow<D>())
+    , Flow(flow.Flow<D>())
     , Work(progress)
     , Count(counted.Count())
     , Size(geometry.Size<D>())
@@ -425,10 +425,10 @@ private:
 
 template <int D>
 ParticleQuality measure(vtkPointSet* particles, const CountedPoints& counted,
-  const DensityImage& density, int blockSize, const FlowCache& cache, Progress& progress,
+  const DensityImage& density, int blockSize, const SharedFlow& cache, Progress& progress,
   double tablesDone)
 {
-  QualityRun<D> run(particles, counted, density.Geometry(), blockSize, cache, progress);
+  QualityRun<D> run(particles, counted, density.Grid(), blockSize, cache, progress);
   ParticleQuality quality = run.Measure(tablesDone);
   quality.TotalMass = cache.TotalMass();
   return quality;
@@ -441,18 +441,18 @@ ParticleQuality measureQuality(vtkPointSet* particles, const CountedPoints& coun
 {
   // Nanoseconds, as measured.
   const double tables =
-    cache.IsOutdated(density) ? 10.0 * static_cast<double>(density.Geometry().NumberOfCells()) : 0;
+    cache.IsOutdated(density) ? 10.0 * static_cast<double>(density.Grid().NumberOfCells()) : 0;
   const double rest = 4000.0 * static_cast<double>(counted.Count());
   const double tablesDone = tables / (tables + rest);
-  cache.Update(density, progress, tablesDone);
-  switch (density.Geometry().Dimension())
+  const SharedFlow& flow = cache.Update(density, progress, tablesDone);
+  switch (density.Grid().Dimension())
   {
     case 1:
-      return measure<1>(particles, counted, density, blockSize, cache, progress, tablesDone);
+      return measure<1>(particles, counted, density, blockSize, flow, progress, tablesDone);
     case 2:
-      return measure<2>(particles, counted, density, blockSize, cache, progress, tablesDone);
+      return measure<2>(particles, counted, density, blockSize, flow, progress, tablesDone);
     default:
-      return measure<3>(particles, counted, density, blockSize, cache, progress, tablesDone);
+      return measure<3>(particles, counted, density, blockSize, flow, progress, tablesDone);
   }
 }
 

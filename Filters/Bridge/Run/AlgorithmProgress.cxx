@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/AlgorithmProgress.h"
 
+#include "Bridge/Run/SMPExecutor.h"
+
 #include "vtkAlgorithm.h"
 
 #include <thread>
@@ -30,6 +32,11 @@ Context contextOf(vtkAlgorithm* algorithm, const Executor& threads)
 }
 
 } // namespace
+
+AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading)
+  : AlgorithmProgress(algorithm, makeExecutor(threading))
+{
+}
 
 AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads)
   : Progress(contextOf(algorithm, *threads))

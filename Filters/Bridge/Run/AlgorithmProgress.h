@@ -20,9 +20,12 @@ namespace RectifiedTransport
 class AlgorithmProgress final : public Progress
 {
 public:
-  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads);
+  // `threading` is a value of vtkGuardedAlgorithm::ThreadingType. Throws Failure for another one.
+  AlgorithmProgress(vtkAlgorithm* algorithm, int threading);
 
 private:
+  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads);
+
   const std::unique_ptr<Executor> OwnThreads;
 };
 

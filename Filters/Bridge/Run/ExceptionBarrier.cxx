@@ -147,13 +147,12 @@ bool withdrawUnmetRequests(vtkInformationVector* outputs)
   return isComplete;
 }
 
-int runBehindBarrier(
-  vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<int()>& body)
+int answerException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
 {
   std::string error;
   try
   {
-    return body();
+    throw;
   }
   catch (const Cancelled&)
   {

@@ -5,8 +5,6 @@
 
 #include "Bridge/VTKCompatibility.h"
 
-#include <functional>
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
 class vtkInformation;
@@ -16,10 +14,10 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Runs the answer to a request. What it throws becomes one error of the algorithm and the result 0;
-// both this and an abort leave empty outputs and withdraw the extents of images.
-int runBehindBarrier(
-  vtkAlgorithm* algorithm, vtkInformationVector* outputs, const std::function<int()>& body);
+// Ends the answer to a request within a catch (...): an abort leaves empty outputs, anything else
+// becomes one error of the algorithm and empty outputs. Withdraws the extents of images. Returns
+// what the executive is told.
+int answerException(vtkAlgorithm* algorithm, vtkInformationVector* outputs);
 
 // Announces that structured outputs have no points, after all. Filters that follow would read all
 // of what was announced before, so that they are asked for nothing, too. Returns false where not

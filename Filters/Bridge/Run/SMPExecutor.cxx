@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SMPExecutor.h"
 
+#include "Bridge/Settings/PropertyCheck.h"
+
 #include "vtkSMPTools.h"
 
 #include <algorithm>
@@ -8,6 +10,24 @@
 
 namespace RectifiedTransport
 {
+
+namespace
+{
+
+const char* const ThreadingTexts[] = { "Auto", "VTK", "OpenMP", "Serial" };
+
+} // namespace
+
+const char* threadingText(int threading)
+{
+  return choiceText(ThreadingTexts, threading);
+}
+
+std::unique_ptr<Executor> makeExecutor(int threading)
+{
+  requireChoice("Threading", threading, ThreadingTexts);
+  return makeExecutor(static_cast<Threading>(threading));
+}
 
 void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {

@@ -17,6 +17,7 @@ public:
   int Concurrency() const override;
 };
 
+// The values are those of vtkGuardedAlgorithm::ThreadingType.
 enum class Threading
 {
   Auto, // OpenMP where VTK's backend is Sequential, else VTK
@@ -25,7 +26,11 @@ enum class Threading
   Serial
 };
 
+const char* threadingText(int threading);
+
 std::unique_ptr<Executor> makeExecutor(Threading threading);
+// Throws Failure for what is none of the values.
+std::unique_ptr<Executor> makeExecutor(int threading);
 
 } // namespace RectifiedTransport
 

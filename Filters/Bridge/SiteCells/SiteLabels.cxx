@@ -80,8 +80,8 @@ SiteGrid<D>::SiteGrid(vtkPointSet* sites, const ImageGrid& geometry, Progress& p
   withMemory(purpose, bytes, [&]() {
     this->Coordinates = LargeBuffer<double>(count * D);
     LargeBuffer<double> inside(count * 3);
-    this->Outside = readSeeds<D>(
-      sites, "input point set", geometry, progress, this->Coordinates.data(), inside.data());
+    this->Outside = readSeeds<D>(sites, "input point set", geometry, progress,
+      PointSpan<D>(this->Coordinates.data(), count), PointSpan<3>(inside.data(), count));
     this->Grid =
       std::make_unique<SiteDensity<D>>(size, ConstPointSpan<D>(this->Coordinates.data(), count));
   });

@@ -122,34 +122,9 @@ public:
   {
   }
 
-  // All of them once. Those in trouble are left over.
+  // Advects particles of a source once. Returns how many of them are to be redone: those in front.
   template <class Source>
-  void RunOnce(Source& source, std::int64_t first, int count, Leftovers<Dimension>& leftovers)
-  {
-    const int left = this->RunFirst(source, first, count);
-    leftovers.Index.assign(this->Index, this->Index + left);
-    leftovers.Seeds.assign(this->Seeds, this->Seeds + left * Dimension);
-  }
-
-  // All of them once, then those in trouble again with ever more steps, twice as many each time.
-  template <class Source>
-  void Run(Source& source, std::int64_t first, int count)
-  {
-    int left = this->RunFirst(source, first, count);
-    for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
-    {
-      left = this->Pass(left, refinement);
-    }
-    for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
-    {
-      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
-    }
-  }
-
-private:
-  // Returns how many are to be redone.
-  template <class Source>
-  int RunFirst(Source& source, std::int64_t first, int count)
+  int RunOnce(Source& source, std::int64_t first, int count)
   {
     // The output may be the array of the seeds, so these are kept until all is done.
     source.Fill(first, count, this->Index, this->Seeds);
@@ -162,6 +137,29 @@ private:
     return left;
   }
 
+  // The same, and those in trouble again with ever more steps, twice as many each time.
+  template <class Source>
+  void Run(Source& source, std::int64_t first, int count)
+  {
+    int left = this->RunOnce(source, first, count);
+    for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
+    {
+      left = this->Pass(left, refinement);
+    }
+    for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
+    {
+      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
+    }
+  }
+
+  // The first `count` particles.
+  Leftovers<Dimension> Take(int count) const
+  {
+    return { { this->Index, this->Index + count },
+      { this->Seeds, this->Seeds + count * Dimension } };
+  }
+
+private:
   // Advects the first `count` particles and moves those in trouble to the front.
   int Pass(int count, int refinement)
   {
@@ -382,47 +380,52 @@ public:
   void Advect(const Source& source, std::int64_t count)
   {
     constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
+    const Executor& threads = this->Pace.Threads();
     std::vector<Leftovers<Dimension>> leftovers;
     std::size_t left = 0;
-    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
+    for (std::int64_t begin = 0; begin < count;)
+    {
+      const std::int64_t slice =
+        std::min(count - begin, this->Pace.NextSlice(this->Grain * threads.Concurrency()));
       const std::size_t before = leftovers.size();
       leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
-      this->Pace.Threads().For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+      threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
-        range.RunOnce(source, begin + first, static_cast<int>(last - first),
-          leftovers[before + static_cast<std::size_t>(first / this->Grain)]);
+        leftovers[before + static_cast<std::size_t>(first / this->Grain)] =
+          range.Take(range.RunOnce(source, begin + first, static_cast<int>(last - first)));
       });
       for (std::size_t range = before; range < leftovers.size(); ++range)
       {
         left += leftovers[range].Index.size();
       }
-      if (left >= enough || begin + slice == count)
+      begin += slice;
+      if (left >= enough || begin == count)
       {
         LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
           .Run(leftovers, this->First + 1);
         leftovers.clear();
         left = 0;
       }
-    };
-    this->Run(count, runSlice);
+      this->Pace.EndSlice(slice);
+    }
   }
 
   // Advects the samples of a lattice and writes the cell that each comes to. Throws Cancelled.
   void AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
-    const auto runSlice = [&](std::int64_t begin, std::int64_t slice) {
-      this->Pace.Threads().For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+    this->Pace.For(
+      lattice.Count(), this->Grain,
+      [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
         RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
-        range.Run(ends, begin + first, length);
+        range.Run(ends, first, length);
         if (!this->Pace.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);
         }
-      });
-    };
-    this->Run(lattice.Count(), runSlice);
+      },
+      this->Grain);
   }
 
   FlowReport Report() const
@@ -435,19 +438,6 @@ public:
   }
 
 private:
-  template <class RunSlice>
-  void Run(std::int64_t count, const RunSlice& runSlice)
-  {
-    for (std::int64_t begin = 0; begin < count;)
-    {
-      const std::int64_t slice = std::min(
-        count - begin, this->Pace.NextSlice(this->Grain * this->Pace.Threads().Concurrency()));
-      runSlice(begin, slice);
-      begin += slice;
-      this->Pace.EndSlice(slice);
-    }
-  }
-
   const int First;
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;

@@ -46,7 +46,7 @@ void checkCount(std::int64_t positions, double expected)
   if (static_cast<double>(positions) != expected)
   {
     throw std::invalid_argument("there is memory for " + std::to_string(positions) +
-      " positions, there must be " + std::to_string(static_cast<std::int64_t>(expected)));
+      " positions, there must be " + describeCount(expected));
   }
 }
 

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <sstream>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -34,6 +36,16 @@ double numberOfCells(const GridSize<Dimension>& size)
     count *= static_cast<double>(cells);
   }
   return count;
+}
+
+// The digits of such a number.
+inline std::string describeCount(double count)
+{
+  std::ostringstream text;
+  constexpr int allDigits = 17;
+  text.precision(allDigits);
+  text << count;
+  return text.str();
 }
 
 } // namespace RectifiedTransport

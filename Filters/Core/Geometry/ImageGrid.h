@@ -5,6 +5,7 @@
 #define RectifiedTransport_ImageGrid_h
 
 #include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/IndexMap.h"
 
 #include <Eigen/Core>
 
@@ -14,17 +15,6 @@
 
 namespace RectifiedTransport
 {
-
-// What places a point x of physical space: coordinate a of index space is Matrix[a] . (x - Origin).
-// In 1D and 2D the further rows give the distances from the line or plane of the grid, in any unit.
-template <int Dimension>
-struct IndexMap
-{
-  double Origin[3];
-  double Matrix[3][3];
-  // A point is outside if it is further than this from [0, size], or for the further rows from 0.
-  double Tolerance[3];
-};
 
 // The values belong to cells. Those of a cell array are the image's cells; those of a point array
 // are dual cells, about the points, which reach half a spacing beyond the bounds. An axis of one

@@ -244,7 +244,7 @@ void visitCells(
   if (static_cast<double>(points) != cells)
   {
     throw std::invalid_argument("there is memory for " + std::to_string(points) +
-      " seeds, but the grid has " + std::to_string(static_cast<std::int64_t>(cells)) + " cells");
+      " seeds, but the grid has " + describeCount(cells) + " cells");
   }
   Progress progress(context);
   progress.BeginStage(1.0, points);

@@ -4,7 +4,8 @@
 #ifndef RectifiedTransport_Splat_h
 #define RectifiedTransport_Splat_h
 
-#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/IndexMap.h"
 #include "Core/Parallel/Context.h"
 
 #include <cstdint>

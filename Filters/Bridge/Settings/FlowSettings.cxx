@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Flow/FlowSettings.h"
+#include "Bridge/Settings/FlowSettings.h"
 
-#include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/SMPExecutor.h"
+#include "Bridge/Settings/PropertyCheck.h"
 
 #include <cmath>
 #include <ostream>
@@ -15,7 +14,6 @@ namespace
 
 const char* const IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 const char* const TableLookupTexts[] = { "Interpolated", "Nearest" };
-const char* const ThreadingTexts[] = { "Auto", "VTK", "OpenMP", "Serial" };
 constexpr int MaximumNumberOfSteps = 10000;
 
 } // namespace
@@ -28,11 +26,6 @@ const char* FlowSettings::IntegratorText() const
 const char* FlowSettings::TableLookupText() const
 {
   return choiceText(TableLookupTexts, this->TableLookup);
-}
-
-const char* FlowSettings::ThreadingText() const
-{
-  return choiceText(ThreadingTexts, this->Threading);
 }
 
 FlowOptions FlowSettings::Options() const
@@ -51,19 +44,12 @@ FlowOptions FlowSettings::Options() const
   return options;
 }
 
-std::unique_ptr<Executor> FlowSettings::MakeExecutor() const
-{
-  requireChoice("Threading", this->Threading, ThreadingTexts);
-  return makeExecutor(static_cast<RectifiedTransport::Threading>(this->Threading));
-}
-
 void FlowSettings::Print(std::ostream& os, vtkIndent indent) const
 {
   os << indent << "Integrator: " << this->IntegratorText() << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TableLookup: " << this->TableLookupText() << "\n";
-  os << indent << "Threading: " << this->ThreadingText() << "\n";
 }
 
 } // namespace RectifiedTransport

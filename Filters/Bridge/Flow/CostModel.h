@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What work takes, by which progress is shared out among the stages of a run.
+#ifndef RectifiedTransport_CostModel_h
+#define RectifiedTransport_CostModel_h
+
+#include "Bridge/Density/FlowCache.h"
+#include "Core/Flow/FlowOptions.h"
+
+#include <array>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+// Nanoseconds, as measured on one thread.
+namespace Cost
+{
+
+constexpr double Seed = 20.0;
+constexpr double Write = 50.0; // of a particle with its arrays
+
+inline double tables(const FlowCache& cache, const DensityImage& density)
+{
+  constexpr double cell = 10.0;
+  return cache.IsOutdated(density) ? cell * static_cast<double>(density.Grid().NumberOfCells())
+                                   : 0.0;
+}
+
+// Of moving one particle.
+inline double flow(const FlowOptions& options, int dimension)
+{
+  const double evaluation = dimension == 3 ? 60.0 : 15.0;
+  return evaluation * options.NumberOfSteps *
+    (options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+}
+
+} // namespace Cost
+
+// The progress at the ends of stages, in proportion to what they take.
+template <std::size_t Count>
+std::array<double, Count> stageEnds(const double (&costs)[Count])
+{
+  double all = 0.0;
+  for (const double cost : costs)
+  {
+    all += cost;
+  }
+  std::array<double, Count> ends;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    sum += costs[i];
+    ends[i] = sum / all;
+  }
+  return ends;
+}
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Flow/DensityEqualizingWarp.h"
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Flow/CostModel.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Dispatch.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The points of a warp: in index space, moved to the border if they are outside, and in physical
+// space. In 3D index space has the memory of the displacements.
+template <int D>
+class WarpedPoints
+{
+public:
+  WarpedPoints(const ImageGrid& grid, vtkPointSet* input, Progress& progress)
+    : Grid(grid)
+    , Input(input)
+    , Work(progress)
+    , Count(input->GetNumberOfPoints())
+    , Purpose("the " + std::to_string(this->Count) + " points")
+  {
+    constexpr double real = sizeof(double);
+    const double scratch = D == 3 ? 0.0 : real * D;
+    requireMemory(this->Purpose, static_cast<double>(this->Count) * (6 * real + scratch));
+    this->Points = newArray<vtkDoubleArray>("Points", 3, this->Count);
+    this->Displacements = newArray<vtkDoubleArray>("Displacement", 3, this->Count);
+    withMemory(this->Purpose, static_cast<double>(this->Count) * scratch,
+      [&]() { this->Separate = LargeBuffer<double>(D == 3 ? 0 : this->Count * D); });
+    this->Index = D == 3 ? this->Displacements->GetPointer(0) : this->Separate.data();
+  }
+
+  // Returns how many points are outside of the domain.
+  std::int64_t Read()
+  {
+    double* points = this->Points->GetPointer(0);
+    const double tolerance = this->Grid.BorderTolerance();
+    std::atomic<std::int64_t> outside{ 0 };
+    visitPoints(this->Input, "input point set", this->Work, [&](std::int64_t i, const double* x) {
+      std::copy_n(x, 3, points + i * 3);
+      double offset[D];
+      this->Grid.template ToIndex<D>(x, offset);
+      double* index = this->Index + i * D;
+      std::copy_n(offset, D, index);
+      if (this->Grid.template ClampToDomain<D>(index))
+      {
+        return;
+      }
+      for (int a = 0; a < D; ++a)
+      {
+        offset[a] -= index[a];
+      }
+      double v[3];
+      this->Grid.template VectorToPhysical<D>(offset, v);
+      if (std::hypot(v[0], v[1], v[2]) > tolerance)
+      {
+        ++outside;
+      }
+    });
+    return outside;
+  }
+
+  void Flow(const RectifiedFlow<D>& flow, const FlowOptions& options)
+  {
+    withMemory(this->Purpose, static_cast<double>(this->Count) * sizeof(std::int64_t), [&]() {
+      const PointSpan<D> points(this->Index, this->Count);
+      flow.Backward(points, points, options, this->Work.Stage());
+    });
+  }
+
+  // Index space is gone afterwards.
+  void Write(double blend, vtkPointSet* output)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+    double* points = this->Points->GetPointer(0);
+    double* displacements = this->Displacements->GetPointer(0);
+    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        double* x = points + i * 3;
+        double way[D];
+        this->Grid.template ToIndex<D>(x, way);
+        this->Grid.template ClampToDomain<D>(way);
+        for (int a = 0; a < D; ++a)
+        {
+          way[a] = blend * (this->Index[i * D + a] - way[a]);
+        }
+        double* displacement = displacements + i * 3;
+        this->Grid.template VectorToPhysical<D>(way, displacement);
+        for (int r = 0; r < 3; ++r)
+        {
+          x[r] += displacement[r];
+        }
+      }
+    });
+    vtkNew<vtkPoints> moved;
+    moved->SetDataTypeToDouble();
+    moved->SetData(this->Points);
+    output->SetPoints(moved);
+    output->GetPointData()->SetVectors(this->Displacements);
+  }
+
+private:
+  const ImageGrid& Grid;
+  vtkPointSet* Input;
+  Progress& Work;
+  const std::int64_t Count;
+  const std::string Purpose;
+  vtkSmartPointer<vtkDoubleArray> Points;
+  vtkSmartPointer<vtkDoubleArray> Displacements;
+  LargeBuffer<double> Separate;
+  double* Index;
+};
+
+template <int D>
+std::int64_t warp(const DensityEqualizingWarp& settings, DensityImage& density, vtkPointSet* input,
+  FlowCache& cache, Progress& progress, vtkPointSet* output)
+{
+  const double count = static_cast<double>(input->GetNumberOfPoints());
+  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
+    settings.Blend == 0.0 ? 0.0 : Cost::flow(settings.Flow, D) * count, Cost::Seed * count });
+  WarpedPoints<D> points(density.Grid(), input, progress);
+  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  progress.BeginStage(ends[1]);
+  const std::int64_t outside = points.Read();
+  if (settings.Blend > 0.0)
+  {
+    progress.BeginStage(ends[2]);
+    points.Flow(flow.Flow<D>(), settings.Flow);
+  }
+  progress.BeginStage(1.0);
+  points.Write(settings.Blend, output);
+  return outside;
+}
+
+} // namespace
+
+std::int64_t DensityEqualizingWarp::Run(DensityImage& density, vtkPointSet* input, FlowCache& cache,
+  Progress& progress, vtkPointSet* output) const
+{
+  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
+    return warp<decltype(dimension)::value>(*this, density, input, cache, progress, output);
+  });
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Flow/TransportMap.h"
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Flow/CostModel.h"
+#include "Bridge/Flow/MapField.h"
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Core/Geometry/Dispatch.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <int D>
+TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
+  const ImageGrid& samples, FlowCache& cache, Progress& progress, vtkImageData* output)
+{
+  const GridSize<D> lattice = samples.Size<D>();
+  const double count = numberOfCells<D>(lattice);
+  constexpr double backwardInSpace = 150.0; // to find each sample's share of the mass
+  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
+    (map.Backward && D == 3 ? backwardInSpace : Cost::Write) * count });
+  MapField<D> field(density.Grid(), lattice,
+    "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)");
+  applyGrid(samples, output);
+
+  const SharedFlow& shared = cache.Update(density, progress, ends[0]);
+  const RectifiedFlow<D>& flow = shared.Flow<D>();
+  progress.BeginStage(ends[1]);
+  const FlowReport report = map.Backward
+    ? flow.BackwardLattice(lattice, field.Positions(), map.Flow, progress.Stage())
+    : flow.ForwardLattice(lattice, field.Positions(), map.Flow, progress.Stage());
+  const double cost = field.Write(map.Backward ? &flow : nullptr, progress, 1.0,
+    output->GetAttributes(samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL));
+  addFieldValue(output, "TotalMass", shared.TotalMass());
+  addFieldValue(output, "TransportCost", cost);
+  return { field.Count(), report.MovedToMass };
+}
+
+} // namespace
+
+TransportMap::Report TransportMap::Run(DensityImage& density, const ImageGrid& samples,
+  FlowCache& cache, Progress& progress, vtkImageData* output) const
+{
+  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
+    return makeMap<decltype(dimension)::value>(*this, density, samples, cache, progress, output);
+  });
+}
+
+} // namespace RectifiedTransport

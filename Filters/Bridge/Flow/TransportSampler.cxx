@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Flow/TransportSampler.h"
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Flow/CostModel.h"
+#include "Bridge/Points/ParticleSet.h"
+#include "Bridge/Points/SeedInput.h"
+#include "Bridge/Points/UnitSeeds.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Dispatch.h"
+
+#include "vtkCellData.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
+// The moments at which positions are wanted: FlowTime, or all of a path.
+std::vector<double> timesOf(const TransportSampler& sampler)
+{
+  const int steps = sampler.OutputPaths ? sampler.Flow.NumberOfSteps : 0;
+  std::vector<double> times;
+  for (int i = 0; i < steps; ++i)
+  {
+    times.push_back(sampler.FlowTime * i / steps);
+  }
+  times.push_back(sampler.FlowTime);
+  return times;
+}
+
+template <int D>
+UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
+{
+  if (sampler.UsesGrid())
+  {
+    GridSize<D> cells = grid.Size<D>();
+    for (std::int64_t& count : cells)
+    {
+      count *= sampler.SamplesPerCell;
+    }
+    return UnitSeeds<D>(sampler.Pattern, cells, sampler.RandomSeed);
+  }
+  return UnitSeeds<D>(
+    sampler.Pattern, grid.Lengths<D>(), sampler.NumberOfParticles, sampler.RandomSeed);
+}
+
+std::string describeParticles(double count, bool paths)
+{
+  constexpr double mostDigits = 1e15;
+  const std::string number =
+    count < mostDigits ? std::to_string(static_cast<std::int64_t>(count)) : "more than 1e15";
+  return (paths ? "the paths of " : "") + number +
+    " particles (see NumberOfParticles, SamplesPerCell and Seeds)";
+}
+
+template <int D>
+void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::string& purpose,
+  Progress& progress, double end, PointSpan<D> seeds)
+{
+  constexpr double partOfPattern = 0.8;
+  progress.BeginStage(progress.StageEnd() + partOfPattern * (end - progress.StageEnd()));
+  withMemory(purpose, pattern.Count() * D * sizeof(double),
+    [&]() { pattern.Generate(seeds, progress.Stage()); });
+  progress.BeginStage(end);
+  progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      for (int a = 0; a < D; ++a)
+      {
+        seeds[i][a] *= static_cast<double>(size[a]);
+      }
+    }
+  });
+}
+
+template <int D>
+TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& density,
+  vtkPointSet* given, FlowCache& cache, Progress& progress, vtkPolyData* output)
+{
+  const ImageGrid& grid = density.Grid();
+  const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
+  const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern.Count();
+  const std::vector<double> times = timesOf(sampler);
+  const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
+    Cost::flow(sampler.Flow, D) * count, Cost::Write * count * static_cast<double>(times.size()) });
+  const std::string purpose = describeParticles(count, sampler.OutputPaths);
+  ParticleSet<D> particles(
+    grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
+
+  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  TransportSampler::Report report;
+  if (given)
+  {
+    progress.BeginStage(ends[1]);
+    report.SeedsMoved = readSeeds<D>(
+      given, "input Seeds", grid, progress, particles.Seeds(), particles.PhysicalSeeds());
+  }
+  else
+  {
+    makeSeeds<D>(pattern, grid.Size<D>(), purpose, progress, ends[1], particles.Seeds());
+  }
+  progress.BeginStage(ends[2]);
+  const ConstPointSpan<D> seeds = particles.Seeds();
+  const PointSpan<D> positions = particles.Positions();
+  try
+  {
+    if (times.back() == 0.0 && times.size() == 1)
+    {
+      progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
+        std::copy(seeds[first], seeds[last], positions[first]);
+      });
+    }
+    else if (times.back() == 1.0 && times.size() == 1)
+    {
+      report.ParticlesMoved =
+        flow.Flow<D>().Forward(seeds, positions, sampler.Flow, progress.Stage()).MovedToMass;
+    }
+    else
+    {
+      report.ParticlesMoved = flow.Flow<D>()
+                                .ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage())
+                                .MovedToMass;
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    failOutOfMemory(purpose, count * sizeof(std::int64_t)); // to sort them
+  }
+
+  if (given)
+  {
+    vtkDataSetAttributes* data = output->GetPointData();
+    if (sampler.OutputPaths)
+    {
+      data = output->GetCellData();
+    }
+    data->PassData(given->GetPointData());
+  }
+  const double mass = flow.TotalMass();
+  const double cost = sampler.OutputPaths ? particles.WritePaths(mass, times, progress, 1.0, output)
+                                          : particles.WriteParticles(mass, progress, 1.0, output);
+  addFieldValue(output, "TotalMass", mass);
+  addFieldValue(output, "TransportCost", cost);
+  return report;
+}
+
+} // namespace
+
+TransportSampler::Report TransportSampler::Run(DensityImage& density, vtkPointSet* seeds,
+  FlowCache& cache, Progress& progress, vtkPolyData* output) const
+{
+  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
+    return sample<decltype(dimension)::value>(*this, density, seeds, cache, progress, output);
+  });
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles that follow a density: the work of vtkTransportSampler.
+#ifndef RectifiedTransport_TransportSampler_h
+#define RectifiedTransport_TransportSampler_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Seeds/Seeds.h"
+
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class DensityImage;
+class FlowCache;
+class Progress;
+
+// As the properties of that class.
+struct TransportSampler
+{
+  FlowOptions Flow;
+  SeedPattern Pattern;
+  std::int64_t NumberOfParticles;
+  int RandomSeed;
+  int SamplesPerCell;
+  double FlowTime;
+  bool OutputPaths;
+
+  // What the user should be warned of.
+  struct Report
+  {
+    std::int64_t SeedsMoved = 0;     // to the domain's border
+    std::int64_t ParticlesMoved = 0; // to the nearest mass
+  };
+
+  // Whether the seeds are a grid in every cell.
+  bool UsesGrid() const
+  {
+    return this->SamplesPerCell > 0 &&
+      (this->Pattern == SeedPattern::Lattice || this->Pattern == SeedPattern::Jittered);
+  }
+
+  // Writes particles, or their paths, from given seeds or else from those of the pattern. Throws
+  // Failure and Cancelled.
+  Report Run(DensityImage& density, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
+    vtkPolyData* output) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

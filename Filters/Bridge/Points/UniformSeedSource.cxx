@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/UniformSeedSource.h"
+
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Points/UnitSeeds.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+void requireBounds(const double* bounds, int dimension)
+{
+  const char axes[] = { 'x', 'y', 'z' };
+  for (int a = 0; a < 3; ++a)
+  {
+    const double low = bounds[2 * a];
+    const double high = bounds[2 * a + 1];
+    const bool flat = a >= dimension && low == high;
+    if (!std::isfinite(high - low) || (!(low < high) && !flat))
+    {
+      std::ostringstream message;
+      message << "Bounds are " << low << " to " << high << " in " << axes[a]
+              << "; they must be finite, the second greater than the first";
+      throw Failure(message.str());
+    }
+  }
+}
+
+// Fills a box with points, uniformly.
+template <int D>
+void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* output)
+{
+  const double* bounds = source.Bounds.data();
+  Point<D> lengths;
+  for (int a = 0; a < D; ++a)
+  {
+    lengths[a] = bounds[2 * a + 1] - bounds[2 * a];
+  }
+  const UnitSeeds<D> seeds(source.Pattern, lengths, source.NumberOfPoints, source.RandomSeed);
+  constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
+  const std::string purpose = "the points (see NumberOfPoints)";
+  requireMemory(purpose, seeds.Count() * bytesPerPoint);
+  const vtkIdType count = static_cast<vtkIdType>(seeds.Count());
+
+  auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
+  double* points = coordinates->GetPointer(0);
+  LargeBuffer<double> separate;
+  progress.BeginStage(0.6);
+  withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
+    separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
+    seeds.Generate({ D == 3 ? points : separate.data(), count }, progress.Stage());
+  });
+  const double* unit = D == 3 ? points : separate.data();
+
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  progress.BeginStage(0.8);
+  progress.For(count, grain, [=](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      for (int a = 0; a < D; ++a)
+      {
+        const double low = bounds[2 * a];
+        const double high = bounds[2 * a + 1];
+        points[3 * i + a] = std::min(low + (high - low) * unit[i * D + a], high);
+      }
+      if (D == 2)
+      {
+        points[3 * i + 2] = bounds[4];
+      }
+    }
+  });
+  progress.BeginStage(1.0);
+  vtkNew<vtkPoints> pointSet;
+  pointSet->SetDataTypeToDouble();
+  pointSet->SetData(coordinates);
+  output->SetPoints(pointSet);
+  output->SetVerts(newParticleCells(count, 1, progress));
+}
+
+} // namespace
+
+void UniformSeedSource::Run(Progress& progress, vtkPolyData* output) const
+{
+  requireBounds(this->Bounds.data(), this->Dimension);
+  if (this->Dimension == 2)
+  {
+    fillBox<2>(*this, progress, output);
+  }
+  else
+  {
+    fillBox<3>(*this, progress, output);
+  }
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points that are spread uniformly over a box: the work of vtkUniformSeedSource.
+#ifndef RectifiedTransport_UniformSeedSource_h
+#define RectifiedTransport_UniformSeedSource_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Seeds/Seeds.h"
+
+#include <array>
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// As the properties of that class.
+struct UniformSeedSource
+{
+  SeedPattern Pattern;
+  std::array<double, 6> Bounds;
+  int Dimension;
+  std::int64_t NumberOfPoints;
+  int RandomSeed;
+
+  // Throws Failure and Cancelled.
+  void Run(Progress& progress, vtkPolyData* output) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif
