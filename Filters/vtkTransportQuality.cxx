@@ -5,7 +5,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Quality/ParticleQuality.h"
+#include "Bridge/Quality/TransportQuality.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Settings/PropertyCheck.h"
 
@@ -102,8 +102,8 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  const ParticleQuality quality =
-    measureQuality(particles, counted, *density, this->BlockSize, this->GetFlowCache(), progress);
+  const ParticleQuality quality = TransportQuality{ this->BlockSize }.Run(
+    particles, counted, *density, this->GetFlowCache(), progress);
 
   vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));

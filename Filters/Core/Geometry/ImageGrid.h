@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace RectifiedTransport
@@ -167,6 +168,19 @@ public:
       index[a] = nearest;
     }
     return inside;
+  }
+
+  // The index of the nearest point of the domain, as above. Returns whether that is where x is, but
+  // for the border's tolerance.
+  template <int D>
+  bool NearestIndex(const double* x, double* index) const
+  {
+    this->ToIndex<D>(x, index);
+    this->ClampToDomain<D>(index);
+    double nearest[3];
+    this->ToPhysical<D>(index, nearest);
+    return !(std::hypot(x[0] - nearest[0], x[1] - nearest[1], x[2] - nearest[2]) >
+      this->BorderTolerance());
   }
 
 private:

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Quality/TransportQuality.h"
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Flow/CostModel.h"
+#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Dispatch.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+
+[[noreturn]] void fail(const char* name, const std::string& what)
+{
+  throw Failure("The array '" + std::string(name) + "' of the particles " + what);
+}
+
+// A numeric array of the particles, nullptr if there is none of that name.
+vtkDataArray* findArray(vtkPointSet* particles, const char* name, int components)
+{
+  vtkAbstractArray* found = particles->GetPointData()->GetAbstractArray(name);
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (found && (!array || array->GetNumberOfComponents() != components))
+  {
+    const int count = array ? array->GetNumberOfComponents() : 0;
+    const std::string has =
+      "has " + std::to_string(count) + (count == 1 ? " component" : " components");
+    fail(name,
+      (array ? has : "is not numeric") + "; it must be numeric and have " +
+        std::to_string(components));
+  }
+  if (array && array->GetNumberOfTuples() != particles->GetNumberOfPoints())
+  {
+    fail(name,
+      "has " + std::to_string(array->GetNumberOfTuples()) + " tuples, but there are " +
+        std::to_string(particles->GetNumberOfPoints()) + " particles; there must be one for each");
+  }
+  return array;
+}
+
+// What is known of the particles that count, in double precision.
+class ParticleArrays
+{
+public:
+  ParticleArrays(vtkPointSet* particles, const CountedPoints& counted, Progress& progress)
+    : Counted(counted)
+    , Work(progress)
+    , Particles(particles)
+  {
+  }
+
+  // As the work of the current stage.
+  ParticleSample Read()
+  {
+    visitPoints(this->Particles, "input point set", this->Work, [](std::int64_t, const double*) {});
+    this->Points.emplace(this->Particles->GetPoints()->GetData(), this->Counted, this->Work);
+    ParticleSample sample;
+    sample.Points = { this->Points->data(), this->Counted.Count() };
+    if (vtkDataArray* masses = findArray(this->Particles, "Mass", 1))
+    {
+      this->Masses.emplace(masses, this->Counted, this->Work);
+      sample.Masses = this->Masses->data();
+      this->CheckMasses();
+    }
+    if (vtkDataArray* displacements = findArray(this->Particles, "Displacement", 3))
+    {
+      this->Displacements.emplace(displacements, this->Counted, this->Work);
+      sample.Displacements = { this->Displacements->data(), this->Counted.Count() };
+      this->CheckDisplacements();
+    }
+    return sample;
+  }
+
+private:
+  [[noreturn]] void FailValue(
+    const char* name, double value, std::int64_t particle, const char* rule) const
+  {
+    std::ostringstream message;
+    message << "has the value " << value << " at index " << this->Counted.Point(particle) << "; "
+            << rule;
+    fail(name, message.str());
+  }
+
+  void CheckMasses()
+  {
+    const double* masses = this->Masses->data();
+    double total = 0.0;
+    this->Work.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
+        {
+          this->FailValue("Mass", masses[i], i, "every mass must be finite and not negative");
+        }
+        total += masses[i];
+      }
+    });
+    if (!(total > 0.0) || std::isinf(total))
+    {
+      std::ostringstream message;
+      message << "sums to " << total << "; the sum must be positive and a double";
+      fail("Mass", message.str());
+    }
+  }
+
+  void CheckDisplacements()
+  {
+    const ConstPointSpan<3> displacements(this->Displacements->data(), this->Counted.Count());
+    this->Work.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        double squared = 0.0;
+        for (int r = 0; r < 3; ++r)
+        {
+          const double component = displacements[i][r];
+          squared += component * component;
+          if (!std::isfinite(squared))
+          {
+            this->FailValue("Displacement", component, i, "its square must be finite");
+          }
+        }
+      }
+    });
+  }
+
+  const CountedPoints& Counted;
+  Progress& Work;
+  vtkPointSet* Particles;
+  std::optional<DoubleTuples> Points;
+  std::optional<DoubleTuples> Masses;
+  std::optional<DoubleTuples> Displacements;
+};
+
+template <int D>
+ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid, int blockSize,
+  const RectifiedFlow<D>& flow, Progress& progress)
+{
+  constexpr double eachParticle = 11 * sizeof(double); // of measureQuality
+  constexpr double eachBlock = 2 * sizeof(double);
+  const auto count = particles.Points.size();
+  const double blocks = numberOfCells<D>(numberOfBlocks<D>(grid.Size<D>(), blockSize));
+  const std::string purpose = "the comparison of " + std::to_string(count) + " particles with " +
+    std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";
+  const double bytes = static_cast<double>(count) * eachParticle + blocks * eachBlock;
+  requireMemory(purpose, bytes);
+  return withMemory(purpose, bytes,
+    [&]() { return measureQuality<D>(particles, flow, grid, blockSize, progress.Stage()); });
+}
+
+} // namespace
+
+ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoints& counted,
+  DensityImage& density, FlowCache& cache, Progress& progress) const
+{
+  constexpr double particle = 4000.0;
+  constexpr double partOfReading = 0.1;
+  const double all = particle * static_cast<double>(counted.Count());
+  const auto ends =
+    stageEnds({ Cost::tables(cache, density), partOfReading * all, (1.0 - partOfReading) * all });
+  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  progress.BeginStage(ends[1]);
+  ParticleArrays arrays(particles, counted, progress);
+  const ParticleSample sample = arrays.Read();
+  progress.BeginStage(1.0);
+  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
+    constexpr int D = decltype(dimension)::value;
+    return measure<D>(sample, density.Grid(), this->BlockSize, flow.Flow<D>(), progress);
+  });
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Quality/ParticleQuality.h"
+
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Quality/NearestNeighbours.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+constexpr std::int64_t noBlock = -1;
+constexpr double farOutside = 1e150; // sizes of the domain; the square is a number
+
+// The diameter of the balls of the densest lattice packing in which each point has a cell of this
+// measure, which is the largest distance that points can all keep: a regular row, the hexagonal
+// lattice, the face-centred cubic lattice. (Lagae and Dutre, "A Comparison of Methods for
+// Generating Poisson Disk Distributions", Computer Graphics Forum 27(1), 2008, Section 2.2: twice
+// their r_max.)
+template <int Dimension>
+double largestSpacing(double measure)
+{
+  return Dimension == 1 ? measure
+    : Dimension == 2    ? std::sqrt(2.0 / std::sqrt(3.0) * measure)
+                        : cubeRoot(std::sqrt(2.0) * measure);
+}
+
+template <int Dimension>
+class QualityRun
+{
+public:
+  QualityRun(const ParticleSample& particles, const RectifiedFlow<Dimension>& flow,
+    const ImageGrid& grid, std::int64_t blockSize, const Context& context)
+    : Particles(particles)
+    , Flow(flow)
+    , Grid(grid)
+    , Scale(grid)
+    , Size(grid.Size<Dimension>())
+    , BlockSize(blockSize)
+    , BlockCounts(numberOfBlocks<Dimension>(this->Size, blockSize))
+    , Blocks(static_cast<std::int64_t>(numberOfCells<Dimension>(this->BlockCounts)))
+    , Count(particles.Points.size())
+    , Work(context)
+    , Points(3 * this->Count)
+    , Block(this->Count)
+    , Spacing(this->Count)
+    , Found(this->Blocks)
+    , Expected(this->Blocks)
+  {
+  }
+
+  ParticleQuality Measure()
+  {
+    this->Quality.Particles = this->Count;
+    this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
+    this->Work.BeginStage(0.1);
+    this->Place();
+    this->Work.BeginStage(0.2);
+    this->AddMasses();
+    this->Work.BeginStage(0.25);
+    this->MeasureCost();
+    this->CompareBlocks();
+    this->Work.BeginStage(2.0 / 3.0);
+    nearestDistances(
+      { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
+    this->Work.BeginStage(0.95);
+    this->RelateSpacings();
+    this->Work.BeginStage(1.0);
+    this->AverageSpacings();
+    return this->Quality;
+  }
+
+private:
+  // Runs kernel(i) in order on this thread: for sums, whose order then never changes.
+  template <class Kernel>
+  void InOrder(std::int64_t count, const Kernel& kernel)
+  {
+    this->Work.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        kernel(i);
+      }
+    });
+  }
+
+  // The part of a particle in the mass of all.
+  double Share(std::int64_t particle) const
+  {
+    return (this->Particles.Masses ? this->Particles.Masses[particle] : 1.0) / this->ParticleMass;
+  }
+
+  // Finds the block that each particle is in.
+  void Place()
+  {
+    std::atomic<std::int64_t> outside{ 0 };
+    std::atomic<std::int64_t> inEmpty{ 0 };
+    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const double* x = this->Particles.Points[i];
+        std::transform(x, x + 3, this->Points.data() + 3 * i, [this](double coordinate) {
+          return std::clamp(this->Scale.ToUnits(coordinate), -farOutside, farOutside);
+        });
+        Point<Dimension> index;
+        if (!this->Grid.template NearestIndex<Dimension>(x, index.data()))
+        {
+          ++outside;
+          this->Block.data()[i] = noBlock;
+          continue;
+        }
+        if (!this->Flow.HasMass(index))
+        {
+          ++inEmpty;
+        }
+        this->Block.data()[i] = this->BlockAt(index);
+      }
+    });
+    this->Quality.Outside = outside;
+    this->Quality.InEmptyCells = inEmpty;
+  }
+
+  std::int64_t BlockAt(const Point<Dimension>& index) const
+  {
+    std::int64_t block = 0;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      const auto cell = std::min(static_cast<std::int64_t>(index[axis]), this->Size[axis] - 1);
+      block = block * this->BlockCounts[axis] + cell / this->BlockSize;
+    }
+    return block;
+  }
+
+  void AddMasses()
+  {
+    if (!this->Particles.Masses)
+    {
+      this->ParticleMass = static_cast<double>(this->Count);
+      return;
+    }
+    double total = 0.0;
+    this->InOrder(this->Count, [&](std::int64_t i) { total += this->Particles.Masses[i]; });
+    if (!(total > 0.0) || std::isinf(total))
+    {
+      throw std::invalid_argument("The masses of the particles sum to " + std::to_string(total) +
+        "; the sum must be positive and a double");
+    }
+    this->ParticleMass = total;
+  }
+
+  void MeasureCost()
+  {
+    double cost = 0.0;
+    this->InOrder(this->Particles.Displacements.size(), [&](std::int64_t i) {
+      const double* d = this->Particles.Displacements[i];
+      cost += this->Share(i) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    });
+    this->Quality.TransportCost = cost;
+  }
+
+  // The relative L2 distance of two densities that are constant on blocks.
+  void CompareBlocks()
+  {
+    double* found = this->Found.data();
+    double* expected = this->Expected.data();
+    std::fill_n(found, this->Blocks, 0.0);
+    this->Work.BeginStage(0.3);
+    this->InOrder(this->Count, [&](std::int64_t i) {
+      if (this->Block.data()[i] != noBlock)
+      {
+        found[this->Block.data()[i]] += this->Share(i);
+      }
+    });
+    this->Work.BeginStage(0.35);
+    this->Work.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t block = first; block < last; ++block)
+      {
+        const auto [low, high] = this->BlockBox(block);
+        expected[block] = this->Flow.Share(low, high);
+      }
+    });
+    this->Work.BeginStage(0.4);
+    double difference = 0.0;
+    double norm = 0.0;
+    this->InOrder(this->Blocks, [&](std::int64_t block) {
+      const auto [low, high] = this->BlockBox(block);
+      double measure = 1.0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        measure *= high[axis] - low[axis];
+      }
+      const double off = found[block] - expected[block];
+      difference += off * off / measure;
+      norm += expected[block] * expected[block] / measure;
+    });
+    this->Quality.DensityError = std::sqrt(difference / norm);
+  }
+
+  std::pair<Point<Dimension>, Point<Dimension>> BlockBox(std::int64_t block) const
+  {
+    Point<Dimension> low;
+    Point<Dimension> high;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t first = block % this->BlockCounts[axis] * this->BlockSize;
+      low[axis] = static_cast<double>(first);
+      high[axis] = static_cast<double>(std::min(first + this->BlockSize, this->Size[axis]));
+      block /= this->BlockCounts[axis];
+    }
+    return { low, high };
+  }
+
+  // Divides the distance of each nearest neighbour by the largest spacing that the density has room
+  // for there; -1 where there is no such.
+  void RelateSpacings()
+  {
+    Point<Dimension> aspect = this->Grid.template Lengths<Dimension>();
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      aspect[axis] = static_cast<double>(this->Size[axis]) / this->Scale.ToUnits(aspect[axis]);
+    }
+    const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
+    double* spacing = this->Spacing.data();
+    constexpr std::int64_t smallGrain = 256;
+    this->Work.For(
+      this->Count, smallGrain,
+      [=](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const double share = this->Share(i);
+          if (this->Block.data()[i] == noBlock || !(share > 0.0) || std::isinf(spacing[i]))
+          {
+            spacing[i] = -1.0;
+            continue;
+          }
+          Point<Dimension> index;
+          this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index.data());
+          const double measure = this->Flow.MeasureOfShare(index, aspect, share);
+          spacing[i] /= largestSpacing<Dimension>(measure) * side;
+        }
+      },
+      16 * smallGrain);
+  }
+
+  void AverageSpacings()
+  {
+    double sum = 0.0;
+    double smallest = std::numeric_limits<double>::infinity();
+    std::int64_t related = 0;
+    this->InOrder(this->Count, [&](std::int64_t i) {
+      const double spacing = this->Spacing.data()[i];
+      if (spacing >= 0.0)
+      {
+        sum += spacing;
+        smallest = std::min(smallest, spacing);
+        ++related;
+      }
+    });
+    if (!std::isfinite(sum))
+    {
+      throw std::overflow_error(
+        "MeanSpacing passes the largest double; the spacings of the density along its axes must "
+        "be more alike");
+    }
+    if (related > 0)
+    {
+      this->Quality.SmallestSpacing = smallest;
+      this->Quality.MeanSpacing = sum / static_cast<double>(related);
+    }
+  }
+
+  const ParticleSample& Particles;
+  const RectifiedFlow<Dimension>& Flow;
+  const ImageGrid& Grid;
+  const LengthScale Scale;
+  const GridSize<Dimension> Size;
+  const std::int64_t BlockSize;
+  const GridSize<Dimension> BlockCounts;
+  const std::int64_t Blocks;
+  const std::int64_t Count;
+  Progress Work;
+  LargeBuffer<double> Points; // in units of Scale
+  LargeBuffer<std::int64_t> Block;
+  LargeBuffer<double> Spacing;
+  LargeBuffer<double> Found; // shares of the mass in each block
+  LargeBuffer<double> Expected;
+  double ParticleMass = 0.0;
+  ParticleQuality Quality;
+};
+
+} // namespace
+
+template <int Dimension>
+ParticleQuality measureQuality(const ParticleSample& particles,
+  const RectifiedFlow<Dimension>& flow, const ImageGrid& grid, std::int64_t blockSize,
+  const Context& context)
+{
+  if (blockSize < 1)
+  {
+    throw std::invalid_argument(
+      "BlockSize is " + std::to_string(blockSize) + ", it must be at least 1");
+  }
+  return QualityRun<Dimension>(particles, flow, grid, blockSize, context).Measure();
+}
+
+template ParticleQuality measureQuality<1>(
+  const ParticleSample&, const RectifiedFlow<1>&, const ImageGrid&, std::int64_t, const Context&);
+template ParticleQuality measureQuality<2>(
+  const ParticleSample&, const RectifiedFlow<2>&, const ImageGrid&, std::int64_t, const Context&);
+template ParticleQuality measureQuality<3>(
+  const ParticleSample&, const RectifiedFlow<3>&, const ImageGrid&, std::int64_t, const Context&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The figures of particles that are known: lattices, particles in one place, all in one half.
+#include "Core/Quality/ParticleQuality.h"
+
+#include "TestDensities.h"
+#include "TestGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+TestDensity<Dimension> uniform(const GridSize<Dimension>& size, double value = 1.0)
+{
+  TestDensity<Dimension> density{ size, {} };
+  density.Values.assign(static_cast<std::size_t>(cellCount<Dimension>(size)), value);
+  return density;
+}
+
+template <int Dimension>
+ParticleQuality qualityOf(const TestDensity<Dimension>& density, const ImageGrid& grid,
+  const ParticleSample& particles, std::int64_t blockSize = 1, const Context& context = Context())
+{
+  const RectifiedFlow<Dimension> flow(density.Source());
+  return measureQuality<Dimension>(particles, flow, grid, blockSize, context);
+}
+
+// One in the middle of each cell.
+template <int Dimension>
+std::vector<Point<3>> centresOf(const GridSize<Dimension>& size, const ImageGrid& grid)
+{
+  std::vector<Point<3>> centres(static_cast<std::size_t>(cellCount<Dimension>(size)));
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    const auto cell = cellAt<Dimension>(static_cast<std::int64_t>(i), size);
+    Point<Dimension> index;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      index[axis] = static_cast<double>(cell[axis]) + 0.5;
+    }
+    grid.ToPhysical<Dimension>(index.data(), centres[i].data());
+  }
+  return centres;
+}
+
+// A cubic lattice is as near to the densest one as its packing is, wherever and however large.
+template <int Dimension>
+void expectLattice(const GridSize<Dimension>& size, double spacing, double unit)
+{
+  const auto grid = makeGrid<Dimension>(size, { unit, unit, unit }, { 8 * unit, -unit, 0.0 });
+  const auto centres = centresOf<Dimension>(size, grid);
+  const ParticleQuality quality =
+    qualityOf<Dimension>(uniform<Dimension>(size, 0.5), grid, { centres });
+  EXPECT_EQ(quality.Particles, cellCount<Dimension>(size));
+  EXPECT_EQ(quality.Outside, 0);
+  EXPECT_EQ(quality.InEmptyCells, 0);
+  EXPECT_NEAR(quality.TotalMass,
+    0.5 * static_cast<double>(cellCount<Dimension>(size)) * std::pow(unit, Dimension), 1e-12);
+  EXPECT_NEAR(quality.DensityError, 0.0, 1e-12);
+  EXPECT_EQ(quality.TransportCost, 0.0);
+  EXPECT_NEAR(quality.SmallestSpacing, spacing, 1e-9);
+  EXPECT_NEAR(quality.MeanSpacing, spacing, 1e-9);
+}
+
+TEST(ParticleQuality, Lattices)
+{
+  for (const double unit : { 1.0, 0.03125, 0.3 })
+  {
+    expectLattice<1>({ 20 }, 1.0, unit);
+    expectLattice<2>({ 12, 9 }, std::sqrt(std::sqrt(3.0) / 2.0), unit);
+    expectLattice<3>({ 6, 5, 4 }, 1.0 / std::cbrt(std::sqrt(2.0)), unit);
+  }
+}
+
+// With shares p and m of blocks of one size the error is |p - m| / |m|.
+TEST(ParticleQuality, AllInOneHalf)
+{
+  const auto grid = makeGrid<2>({ 8, 4 }, { 0.5, 0.5, 1.0 });
+  const std::vector<Point<3>> points = { { 0.3, 0.3, 0.0 }, { 1.1, 1.9, 0.0 }, { 1.7, 1.0, 0.0 } };
+  const auto density = uniform<2>({ 8, 4 });
+  EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 4).DensityError, 1.0, 1e-14);
+  EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 8).DensityError, 0.0, 1e-14);
+}
+
+TEST(ParticleQuality, MassesWeigh)
+{
+  const auto grid = makeGrid<1>({ 2 }, { 3.0, 1.0, 1.0 });
+  const std::vector<Point<3>> points = { { 1.0, 0.0, 0.0 }, { 5.0, 0.0, 0.0 } };
+  const std::vector<Point<3>> displacements = { { 3.0, 4.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+  const double masses[] = { 30.0, 10.0 };
+  const TestDensity<1> density{ { 2 }, { 6.0, 2.0 } };
+  const ParticleQuality even = qualityOf<1>(density, grid, { points, nullptr, displacements });
+  EXPECT_NEAR(even.DensityError, std::sqrt(2 * 0.0625 / (0.5625 + 0.0625)), 1e-14);
+  EXPECT_NEAR(even.TransportCost, 13.0, 1e-14);
+  const ParticleQuality weighted = qualityOf<1>(density, grid, { points, masses, displacements });
+  EXPECT_NEAR(weighted.DensityError, 0.0, 1e-14);
+  EXPECT_NEAR(weighted.TransportCost, 19.0, 1e-14);
+  // The boxes about the particles that hold three quarters and one quarter.
+  EXPECT_NEAR(weighted.MeanSpacing, 0.5 * (4.0 / 3.0 + 4.0 / 3.0), 1e-9);
+}
+
+TEST(ParticleQuality, OutsideAndInEmptyCells)
+{
+  const auto grid = makeGrid<2>({ 2, 2 }, { 1.0, 1.0, 1.0 });
+  const TestDensity<2> density{ { 2, 2 }, { 1.0, 0.0, 1.0, 1.0 } };
+  const std::vector<Point<3>> points = { { 0.5, 0.5, 0.0 }, { 1.5, 0.5, 0.0 }, { 0.5, 1.5, 0.1 },
+    { 2.0 + 1e-8, 1.5, 0.0 }, { 2.001, 1.5, 0.0 }, { -7.0, 0.5, 0.0 } };
+  const ParticleQuality quality = qualityOf<2>(density, grid, { points });
+  EXPECT_EQ(quality.Particles, 6);
+  EXPECT_EQ(quality.Outside, 3);
+  EXPECT_EQ(quality.InEmptyCells, 1);
+}
+
+TEST(ParticleQuality, OneParticleHasNoSpacing)
+{
+  const std::vector<Point<3>> points = { { 0.5, 0.0, 0.0 } };
+  const ParticleQuality quality =
+    qualityOf<1>(uniform<1>({ 4 }), makeGrid<1>({ 4 }, { 1.0, 1.0, 1.0 }), { points });
+  EXPECT_EQ(quality.SmallestSpacing, 0.0);
+  EXPECT_EQ(quality.MeanSpacing, 0.0);
+}
+
+TEST(ParticleQuality, WhatIsWrong)
+{
+  const auto grid = makeGrid<1>({ 4 }, { 1.0, 1.0, 1.0 });
+  const std::vector<Point<3>> points = { { 0.5, 0.0, 0.0 }, { 1.5, 0.0, 0.0 } };
+  const double none[] = { 0.0, 0.0 };
+  const double huge[] = { 1e308, 1e308 };
+  EXPECT_THROW(qualityOf<1>(uniform<1>({ 4 }), grid, { points }, 0), std::invalid_argument);
+  EXPECT_THROW(qualityOf<1>(uniform<1>({ 4 }), grid, { points, none, {} }), std::invalid_argument);
+  EXPECT_THROW(qualityOf<1>(uniform<1>({ 4 }), grid, { points, huge, {} }), std::invalid_argument);
+
+  const auto needles = makeGrid<3>({ 4, 3, 3 }, { 1e300, 1e-200, 1e-200 });
+  const std::vector<Point<3>> far = { { 5e299, 0.0, 0.0 }, { 2.5e300, 0.0, 0.0 } };
+  EXPECT_THROW(qualityOf<3>(uniform<3>({ 4, 3, 3 }), needles, { far }), std::overflow_error);
+}
+
+TEST(ParticleQuality, SameBitsOnAnyThreads)
+{
+  const auto density = twoGaussians<2>({ 60, 50 });
+  const auto grid = makeGrid<2>({ 60, 50 }, { 0.7, 1.3, 1.0 });
+  std::mt19937_64 engine(3);
+  std::vector<Point<3>> points(20000);
+  std::vector<double> masses;
+  for (Point<3>& point : points)
+  {
+    point = { 45.0 * uniformNumber(engine), 70.0 * uniformNumber(engine), 0.0 };
+    masses.push_back(uniformNumber(engine));
+  }
+  const ParticleSample sample{ points, masses.data(), points };
+  const ParticleQuality one = qualityOf<2>(density, grid, sample, 7, SerialExecutor());
+  const ParticleQuality many = qualityOf<2>(density, grid, sample, 7);
+  EXPECT_GT(one.Outside, 0);
+  EXPECT_EQ(one.Outside, many.Outside);
+  EXPECT_EQ(one.DensityError, many.DensityError);
+  EXPECT_EQ(one.TransportCost, many.TransportCost);
+  EXPECT_EQ(one.SmallestSpacing, many.SmallestSpacing);
+  EXPECT_EQ(one.MeanSpacing, many.MeanSpacing);
+}
+
+} // namespace
+} // namespace RectifiedTransport
