@@ -6,27 +6,20 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/PropertyCheck.h"
-#include "Bridge/SiteCells/SiteCellOutlines.h"
-#include "Bridge/SiteCells/SiteCellStatistics.h"
-#include "Bridge/SiteCells/SiteLabels.h"
+#include "Bridge/SiteCells/EqualMassCells.h"
 
-#include "vtkCellData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <cmath>
-#include <string>
+#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkEqualMassCells);
@@ -36,45 +29,6 @@ namespace
 {
 using namespace RectifiedTransport;
 
-// What RequestData has fetched and checked.
-struct CellsRun
-{
-  Progress& Work;
-  FlowOptions Options;
-  vtkPointSet* Input;
-  const ImageGrid& Grid;
-  SiteLabels& Labels;
-  CostNorm Norm;
-};
-
-struct CellsOutput
-{
-  vtkImageData* Labels;
-  vtkPointSet* Sites;
-  vtkPolyData* Outlines;
-};
-
-// Returns how many sites are outside of the domain.
-template <int D>
-std::int64_t divide(const CellsRun& run, const CellsOutput& output)
-{
-  const ImageGrid& geometry = run.Grid;
-  run.Work.BeginStage(0.01);
-  const SiteGrid<D> sites(run.Input, geometry, run.Work);
-  run.Work.BeginStage(0.02);
-  SiteIdArray* labels = run.Labels.Update(run.Input, run.Grid, run.Options, run.Work,
-    [&]() { return sites.MakeLabels(run.Options, run.Work, 0.95); });
-  output.Labels->GetCellData()->SetScalars(labels);
-  run.Work.BeginStage(0.98);
-  const double cost = writeSiteCellStatistics<D>(
-    run.Input, sites.Pixels(), geometry, labels, run.Norm, run.Work, output.Sites->GetPointData());
-  addFieldValue(output.Labels, "TransportCost", cost);
-  addFieldValue(output.Sites, "TransportCost", cost);
-  run.Work.BeginStage(1.0);
-  outlineSiteCells<D>(geometry, labels->GetPointer(0), run.Work, output.Outlines);
-  return sites.NumberOutside();
-}
-
 // The box of a domain, as of a density: with values on its points that of their dual cells.
 ImageGrid boxOf(vtkImageData* domain)
 {
@@ -82,17 +36,19 @@ ImageGrid boxOf(vtkImageData* domain)
   return hasPointValues(domain) ? grid.WithDualCells() : grid;
 }
 
-// The input's points in double precision.
-vtkSmartPointer<vtkPoints> doublePoints(vtkPoints* points)
+// The bounds of sites and somewhat more.
+ImageGrid boxAround(vtkPointSet* sites)
 {
-  if (points->GetDataType() == VTK_DOUBLE)
+  constexpr double margin = 0.05; // on each side
+  double bounds[6];
+  findBounds(sites, bounds);
+  for (int a = 0; a < 3; ++a)
   {
-    return points;
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    bounds[2 * a] -= margin * length;
+    bounds[2 * a + 1] += margin * length;
   }
-  auto copy = vtkSmartPointer<vtkPoints>::New();
-  copy->SetDataTypeToDouble();
-  copy->DeepCopy(points);
-  return copy;
+  return gridOfBox(bounds);
 }
 } // namespace
 
@@ -175,21 +131,6 @@ int vtkEqualMassCells::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-ImageGrid vtkEqualMassCells::BoxAround(vtkPointSet* sites)
-{
-  constexpr double margin = 0.05; // on each side
-  double bounds[6];
-  findBounds(sites, bounds);
-  for (int a = 0; a < 3; ++a)
-  {
-    const double length = bounds[2 * a + 1] - bounds[2 * a];
-    bounds[2 * a] -= margin * length;
-    bounds[2 * a + 1] += margin * length;
-  }
-  return gridOfBox(bounds);
-}
-
-//------------------------------------------------------------------------------
 int vtkEqualMassCells::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -208,7 +149,7 @@ int vtkEqualMassCells::RequestInformation(
     this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    box = sites && sites->GetNumberOfPoints() > 1 ? this->BoxAround(sites) : gridOfBox(unit);
+    box = sites && sites->GetNumberOfPoints() > 1 ? boxAround(sites) : gridOfBox(unit);
   }
   box = box.IsEmpty() ? box : gridWithResolution(box, this->Resolution, "Resolution");
   announceGrid(box, outputVector->GetInformationObject(0));
@@ -245,7 +186,7 @@ int vtkEqualMassCells::RequestData(
     // Of such points there are no bounds.
     visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
   }
-  const ImageGrid box = domain ? boxOf(domain) : this->BoxAround(input);
+  const ImageGrid box = domain ? boxOf(domain) : boxAround(input);
   if (box.Dimension() == 0)
   {
     throw Failure(domain
@@ -256,25 +197,12 @@ int vtkEqualMassCells::RequestData(
   }
   const ImageGrid grid = gridWithResolution(box, this->Resolution, "Resolution");
   requireCells(grid);
-
-  const CellsOutput output{ vtkImageData::GetData(outputVector, 0),
-    vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
-  if (!this->Internals->Labels.IsFor(input, grid, options))
-  {
-    SiteLabels::RequireMemory(grid);
-  }
-  applyGrid(grid, output.Labels);
   announceGrid(grid, labelInformation); // without a Domain it is not known before the data
-  output.Sites->CopyStructure(input);
-  output.Sites->SetPoints(doublePoints(input->GetPoints()));
-  output.Sites->GetPointData()->PassData(input->GetPointData());
-  output.Sites->GetCellData()->PassData(input->GetCellData());
 
-  const CellsRun run{ progress, options, input, grid, this->Internals->Labels,
-    { this->NormExponent, this->CostExponent } };
-  const std::int64_t outside = grid.Dimension() == 1 ? divide<1>(run, output)
-    : grid.Dimension() == 2                          ? divide<2>(run, output)
-                                                     : divide<3>(run, output);
+  const EqualMassCells cells{ options, { this->NormExponent, this->CostExponent } };
+  const std::int64_t outside = cells.Run(input, grid, this->Internals->Labels, progress,
+    { vtkImageData::GetData(outputVector, 0), vtkPointSet::GetData(outputVector, 1),
+      vtkPolyData::GetData(outputVector, 2) });
   if (outside > 0)
   {
     vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()

@@ -62,11 +62,6 @@
 
 #include <memory> // for std::unique_ptr
 
-namespace RectifiedTransport
-{
-class ImageGrid;
-}
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 class vtkImageData;
@@ -148,8 +143,6 @@ protected:
   double CostExponent;
 
 private:
-  RectifiedTransport::ImageGrid BoxAround(vtkPointSet* sites);
-
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
 

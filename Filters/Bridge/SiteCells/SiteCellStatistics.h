@@ -7,6 +7,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/SiteCells/SiteDensity.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointData;

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which site each pixel of a domain goes to, when the uniform measure flows to the sites.
+// Which site each pixel of a domain goes to, kept from run to run.
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
 #include "Bridge/Density/Fingerprint.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/SiteCells/SiteDensity.h"
 
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
@@ -36,9 +33,6 @@ using SiteIdArray =
 class SiteLabels
 {
 public:
-  // Throws Failure if there is no memory to make labels.
-  static void RequireMemory(const ImageGrid& grid);
-
   // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
   bool IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const;
 
@@ -72,31 +66,6 @@ private:
   DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
   ImageGrid Grid;
   FlowOptions Options;
-};
-
-// Sites on the grid of labels.
-template <int D>
-class SiteGrid
-{
-public:
-  // Throws Failure for coordinates that are not finite and for more sites than pixels, and
-  // Cancelled.
-  SiteGrid(vtkPointSet* sites, const ImageGrid& geometry, Progress& progress);
-
-  const SiteDensity<D>& Pixels() const { return *this->Grid; }
-  // How many sites are outside of the domain and count as the nearest point of its border.
-  std::int64_t NumberOutside() const { return this->Outside; }
-
-  // The label of each pixel, axis 0 fastest. Progress ends at `end`. Throws Failure for memory
-  // that is not there, and Cancelled.
-  vtkSmartPointer<SiteIdArray> MakeLabels(
-    const FlowOptions& options, Progress& progress, double end) const;
-
-private:
-  const ImageGrid& Geometry;
-  LargeBuffer<double> Coordinates; // in index space, inside
-  std::unique_ptr<SiteDensity<D>> Grid;
-  std::int64_t Outside = 0;
 };
 
 } // namespace RectifiedTransport

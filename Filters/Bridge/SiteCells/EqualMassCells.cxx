@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/SiteCells/EqualMassCells.h"
+
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/SiteCells/SiteCellOutlines.h"
+#include "Bridge/SiteCells/SiteCellStatistics.h"
+#include "Core/Geometry/Dispatch.h"
+#include "Core/SiteCells/SiteCells.h"
+
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The tables, which are larger than what follows them.
+constexpr double bytesOfFlow(int dimension)
+{
+  return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
+}
+
+// The input's points in double precision.
+vtkSmartPointer<vtkPoints> doublePoints(vtkPoints* points)
+{
+  if (points->GetDataType() == VTK_DOUBLE)
+  {
+    return points;
+  }
+  auto copy = vtkSmartPointer<vtkPoints>::New();
+  copy->SetDataTypeToDouble();
+  copy->DeepCopy(points);
+  return copy;
+}
+
+template <int D>
+SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& progress)
+{
+  const std::int64_t count = sites->GetNumberOfPoints();
+  const GridSize<D> size = grid.Size<D>();
+  if (static_cast<double>(count) > numberOfCells<D>(size))
+  {
+    throw Failure("The input has " + std::to_string(count) + " sites for " + describeSize<D>(size) +
+      " pixels; raise Resolution until there is a pixel for each");
+  }
+  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
+  constexpr double eachSite = (D + 3 + 4) * sizeof(double);
+  return withMemory(
+    "the " + std::to_string(count) + " sites", static_cast<double>(count) * eachSite, [&]() {
+      return SiteCells<D>({ points.data(), count }, grid, progress.Stage());
+    });
+}
+
+template <int D>
+vtkSmartPointer<SiteIdArray> makeLabels(
+  const SiteCells<D>& cells, const FlowOptions& options, Progress& progress)
+{
+  const auto pixels = cells.Grid().NumberOfCells();
+  auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
+  withMemory("labels of " + describeSize<D>(cells.Pixels().Size()) + " pixels",
+    static_cast<double>(pixels) * bytesOfFlow(D),
+    [&]() { cells.Label(labels->GetPointer(0), options, progress.Stage()); });
+  return labels;
+}
+
+template <int D>
+std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
+  SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
+{
+  progress.BeginStage(0.01);
+  const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
+  progress.BeginStage(0.02);
+  SiteIdArray* labels = kept.Update(sites, grid, cells.Flow, progress, [&]() {
+    progress.BeginStage(0.95);
+    return makeLabels<D>(placed, cells.Flow, progress);
+  });
+  outputs.Labels->GetCellData()->SetScalars(labels);
+  progress.BeginStage(0.98);
+  const double cost = writeSiteCellStatistics<D>(
+    sites, placed.Pixels(), grid, labels, cells.Norm, progress, outputs.Sites->GetPointData());
+  addFieldValue(outputs.Labels, "TransportCost", cost);
+  addFieldValue(outputs.Sites, "TransportCost", cost);
+  progress.BeginStage(1.0);
+  outlineSiteCells<D>(grid, labels->GetPointer(0), progress, outputs.Outlines);
+  return placed.NumberOutside();
+}
+
+} // namespace
+
+std::int64_t EqualMassCells::Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
+  Progress& progress, const Outputs& outputs) const
+{
+  if (!kept.IsFor(sites, grid, this->Flow))
+  {
+    requireMemory("labels of " + describeValues(grid) + " pixels (see Resolution)",
+      numberOfValues(grid) * (sizeof(std::int64_t) + bytesOfFlow(grid.Dimension())));
+  }
+  applyGrid(grid, outputs.Labels);
+  outputs.Sites->CopyStructure(sites);
+  outputs.Sites->SetPoints(doublePoints(sites->GetPoints()));
+  outputs.Sites->GetPointData()->PassData(sites->GetPointData());
+  outputs.Sites->GetCellData()->PassData(sites->GetCellData());
+  return dispatchDimension(grid.Dimension(), [&](auto dimension) {
+    return divide<decltype(dimension)::value>(*this, sites, grid, kept, progress, outputs);
+  });
+}
+
+} // namespace RectifiedTransport

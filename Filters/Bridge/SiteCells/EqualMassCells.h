@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of equal mass of the sites of a point set: the work of vtkEqualMassCells.
+#ifndef RectifiedTransport_EqualMassCells_h
+#define RectifiedTransport_EqualMassCells_h
+
+#include "Bridge/SiteCells/SiteCellStatistics.h"
+#include "Bridge/SiteCells/SiteLabels.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Flow/FlowOptions.h"
+
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+class vtkPointSet;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class ImageGrid;
+class Progress;
+
+// As the properties of that class.
+struct EqualMassCells
+{
+  FlowOptions Flow;
+  CostNorm Norm;
+
+  struct Outputs
+  {
+    vtkImageData* Labels;
+    vtkPointSet* Sites;
+    vtkPolyData* Outlines;
+  };
+
+  // Divides the cells of a grid among sites, of which there must be some; the labels of the run
+  // before are kept. Returns how many sites are outside of the domain. Throws Failure,
+  // std::bad_alloc and Cancelled.
+  std::int64_t Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept, Progress& progress,
+    const Outputs& outputs) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

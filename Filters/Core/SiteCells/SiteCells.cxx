@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/SiteCells.h"
+
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/SiteCells/EqualizeSiteCells.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+SiteCells<Dimension>::SiteCells(
+  ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context)
+  : Place(grid)
+  , Given(static_cast<std::size_t>(sites.size()))
+  , Inside(static_cast<std::size_t>(sites.size()))
+{
+  const GridSize<Dimension> size = grid.Size<Dimension>();
+  if (static_cast<double>(sites.size()) > numberOfCells<Dimension>(size))
+  {
+    throw std::invalid_argument(
+      "There are " + std::to_string(sites.size()) + " sites; there must be a pixel for each");
+  }
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const PointSpan<Dimension> inside(this->Inside);
+  std::atomic<std::int64_t> outside{ 0 };
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  progress.For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
+      if (!grid.NearestIndex<Dimension>(sites[i], inside[i]))
+      {
+        ++outside;
+      }
+    }
+  });
+  this->Outside = outside;
+  this->Density.emplace(size, inside);
+}
+
+template <int Dimension>
+void SiteCells<Dimension>::Label(
+  std::int64_t* labels, const FlowOptions& options, const Context& context) const
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const SiteDensity<Dimension>& sites = this->Pixels();
+  const GridSize<Dimension> size = sites.Size();
+  const auto pixels = this->Place.NumberOfCells();
+  Progress progress(context);
+  if (sites.NumberOfPixels() == 1)
+  {
+    std::fill_n(labels, pixels, std::int64_t{ 0 });
+  }
+  else
+  {
+    progress.BeginStage(0.03);
+    const RectifiedFlow<Dimension> flow(sites, progress.Stage());
+    progress.BeginStage(0.93);
+    flow.ForwardLatticeToCells(size, labels, options, progress.Stage());
+    progress.BeginStage(0.95);
+    progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
+      std::transform(labels + first, labels + last, labels + first,
+        [&sites](std::int64_t pixel) { return sites.Find(pixel); });
+    });
+  }
+  Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    spacing[axis] /= static_cast<double>(size[axis]);
+  }
+  progress.BeginStage(0.99);
+  equalizeSiteCells<Dimension>(sites, spacing, labels, progress.Stage());
+  progress.BeginStage(1.0);
+  splitSharedPixels<Dimension>(sites, this->Inside, spacing, labels, progress.Stage());
+}
+
+template <int Dimension>
+std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
+  const FlowOptions& options, const Context& context)
+{
+  const SiteCells<Dimension> cells(sites, grid);
+  std::vector<std::int64_t> labels(static_cast<std::size_t>(grid.NumberOfCells()));
+  cells.Label(labels.data(), options, context);
+  return labels;
+}
+
+template class SiteCells<1>;
+template class SiteCells<2>;
+template class SiteCells<3>;
+template std::vector<std::int64_t> labelSiteCells<1>(
+  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
+template std::vector<std::int64_t> labelSiteCells<2>(
+  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
+template std::vector<std::int64_t> labelSiteCells<3>(
+  ConstPointSpan<3>, const ImageGrid&, const FlowOptions&, const Context&);
+
+} // namespace RectifiedTransport
