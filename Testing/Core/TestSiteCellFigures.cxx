@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of equal mass from sites and a grid alone.
+// Cells of equal mass from sites and a grid alone: their labels, what is measured of them.
+#include "Core/SiteCells/SiteCellStatistics.h"
 #include "Core/SiteCells/SiteCells.h"
 #include "TestFlow.h"
 #include "TestGrid.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace RectifiedTransport
@@ -14,6 +18,30 @@ namespace
 {
 
 using Labels = std::vector<std::int64_t>;
+
+struct Figures
+{
+  std::vector<double> Mass;
+  Points<3> Centroid;
+  std::vector<double> Cost;
+  double Total = 0.0;
+};
+
+template <int Dimension>
+Figures measure(const SiteCells<Dimension>& cells, const Labels& labels, const CostNorm& norm = {},
+  const Context& context = Context())
+{
+  const auto count = static_cast<std::size_t>(cells.NumberOfSites());
+  Figures figures{ std::vector<double>(count), Points<3>(count), std::vector<double>(count), 0.0 };
+  figures.Total = measureSiteCells<Dimension>(cells, labels.data(), norm,
+    { figures.Mass.data(), figures.Centroid, figures.Cost.data() }, context);
+  return figures;
+}
+
+double sum(const std::vector<double>& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 // Sites in the middles of equal parts of the domain: by symmetry the cells are these parts.
 TEST(SiteCellFigures, Quarters)
@@ -29,6 +57,22 @@ TEST(SiteCellFigures, Quarters)
     const auto begin = labels.begin() + 8 * static_cast<std::ptrdiff_t>(row);
     EXPECT_EQ(Labels(begin, begin + 8), row < 2 ? low : high) << row;
   }
+  const SiteCells<2> cells(sites, grid);
+  EXPECT_EQ(cells.NumberOutside(), 0);
+  const Figures figures = measure<2>(cells, labels);
+  // Of four columns of width 0.5 and two rows of height 2 about the middle.
+  const double cost = (0.25 * 0.25 + 0.75 * 0.75) / 2 + 1.0;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+  {
+    EXPECT_EQ(figures.Mass[i], 8.0);
+    EXPECT_EQ(figures.Centroid[i], sites[i]);
+    EXPECT_EQ(figures.Cost[i], cost / 4);
+  }
+  EXPECT_EQ(figures.Total, cost);
+  // |x|_1 of the same way, and |x|_inf^1, which is the height.
+  EXPECT_NEAR(measure<2>(cells, labels, { 1.0, 1.0 }).Total, 0.5 + 1.0, 1e-14);
+  const double largest = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(measure<2>(cells, labels, { largest, 1.0 }).Total, 1.0, 1e-14);
 }
 
 TEST(SiteCellFigures, AnyNumberOfSites)
@@ -52,12 +96,22 @@ TEST(SiteCellFigures, AnyNumberOfSites)
   {
     EXPECT_TRUE(count == 103 || count == 104) << count;
   }
+  const Figures figures = measure<3>(cells, labels);
+  EXPECT_NEAR(sum(figures.Mass), 10.0 * 12.0 * 12.0, 1e-9);
+  EXPECT_EQ(figures.Mass[5], figures.Mass[30]);
+  EXPECT_NEAR(sum(figures.Cost), figures.Total, 1e-9);
+  const Figures serial = measure<3>(cells, labels, {}, SerialExecutor());
+  EXPECT_EQ(figures.Total, serial.Total);
+  EXPECT_EQ(figures.Centroid, serial.Centroid);
 }
 
 TEST(SiteCellFigures, WhatIsWrong)
 {
   const auto grid = makeGrid<1>({ 2 }, { 1e200, 1.0, 1.0 });
   EXPECT_THROW(SiteCells<1>(Points<3>{ { 0.0 }, { 1.0 }, { 2.0 } }, grid), std::invalid_argument);
+  const SiteCells<1> cells(Points<3>{ { 5e199, 0.0, 0.0 }, { 1e200, 0.0, 0.0 } }, grid);
+  EXPECT_THROW(measure<1>(cells, { 0, 1 }), std::overflow_error);
+  EXPECT_NEAR(measure<1>(cells, { 0, 1 }, { 2.0, 1.0 }).Total, 2.5e199, 1e186);
 }
 
 } // namespace

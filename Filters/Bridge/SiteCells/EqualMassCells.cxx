@@ -9,11 +9,11 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/SiteCells/SiteCellOutlines.h"
-#include "Bridge/SiteCells/SiteCellStatistics.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/SiteCells/SiteCells.h"
 
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -78,6 +78,26 @@ vtkSmartPointer<SiteIdArray> makeLabels(
   return labels;
 }
 
+// Adds the arrays to the sites' data. Returns the cost.
+template <int D>
+double addStatistics(const SiteCells<D>& cells, const std::int64_t* labels, const CostNorm& norm,
+  Progress& progress, vtkPointData* output)
+{
+  const auto count = static_cast<vtkIdType>(cells.NumberOfSites());
+  auto masses = newArray<vtkDoubleArray>("CellMass", 1, count);
+  auto centroids = newArray<vtkDoubleArray>("CellCentroid", 3, count);
+  auto costs = newArray<vtkDoubleArray>("CellCost", 1, count);
+  const SiteCellStatistics statistics{ masses->GetPointer(0),
+    { centroids->GetPointer(0), cells.NumberOfSites() }, costs->GetPointer(0) };
+  const double cost = withMemory("the sums of the " + std::to_string(count) + " cells",
+    static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double),
+    [&]() { return measureSiteCells<D>(cells, labels, norm, statistics, progress.Stage()); });
+  output->AddArray(masses);
+  output->AddArray(centroids);
+  output->AddArray(costs);
+  return cost;
+}
+
 template <int D>
 std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
   SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
@@ -91,8 +111,8 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
   });
   outputs.Labels->GetCellData()->SetScalars(labels);
   progress.BeginStage(0.98);
-  const double cost = writeSiteCellStatistics<D>(
-    sites, placed.Pixels(), grid, labels, cells.Norm, progress, outputs.Sites->GetPointData());
+  const double cost = addStatistics<D>(
+    placed, labels->GetPointer(0), cells.Norm, progress, outputs.Sites->GetPointData());
   addFieldValue(outputs.Labels, "TransportCost", cost);
   addFieldValue(outputs.Sites, "TransportCost", cost);
   progress.BeginStage(1.0);

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_EqualMassCells_h
 #define RectifiedTransport_EqualMassCells_h
 
-#include "Bridge/SiteCells/SiteCellStatistics.h"
 #include "Bridge/SiteCells/SiteLabels.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/SiteCells/SiteCellStatistics.h"
 
 #include <cstdint>
 
@@ -37,7 +37,7 @@ struct EqualMassCells
 
   // Divides the cells of a grid among sites, of which there must be some; the labels of the run
   // before are kept. Returns how many sites are outside of the domain. Throws Failure,
-  // std::bad_alloc and Cancelled.
+  // std::overflow_error, std::bad_alloc and Cancelled.
   std::int64_t Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;
 };

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/SiteCellStatistics.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// How many pixels are summed before the host is asked.
+constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
+
+// What is summed over the pixels of a cell. Their places are sums of halves: exact, however far
+// from the cell its site is.
+template <int Dimension>
+struct CellSum
+{
+  double Pixels = 0.0;
+  double Index[Dimension] = {};
+  double Cost = 0.0;
+
+  void Add(const CellSum& other)
+  {
+    this->Pixels += other.Pixels;
+    this->Cost += other.Cost;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->Index[axis] += other.Index[axis];
+    }
+  }
+};
+
+double squaredLength(const double* d)
+{
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
+// The largest component is taken out, so that no power of it passes the range of numbers.
+double costOf(const double* d, const CostNorm& norm)
+{
+  const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });
+  double length = largest;
+  if (largest > 0.0 && !std::isinf(norm.Norm))
+  {
+    const double part[3] = { std::abs(d[0]) / largest, std::abs(d[1]) / largest,
+      std::abs(d[2]) / largest };
+    if (norm.Norm == 2.0)
+    {
+      length *= std::sqrt(squaredLength(part));
+    }
+    else
+    {
+      double sum = 0.0;
+      for (const double x : part)
+      {
+        sum += std::pow(x, norm.Norm);
+      }
+      length *= std::pow(sum, 1.0 / norm.Norm);
+    }
+  }
+  return std::pow(length, norm.Exponent);
+}
+
+template <int Dimension>
+class CellSums
+{
+public:
+  CellSums(const SiteCells<Dimension>& cells, const std::int64_t* labels)
+    : Grid(cells.Grid())
+    , Size(cells.Pixels().Size())
+    , Labels(labels)
+    , Sites(cells.Sites())
+  {
+  }
+
+  // The sums of fixed chunks make the result the same for every executor. Their number keeps the
+  // memory for them below that of the labels.
+  std::vector<CellSum<Dimension>> Run(const CostNorm& norm, Progress& progress) const
+  {
+    const std::int64_t sites = this->Sites.size();
+    const auto pixels = static_cast<std::int64_t>(numberOfCells<Dimension>(this->Size));
+    const std::int64_t chunks = std::clamp<std::int64_t>(pixels / (16 * sites), 1, 1024);
+    const std::int64_t chunk = (pixels + chunks - 1) / chunks;
+    std::vector<std::vector<CellSum<Dimension>>> parts(static_cast<std::size_t>(chunks));
+    for (auto& part : parts)
+    {
+      part.resize(static_cast<std::size_t>(sites));
+    }
+    const bool isSquare = norm.Norm == 2.0 && norm.Exponent == 2.0;
+    progress.For(pixels, chunk, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t begin = first; begin < last; begin += chunk)
+      {
+        CellSum<Dimension>* sums = parts[static_cast<std::size_t>(begin / chunk)].data();
+        const std::int64_t end = std::min(begin + chunk, last);
+        // With many sites there are few chunks, and long ones.
+        for (std::int64_t slice = begin; slice < end && !progress.ShouldStop();
+             slice += sliceOfPixels)
+        {
+          const std::int64_t sliceEnd = std::min(slice + sliceOfPixels, end);
+          if (isSquare)
+          {
+            this->Sum(slice, sliceEnd, sums, squaredLength);
+          }
+          else
+          {
+            this->Sum(slice, sliceEnd, sums, [&norm](const double* d) { return costOf(d, norm); });
+          }
+        }
+      }
+    });
+    std::vector<CellSum<Dimension>> all(static_cast<std::size_t>(sites));
+    for (const auto& part : parts)
+    {
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        all[i].Add(part[i]);
+      }
+    }
+    return all;
+  }
+
+private:
+  template <class Cost>
+  void Sum(std::int64_t first, std::int64_t last, CellSum<Dimension>* sums, const Cost& cost) const
+  {
+    double index[Dimension];
+    std::int64_t rest = first;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      index[axis] = static_cast<double>(rest % this->Size[axis]) + 0.5;
+      rest /= this->Size[axis];
+    }
+    for (std::int64_t pixel = first; pixel < last; ++pixel)
+    {
+      double x[3];
+      this->Grid.template ToPhysical<Dimension>(index, x);
+      const std::int64_t label = this->Labels[pixel];
+      const double* site = this->Sites[label];
+      const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
+      CellSum<Dimension>& sum = sums[label];
+      sum.Pixels += 1.0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        sum.Index[axis] += index[axis];
+      }
+      sum.Cost += cost(d);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        index[axis] += 1.0;
+        if (index[axis] < static_cast<double>(this->Size[axis]))
+        {
+          break;
+        }
+        index[axis] = 0.5;
+      }
+    }
+  }
+
+  const ImageGrid& Grid;
+  const GridSize<Dimension> Size;
+  const std::int64_t* Labels;
+  const ConstPointSpan<3> Sites;
+};
+
+} // namespace
+
+template <int Dimension>
+double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,
+  const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context)
+{
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  const std::vector<CellSum<Dimension>> sums =
+    CellSums<Dimension>(cells, labels).Run(norm, progress);
+  const SiteDensity<Dimension>& shared = cells.Pixels();
+  const double pixels = numberOfCells<Dimension>(shared.Size());
+  double total = 0.0;
+  for (std::int64_t i = 0; i < cells.NumberOfSites(); ++i)
+  {
+    const CellSum<Dimension>& sum = sums[static_cast<std::size_t>(i)];
+    double mean[Dimension];
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      mean[axis] = sum.Index[axis] / sum.Pixels;
+    }
+    cells.Grid().template ToPhysical<Dimension>(mean, statistics.Centroid[i]);
+    statistics.Cost[i] = sum.Cost / pixels;
+    total += statistics.Cost[i];
+  }
+  if (!std::isfinite(total))
+  {
+    throw std::overflow_error("The cost of CostExponent " + std::to_string(norm.Exponent) +
+      " passes the largest double; it must be so low that distances to its power are finite");
+  }
+  const double measure = cells.Grid().CellMeasure();
+  if (!std::isfinite(pixels * measure))
+  {
+    throw std::overflow_error(
+      "The domain's length, area or volume passes the largest double; scale the sites");
+  }
+  for (std::int64_t k = 0; k < shared.NumberOfPixels(); ++k)
+  {
+    double all = 0.0;
+    for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)
+    {
+      all += sums[static_cast<std::size_t>(shared.Site(k, i))].Pixels;
+    }
+    const double share = all / static_cast<double>(shared.SitesIn(k)) * measure;
+    for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)
+    {
+      statistics.Mass[shared.Site(k, i)] = share;
+    }
+  }
+  return total;
+}
+
+template double measureSiteCells<1>(const SiteCells<1>&, const std::int64_t*, const CostNorm&,
+  const SiteCellStatistics&, const Context&);
+template double measureSiteCells<2>(const SiteCells<2>&, const std::int64_t*, const CostNorm&,
+  const SiteCellStatistics&, const Context&);
+template double measureSiteCells<3>(const SiteCells<3>&, const std::int64_t*, const CostNorm&,
+  const SiteCellStatistics&, const Context&);
+
+} // namespace RectifiedTransport
