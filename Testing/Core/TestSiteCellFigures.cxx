@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of equal mass from sites and a grid alone: their labels, what is measured of them.
+// Cells of equal mass from sites and a grid alone: their labels, what is measured of them, their
+// outlines.
+#include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCellStatistics.h"
 #include "Core/SiteCells/SiteCells.h"
 #include "TestFlow.h"
 #include "TestGrid.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -112,6 +117,86 @@ TEST(SiteCellFigures, WhatIsWrong)
   const SiteCells<1> cells(Points<3>{ { 5e199, 0.0, 0.0 }, { 1e200, 0.0, 0.0 } }, grid);
   EXPECT_THROW(measure<1>(cells, { 0, 1 }), std::overflow_error);
   EXPECT_NEAR(measure<1>(cells, { 0, 1 }, { 2.0, 1.0 }).Total, 2.5e199, 1e186);
+}
+
+// Each way around a cell, or each side of a quad, is met once in each direction.
+template <int Dimension>
+void expectClosed(const GridSize<Dimension>& size, const ImageGrid& grid, const Labels& labels)
+{
+  const auto outlines = outlineSiteCells<Dimension>(grid, labels.data());
+  constexpr int corners = SiteCellOutlines<Dimension>::Corners;
+  ASSERT_EQ(outlines.CornerIds.size(), corners * outlines.SiteIds.size());
+  std::map<std::pair<std::int64_t, std::int64_t>, int> ends; // of a cell's lines, or quads' sides
+  std::map<std::int64_t, double> measures;
+  for (std::size_t face = 0; face < outlines.SiteIds.size(); ++face)
+  {
+    const std::int64_t site = outlines.SiteIds[face];
+    const auto corner = [&](std::size_t i) {
+      return outlines.CornerIds[face * corners + i % corners];
+    };
+    const auto at = [&](std::size_t i) {
+      const Point<3>& x = outlines.Points[static_cast<std::size_t>(corner(i))];
+      return Eigen::Vector3d(x[0], x[1], x[2]);
+    };
+    if (Dimension == 2)
+    {
+      ++ends[{ site, corner(0) }];
+      --ends[{ site, corner(1) }];
+      measures[site] += 0.5 * (at(0)[0] * at(1)[1] - at(0)[1] * at(1)[0]);
+    }
+    else
+    {
+      const auto points = static_cast<std::int64_t>(outlines.Points.size());
+      for (std::size_t i = 0; i < corners; ++i)
+      {
+        ++ends[{ site, corner(i) * points + corner(i + 1) }];
+        --ends[{ site, corner(i + 1) * points + corner(i) }];
+      }
+      measures[site] += at(0).dot((at(1) - at(0)).cross(at(3) - at(0))) / 3.0;
+    }
+  }
+  for (const auto& end : ends)
+  {
+    EXPECT_EQ(end.second, 0);
+  }
+  std::map<std::int64_t, double> expected;
+  for (const std::int64_t label : labels)
+  {
+    expected[label] += grid.CellMeasure();
+  }
+  EXPECT_EQ(measures.size(), expected.size());
+  for (const auto& [site, measure] : expected)
+  {
+    EXPECT_NEAR(measures[site], measure, 1e-9) << site << " of " << cellCount<Dimension>(size);
+  }
+}
+
+// The divergence theorem: what the borders enclose is what the pixels cover.
+TEST(SiteCellOutlines, CloseAroundTheCells)
+{
+  std::mt19937_64 engine(5);
+  const auto noise = [&engine](std::size_t count) {
+    Labels labels(count);
+    for (std::int64_t& label : labels)
+    {
+      label = static_cast<std::int64_t>(5 * uniformNumber(engine));
+    }
+    return labels;
+  };
+  expectClosed<2>({ 7, 5 }, makeGrid<2>({ 7, 5 }, { 0.5, 2.0, 1.0 }, { 1, 2, 3 }), noise(35));
+  expectClosed<3>({ 4, 5, 3 }, makeGrid<3>({ 4, 5, 3 }, { 0.5, 2.0, 1.5 }), noise(60));
+  // Of a mirrored image, too.
+  expectClosed<3>({ 4, 5, 3 }, makeGrid<3>({ 4, 5, 3 }, { 0.5, -2.0, 1.5 }), noise(60));
+}
+
+TEST(SiteCellOutlines, OnALine)
+{
+  const auto outlines = outlineSiteCells<1>(
+    makeGrid<1>({ 4 }, { 0.5, 1.0, 1.0 }, { 1.0, 2.0, 3.0 }), Labels{ 1, 1, 0, 0 }.data());
+  EXPECT_EQ(
+    outlines.Points, (Points<3>{ { 1.0, 2.0, 3.0 }, { 2.0, 2.0, 3.0 }, { 3.0, 2.0, 3.0 } }));
+  EXPECT_EQ(outlines.CornerIds, (Labels{ 0, 1, 1, 2 }));
+  EXPECT_EQ(outlines.SiteIds, (Labels{ 1, 1, 0, 0 }));
 }
 
 } // namespace

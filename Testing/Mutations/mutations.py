@@ -126,7 +126,7 @@ OTHERS = [
       "std::max(finest, std::abs(side.Spacing))"),
     E(BRIDGE + "Flow/MapField.cxx", "const double weight = «flow ? flow->Share(low, high) : 1.0»", "1.0"),
     S(BRIDGE + "Solid/ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
-    E(BRIDGE + "SiteCells/SiteCellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Append(",
+    E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Append(",
       "below != nobody && above != nobody"),
     # the filters
     S("Filters/vtkTransportBarycenter.cxx",

@@ -8,19 +8,24 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/SiteCells/SiteCellOutlines.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCells.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -98,6 +103,55 @@ double addStatistics(const SiteCells<D>& cells, const std::int64_t* labels, cons
   return cost;
 }
 
+// The vector is empty afterwards.
+template <class ArrayT>
+vtkSmartPointer<ArrayT> moveToArray(const char* name, std::vector<std::int64_t>& values)
+{
+  using Value = typename ArrayT::ValueType;
+  auto array = newArray<ArrayT>(name, 1, static_cast<vtkIdType>(values.size()));
+  std::transform(values.begin(), values.end(), array->GetPointer(0),
+    [](std::int64_t value) { return static_cast<Value>(value); });
+  values = std::vector<std::int64_t>();
+  return array;
+}
+
+template <int D>
+void writeOutlines(SiteCellOutlines<D> outlines, vtkPolyData* output)
+{
+  const auto count = static_cast<vtkIdType>(outlines.Points.size());
+  auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    std::copy_n(
+      outlines.Points[static_cast<std::size_t>(i)].data(), 3, coordinates->GetPointer(3 * i));
+  }
+  outlines.Points = {};
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  output->SetPoints(points);
+  const auto faces = static_cast<vtkIdType>(outlines.SiteIds.size());
+  const auto offsets = newArray<vtkIdTypeArray>("Offsets", 1, faces + 1);
+  for (vtkIdType i = 0; i <= faces; ++i)
+  {
+    offsets->SetValue(i, i * SiteCellOutlines<D>::Corners);
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, moveToArray<vtkIdTypeArray>("Connectivity", outlines.CornerIds));
+  if constexpr (D == 1)
+  {
+    output->SetVerts(cells);
+  }
+  else if constexpr (D == 2)
+  {
+    output->SetLines(cells);
+  }
+  else
+  {
+    output->SetPolys(cells);
+  }
+  output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", outlines.SiteIds));
+}
+
 template <int D>
 std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
   SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
@@ -116,7 +170,8 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
   addFieldValue(outputs.Labels, "TransportCost", cost);
   addFieldValue(outputs.Sites, "TransportCost", cost);
   progress.BeginStage(1.0);
-  outlineSiteCells<D>(grid, labels->GetPointer(0), progress, outputs.Outlines);
+  writeOutlines<D>(
+    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
   return placed.NumberOutside();
 }
 
