@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/InstructionSet.h"
 #include "FreshMemory.h"
 
 #include <benchmark/benchmark.h>
@@ -7,7 +7,8 @@
 int main(int argc, char** argv)
 {
   RectifiedTransport::useFreshMemory();
-  benchmark::AddCustomContext("instruction_set", RectifiedTransport::flowKernels().InstructionSet);
+  benchmark::AddCustomContext(
+    "instruction_set", RectifiedTransport::nameOf(RectifiedTransport::instructionSet()));
 #ifdef __VERSION__
   benchmark::AddCustomContext("compiler", __VERSION__);
 #endif

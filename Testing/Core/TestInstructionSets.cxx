@@ -3,12 +3,15 @@
 #include "TestFlow.h"
 
 #include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/InstructionSet.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Tables/Kernels/TableKernels.h"
 #include "Core/Tables/SummedAreaTables.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 namespace RectifiedTransport
@@ -17,21 +20,18 @@ namespace
 {
 
 // Those that this machine runs, the plainest first.
-std::vector<const FlowKernels*> runnableKernels()
+std::vector<InstructionSet> runnableSets()
 {
-  std::vector<const FlowKernels*> kernels = { &flowKernelsSSE2() };
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2"))
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set :
+    { InstructionSet::SSE2, InstructionSet::AVX2, InstructionSet::AVX512 })
   {
-    kernels.push_back(&flowKernelsAVX2());
+    if (set <= widestInstructionSet())
+    {
+      sets.push_back(set);
+    }
   }
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512vl"))
-  {
-    kernels.push_back(&flowKernelsAVX512());
-  }
-#endif
-  return kernels;
+  return sets;
 }
 
 template <int Dimension>
@@ -92,11 +92,11 @@ void expectSameBits(const TestDensity<Dimension>& density)
         job.CoarseRatio = 32.0;
         job.TimeCount = 1;
         const BlockRun<Dimension> plain = advect(flowKernelsSSE2(), job, seeds);
-        for (const FlowKernels* kernels : runnableKernels())
+        for (const InstructionSet set : runnableSets())
         {
-          const std::string what = std::string(kernels->InstructionSet) + ", " + nameOf(method) +
+          const std::string what = std::string(nameOf(set)) + ", " + nameOf(method) +
             (back ? ", backward" : ", forward") + (nearest ? ", nearest" : "");
-          const BlockRun<Dimension> run = advect(*kernels, job, seeds);
+          const BlockRun<Dimension> run = advect(flowKernels(set), job, seeds);
           EXPECT_TRUE(sameBits<Dimension>(run.Positions, plain.Positions)) << what;
           EXPECT_EQ(run.Troubled, plain.Troubled) << what;
           EXPECT_EQ(run.Evaluations, plain.Evaluations) << what;
@@ -112,6 +112,43 @@ TEST(InstructionSets, SameBits)
   expectSameBits(discWithHole<2>({ 130, 97 }));
   expectSameBits(randomCells<2>({ 300, 140 }));
   expectSameBits(discWithHole<3>({ 40, 70, 37 }));
+}
+
+// A row of cells of any length, with one that is wrong.
+TEST(InstructionSets, SameBitsOfARow)
+{
+  for (const std::int64_t count : { 1, 7, 8, 61 })
+  {
+    TestDensity<1> density = randomCells<1>({ count });
+    density.Values[static_cast<std::size_t>(count / 2)] = -1.0;
+    const RowInspection plain =
+      tableKernels(InstructionSet::SSE2).Inspect(density.Values.data(), count);
+    EXPECT_EQ(plain.Wrong, 1);
+    EXPECT_EQ(plain.Smallest, -1.0);
+    for (const InstructionSet set : runnableSets())
+    {
+      const RowInspection row = tableKernels(set).Inspect(density.Values.data(), count);
+      EXPECT_EQ(row.Sum, plain.Sum) << nameOf(set) << ", " << count;
+      EXPECT_EQ(row.Moment, plain.Moment) << nameOf(set) << ", " << count;
+      EXPECT_EQ(row.Largest, plain.Largest) << nameOf(set) << ", " << count;
+      EXPECT_EQ(row.Smallest, plain.Smallest) << nameOf(set) << ", " << count;
+      EXPECT_EQ(row.Wrong, plain.Wrong) << nameOf(set) << ", " << count;
+    }
+  }
+}
+
+// What the environment asks for, where the processor has it.
+TEST(InstructionSets, Chosen)
+{
+  const char* wanted = std::getenv("RECTIFIEDTRANSPORT_ISA");
+  InstructionSet expected = widestInstructionSet();
+  for (const InstructionSet set : runnableSets())
+  {
+    expected = wanted && std::string(wanted) == nameOf(set) ? set : expected;
+  }
+  EXPECT_EQ(instructionSet(), expected);
+  EXPECT_EQ(&flowKernels(), &flowKernels(expected));
+  EXPECT_EQ(&tableKernels(), &tableKernels(expected));
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 // are divided among tasks and the particles into slices.
 #include "Core/Splat/Splat.h"
 
-#include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Splat/Kernels/SplatKernels.h"
 #include "Core/Splat/SlabPartition.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <vector>
 
 namespace RectifiedTransport
@@ -249,18 +247,6 @@ private:
 } // namespace
 
 template <int Dimension, class Real>
-SplatKernels<Dimension, Real> splatKernels(SplatKernel kernel)
-{
-#ifdef RECTIFIEDTRANSPORT_X86
-  if (std::strcmp(flowKernels().InstructionSet, flowKernelsSSE2().InstructionSet) != 0)
-  {
-    return splatKernelsAVX2<Dimension, Real>(kernel);
-  }
-#endif
-  return splatKernelsSSE2<Dimension, Real>(kernel);
-}
-
-template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
   const Context& context)
@@ -281,11 +267,5 @@ template SplatReport splatMass<2, double>(const SplatParticles<2, double>&, cons
   const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
   const SplatOptions&, double, double*, const Context&);
-template SplatKernels<1, float> splatKernels<1, float>(SplatKernel);
-template SplatKernels<2, float> splatKernels<2, float>(SplatKernel);
-template SplatKernels<3, float> splatKernels<3, float>(SplatKernel);
-template SplatKernels<1, double> splatKernels<1, double>(SplatKernel);
-template SplatKernels<2, double> splatKernels<2, double>(SplatKernel);
-template SplatKernels<3, double> splatKernels<3, double>(SplatKernel);
 
 } // namespace RectifiedTransport

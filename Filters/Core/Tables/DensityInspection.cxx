@@ -46,7 +46,7 @@ void markOccupied(const double* values, std::int64_t count, std::uint64_t* words
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found)
 {
-  const RowInspection row = flowKernels().Inspect(values, count);
+  const RowInspection row = tableKernels().Inspect(values, count);
   found.Maximum = std::max(found.Maximum, row.Largest);
   if (row.Wrong > 0)
   {

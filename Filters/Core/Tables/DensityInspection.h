@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_DensityInspection_h
 #define RectifiedTransport_DensityInspection_h
 
-#include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Tables/Density.h"
+#include "Core/Tables/Kernels/TableKernels.h"
 
 #include <cstdint>
 

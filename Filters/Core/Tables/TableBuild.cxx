@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Tables/TableBuild.h"
 
-#include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
+#include "Core/Tables/Kernels/TableKernels.h"
 
 #include <algorithm>
 #include <vector>
@@ -159,7 +159,7 @@ private:
   }
 
   const TableBuild<2>& Build;
-  const AddTableRow2D AddRow = flowKernels().AddRow2D;
+  const AddTableRow2D AddRow = tableKernels().AddRow2D;
   const std::int64_t Columns;
   const std::int64_t Rows;
   const std::int64_t Strips;
@@ -335,8 +335,8 @@ private:
   }
 
   const TableBuild<3>& Build;
-  const AddToColumns AddColumns = flowKernels().AddColumns;
-  const AddTableRow3D AddRow = flowKernels().AddRow3D;
+  const AddToColumns AddColumns = tableKernels().AddColumns;
+  const AddTableRow3D AddRow = tableKernels().AddRow3D;
   const std::int64_t Columns;
   const std::int64_t Rows;
   const std::int64_t Slices;

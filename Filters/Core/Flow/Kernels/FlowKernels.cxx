@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/Kernels/FlowKernels.h"
 
-#include <cstdlib>
-#include <cstring>
-
 namespace RectifiedTransport
 {
 
@@ -28,26 +25,6 @@ double grading(std::int64_t step, std::int64_t steps)
   }
   const double sine = angle * sum;
   return sine * sine;
-}
-
-const FlowKernels& chooseKernels()
-{
-#ifdef RECTIFIEDTRANSPORT_X86
-  const char* wanted = std::getenv("RECTIFIEDTRANSPORT_ISA");
-  const bool atMostAVX2 = wanted && std::strcmp(wanted, "AVX2") == 0;
-  const bool atMostSSE2 = wanted && std::strcmp(wanted, "SSE2") == 0;
-  __builtin_cpu_init();
-  if (!atMostSSE2 && __builtin_cpu_supports("avx2"))
-  {
-    if (!atMostAVX2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl"))
-    {
-      return flowKernelsAVX512();
-    }
-    return flowKernelsAVX2();
-  }
-#endif
-  return flowKernelsSSE2();
 }
 
 } // namespace
@@ -86,10 +63,19 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
   return weights;
 }
 
-const FlowKernels& flowKernels()
+const FlowKernels& flowKernels([[maybe_unused]] InstructionSet set)
 {
-  static const FlowKernels& kernels = chooseKernels();
-  return kernels;
+#ifdef RECTIFIEDTRANSPORT_X86
+  if (set == InstructionSet::AVX512)
+  {
+    return flowKernelsAVX512();
+  }
+  if (set == InstructionSet::AVX2)
+  {
+    return flowKernelsAVX2();
+  }
+#endif
+  return flowKernelsSSE2();
 }
 
 } // namespace RectifiedTransport

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range kernels that exist once per instruction set, and the choice among them.
+// The range kernels of an advection, which exist once per instruction set, and the choice among
+// them.
 #ifndef RectifiedTransport_FlowKernels_h
 #define RectifiedTransport_FlowKernels_h
 
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Parallel/InstructionSet.h"
 #include "Core/Tables/TableView.h"
 
 #include <cstdint>
@@ -54,58 +56,11 @@ template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* troubled);
 
-// What one pass finds in a row of cells. Sums are taken in eight lanes, in the same order for every
-// instruction set.
-struct RowInspection
-{
-  double Sum;
-  double Moment; // about the low face of the first cell
-  double Largest;
-  double Smallest;
-  std::int64_t Wrong; // values that are negative or not finite
-};
-using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
-
-// Adds a row of cells to {f, f * centre} of every column.
-using AddToColumns = void (*)(
-  const double* values, std::int64_t count, double centre, double* columns, double* moments);
-
-// Adds one row of cells, or a strip of it, to the row of nodes below and writes the sums out.
-// `Values` are the cells from the strip's start, `Prefix` the sums {f, f * centre along axis 0} of
-// the row's cells before it. See TableBuild.cxx for the rest.
-struct TableRow2D
-{
-  const double* Values;
-  std::int64_t First; // first cell of the strip
-  std::int64_t Count; // cells in the strip
-  double Prefix[2];
-  double Centre;       // along axis 1
-  const double* Below; // the records of the strip's nodes First+1.. below this row of cells
-  double* Nodes;       // where those above it go, not read
-};
-using AddTableRow2D = void (*)(const TableRow2D& row);
-
-struct TableRow3D
-{
-  const double* Values;
-  std::int64_t Count;  // cells in the row
-  double Centre[2];    // along axes 1 and 2
-  double* Columns;     // {f, f * centre 1} of each column of the slice so far, updated
-  const double* Below; // the records of this row's nodes 1.. below this slice
-  double* Nodes;       // where those above it go, not read
-};
-using AddTableRow3D = void (*)(const TableRow3D& row);
-
 struct FlowKernels
 {
   AdvectBlock<1> Advect1D;
   AdvectBlock<2> Advect2D;
   AdvectBlock<3> Advect3D;
-  InspectRow Inspect;
-  AddToColumns AddColumns;
-  AddTableRow2D AddRow2D;
-  AddTableRow3D AddRow3D;
-  const char* InstructionSet;
 
   template <int Dimension>
   AdvectBlock<Dimension> Advect() const
@@ -129,9 +84,8 @@ const FlowKernels& flowKernelsSSE2();
 const FlowKernels& flowKernelsAVX2();
 const FlowKernels& flowKernelsAVX512();
 
-// The widest that this processor runs; the environment variable RECTIFIEDTRANSPORT_ISA (SSE2, AVX2
-// or AVX512) asks for a narrower one. All compute the same bits.
-const FlowKernels& flowKernels();
+// All compute the same bits.
+const FlowKernels& flowKernels(InstructionSet set = instructionSet());
 
 } // namespace RectifiedTransport
 

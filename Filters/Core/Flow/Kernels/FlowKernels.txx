@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one kernel source, compiled once per instruction set (FlowKernels*.cxx). Everything has
-// internal linkage and nothing of the standard library is called: code that is compiled for a wide
-// instruction set must never be what the linker picks for the rest of the program.
+// The one kernel source of an advection, compiled once per instruction set (FlowKernels*.cxx).
+// Everything has internal linkage and nothing of the standard library is called: code that is
+// compiled for a wide instruction set must never be what the linker picks for the rest of the
+// program.
 #include "Core/Flow/Kernels/FlowKernels.h"
 
 #include <cstring>
@@ -31,8 +32,6 @@ namespace
 
 #include "Core/Flow/Kernels/FlowAdaptive.txx"
 
-#include "Core/Flow/Kernels/TableRows.txx"
-
 template <int Dimension>
 std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* troubled)
@@ -54,8 +53,7 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
 
 const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
-  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
-    &inspectRow, &addToColumns, &addTableRow2D, &addTableRow3D, RECTIFIEDTRANSPORT_KERNELS_NAME };
+  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3> };
   return kernels;
 }
 

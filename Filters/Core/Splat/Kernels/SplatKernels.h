@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_SplatKernels_h
 #define RectifiedTransport_SplatKernels_h
 
+#include "Core/Parallel/InstructionSet.h"
 #include "Core/Splat/Splat.h"
 
 #include <cstdint>
@@ -75,9 +76,10 @@ SplatKernels<Dimension, Real> splatKernelsSSE2(SplatKernel kernel);
 template <int Dimension, class Real>
 SplatKernels<Dimension, Real> splatKernelsAVX2(SplatKernel kernel);
 
-// The widest that this processor runs and flowKernels() would take. All compute the same bits.
+// All compute the same bits. AVX512 takes those of AVX2.
 template <int Dimension, class Real>
-SplatKernels<Dimension, Real> splatKernels(SplatKernel kernel);
+SplatKernels<Dimension, Real> splatKernels(
+  SplatKernel kernel, InstructionSet set = instructionSet());
 
 } // namespace RectifiedTransport
 

@@ -1,6 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One row of cells added to the summed-area tables (paper, Algorithm 2). Included by
-// FlowKernels.txx.
+// One row of cells added to the summed-area tables (paper, Algorithm 2): the one kernel source,
+// compiled once per instruction set (TableKernels*.cxx), by the same rules as FlowKernels.txx:
+// internal linkage, and nothing of the standard library.
+#include "Core/Tables/Kernels/TableKernels.h"
+
+#include <cstring>
+
+#define RT_INLINE inline __attribute__((always_inline))
+
+namespace RectifiedTransport
+{
+
+namespace
+{
 
 constexpr int sumLanes = 8;
 
@@ -53,8 +65,8 @@ RowInspection inspectRow(const double* values, std::int64_t count)
   RowInspection found = { addLanes(sum), addLanes(moment), largest[0], smallest[0], 0 };
   for (int lane = 0; lane < sumLanes; ++lane)
   {
-    found.Largest = larger(found.Largest, largest[lane]);
-    found.Smallest = smaller(found.Smallest, smallest[lane]);
+    found.Largest = found.Largest > largest[lane] ? found.Largest : largest[lane];
+    found.Smallest = found.Smallest < smallest[lane] ? found.Smallest : smallest[lane];
     found.Wrong += static_cast<std::int64_t>(wrong[lane]);
   }
   return found;
@@ -119,3 +131,14 @@ void addTableRow3D(const TableRow3D& row)
     storeNode(row.Nodes + 4 * i, loadNode(row.Below + 4 * i) + column * lift);
   }
 }
+
+} // namespace
+
+const TableKernels& RECTIFIEDTRANSPORT_KERNELS()
+{
+  static const TableKernels kernels = { &inspectRow, &addToColumns, &addTableRow2D,
+    &addTableRow3D };
+  return kernels;
+}
+
+} // namespace RectifiedTransport

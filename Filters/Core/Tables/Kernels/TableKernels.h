@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels that build tables, which exist once per instruction set, and the choice among them.
+#ifndef RectifiedTransport_TableKernels_h
+#define RectifiedTransport_TableKernels_h
+
+#include "Core/Parallel/InstructionSet.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// What one pass finds in a row of cells. Sums are taken in eight lanes, in the same order for every
+// instruction set.
+struct RowInspection
+{
+  double Sum;
+  double Moment; // about the low face of the first cell
+  double Largest;
+  double Smallest;
+  std::int64_t Wrong; // values that are negative or not finite
+};
+using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
+
+// Adds a row of cells to {f, f * centre} of every column.
+using AddToColumns = void (*)(
+  const double* values, std::int64_t count, double centre, double* columns, double* moments);
+
+// Adds one row of cells, or a strip of it, to the row of nodes below and writes the sums out.
+// `Values` are the cells from the strip's start, `Prefix` the sums {f, f * centre along axis 0} of
+// the row's cells before it. See TableBuild.cxx for the rest.
+struct TableRow2D
+{
+  const double* Values;
+  std::int64_t First; // first cell of the strip
+  std::int64_t Count; // cells in the strip
+  double Prefix[2];
+  double Centre;       // along axis 1
+  const double* Below; // the records of the strip's nodes First+1.. below this row of cells
+  double* Nodes;       // where those above it go, not read
+};
+using AddTableRow2D = void (*)(const TableRow2D& row);
+
+struct TableRow3D
+{
+  const double* Values;
+  std::int64_t Count;  // cells in the row
+  double Centre[2];    // along axes 1 and 2
+  double* Columns;     // {f, f * centre 1} of each column of the slice so far, updated
+  const double* Below; // the records of this row's nodes 1.. below this slice
+  double* Nodes;       // where those above it go, not read
+};
+using AddTableRow3D = void (*)(const TableRow3D& row);
+
+struct TableKernels
+{
+  InspectRow Inspect;
+  AddToColumns AddColumns;
+  AddTableRow2D AddRow2D;
+  AddTableRow3D AddRow3D;
+};
+
+const TableKernels& tableKernelsSSE2();
+const TableKernels& tableKernelsAVX2();
+const TableKernels& tableKernelsAVX512();
+
+// All compute the same bits.
+const TableKernels& tableKernels(InstructionSet set = instructionSet());
+
+} // namespace RectifiedTransport
+
+#endif
