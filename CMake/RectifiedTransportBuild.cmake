@@ -2,8 +2,6 @@
 # The module library, its Python package and the ParaView plugin, with VTK's and ParaView's own
 # functions.
 
-set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/RectifiedTransport")
-set(cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/RectifiedTransport")
 set(BUILD_TESTING "${RectifiedTransport_BUILD_TESTING}")
 set(tests OFF)
 if (RectifiedTransport_BUILD_TESTING)

@@ -3,6 +3,30 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_BINARY_DIR}/${cmake_destination}")
+export(
+  EXPORT RectifiedTransportCore
+  NAMESPACE RectifiedTransport::
+  FILE "${package_folder}/RectifiedTransportCore-targets.cmake")
+install(
+  EXPORT RectifiedTransportCore
+  NAMESPACE RectifiedTransport::
+  FILE RectifiedTransportCore-targets.cmake
+  DESTINATION "${cmake_destination}"
+  COMPONENT development)
+
+# Shared libraries keep to themselves what they link privately, static ones name it.
+get_target_property(core_links RectifiedTransportCore INTERFACE_LINK_LIBRARIES)
+set(core_dependencies)
+if (core_links MATCHES "Eigen3::")
+  string(APPEND core_dependencies "find_dependency(Eigen3 3.3 NO_MODULE)\n")
+endif ()
+if (core_links MATCHES "OpenMP::")
+  string(APPEND core_dependencies "find_dependency(OpenMP COMPONENTS CXX)\n")
+endif ()
+set(components Core)
+if (RectifiedTransport_BUILD_VTK)
+  list(APPEND components VTK)
+endif ()
 configure_package_config_file(
   "${PROJECT_SOURCE_DIR}/CMake/RectifiedTransportConfig.cmake.in"
   "${package_folder}/RectifiedTransportConfig.cmake"

@@ -2,6 +2,8 @@
 # Which VTK: ParaView's own where the plugin is built, else the one that VTK_DIR or the system
 # gives.
 
+enable_language(C) # for the MPI targets that ParaView's package names
+
 if (NOT DEFINED RectifiedTransport_BUILD_PARAVIEW_PLUGIN AND NOT VTK_DIR)
   find_package(ParaView QUIET COMPONENTS RemotingCore)
 endif ()

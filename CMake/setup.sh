@@ -4,7 +4,8 @@ set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="$root/build"
 apt_log="$build/apt.log"
-packages_build="cmake ninja-build g++ paraview-dev python3-paraview python3-dev libopenmpi-dev"
+packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
+  libopenmpi-dev"
 packages_render="xvfb xauth"
 packages_test="libgtest-dev libbenchmark-dev python3-scipy"
 packages_gui="libqt5svg5 imagemagick xdotool"
