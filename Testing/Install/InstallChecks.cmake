@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What the tests of installed packages share. WORK is theirs, SOURCE is the project's.
+
+function (run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
+  if (NOT result EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "failed (${result}): ${command}")
+  endif ()
+endfunction ()
+
+# refuse(MESSAGE COMMAND...): the command has to fail, with these words.
+function (refuse message)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  string(REGEX REPLACE "[ \n]+" " " text "${text}") # CMake breaks lines
+  string(FIND "${text}" "${message}" found)
+  if (result EQUAL 0 OR found EQUAL -1)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "not refused with '${message}' (${result}): ${command}\n${text}")
+  endif ()
+endfunction ()
+
+# Configures and builds a project of others against the moved prefix, in a folder of WORK.
+function (build_against_moved project folder)
+  run("${CMAKE_COMMAND}" -S "${SOURCE}/${project}" -B "${WORK}/${folder}" -G Ninja
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=${WORK}/moved" ${ARGN})
+  run("${CMAKE_COMMAND}" --build "${WORK}/${folder}")
+endfunction ()
+
+# Installs a build and moves the prefix away. What is there may name no place of this machine but
+# those in ARGN.
+function (install_and_move build)
+  run("${CMAKE_COMMAND}" --install "${build}" --prefix "${WORK}/first")
+  file(RENAME "${WORK}/first" "${WORK}/moved")
+  file(GLOB_RECURSE texts "${WORK}/moved/*.cmake" "${WORK}/moved/*.h" "${WORK}/moved/*.py")
+  foreach (text IN LISTS texts)
+    file(READ "${text}" content)
+    foreach (place IN LISTS ARGN)
+      string(REPLACE "${place}" "" content "${content}")
+    endforeach ()
+    foreach (place IN ITEMS "${WORK}/first" "${SOURCE}" "${build}")
+      string(FIND "${content}" "${place}" found)
+      if (NOT found EQUAL -1)
+        message(FATAL_ERROR "${text} names ${place}")
+      endif ()
+    endforeach ()
+  endforeach ()
+endfunction ()
+
+# Whether a program or library loads our libraries from the moved prefix.
+function (check_loaded file)
+  execute_process(COMMAND ldd "${file}" OUTPUT_VARIABLE loaded COMMAND_ERROR_IS_FATAL ANY)
+  foreach (library IN LISTS ARGN)
+    if (NOT loaded MATCHES "lib${library}[^\n]* => ${WORK}/moved/")
+      message(FATAL_ERROR "${file} does not load ${library} of the moved prefix:\n${loaded}")
+    endif ()
+  endforeach ()
+  set(loaded "${loaded}" PARENT_SCOPE)
+endfunction ()
+
+# The core of the moved prefix, for those who have no VTK. ARGN are our libraries, if shared.
+function (check_core)
+  set(without_vtk -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON -DCMAKE_DISABLE_FIND_PACKAGE_ParaView=ON)
+  build_against_moved(Examples/Downstream/Core DownstreamCore ${without_vtk})
+  set(program "${WORK}/DownstreamCore/DownstreamCore")
+  run("${program}")
+  check_loaded("${program}" ${ARGN})
+  if (loaded MATCHES "vtk|ParaView")
+    message(FATAL_ERROR "${program} loads VTK:\n${loaded}")
+  endif ()
+  refuse("it has no component Tables, but Core and VTK" "${CMAKE_COMMAND}"
+    -S "${SOURCE}/Testing/Install/Headers" -B "${WORK}/Refused" -G Ninja
+    "-DCMAKE_PREFIX_PATH=${WORK}/moved" "-DCOMPONENTS=Core\;Tables" ${without_vtk})
+endfunction ()
