@@ -6,10 +6,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 usage()
 {
   cat << 'TEXT'
-usage: bash Testing/run.sh [--long] [--gui] [--asan] [--tsan] [--vtk] [--all] [--suite SUITE]...
+usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk] [--all]
+                           [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
+  --core   the core without VTK, its tests and its installation, in build-core/
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
   --tsan   the core's parallel tests under ThreadSanitizer, with Clang's OpenMP, in build-tsan/
   --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
@@ -21,15 +23,16 @@ TEXT
 }
 
 arguments=() suites=()
-long=0 gui=0 asan=0 tsan=0 vtk=0
+long=0 gui=0 core=0 asan=0 tsan=0 vtk=0
 while [ $# -gt 0 ]; do
   case "$1" in
     --long) long=1 ;;
     --gui) gui=1 ;;
+    --core) core=1 ;;
     --asan) asan=1 ;;
     --tsan) tsan=1 ;;
     --vtk) vtk=1 ;;
-    --all) long=1 gui=1 asan=1 tsan=1 vtk=1 ;;
+    --all) long=1 gui=1 core=1 asan=1 tsan=1 vtk=1 ;;
     --suite)
       if ! [[ "${2:-}" =~ ^[a-z]+$ ]]; then
         echo "--suite needs the name of a suite of Debian: trixie or sid" >&2
@@ -91,6 +94,11 @@ run_tests()
 }
 
 # The legs below run as conditions, where bash does not stop at errors by itself: hence each &&.
+run_core()
+{
+  configure_and_build "$root/build-core" --preset core && run_tests "$root/build-core"
+}
+
 run_asan()
 {
   configure_and_build "$root/build-asan" --preset asan &&
@@ -158,6 +166,9 @@ if [ $gui = 0 ]; then
   skipped="$skipped|gui"
 else
   need $packages_gui
+fi
+if [ $core = 1 ]; then
+  run_core || failed="$failed --core"
 fi
 if [ $asan = 1 ]; then
   run_asan || failed="$failed --asan"
