@@ -370,14 +370,22 @@ void vtkGuardedAlgorithm::RequireWhole(vtkInformationVector** inputVector)
     return;
   }
   this->Disagreement.clear();
-  for (std::size_t port = 0; port < inputs.size(); ++port)
+  this->Agreed.resize(inputs.size());
+  const bool isShared =
+    RectifiedTransport::sharesWithRanks(this->AskedPiece, this->AskedNumberOfPieces);
+  for (std::size_t port = 0; isShared && port < inputs.size(); ++port)
   {
     const std::string name = "input port " + std::to_string(port);
+    const std::uint64_t fingerprint = RectifiedTransport::fingerprintOf(inputs[port]);
+    // What all ranks have agreed to some may not compare again: their inputs' times differ.
+    if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->Agreed[port]))
+    {
+      continue;
+    }
     int rank = 0;
-    const RankAgreement agreement = inputs[port].empty()
-      ? RankAgreement::Same
-      : RectifiedTransport::compareRanks(this->AskedPiece, this->AskedNumberOfPieces,
-          this->GetClassName() + name, inputs[port], rank);
+    const RankAgreement agreement =
+      RectifiedTransport::compareRanks(this->GetClassName() + name, fingerprint, rank);
+    this->Agreed[port] = agreement == RankAgreement::Same ? fingerprint : 0;
     if (agreement == RankAgreement::Differs)
     {
       this->Disagreement = "The data on " + name + " are not the same here and on rank " +

@@ -19,6 +19,7 @@
 #include "vtkRectifiedTransportModule.h" // for the export macro
 #include "vtkWeakPointer.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -155,6 +156,7 @@ private:
   int AskedNumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites;
   vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
+  std::vector<std::uint64_t> Agreed;     // the fingerprints of the ports on which ranks agreed
   std::string Disagreement;              // what came of it, if not agreement
   const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
   int UpdatedPort = 0;

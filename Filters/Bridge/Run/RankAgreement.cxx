@@ -26,31 +26,31 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int tag = 52717; // of no other messages in ParaView or VTK
 constexpr std::chrono::seconds longestWait{ 10 };
-constexpr std::chrono::seconds grace{ 1 }; // a message of a run that failed here may come first
+constexpr std::chrono::seconds patience{ 1 }; // a message of a run that failed here may come first
 
-// A filter's class and its fingerprint.
+// What is compared, and its fingerprint.
 using Message = std::array<unsigned long, 2>;
 
-// Messages wait for whom they concern: ranks run the same filters, but not at the same moment, and
-// not all of them where one has failed. Nobody waits for a message to be taken.
-class Post
+// Sends without blocking, and keeps what was received until it is asked for: ranks run the same
+// filters, but not at the same moment, and not all of them where one has failed.
+class MessageQueue
 {
 public:
-  explicit Post(vtkMPIController* controller)
+  explicit MessageQueue(vtkMPIController* controller)
     : Controller(controller)
   {
   }
 
-  void Send(const Message& message)
+  void SendToAll(const Message& message)
   {
-    this->Sent.remove_if([](Letter& letter) { return letter.Request.Test() != 0; });
+    this->Pending.remove_if([](Send& send) { return send.Request.Test() != 0; });
     for (int rank = 0; rank < this->Controller->GetNumberOfProcesses(); ++rank)
     {
       if (rank != this->Controller->GetLocalProcessId())
       {
-        this->Sent.push_back({ message, {} });
-        Letter& letter = this->Sent.back();
-        this->Controller->NoBlockSend(letter.Content.data(), 2, rank, tag, letter.Request);
+        this->Pending.push_back({ message, {} });
+        Send& send = this->Pending.back();
+        this->Controller->NoBlockSend(send.Content.data(), 2, rank, tag, send.Request);
       }
     }
   }
@@ -59,63 +59,68 @@ public:
   template <class Condition>
   bool Take(int rank, const Condition& condition)
   {
-    std::deque<Message>& box = this->Boxes[rank];
+    std::deque<Message>& received = this->Received[rank];
     for (int has = 0, source = 0; this->Controller->Iprobe(rank, tag, &has, &source) && has;)
     {
       Message message{};
       this->Controller->Receive(message.data(), 2, rank, tag);
-      box.push_back(message);
+      received.push_back(message);
     }
-    const auto found = std::find_if(box.begin(), box.end(), condition);
-    if (found == box.end())
+    const auto found = std::find_if(received.begin(), received.end(), condition);
+    if (found == received.end())
     {
       return false;
     }
-    box.erase(found);
+    received.erase(found);
     return true;
   }
 
 private:
-  struct Letter
+  struct Send
   {
     Message Content;
     vtkMPICommunicator::Request Request;
   };
 
   vtkMPIController* Controller;
-  std::list<Letter> Sent;
-  std::map<int, std::deque<Message>> Boxes;
+  std::list<Send> Pending;
+  std::map<int, std::deque<Message>> Received;
 };
 
 } // namespace
 
-RankAgreement compareRanks(int piece, int pieces, const std::string& filter,
-  const std::vector<vtkDataObject*>& data, int& rank)
+bool sharesWithRanks(int piece, int pieces)
 {
   auto* controller =
     vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
-  const int ranks = controller ? controller->GetNumberOfProcesses() : 1;
-  const int own = controller ? controller->GetLocalProcessId() : 0;
-  if (ranks < 2 || pieces != ranks || piece != own)
-  {
-    return RankAgreement::Same;
-  }
-  static Post post(controller);
-  const unsigned long kind = std::hash<std::string>()(filter);
-  const unsigned long fingerprint = fingerprintOf(data);
-  post.Send({ kind, fingerprint });
+  return controller && pieces > 1 && pieces == controller->GetNumberOfProcesses() &&
+    piece == controller->GetLocalProcessId();
+}
+
+RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint, int& rank)
+{
+  auto* controller =
+    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  const int ranks = controller->GetNumberOfProcesses();
+  const int own = controller->GetLocalProcessId();
+  static MessageQueue queue(controller);
+  const unsigned long kind = std::hash<std::string>()(subject);
+  queue.SendToAll({ kind, fingerprint });
+  RankAgreement agreement = RankAgreement::Same;
   const auto start = Clock::now();
   for (rank = 0; rank < ranks; ++rank)
   {
     const auto isSame = [&](const Message& message) {
       const unsigned long higher = rank > own ? message[1] : fingerprint;
-      return message[0] == kind && (message[1] == fingerprint || higher == 0);
+      const bool isFirstOnly = message[0] == kind && higher == 0;
+      agreement = isFirstOnly ? RankAgreement::FirstOnly : agreement;
+      return isFirstOnly || (message[0] == kind && message[1] == fingerprint);
     };
-    while (rank != own && !post.Take(rank, isSame))
+    while (rank != own && !queue.Take(rank, isSame))
     {
       const auto waited = Clock::now() - start;
-      if (waited > grace &&
-        post.Take(rank, [kind](const Message& message) { return message[0] == kind; }))
+      if (waited > patience &&
+        queue.Take(rank, [kind](const Message& message) { return message[0] == kind; }))
       {
         return RankAgreement::Differs;
       }
@@ -126,12 +131,17 @@ RankAgreement compareRanks(int piece, int pieces, const std::string& filter,
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  return RankAgreement::Same;
+  return agreement;
 }
 
 #else
 
-RankAgreement compareRanks(int, int, const std::string&, const std::vector<vtkDataObject*>&, int&)
+bool sharesWithRanks(int, int)
+{
+  return false;
+}
+
+RankAgreement compareRanks(const std::string&, std::uint64_t, int&)
 {
   return RankAgreement::Same;
 }

@@ -29,17 +29,20 @@ std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data);
 // How the ranks of a host that asks each of its processes for its piece compare their inputs.
 enum class RankAgreement
 {
-  Same,     // or there are no other ranks
-  Differs,  // each has something of its own
-  NoAnswer, // in ten seconds: not all ranks run the filter
+  Same,
+  FirstOnly, // others have nothing
+  Differs,   // each has something of its own
+  NoAnswer,  // in ten seconds: not all ranks run the filter
 };
 
-// Compares a rank's data with those of the others by their fingerprints: all must be the same,
-// except that others than the first rank may have nothing. A consumer asks for `piece` of `pieces`;
-// where that is not this rank's share of as many as there are ranks, there is nothing to compare.
-// `rank` is then another one. Never waits without end.
-RankAgreement compareRanks(int piece, int pieces, const std::string& filter,
-  const std::vector<vtkDataObject*>& data, int& rank);
+// Whether a consumer that asks for `piece` of `pieces` asks for this rank's share of as many as
+// there are ranks, and there are others.
+bool sharesWithRanks(int piece, int pieces);
+
+// Compares the fingerprint of a rank's data with those of the others: all must be the same, except
+// that others than the first rank may have nothing. `subject` names the filter and the input.
+// `rank` is then another one. Never waits without end. For sharesWithRanks only.
+RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint, int& rank);
 
 } // namespace RectifiedTransport
 
