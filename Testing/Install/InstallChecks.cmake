@@ -68,6 +68,13 @@ function (check_core)
   if (loaded MATCHES "vtk|ParaView")
     message(FATAL_ERROR "${program} loads VTK:\n${loaded}")
   endif ()
+  file(STRINGS "${SOURCE}/Documentation/Core.md" lines REGEX "Core/[A-Za-z]+/[A-Za-z]+[.]h")
+  string(REGEX MATCHALL "Core/[A-Za-z]+/[A-Za-z]+[.]h" documented "${lines}")
+  foreach (header IN LISTS documented)
+    if (NOT EXISTS "${WORK}/moved/include/RectifiedTransport/${header}")
+      message(FATAL_ERROR "Documentation/Core.md names ${header}, which is not installed")
+    endif ()
+  endforeach ()
   refuse("it has no component Tables, but Core and VTK" "${CMAKE_COMMAND}"
     -S "${SOURCE}/Testing/Install/Headers" -B "${WORK}/Refused" -G Ninja
     "-DCMAKE_PREFIX_PATH=${WORK}/moved" "-DCOMPONENTS=Core\;Tables" ${without_vtk})
