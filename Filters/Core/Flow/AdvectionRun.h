@@ -17,6 +17,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -122,48 +123,19 @@ public:
   {
   }
 
-  // Advects particles of a source once. Returns how many of them are to be redone: those in front.
+  // Takes particles of a source.
   template <class Source>
-  int RunOnce(Source& source, std::int64_t first, int count)
+  void Fill(Source& source, std::int64_t first, int count)
   {
     // The output may be the array of the seeds, so these are kept until all is done.
     source.Fill(first, count, this->Index, this->Seeds);
-    const int left = this->Pass(count, this->First);
-    if (this->Job.Backward || this->Job.Nearest)
-    {
-      return 0;
-    }
-    this->Count.Redone += left;
-    return left;
+    this->Number = count;
   }
 
-  // The same, and those in trouble again with ever more steps, twice as many each time.
-  template <class Source>
-  void Run(Source& source, std::int64_t first, int count)
+  // Advects those that there are, and keeps those in trouble, to be redone.
+  void Pass(int refinement)
   {
-    int left = this->RunOnce(source, first, count);
-    for (int refinement = this->First + 1; left > 0 && refinement <= refinements; ++refinement)
-    {
-      left = this->Pass(left, refinement);
-    }
-    for (int i = 0; i < left && !this->Pace.ShouldStop(); ++i)
-    {
-      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
-    }
-  }
-
-  // The first `count` particles.
-  Leftovers<Dimension> Take(int count) const
-  {
-    return { { this->Index, this->Index + count },
-      { this->Seeds, this->Seeds + count * Dimension } };
-  }
-
-private:
-  // Advects the first `count` particles and moves those in trouble to the front.
-  int Pass(int count, int refinement)
-  {
-    int left = 0;
+    const int count = std::exchange(this->Number, 0);
     for (int first = 0; first < count && !this->Pace.ShouldStop(); first += BlockSize)
     {
       const int lanes = std::min(BlockSize, count - first);
@@ -174,21 +146,47 @@ private:
       {
         if (troubled[i])
         {
-          this->Index[left] = this->Index[first + i];
-          std::copy_n(
-            this->Seeds + (first + i) * Dimension, Dimension, this->Seeds + left * Dimension);
-          ++left;
+          this->Index[this->Number] = this->Index[first + i];
+          std::copy_n(this->Seeds + (first + i) * Dimension, Dimension,
+            this->Seeds + this->Number * Dimension);
+          ++this->Number;
         }
       }
     }
-    return left;
+    if (refinement == this->First)
+    {
+      this->Number = this->Job.Backward || this->Job.Nearest ? 0 : this->Number;
+      this->Count.Redone += this->Number;
+    }
   }
 
+  // All passes, each with twice as many steps, and what is left onto the nearest mass.
+  void Run()
+  {
+    for (int pass = this->First; this->Number > 0 && pass <= refinements; ++pass)
+    {
+      this->Pass(pass);
+    }
+    for (int i = 0; i < this->Number && !this->Pace.ShouldStop(); ++i)
+    {
+      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
+    }
+  }
+
+  // Those that are to be redone.
+  Leftovers<Dimension> Left() const
+  {
+    return { { this->Index, this->Index + this->Number },
+      { this->Seeds, this->Seeds + this->Number * Dimension } };
+  }
+
+private:
   const FlowJob<Dimension>& Job;
   const int First;
   Counters& Count;
   Progress& Pace;
   const AdvectBlock<Dimension> Advect;
+  int Number = 0;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
 };
@@ -391,8 +389,9 @@ public:
       leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
-        leftovers[before + static_cast<std::size_t>(first / this->Grain)] =
-          range.Take(range.RunOnce(source, begin + first, static_cast<int>(last - first)));
+        range.Fill(source, begin + first, static_cast<int>(last - first));
+        range.Pass(this->First);
+        leftovers[before + static_cast<std::size_t>(first / this->Grain)] = range.Left();
       });
       for (std::size_t range = before; range < leftovers.size(); ++range)
       {
@@ -419,7 +418,8 @@ public:
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
         RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
-        range.Run(ends, first, length);
+        range.Fill(ends, first, length);
+        range.Run();
         if (!this->Pace.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);

@@ -5,6 +5,8 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoiseTile.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -17,7 +19,7 @@ namespace
 {
 
 template <int Dimension>
-using Matrix = std::array<Point<Dimension>, Dimension>;
+using Matrix = Eigen::Matrix<double, Dimension, Dimension>;
 
 // Row a is the direction of the window's axis a in the tile's axes.
 template <int Dimension>
@@ -29,7 +31,7 @@ Matrix<2> windowAxes<2>()
   // The slope is the golden ratio: of all lines, it comes back to itself on the torus latest.
   constexpr double cosine = 0.85065080835203993;
   constexpr double sine = 0.52573111211913361;
-  return { { { cosine, sine }, { -sine, cosine } } };
+  return (Matrix<2>() << cosine, sine, -sine, cosine).finished();
 }
 
 template <>
@@ -42,11 +44,11 @@ Matrix<3> windowAxes<3>()
   constexpr double c = 128.0;
   constexpr double d = 540.0;
   constexpr double n = a * a + b * b + c * c + d * d;
-  return { {
-    { (a * a + b * b - c * c - d * d) / n, 2.0 * (b * c - a * d) / n, 2.0 * (b * d + a * c) / n },
-    { 2.0 * (b * c + a * d) / n, (a * a - b * b + c * c - d * d) / n, 2.0 * (c * d - a * b) / n },
-    { 2.0 * (b * d - a * c) / n, 2.0 * (c * d + a * b) / n, (a * a - b * b - c * c + d * d) / n },
-  } };
+  return (Matrix<3>() << (a * a + b * b - c * c - d * d) / n, 2.0 * (b * c - a * d) / n,
+    2.0 * (b * d + a * c) / n, 2.0 * (b * c + a * d) / n, (a * a - b * b + c * c - d * d) / n,
+    2.0 * (c * d - a * b) / n, 2.0 * (b * d - a * c) / n, 2.0 * (c * d + a * b) / n,
+    (a * a - b * b - c * c + d * d) / n)
+    .finished();
 }
 
 // One of the symmetries of the square or the cube: permutes and flips the columns.
@@ -59,11 +61,8 @@ Matrix<Dimension> applySymmetry(Matrix<Dimension> axes, std::uint64_t choice)
     choice /= Dimension - a;
     const double sign = choice % 2 == 0 ? 1.0 : -1.0;
     choice /= 2;
-    for (Point<Dimension>& row : axes)
-    {
-      std::swap(row[a], row[other]);
-      row[a] *= sign;
-    }
+    axes.col(a).swap(axes.col(other));
+    axes.col(a) *= sign;
   }
   return axes;
 }
@@ -101,9 +100,9 @@ public:
       this->Above[a] = 0.0;
       for (int b = 0; b < Dimension; ++b)
       {
-        this->ToWindow[a][b] = this->Axes[a][b] / this->Sides[a];
-        this->Below[a] += std::min(this->ToWindow[a][b], 0.0);
-        this->Above[a] += std::max(this->ToWindow[a][b], 0.0);
+        this->ToWindow(a, b) = this->Axes(a, b) / this->Sides[a];
+        this->Below[a] += std::min(this->ToWindow(a, b), 0.0);
+        this->Above[a] += std::max(this->ToWindow(a, b), 0.0);
       }
     }
     this->PrepareTile();
@@ -167,7 +166,7 @@ private:
     double sum = 0.0;
     for (int b = 0; b < Dimension; ++b)
     {
-      sum += this->ToWindow[a][b] * vector[b];
+      sum += this->ToWindow(a, b) * vector[b];
     }
     return sum;
   }
@@ -182,7 +181,7 @@ private:
       double highest = this->Corner[b];
       for (int a = 0; a < Dimension; ++a)
       {
-        const double step = this->Axes[a][b] * this->Sides[a] * outer;
+        const double step = this->Axes(a, b) * this->Sides[a] * outer;
         lowest += std::min(step, 0.0);
         highest += std::max(step, 0.0);
       }
