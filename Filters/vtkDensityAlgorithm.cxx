@@ -5,7 +5,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

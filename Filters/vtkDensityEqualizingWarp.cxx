@@ -5,8 +5,8 @@
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"

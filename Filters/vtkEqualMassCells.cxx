@@ -7,8 +7,8 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/PropertyCheck.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
 
 #include "vtkImageData.h"

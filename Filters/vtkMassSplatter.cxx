@@ -6,7 +6,7 @@
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 

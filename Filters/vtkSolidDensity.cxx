@@ -5,7 +5,7 @@
 #include "Bridge/Image/SolidGrid.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Solid/SolidDensity.h"
 
 #include "vtkImageData.h"

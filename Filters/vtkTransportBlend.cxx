@@ -8,8 +8,8 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/PropertyCheck.h"
 #include "Bridge/Settings/SplatSettings.h"
 
 #include "vtkCompositeDataIterator.h"

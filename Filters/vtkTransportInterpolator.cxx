@@ -3,7 +3,7 @@
 
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"

@@ -5,8 +5,8 @@
 #include "Bridge/Flow/TransportMap.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkImageData.h"

@@ -7,7 +7,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Quality/TransportQuality.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"

@@ -6,8 +6,8 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/PropertyCheck.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -4,7 +4,7 @@
 #include "Bridge/Points/UniformSeedSource.h"
 #include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -2,8 +2,8 @@
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Image/ImageGrids.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Failure.h"

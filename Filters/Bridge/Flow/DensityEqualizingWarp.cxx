@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"

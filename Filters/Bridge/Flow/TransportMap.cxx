@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/TransportMap.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"

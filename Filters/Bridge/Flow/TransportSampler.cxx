@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Flow/TransportSampler.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Points/UnitSeeds.h"

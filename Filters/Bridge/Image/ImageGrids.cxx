@@ -3,7 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"

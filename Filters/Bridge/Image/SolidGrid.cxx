@@ -2,7 +2,7 @@
 #include "Bridge/Image/SolidGrid.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Quality/TransportQuality.h"
 
+#include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Flow/CostModel.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Settings/SplatSettings.h"
 
-#include "Bridge/Settings/PropertyCheck.h"
+#include "Bridge/Run/PropertyCheck.h"
 
 #include <ostream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/PivotLattice.h"
 
+#include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
-#include "Core/Seeds/LowDiscrepancy.h"
 
 namespace RectifiedTransport
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seeds/Seeds.h"
 
+#include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoise.h"
-#include "Core/Seeds/LowDiscrepancy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 """The bits that the filters compute: digests of the outputs of some sixty runs, which take every
 filter, dimension and family of options.
 
-usage: python3 run.py [--record | --against FILE]
+usage: python3 TestDigests.py [--record | --against FILE]
 
 Imports rectifiedtransport, whose folder PYTHONPATH has to name. Without an option the digests are
-compared with digests.json, which --record writes; --against compares with another such file. A
+compared with Testing/Data/digests.json, which --record writes; --against compares with another such file. A
 change that is meant to change bits records them anew and says why; any other change may not.
 """
 import argparse
@@ -298,7 +298,7 @@ def digests():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--record", action="store_true")
-    parser.add_argument("--against", default=os.path.join(HERE, "digests.json"))
+    parser.add_argument("--against", default=os.path.join(HERE, "..", "Data", "digests.json"))
     options = parser.parse_args()
     found = digests()
     if options.record:
