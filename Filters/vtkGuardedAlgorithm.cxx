@@ -145,6 +145,10 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     {
       return this->InformOfTime(request, inputVector, outputVector);
     }
+    if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_TIME()))
+    {
+      return this->RequestUpdateTime(request, inputVector, outputVector);
+    }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
     {
       this->NoteRequest(request, inputVector, outputVector);
@@ -264,6 +268,13 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
   this->Updated = producer;
   this->UpdatedPort = outputPort;
   this->UpdatedTime = pipeline->GetPipelineMTime();
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::RequestUpdateTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
 }
 
 //------------------------------------------------------------------------------

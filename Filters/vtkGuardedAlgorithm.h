@@ -113,6 +113,13 @@ protected:
   virtual bool NeedsWhole(int port);
 
   /**
+   * Choose the time that the inputs are asked for. By default it is the one that a consumer asks
+   * for.
+   */
+  virtual int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  /**
    * Ask for the whole of the ports that NeedsWhole names. Data that are less all the same, as those
    * that lie on several ranks, are an error before RequestData.
    */

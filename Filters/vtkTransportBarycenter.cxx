@@ -77,6 +77,7 @@ struct vtkTransportBarycenter::vtkWeights
 //------------------------------------------------------------------------------
 vtkTransportBarycenter::vtkTransportBarycenter()
   : Weights(new vtkWeights)
+  , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(1);
 }
@@ -146,7 +147,7 @@ int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
 int vtkTransportBarycenter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  (void)this->GetBlendSettings(); // an error in any piece
+  const BlendSettings settings = this->GetBlendSettings();
   AlgorithmProgress progress(this, this->Threading);
 
   // All is in the first piece, whatever pieces a consumer asks for.
@@ -164,7 +165,8 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  this->WriteBlend(inputs, progress, outputVector);
+  this->WarnOfMoved(
+    this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector)));
   return 1;
 }
 

@@ -24,6 +24,11 @@
 
 #include "vtkTransportBlend.h"
 
+namespace RectifiedTransport
+{
+class DensityBlend;
+}
+
 VTK_ABI_NAMESPACE_BEGIN
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkTransportBarycenter : public vtkTransportBlend
@@ -56,6 +61,7 @@ protected:
 private:
   struct vtkWeights;
   std::unique_ptr<vtkWeights> Weights;
+  std::unique_ptr<RectifiedTransport::DensityBlend> Blend;
 
   vtkTransportBarycenter(const vtkTransportBarycenter&) = delete;
   void operator=(const vtkTransportBarycenter&) = delete;

@@ -3,10 +3,8 @@
 
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -77,17 +75,11 @@ std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int num
 }
 } // namespace
 
-struct vtkTransportBlend::vtkInternals
-{
-  DensityBlend Blend;
-};
-
 //------------------------------------------------------------------------------
 vtkTransportBlend::vtkTransportBlend()
   : Dimensions{ 0, 0, 0 }
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
-  , Internals(new vtkInternals)
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -192,7 +184,14 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(
       ? names[number - 1]
       : "Input " + std::to_string(number) + " of " + std::to_string(allGiven.size());
     input.PositionName = names ? input.Name + "Position" : "";
-    nameFailures(input.Name, [&]() { input.Density = this->ReadDensity(given.Data, given.Port); });
+    try
+    {
+      input.Density = this->ReadDensity(given.Data, given.Port);
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(input.Name, failure);
+    }
     if (!input.Density)
     {
       return {};
@@ -202,18 +201,11 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportBlend::WriteBlend(const std::vector<BlendInput>& inputs,
-  RectifiedTransport::Progress& progress, vtkInformationVector* outputVector)
+void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
 {
-  const BlendOutput output{ vtkImageData::GetData(outputVector, 0),
-    vtkPolyData::GetData(outputVector, 1) };
-  const std::int64_t moved = this->Internals->Blend.Run(
-    inputs, this->GetBlendSettings(), this->GetFlowCache(), progress, output);
-  // Which array it is, is not always known before the data.
-  announceGrid(gridOf(output.Density, true), outputVector->GetInformationObject(0));
-  if (moved > 0)
+  if (particles > 0)
   {
-    vtkWarningMacro(<< moved << (moved == 1 ? " particle" : " particles")
+    vtkWarningMacro(<< particles << (particles == 1 ? " particle" : " particles")
                     << " in empty cells moved to the nearest cell with mass (more "
                        "NumberOfSteps may spare them that)");
   }

@@ -39,13 +39,13 @@
 
 #include "vtkTransportAlgorithm.h"
 
+#include <cstdint>
 #include <vector> // for the inputs
 
 namespace RectifiedTransport
 {
 struct BlendInput;
 struct BlendSettings;
-class Progress;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -130,10 +130,9 @@ protected:
     vtkInformationVector** inputVector, const char* const* names);
 
   /**
-   * Write the outputs between the inputs, whose weights are at least 0 and sum to 1.
+   * Warn of particles that ended in empty cells, if there are any.
    */
-  void WriteBlend(const std::vector<RectifiedTransport::BlendInput>& inputs,
-    RectifiedTransport::Progress& progress, vtkInformationVector* outputVector);
+  void WarnOfMoved(std::int64_t particles);
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
@@ -148,9 +147,6 @@ protected:
   RectifiedTransport::BlendSettings GetBlendSettings();
 
 private:
-  struct vtkInternals;
-  std::unique_ptr<vtkInternals> Internals;
-
   vtkTransportBlend(const vtkTransportBlend&) = delete;
   void operator=(const vtkTransportBlend&) = delete;
 };

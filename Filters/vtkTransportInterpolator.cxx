@@ -37,6 +37,7 @@ vtkTransportInterpolator::vtkTransportInterpolator()
   : Parameter(0.5)
   , PublishTime(false)
   , NumberOfTimeSteps(11)
+  , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(2);
   vtkTransportInterpolator::SetInputArrayToProcess(
@@ -77,14 +78,11 @@ int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info
 }
 
 //------------------------------------------------------------------------------
-vtkTypeBool vtkTransportInterpolator::ProcessRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkTransportInterpolator::RequestUpdateTime(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  if (request->Has(Pipeline::REQUEST_UPDATE_TIME()))
-  {
-    this->KeepTimeFromInputs(inputVector);
-  }
-  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+  this->KeepTimeFromInputs(inputVector);
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -171,7 +169,7 @@ int vtkTransportInterpolator::RequestData(
   requireThat(isNumberOfTimeSteps(this->NumberOfTimeSteps), "NumberOfTimeSteps",
     this->NumberOfTimeSteps, "from 2 to 1000000");
   const double parameter = this->FindParameter(request, outputVector);
-  (void)this->GetBlendSettings(); // an error in any piece
+  const BlendSettings settings = this->GetBlendSettings();
   AlgorithmProgress progress(this, this->Threading);
 
   // All is in the first piece, whatever pieces a consumer asks for.
@@ -183,7 +181,8 @@ int vtkTransportInterpolator::RequestData(
     {
       inputs[0].Weight = 1.0 - parameter;
       inputs[1].Weight = parameter;
-      this->WriteBlend(inputs, progress, outputVector);
+      this->WarnOfMoved(this->Blend->Run(
+        inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector)));
     }
   }
   for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)

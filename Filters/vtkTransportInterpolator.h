@@ -31,6 +31,11 @@
 
 #include "vtkTransportBlend.h"
 
+namespace RectifiedTransport
+{
+class DensityBlend;
+}
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
 
@@ -84,18 +89,14 @@ public:
   vtkGetMacro(NumberOfTimeSteps, int);
   ///@}
 
-  /**
-   * Keeps the pipeline's time from the inputs where PublishTime is on.
-   */
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
 protected:
   vtkTransportInterpolator();
   ~vtkTransportInterpolator() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
@@ -109,6 +110,7 @@ protected:
 private:
   void KeepTimeFromInputs(vtkInformationVector** inputVector);
   double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
+  std::unique_ptr<RectifiedTransport::DensityBlend> Blend;
 
   vtkTransportInterpolator(const vtkTransportInterpolator&) = delete;
   void operator=(const vtkTransportInterpolator&) = delete;

@@ -17,6 +17,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -82,6 +83,13 @@ void renew(
 
 } // namespace
 
+BlendOutput::BlendOutput(vtkInformationVector* outputs)
+  : Announced(outputs->GetInformationObject(0))
+  , Density(vtkImageData::GetData(outputs, 0))
+  , Particles(vtkPolyData::GetData(outputs, 1))
+{
+}
+
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
@@ -89,6 +97,7 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   requireMemoryFor(numberOfValues(geometry) * settings.ParticlesPerCell, inputs.size());
   requireCells(geometry);
   applyGrid(geometry, output.Density);
+  announceGrid(geometry, output.Announced); // which array it is, is not always known before
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow };
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
@@ -187,7 +196,7 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     }
     catch (const Failure& failure)
     {
-      throw Failure(inputs[i].Name + ": " + failure.what());
+      throw Failure(inputs[i].Name, failure);
     }
   }
   return moved;

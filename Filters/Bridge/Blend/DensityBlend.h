@@ -16,6 +16,8 @@
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
 class vtkImageData;
+class vtkInformation;
+class vtkInformationVector;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
@@ -48,8 +50,12 @@ struct BlendSettings
   SplatOptions Splat;
 };
 
+// Of vtkTransportBlend: the density on port 0, the particles on port 1.
 struct BlendOutput
 {
+  explicit BlendOutput(vtkInformationVector* outputs);
+
+  vtkInformation* Announced; // of the density
   vtkImageData* Density;
   vtkPolyData* Particles;
 };

@@ -60,16 +60,15 @@ std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSetti
   const SharedFlow& flow = tables.Update(
     density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
   this->Mass = flow.TotalMass();
-  const std::int64_t moved = dispatchDimension(this->Place.Dimension(), [&](auto dimension) {
-    constexpr int D = decltype(dimension)::value;
-    return this->Move<D>(flow.Flow<D>(), progress, end);
-  });
+  const auto move = dispatchDimension(this->Place.Dimension(), &LinearizedMap::Move<1>,
+    &LinearizedMap::Move<2>, &LinearizedMap::Move<3>);
+  const std::int64_t moved = (this->*move)(flow, progress, end);
   this->Content = ContentHash(density, progress);
   return moved;
 }
 
 template <int D>
-std::int64_t LinearizedMap::Move(const RectifiedFlow<D>& flow, Progress& progress, double end)
+std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, double end)
 {
   constexpr double partOfConversion = 0.02;
   GridSize<D> grid;
@@ -96,7 +95,7 @@ std::int64_t LinearizedMap::Move(const RectifiedFlow<D>& flow, Progress& progres
     progress.BeginStage(
       begin + flowing * static_cast<double>(place + 1) / static_cast<double>(places));
     moved +=
-      flow
+      flow.Flow<D>()
         .ForwardLattice(samples.Lattice, { positions + place * each * D, each },
           this->Settings.Options, progress.Stage(), samples.Places[static_cast<std::size_t>(place)])
         .MovedToMass;

@@ -17,8 +17,7 @@ namespace RectifiedTransport
 {
 
 class FlowCache;
-template <int Dimension>
-class RectifiedFlow;
+class SharedFlow;
 
 // What maps must share to be one particle's ways to several densities.
 struct LinearizedMapSettings
@@ -57,7 +56,7 @@ public:
 
 private:
   template <int D>
-  std::int64_t Move(const RectifiedFlow<D>& flow, Progress& progress, double end);
+  std::int64_t Move(const SharedFlow& flow, Progress& progress, double end);
 
   ContentHash Content;
   ImageGrid Place; // the content is that of the values alone, the positions are physical

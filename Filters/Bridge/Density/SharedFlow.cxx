@@ -114,9 +114,9 @@ std::shared_ptr<const SharedFlow> SharedFlow::Of(DensityImage& density, const Co
   density.Prepare(progress);
   progress.BeginStage(end);
   const auto made = std::make_shared<SharedFlow>();
-  dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
-    made->Build<decltype(dimension)::value>(density, std::move(old), progress);
-  });
+  const auto build = dispatchDimension(density.Grid().Dimension(), &SharedFlow::Build<1>,
+    &SharedFlow::Build<2>, &SharedFlow::Build<3>);
+  ((*made).*build)(density, std::move(old), progress);
   if (content.IsComplete())
   {
     holdings.Enter(content, made);

@@ -155,9 +155,8 @@ std::int64_t warp(const DensityEqualizingWarp& settings, DensityImage& density, 
 std::int64_t DensityEqualizingWarp::Run(DensityImage& density, vtkPointSet* input, FlowCache& cache,
   Progress& progress, vtkPointSet* output) const
 {
-  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
-    return warp<decltype(dimension)::value>(*this, density, input, cache, progress, output);
-  });
+  return dispatchDimension(density.Grid().Dimension(), warp<1>, warp<2>, warp<3>)(
+    *this, density, input, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

@@ -51,9 +51,8 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 TransportMap::Report TransportMap::Run(DensityImage& density, const ImageGrid& samples,
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
-  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
-    return makeMap<decltype(dimension)::value>(*this, density, samples, cache, progress, output);
-  });
+  return dispatchDimension(density.Grid().Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
+    *this, density, samples, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

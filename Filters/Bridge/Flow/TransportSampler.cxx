@@ -162,9 +162,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 TransportSampler::Report TransportSampler::Run(DensityImage& density, vtkPointSet* seeds,
   FlowCache& cache, Progress& progress, vtkPolyData* output) const
 {
-  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
-    return sample<decltype(dimension)::value>(*this, density, seeds, cache, progress, output);
-  });
+  return dispatchDimension(density.Grid().Dimension(), sample<1>, sample<2>, sample<3>)(
+    *this, density, seeds, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

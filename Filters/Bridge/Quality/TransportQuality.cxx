@@ -152,7 +152,7 @@ private:
 
 template <int D>
 ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid, int blockSize,
-  const RectifiedFlow<D>& flow, Progress& progress)
+  const SharedFlow& flow, Progress& progress)
 {
   constexpr double eachParticle = 11 * sizeof(double); // of measureQuality
   constexpr double eachBlock = 2 * sizeof(double);
@@ -162,8 +162,9 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid, 
     std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";
   const double bytes = static_cast<double>(count) * eachParticle + blocks * eachBlock;
   requireMemory(purpose, bytes);
-  return withMemory(purpose, bytes,
-    [&]() { return measureQuality<D>(particles, flow, grid, blockSize, progress.Stage()); });
+  return withMemory(purpose, bytes, [&]() {
+    return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress.Stage());
+  });
 }
 
 } // namespace
@@ -181,10 +182,8 @@ ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoint
   ParticleArrays arrays(particles, counted, progress);
   const ParticleSample sample = arrays.Read();
   progress.BeginStage(1.0);
-  return dispatchDimension(density.Grid().Dimension(), [&](auto dimension) {
-    constexpr int D = decltype(dimension)::value;
-    return measure<D>(sample, density.Grid(), this->BlockSize, flow.Flow<D>(), progress);
-  });
+  return dispatchDimension(density.Grid().Dimension(), measure<1>, measure<2>, measure<3>)(
+    sample, density.Grid(), this->BlockSize, flow, progress);
 }
 
 } // namespace RectifiedTransport

@@ -14,21 +14,12 @@ class Failure : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
+  // One that concerns one of several things.
+  Failure(const std::string& name, const Failure& failure)
+    : std::runtime_error(name + ": " + failure.what())
+  {
+  }
 };
-
-// Runs a function whose failures concern one of several things, and say which.
-template <class Function>
-void nameFailures(const std::string& name, Function&& function)
-{
-  try
-  {
-    function();
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(name + ": " + failure.what());
-  }
-}
 
 } // namespace RectifiedTransport
 

@@ -36,11 +36,18 @@ void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel
   constexpr std::int64_t tasksPerThread = 8;
   const std::int64_t rangesPerTask =
     std::max<std::int64_t>(1, ranges / (tasksPerThread * this->Concurrency()));
-  KernelGuard guarded(kernel);
+  KernelFailure failure;
   auto task = [&](vtkIdType first, vtkIdType last) {
-    for (std::int64_t range = first; range < last; ++range)
+    try
     {
-      guarded(range * grain, std::min((range + 1) * grain, count));
+      for (std::int64_t range = first; range < last && !failure.HasHappened(); ++range)
+      {
+        kernel(range * grain, std::min((range + 1) * grain, count));
+      }
+    }
+    catch (...)
+    {
+      failure.Keep();
     }
   };
   if (ranges <= 1)
@@ -51,7 +58,7 @@ void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel
   {
     vtkSMPTools::For(0, ranges, rangesPerTask, task);
   }
-  guarded.Rethrow();
+  failure.Rethrow();
 }
 
 int SMPExecutor::Concurrency() const

@@ -190,9 +190,8 @@ std::int64_t EqualMassCells::Run(vtkPointSet* sites, const ImageGrid& grid, Site
   outputs.Sites->SetPoints(doublePoints(sites->GetPoints()));
   outputs.Sites->GetPointData()->PassData(sites->GetPointData());
   outputs.Sites->GetCellData()->PassData(sites->GetCellData());
-  return dispatchDimension(grid.Dimension(), [&](auto dimension) {
-    return divide<decltype(dimension)::value>(*this, sites, grid, kept, progress, outputs);
-  });
+  return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
+    *this, sites, grid, kept, progress, outputs);
 }
 
 } // namespace RectifiedTransport

@@ -328,14 +328,14 @@ private:
   double Ends[rangeBlocks * BlockSize * Dimension];
 };
 
-// One advection of any number of particles, from one source of them after the other.
+// One advection of any number of particles.
 template <int Dimension>
 class AdvectionRun
 {
 public:
   AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
-    double* positions, bool backward, const FlowOptions& options, std::int64_t count,
-    const Context& context, bool toPoints = false)
+    double* positions, bool backward, const FlowOptions& options, const Context& context,
+    bool toPoints = false)
     : First(toPoints ? firstRefinement(options) : 0)
     , Pace(context)
   {
@@ -362,7 +362,6 @@ public:
     this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
     this->Job.ShouldStop = [](void* host) { return static_cast<Progress*>(host)->ShouldStop(); };
     this->Job.Host = &this->Pace;
-    this->Pace.BeginStage(1.0, count);
     // A range is short enough to be waited for, however many steps there are.
     constexpr int usualSteps = 64;
     const int steps = options.NumberOfSteps << this->First;
@@ -373,23 +372,32 @@ public:
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
-  // Advects the first `count` particles of a source. Throws Cancelled.
+  // Advects the particles of a source, one chunk of them after the other: source.Prepare(first)
+  // makes the chunk that begins at particle `first` and returns its length, and source.Fill takes
+  // particles of it. Throws Cancelled.
   template <class Source>
-  void Advect(const Source& source, std::int64_t count)
+  FlowReport Advect(Source&& source)
   {
     constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
     const Executor& threads = this->Pace.Threads();
+    this->Pace.BeginStage(1.0, source.Count());
     std::vector<Leftovers<Dimension>> leftovers;
     std::size_t left = 0;
-    for (std::int64_t begin = 0; begin < count;)
+    std::int64_t chunkEnd = 0;
+    for (std::int64_t chunk = 0, begin = 0; begin < source.Count();)
     {
+      if (begin == chunkEnd)
+      {
+        chunk = begin;
+        chunkEnd += source.Prepare(begin);
+      }
       const std::int64_t slice =
-        std::min(count - begin, this->Pace.NextSlice(this->Grain * threads.Concurrency()));
+        std::min(chunkEnd - begin, this->Pace.NextSlice(this->Grain * threads.Concurrency()));
       const std::size_t before = leftovers.size();
       leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
-        range.Fill(source, begin + first, static_cast<int>(last - first));
+        range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
         range.Pass(this->First);
         leftovers[before + static_cast<std::size_t>(first / this->Grain)] = range.Left();
       });
@@ -398,7 +406,7 @@ public:
         left += leftovers[range].Index.size();
       }
       begin += slice;
-      if (left >= enough || begin == count)
+      if (left >= enough || begin == chunkEnd)
       {
         LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
           .Run(leftovers, this->First + 1);
@@ -407,11 +415,13 @@ public:
       }
       this->Pace.EndSlice(slice);
     }
+    return this->Report();
   }
 
   // Advects the samples of a lattice and writes the cell that each comes to. Throws Cancelled.
-  void AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
+  FlowReport AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
+    this->Pace.BeginStage(1.0);
     this->Pace.For(
       lattice.Count(), this->Grain,
       [&](std::int64_t first, std::int64_t last) {
@@ -426,8 +436,10 @@ public:
         }
       },
       this->Grain);
+    return this->Report();
   }
 
+private:
   FlowReport Report() const
   {
     FlowReport report;
@@ -437,7 +449,6 @@ public:
     return report;
   }
 
-private:
   const int First;
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;

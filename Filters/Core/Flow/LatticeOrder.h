@@ -27,6 +27,9 @@ public:
 
   std::int64_t Count() const;
 
+  // All of the order from `first` on is there without preparation. Returns how many these are.
+  std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
+
   // Samples [first, first + count) of this order: their numbers in the grid, axis 0 fastest, and
   // their coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;

@@ -63,21 +63,60 @@ void check(const GridSize<Dimension>& size, const char* what)
   }
 }
 
-// Points of an array in the order of a sort, as LatticeOrder gives those of a lattice.
 template <int Dimension>
-struct SortedPoints
+LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
+  const Point<Dimension>& place, const GridSize<Dimension>& size, std::int64_t positions)
 {
-  ConstPointSpan<Dimension> Points;
-  const std::int64_t* Order;
+  check<Dimension>(lattice, "a lattice");
+  checkCount(positions, numberOfCells<Dimension>(lattice));
+  for (const double coordinate : place)
+  {
+    if (!(coordinate >= 0.0 && coordinate <= 1.0))
+    {
+      throw std::invalid_argument("a place in a lattice's cells has the coordinate " +
+        std::to_string(coordinate) + ", it must be from 0 to 1");
+    }
+  }
+  return LatticeOrder<Dimension>(lattice, size, place);
+}
+
+// Points of an array, in chunks in the order of a sort, as LatticeOrder gives those of a lattice.
+template <int Dimension>
+class SortedPoints
+{
+public:
+  explicit SortedPoints(ConstPointSpan<Dimension> points)
+    : Points(points)
+  {
+  }
+
+  std::int64_t Count() const { return this->Points.size(); }
+
+  std::int64_t Prepare(std::int64_t first)
+  {
+    const std::int64_t length = std::min(chunkParticles, this->Count() - first);
+    const std::int64_t wrong =
+      this->Sort.Sort(this->Points.data(), first, length, particlesPerTile);
+    if (wrong >= 0)
+    {
+      throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
+    }
+    return length;
+  }
 
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
   {
+    const std::int64_t* order = this->Sort.Order();
     for (int i = 0; i < count; ++i)
     {
-      index[i] = this->Order[first + i];
+      index[i] = order[first + i];
       std::copy_n(this->Points[index[i]], Dimension, points + i * Dimension);
     }
   }
+
+private:
+  ConstPointSpan<Dimension> Points;
+  ParticleOrder<Dimension> Sort;
 };
 
 template <int Dimension>
@@ -101,61 +140,9 @@ struct RectifiedFlow<Dimension>::Internals
   {
   }
 
-  FlowReport Advect(ConstPointSpan<Dimension> points, const std::vector<double>& times,
-    PointSpan<Dimension> positions, bool backward, const FlowOptions& options,
-    const Context& context) const;
-  FlowReport AdvectLattice(const GridSize<Dimension>& lattice, const Point<Dimension>& place,
-    PointSpan<Dimension> positions, bool backward, const FlowOptions& options,
-    const Context& context) const;
-
   GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
 };
-
-template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::Internals::Advect(ConstPointSpan<Dimension> points,
-  const std::vector<double>& times, PointSpan<Dimension> positions, bool backward,
-  const FlowOptions& options, const Context& context) const
-{
-  const std::size_t each = std::max<std::size_t>(times.size(), 1);
-  checkCount(positions.size(), static_cast<double>(points.size()) * static_cast<double>(each));
-  AdvectionRun<Dimension> run(
-    this->Tables.View(), times, positions.data(), backward, options, points.size(), context);
-  ParticleOrder<Dimension> order;
-  for (std::int64_t chunk = 0; chunk < points.size(); chunk += chunkParticles)
-  {
-    const std::int64_t length = std::min(chunkParticles, points.size() - chunk);
-    const std::int64_t wrong = order.Sort(points.data(), chunk, length, particlesPerTile);
-    if (wrong >= 0)
-    {
-      throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
-    }
-    run.Advect(SortedPoints<Dimension>{ points, order.Order() }, length);
-  }
-  return run.Report();
-}
-
-template <int Dimension>
-FlowReport RectifiedFlow<Dimension>::Internals::AdvectLattice(const GridSize<Dimension>& lattice,
-  const Point<Dimension>& place, PointSpan<Dimension> positions, bool backward,
-  const FlowOptions& options, const Context& context) const
-{
-  check<Dimension>(lattice, "a lattice");
-  checkCount(positions.size(), numberOfCells<Dimension>(lattice));
-  for (const double coordinate : place)
-  {
-    if (!(coordinate >= 0.0 && coordinate <= 1.0))
-    {
-      throw std::invalid_argument("a place in a lattice's cells has the coordinate " +
-        std::to_string(coordinate) + ", it must be from 0 to 1");
-    }
-  }
-  const LatticeOrder<Dimension> order(lattice, this->Size, place);
-  AdvectionRun<Dimension> run(
-    this->Tables.View(), {}, positions.data(), backward, options, order.Count(), context);
-  run.Advect(order, order.Count());
-  return run.Report();
-}
 
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
@@ -235,7 +222,10 @@ template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Forward(ConstPointSpan<Dimension> seeds,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Data->Advect(seeds, {}, positions, false, options, context);
+  checkCount(positions.size(), static_cast<double>(seeds.size()));
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), {}, positions.data(), false, options, context);
+  return run.Advect(SortedPoints<Dimension>(seeds));
 }
 
 template <int Dimension>
@@ -244,14 +234,21 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
   const Context& context) const
 {
   check(times);
-  return this->Data->Advect(seeds, times, positions, false, options, context);
+  checkCount(
+    positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), times, positions.data(), false, options, context);
+  return run.Advect(SortedPoints<Dimension>(seeds));
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Data->Advect(points, {}, positions, true, options, context);
+  checkCount(positions.size(), static_cast<double>(points.size()));
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), {}, positions.data(), true, options, context);
+  return run.Advect(SortedPoints<Dimension>(points));
 }
 
 template <int Dimension>
@@ -259,15 +256,21 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context,
   const Point<Dimension>& place) const
 {
-  return this->Data->AdvectLattice(lattice, place, positions, false, options, context);
+  const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), {}, positions.data(), false, options, context);
+  return run.Advect(order);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->Data->AdvectLattice(
-    lattice, cellCentre<Dimension>(), positions, true, options, context);
+  const auto order =
+    checkedOrder<Dimension>(lattice, cellCentre<Dimension>(), this->Size(), positions.size());
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), {}, positions.data(), true, options, context);
+  return run.Advect(order);
 }
 
 template <int Dimension>
@@ -277,9 +280,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
   check<Dimension>(lattice, "a lattice");
   const LatticeOrder<Dimension> order(lattice, this->Data->Size);
   AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, nullptr, false, options, order.Count(), context, true);
-  run.AdvectToCells(order, cells);
-  return run.Report();
+    this->Data->Tables.View(), {}, nullptr, false, options, context, true);
+  return run.AdvectToCells(order, cells);
 }
 
 template <int Dimension>

@@ -3,19 +3,16 @@
 #ifndef RectifiedTransport_Dispatch_h
 #define RectifiedTransport_Dispatch_h
 
-#include <type_traits>
-
 namespace RectifiedTransport
 {
 
-// Calls function(dimension) with a std::integral_constant of 1, 2 or 3, and returns what it
-// returns.
+// Of a function for each number of axes, the one for `dimension`:
+//
+//   dispatchDimension(dimension, sample<1>, sample<2>, sample<3>)(arguments)
 template <class Function>
-auto dispatchDimension(int dimension, Function&& function)
+Function dispatchDimension(int dimension, Function one, Function two, Function three)
 {
-  return dimension == 1 ? function(std::integral_constant<int, 1>())
-    : dimension == 2    ? function(std::integral_constant<int, 2>())
-                        : function(std::integral_constant<int, 3>());
+  return dimension == 1 ? one : dimension == 2 ? two : three;
 }
 
 } // namespace RectifiedTransport

@@ -18,45 +18,29 @@ void SerialExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel ker
   }
 }
 
-void KernelGuard::operator()(std::int64_t first, std::int64_t last) noexcept
-{
-  if (this->Failed.load(std::memory_order_relaxed))
-  {
-    return;
-  }
-  try
-  {
-    this->Kernel(first, last);
-  }
-  catch (...)
-  {
-    if (!this->Failed.exchange(true))
-    {
-      this->First = std::current_exception();
-    }
-  }
-}
-
-void KernelGuard::Rethrow() const
-{
-  if (this->First)
-  {
-    std::rethrow_exception(this->First);
-  }
-}
-
 void OpenMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {
-  KernelGuard guarded(kernel);
+  KernelFailure failure;
   const std::int64_t ranges = (count + grain - 1) / grain;
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic, 1) if (ranges > 1)
 #endif
   for (std::int64_t range = 0; range < ranges; ++range)
   {
-    guarded(range * grain, std::min((range + 1) * grain, count));
+    if (failure.HasHappened())
+    {
+      continue;
+    }
+    try
+    {
+      kernel(range * grain, std::min((range + 1) * grain, count));
+    }
+    catch (...)
+    {
+      failure.Keep();
+    }
   }
-  guarded.Rethrow();
+  failure.Rethrow();
 }
 
 int OpenMPExecutor::Concurrency() const

@@ -36,21 +36,30 @@ private:
 };
 
 // For executors: no exception may leave a thread that the executor runs, or the program ends. The
-// first one is kept, and ranges after it are left out.
-class KernelGuard
+// first one is kept; ranges after it need not run.
+class KernelFailure
 {
 public:
-  explicit KernelGuard(const RangeKernel& kernel)
-    : Kernel(kernel)
+  bool HasHappened() const { return this->Happened.load(std::memory_order_relaxed); }
+  // Keeps the exception that is being handled.
+  void Keep() noexcept
   {
+    if (!this->Happened.exchange(true))
+    {
+      this->First = std::current_exception();
+    }
   }
-  void operator()(std::int64_t first, std::int64_t last) noexcept;
-  // Once all threads are done: throws what the kernel threw.
-  void Rethrow() const;
+  // Once all threads are done: throws what was kept.
+  void Rethrow() const
+  {
+    if (this->First)
+    {
+      std::rethrow_exception(this->First);
+    }
+  }
 
 private:
-  const RangeKernel& Kernel;
-  std::atomic<bool> Failed{ false };
+  std::atomic<bool> Happened{ false };
   std::exception_ptr First;
 };
 
