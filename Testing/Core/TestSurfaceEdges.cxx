@@ -13,6 +13,13 @@ namespace RectifiedTransport
 namespace
 {
 
+std::vector<std::int64_t> firstsOf(const std::vector<Point<3>>& points)
+{
+  std::vector<std::int64_t> firsts(points.size());
+  mergePoints(points, firsts.data());
+  return firsts;
+}
+
 TEST(MergePoints, FirstOfEach)
 {
   std::mt19937_64 random(2);
@@ -26,16 +33,14 @@ TEST(MergePoints, FirstOfEach)
       x = x == 0.0 && random() % 2 ? -0.0 : x;
     }
   }
-  const auto count = static_cast<std::int64_t>(points.size());
-  MergePoints equal(points.data()->data(), count);
-  equal.Enter(0, 1000);
-  equal.Enter(1000, count);
+  const std::vector<std::int64_t> found = firstsOf(points);
   std::map<Point<3>, std::int64_t> firsts;
-  for (std::int64_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    ASSERT_EQ(equal.First(i), firsts.emplace(points[i], i).first->second);
+    ASSERT_EQ(found[i], firsts.emplace(points[i], i).first->second);
   }
   EXPECT_EQ(firsts.size(), 125u);
+  EXPECT_TRUE(firstsOf({}).empty());
 }
 
 // Points that differ in the last bit are different; so are a million in a corner of the bounds,
@@ -48,68 +53,73 @@ TEST(MergePoints, ManyInACorner)
   {
     points.push_back({ i % 100 * 1e-6, i / 100 % 100 * 1e-6, i / 10000 * 1e-6 });
   }
-  const auto count = static_cast<std::int64_t>(points.size());
-  MergePoints equal(points.data()->data(), count);
-  equal.Enter(0, count);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    ASSERT_EQ(equal.First(i), i);
-  }
-}
-
-std::unique_ptr<SurfaceEdges> edgesOf(const Mesh& mesh)
-{
-  const auto count = static_cast<std::int64_t>(mesh.Triangles.size());
-  const auto points = static_cast<std::int64_t>(mesh.Points.size());
-  auto edges = std::make_unique<SurfaceEdges>(mesh.Surface().Triangles, count, points);
-  edges->Count(0, count / 2);
-  edges->Count(count / 2, count);
-  edges->Sort(0, count / 2);
-  edges->Sort(count / 2, count);
-  edges->Pair(points / 2, points);
-  edges->Pair(0, points / 2);
-  return edges;
+  std::vector<std::int64_t> numbers(points.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  EXPECT_EQ(firstsOf(points), numbers);
 }
 
 TEST(SurfaceEdges, CountsOfABox)
 {
   Mesh box = makeBox({ 0, 0, 0 }, { 1, 1, 1 });
-  auto edges = edgesOf(box);
-  EXPECT_EQ(edges->Open(), 0);
-  EXPECT_EQ(edges->NonManifold(), 0);
-  EXPECT_EQ(edges->Reversed(), 0);
+  const SurfaceEdges closed(box.Surface());
+  EXPECT_EQ(closed.Open(), 0);
+  EXPECT_EQ(closed.NonManifold(), 0);
+  EXPECT_EQ(closed.Reversed(), 0);
   const std::int64_t* ids = box.Triangles.data()->data();
   for (std::int64_t side = 0; side < 36; ++side)
   {
-    const std::int64_t other = edges->Other(side);
-    ASSERT_EQ(edges->Other(other), side);
+    const std::int64_t other = closed.Other(side);
+    ASSERT_EQ(closed.Other(other), side);
     ASSERT_NE(other / 3, side / 3);
     ASSERT_EQ(ids[side], ids[other % 3 == 2 ? other - 2 : other + 1]);
   }
   std::swap(box.Triangles[5][0], box.Triangles[5][1]);
-  EXPECT_EQ(edgesOf(box)->Reversed(), 3);
+  EXPECT_EQ(SurfaceEdges(box.Surface()).Reversed(), 3);
   box.Triangles.pop_back();
-  EXPECT_EQ(edgesOf(box)->Open(), 3);
+  EXPECT_EQ(SurfaceEdges(box.Surface()).Open(), 3);
   // A fin on an edge, whose other sides are open.
   box = makeBox({ 0, 0, 0 }, { 1, 1, 1 });
   box.Points.push_back({ 2, 2, 2 });
   box.Triangles.push_back({ 0, 1, 8 });
-  edges = edgesOf(box);
-  EXPECT_EQ(edges->Open(), 2);
-  EXPECT_EQ(edges->NonManifold(), 1);
-  EXPECT_EQ(edgesOf(Mesh{ { { 0, 0, 0 } }, {} })->Open(), 0);
+  const SurfaceEdges withFin(box.Surface());
+  EXPECT_EQ(withFin.Open(), 2);
+  EXPECT_EQ(withFin.NonManifold(), 1);
+  const Mesh point{ { { 0, 0, 0 } }, {} };
+  EXPECT_EQ(SurfaceEdges(point.Surface()).Open(), 0);
 }
 
-bool orient(Mesh& mesh, std::int64_t step)
+// Edges are as many and the same on any threads, and two points of very many triangles are no more
+// work than others.
+TEST(SurfaceEdges, ThreadsAndFans)
 {
-  const auto edges = edgesOf(mesh);
-  const auto count = static_cast<std::int64_t>(mesh.Triangles.size());
-  SurfaceOrientation orientation(
-    mesh.Points.data()->data(), mesh.Triangles.data()->data(), count, *edges);
-  while (orientation.Visit(step) > 0)
+  constexpr std::int64_t around = 50000;
+  Mesh fans;
+  for (std::int64_t i = 0; i < around; ++i)
   {
+    fans.Points.push_back({ static_cast<double>(i), 0.0, 0.0 });
+    const std::int64_t next = (i + 1) % around;
+    fans.Triangles.push_back({ i, next, around });
+    fans.Triangles.push_back({ next, i, around + 1 });
   }
-  return orientation.IsOrientable();
+  fans.Points.resize(around + 2);
+  std::swap(fans.Triangles[7][0], fans.Triangles[7][1]);
+  const SurfaceEdges serial(fans.Surface(), SerialExecutor());
+  const SurfaceEdges parallel(fans.Surface(), OpenMPExecutor());
+  EXPECT_EQ(serial.Open() + serial.NonManifold(), 0);
+  EXPECT_EQ(serial.Reversed(), 3);
+  EXPECT_EQ(parallel.Reversed(), 3);
+  for (std::int64_t side = 0; side < 6 * around; ++side)
+  {
+    ASSERT_EQ(serial.Other(side), parallel.Other(side));
+  }
+  fans.Triangles.pop_back();
+  EXPECT_EQ(SurfaceEdges(fans.Surface(), OpenMPExecutor()).Open(), 3);
+}
+
+bool orient(Mesh& mesh)
+{
+  return orientSurface(mesh.Points, mesh.Triangles.data()->data(),
+    static_cast<std::int64_t>(mesh.Triangles.size()), SurfaceEdges(mesh.Surface()));
 }
 
 // Turned triangles come back, each component's as most of its area.
@@ -120,21 +130,17 @@ TEST(SurfaceOrientation, MostOfTheArea)
   mesh.Add(makeBox({ 5, 5, 5 }, { 6, 7, 8 }));
   const Mesh right = mesh;
   std::mt19937_64 random(8);
-  for (const std::int64_t step : { std::int64_t{ 1 }, std::int64_t{ 100000 } })
+  for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
   {
-    mesh = right;
-    for (std::size_t i = 0; i < mesh.Triangles.size(); ++i)
+    if (i == 0 || random() % 4 == 0)
     {
-      if (i == 0 || random() % 4 == 0)
-      {
-        std::swap(mesh.Triangles[i][1], mesh.Triangles[i][2]);
-      }
+      std::swap(mesh.Triangles[i][1], mesh.Triangles[i][2]);
     }
-    EXPECT_GT(edgesOf(mesh)->Reversed(), 100);
-    EXPECT_TRUE(orient(mesh, step));
-    EXPECT_EQ(edgesOf(mesh)->Reversed(), 0);
-    EXPECT_EQ(mesh.Triangles, right.Triangles);
   }
+  EXPECT_GT(SurfaceEdges(mesh.Surface()).Reversed(), 100);
+  EXPECT_TRUE(orient(mesh));
+  EXPECT_EQ(SurfaceEdges(mesh.Surface()).Reversed(), 0);
+  EXPECT_EQ(mesh.Triangles, right.Triangles);
 }
 
 // A few large triangles have more of the area than many small ones.
@@ -159,7 +165,7 @@ TEST(SurfaceOrientation, AreaIsNotCount)
         std::swap(mesh.Triangles[i][1], mesh.Triangles[i][2]);
       }
     }
-    EXPECT_TRUE(orient(mesh, 7));
+    EXPECT_TRUE(orient(mesh));
     EXPECT_EQ(mesh.Triangles, turnSmall ? right.Triangles : right.Turned().Triangles);
   }
 }
@@ -169,7 +175,7 @@ TEST(SurfaceOrientation, KleinBottle)
   const std::int64_t around = 12;
   const std::int64_t across = 10;
   Mesh mesh = makeTorus(around, across, [](double u, double v) { return Point<3>{ u, v, u * v }; });
-  EXPECT_TRUE(orient(mesh, 7));
+  EXPECT_TRUE(orient(mesh));
   // The last ring meets the first one mirrored.
   for (auto& triangle : mesh.Triangles)
   {
@@ -179,9 +185,35 @@ TEST(SurfaceOrientation, KleinBottle)
       id = last && id < across ? (across - id) % across : id;
     }
   }
-  EXPECT_EQ(edgesOf(mesh)->Open(), 0);
-  EXPECT_EQ(edgesOf(mesh)->NonManifold(), 0);
-  EXPECT_FALSE(orient(mesh, 7));
+  EXPECT_EQ(SurfaceEdges(mesh.Surface()).Open(), 0);
+  EXPECT_EQ(SurfaceEdges(mesh.Surface()).NonManifold(), 0);
+  EXPECT_FALSE(orient(mesh));
+}
+
+// Each step hears the host before it is done, and stops.
+TEST(ClosedSurface, Cancelled)
+{
+  Mesh mesh = makeSphere({ 0, 0, 0 }, 1.0, 300);
+  const SerialExecutor executor;
+  for (const double from : { 0.0, 0.3, 0.8 })
+  {
+    double reached = -1.0;
+    const Context context(
+      executor, [&reached](double done) { reached = done; },
+      [&reached, from]() { return reached >= from; });
+    std::vector<std::int64_t> firsts(mesh.Points.size());
+    EXPECT_THROW(mergePoints(mesh.Points, firsts.data(), context), Cancelled);
+    EXPECT_GE(reached, from);
+    reached = -1.0;
+    EXPECT_THROW(SurfaceEdges(mesh.Surface(), context), Cancelled);
+    EXPECT_GE(reached, from);
+    reached = -1.0;
+    EXPECT_THROW(
+      orientSurface(mesh.Points, mesh.Triangles.data()->data(),
+        static_cast<std::int64_t>(mesh.Triangles.size()), SurfaceEdges(mesh.Surface()), context),
+      Cancelled);
+    EXPECT_GE(reached, from);
+  }
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Solid/MergePoints.h"
 #include "Core/Solid/SurfaceOrientation.h"
 
 #include "vtkArrayDispatch.h"
@@ -30,9 +31,8 @@ namespace
 {
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
-// Of work that reads memory at random, or sorts a little.
+// Of work that reads memory at random.
 constexpr std::int64_t Slow = std::int64_t{ 1 } << 16;
-constexpr std::int64_t Slower = std::int64_t{ 1 } << 14;
 
 // What comes of cells of these sizes: a triangle for each point beyond the second.
 std::int64_t countTriangles(vtkCellArray* cells)
@@ -45,44 +45,34 @@ std::int64_t countTriangles(vtkCellArray* cells)
   return triangles;
 }
 
-using DispatchIds = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
+// Calls visit(ids) with the values of the connectivity array, as its own type has them.
+template <class Visit>
+void visitIds(vtkCellArray* cells, const Visit& visit)
+{
+  using Integers = vtkTypeList::Create<int, long, long long>; // that cell arrays store
+  using Dispatch = vtkArrayDispatch::DispatchByValueType<Integers>;
+  const auto call = [&visit](auto* array) { visit(vtk::DataArrayValueRange<1>(array)); };
+  vtkDataArray* ids = cells->GetConnectivityArray();
+  if (!Dispatch::Execute(ids, call))
+  {
+    call(ids);
+  }
+}
 
 // VTK's own range of the ids is kept, and does not follow what is written in place.
-struct FindWrongId
-{
-  std::int64_t Points; // the ids are those below
-  std::int64_t Wrong = -1;
-  bool IsFound = false;
-
-  template <class ArrayT>
-  void operator()(ArrayT* ids)
-  {
-    for (const auto id : vtk::DataArrayValueRange<1>(ids))
-    {
-      const auto point = static_cast<std::int64_t>(id);
-      if (point < 0 || point >= this->Points)
-      {
-        this->Wrong = point;
-        this->IsFound = true;
-        return;
-      }
-    }
-  }
-};
-
 void requireIds(vtkCellArray* cells, std::int64_t points)
 {
-  vtkDataArray* ids = cells->GetConnectivityArray();
-  FindWrongId find{ points };
-  if (!DispatchIds::Execute(ids, find))
-  {
-    find(ids);
-  }
-  if (find.IsFound)
-  {
-    throw Failure("A polygon of the input surface has the point " + std::to_string(find.Wrong) +
-      "; there are points 0 to " + std::to_string(points - 1));
-  }
+  visitIds(cells, [points](const auto& ids) {
+    for (const auto id : ids)
+    {
+      const auto point = static_cast<std::int64_t>(id);
+      if (point < 0 || point >= points)
+      {
+        throw Failure("A polygon of the input surface has the point " + std::to_string(point) +
+          "; there are points 0 to " + std::to_string(points - 1));
+      }
+    }
+  });
 }
 
 // Passes on the progress of a filter of VTK, and the host's wish to stop.
@@ -142,37 +132,46 @@ vtkSmartPointer<vtkCellArray> triangulate(
   return triangles;
 }
 
-struct CopyIds
+// The polygons without corners at the place of the one before, as at the poles of a sphere of
+// quads; those of fewer than three corners are dropped.
+vtkSmartPointer<vtkCellArray> mergeCorners(
+  vtkCellArray* polygons, const std::int64_t* firsts, Progress& progress)
 {
-  template <class ArrayT>
-  void operator()(ArrayT* ids, std::int64_t* copy, Progress& progress) const
-  {
-    progress.For(ids->GetNumberOfValues(), Grain, [&](std::int64_t first, std::int64_t last) {
-      std::int64_t* to = copy + first;
-      for (const auto id : vtk::DataArrayValueRange<1>(ids, first, last))
+  const vtkIdType cells = polygons->GetNumberOfCells();
+  const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
+  requireMemory("the " + std::to_string(cells) + " polygons of the input surface",
+    static_cast<double>(cells + 1 + ids) * sizeof(vtkIdType));
+  auto merged = vtkSmartPointer<vtkCellArray>::New();
+  merged->AllocateExact(cells, ids);
+  vtkNew<vtkIdList> corners;
+  progress.ForInOrder(
+    cells, Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t polygon = first; polygon < last; ++polygon)
       {
-        *to++ = static_cast<std::int64_t>(id);
+        polygons->GetCellAtId(polygon, corners);
+        vtkIdType kept = 0;
+        for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+        {
+          const vtkIdType corner = firsts[corners->GetId(i)];
+          if (kept == 0 || corner != corners->GetId(kept - 1))
+          {
+            corners->SetId(kept++, corner);
+          }
+        }
+        while (kept > 1 && corners->GetId(0) == corners->GetId(kept - 1))
+        {
+          --kept;
+        }
+        if (kept >= 3)
+        {
+          merged->InsertNextCell(kept, corners->GetPointer(0));
+        }
       }
-    });
-  }
-};
-
-struct MarkUsed
-{
-  template <class ArrayT>
-  void operator()(ArrayT* ids, std::vector<unsigned char>& used) const
-  {
-    const auto count = static_cast<std::int64_t>(used.size());
-    for (const auto id : vtk::DataArrayValueRange<1>(ids))
-    {
-      const auto point = static_cast<std::int64_t>(id);
-      if (point >= 0 && point < count) // RequestData says it
-      {
-        used[static_cast<std::size_t>(point)] = 1;
-      }
-    }
-  }
-};
+    },
+    Slow);
+  return merged;
+}
 
 } // namespace
 
@@ -180,14 +179,19 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
 {
   std::array<double, 6> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
   std::vector<unsigned char> used(static_cast<std::size_t>(surface->GetNumberOfPoints()), 0);
+  const auto points = static_cast<std::int64_t>(used.size());
   for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
   {
-    const MarkUsed mark;
-    vtkDataArray* ids = cells->GetConnectivityArray();
-    if (!DispatchIds::Execute(ids, mark, used))
-    {
-      mark(ids, used);
-    }
+    visitIds(cells, [&used, points](const auto& ids) {
+      for (const auto id : ids)
+      {
+        const auto point = static_cast<std::int64_t>(id);
+        if (point >= 0 && point < points) // RequestData says it
+        {
+          used[static_cast<std::size_t>(point)] = 1;
+        }
+      }
+    });
   }
   if (std::find(used.begin(), used.end(), 1) != used.end())
   {
@@ -221,142 +225,81 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   requireIds(polygons, this->NumberOfPoints);
   requireIds(strips, this->NumberOfPoints);
   stage(0.25);
+  LargeBuffer<std::int64_t> firsts; // of the points of equal coordinates
   withMemory("the table of the surface's " + points,
-    static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
-    [this, &progress]() { this->EnterPoints(progress); });
+    static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t), [&]() {
+      firsts = LargeBuffer<std::int64_t>(this->NumberOfPoints);
+      mergePoints({ this->Points.data(), this->NumberOfPoints }, firsts.data(), progress.Stage());
+    });
   vtkSmartPointer<vtkCellArray> triangles = polygons;
   if (strips->GetNumberOfCells() > 0 || polygons->IsHomogeneous() != 3)
   {
     stage(0.3);
-    triangles = this->MergeCorners(polygons, progress);
+    triangles = mergeCorners(polygons, firsts.data(), progress);
     stage(0.4);
     triangles = triangulate(input->GetPoints(), triangles, strips, progress);
   }
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
-      stage(0.45);
-      this->ReadTriangles(triangles, progress);
       stage(0.6);
-      this->DropDegenerateTriangles(progress);
-      this->RequireClosed(progress, end);
+      this->ReadTriangles(triangles, firsts.data(), progress);
+      firsts = {};
+      stage(1.0);
+      this->Edges = std::make_unique<SurfaceEdges>(this->Surface(), progress.Stage());
     });
-}
-
-void ClosedSurface::EnterPoints(Progress& progress)
-{
-  this->Equal = std::make_unique<MergePoints>(this->Points.data(), this->NumberOfPoints);
-  MergePoints& equal = *this->Equal;
-  progress.ForInOrder(
-    this->NumberOfPoints, Grain,
-    [&equal](std::int64_t first, std::int64_t last) { equal.Enter(first, last); }, Slow);
-}
-
-// The polygons without corners at the place of the one before, as at the poles of a sphere of
-// quads; those of fewer than three corners are dropped.
-vtkSmartPointer<vtkCellArray> ClosedSurface::MergeCorners(
-  vtkCellArray* polygons, Progress& progress) const
-{
-  const vtkIdType cells = polygons->GetNumberOfCells();
-  const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
-  requireMemory("the " + std::to_string(cells) + " polygons of the input surface",
-    static_cast<double>(cells + 1 + ids) * sizeof(vtkIdType));
-  auto merged = vtkSmartPointer<vtkCellArray>::New();
-  merged->AllocateExact(cells, ids);
-  vtkNew<vtkIdList> corners;
-  progress.ForInOrder(
-    cells, Grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t polygon = first; polygon < last; ++polygon)
-      {
-        polygons->GetCellAtId(polygon, corners);
-        vtkIdType kept = 0;
-        for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
-        {
-          const vtkIdType corner = this->Equal->First(corners->GetId(i));
-          if (kept == 0 || corner != corners->GetId(kept - 1))
-          {
-            corners->SetId(kept++, corner);
-          }
-        }
-        while (kept > 1 && corners->GetId(0) == corners->GetId(kept - 1))
-        {
-          --kept;
-        }
-        if (kept >= 3)
-        {
-          merged->InsertNextCell(kept, corners->GetPointer(0));
-        }
-      }
-    },
-    Slow);
-  return merged;
-}
-
-void ClosedSurface::ReadTriangles(vtkCellArray* triangles, Progress& progress)
-{
-  this->Count = triangles->GetNumberOfCells();
-  this->Triangles = LargeBuffer<std::int64_t>(3 * this->Count);
-  vtkDataArray* ids = triangles->GetConnectivityArray();
-  const CopyIds copy;
-  if (!DispatchIds::Execute(ids, copy, this->Triangles.data(), progress))
-  {
-    copy(ids, this->Triangles.data(), progress);
-  }
+  this->RequireClosed();
 }
 
 // Triangles with two corners at one point are dropped: their other two sides are then one edge.
-void ClosedSurface::DropDegenerateTriangles(Progress& progress)
+void ClosedSurface::ReadTriangles(
+  vtkCellArray* triangles, const std::int64_t* firsts, Progress& progress)
 {
-  const MergePoints& equal = *this->Equal;
-  std::int64_t kept = 0;
-  progress.ForInOrder(this->Count, Grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t triangle = first; triangle < last; ++triangle)
-    {
-      const std::int64_t* from = this->Triangles.data() + 3 * triangle;
-      const std::int64_t ids[3] = { equal.First(from[0]), equal.First(from[1]),
-        equal.First(from[2]) };
-      if (ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0])
-      {
-        std::copy_n(ids, 3, this->Triangles.data() + 3 * kept++);
-      }
-    }
+  const std::int64_t count = triangles->GetNumberOfCells();
+  this->Triangles = LargeBuffer<std::int64_t>(3 * count);
+  visitIds(triangles, [&](const auto& ids) {
+    progress.ForInOrder(
+      count, Grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t side = 3 * first; side < 3 * last; side += 3)
+        {
+          std::int64_t corners[3];
+          for (int i = 0; i < 3; ++i)
+          {
+            corners[i] = firsts[static_cast<std::int64_t>(ids[side + i])];
+          }
+          if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+          {
+            std::copy_n(corners, 3, this->Triangles.data() + 3 * this->Count++);
+          }
+        }
+      },
+      Slow);
   });
-  if (kept == 0)
+  if (this->Count == 0)
   {
     throw Failure("The input surface has " + std::to_string(this->NumberOfPoints) +
       " points and no polygon of three different ones; a solid needs a closed surface");
   }
-  this->Count = kept;
-  this->Equal.reset();
 }
 
-void ClosedSurface::RequireClosed(Progress& progress, double end)
+void ClosedSurface::RequireClosed() const
 {
-  const double begin = progress.StageEnd();
-  this->Edges =
-    std::make_unique<SurfaceEdges>(this->Triangles.data(), this->Count, this->NumberOfPoints);
-  SurfaceEdges& edges = *this->Edges;
-  progress.BeginStage(begin + 0.2 * (end - begin));
-  progress.ForInOrder(
-    this->Count, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Count(first, last); }, Slow);
-  progress.BeginStage(begin + 0.5 * (end - begin));
-  progress.ForInOrder(
-    this->Count, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Sort(first, last); }, Slow);
-  progress.BeginStage(end);
-  progress.For(
-    this->NumberOfPoints, Grain,
-    [&edges](std::int64_t first, std::int64_t last) { edges.Pair(first, last); }, Slower);
-  if (edges.Open() > 0 || edges.NonManifold() > 0)
+  const std::int64_t open = this->Edges->Open();
+  const std::int64_t nonManifold = this->Edges->NonManifold();
+  if (open > 0 || nonManifold > 0)
   {
     std::ostringstream message;
-    message << "The input surface is not closed: it has " << edges.Open()
-            << (edges.Open() == 1 ? " open edge" : " open edges") << " and " << edges.NonManifold()
-            << (edges.NonManifold() == 1 ? " non-manifold edge" : " non-manifold edges")
+    message << "The input surface is not closed: it has " << open
+            << (open == 1 ? " open edge" : " open edges") << " and " << nonManifold
+            << (nonManifold == 1 ? " non-manifold edge" : " non-manifold edges")
             << "; every edge must be one of exactly two triangles";
     throw Failure(message.str());
   }
+}
+
+TriangleSurface ClosedSurface::Surface() const
+{
+  return { { this->Points.data(), this->NumberOfPoints }, this->Triangles.data(), this->Count };
 }
 
 TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
@@ -377,30 +320,22 @@ TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress
     }
   });
   progress.BeginStage(end);
-  if (this->Edges->Reversed() > 0)
-  {
-    withMemory("the orientation of the surface's triangles",
-      static_cast<double>(this->Count) * (sizeof(std::int64_t) + 1),
-      [this, &progress]() { this->Orient(progress); });
-  }
-  this->Edges.reset();
-  return { { this->Points.data(), this->NumberOfPoints }, this->Triangles.data(), this->Count };
-}
-
-void ClosedSurface::Orient(Progress& progress)
-{
-  SurfaceOrientation orientation(
-    this->Points.data(), this->Triangles.data(), this->Count, *this->Edges);
-  progress.ForInOrder(
-    this->Count, Grain,
-    [&orientation](std::int64_t first, std::int64_t last) { orientation.Visit(last - first); },
-    Slow);
-  orientation.Visit(1); // turns the last component
-  if (!orientation.IsOrientable())
+  if (this->Edges->Reversed() > 0 && !this->Orient(progress))
   {
     throw Failure("The input surface is not orientable: it has one side only, as a Klein bottle; "
                   "a solid needs a surface with an inside");
   }
+  this->Edges.reset();
+  return this->Surface();
+}
+
+bool ClosedSurface::Orient(Progress& progress)
+{
+  return withMemory("the orientation of the surface's triangles",
+    static_cast<double>(this->Count) * (sizeof(std::int64_t) + 1), [&]() {
+      return orientSurface({ this->Points.data(), this->NumberOfPoints }, this->Triangles.data(),
+        this->Count, *this->Edges, progress.Stage());
+    });
 }
 
 } // namespace RectifiedTransport

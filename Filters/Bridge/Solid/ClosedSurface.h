@@ -6,11 +6,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Solid/MergePoints.h"
-#include "Core/Solid/SolidCoverage.h"
 #include "Core/Solid/SurfaceEdges.h"
-
-#include "vtkSmartPointer.h"
 
 #include <array>
 #include <cstdint>
@@ -44,18 +40,15 @@ public:
   TriangleSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:
-  void EnterPoints(Progress& progress);
-  vtkSmartPointer<vtkCellArray> MergeCorners(vtkCellArray* polygons, Progress& progress) const;
-  void ReadTriangles(vtkCellArray* triangles, Progress& progress);
-  void DropDegenerateTriangles(Progress& progress);
-  void RequireClosed(Progress& progress, double end);
-  void Orient(Progress& progress);
+  void ReadTriangles(vtkCellArray* triangles, const std::int64_t* firsts, Progress& progress);
+  void RequireClosed() const;
+  bool Orient(Progress& progress);
+  TriangleSurface Surface() const;
 
   LargeBuffer<double> Points;
   LargeBuffer<std::int64_t> Triangles;
   std::int64_t NumberOfPoints;
   std::int64_t Count = 0; // of triangles
-  std::unique_ptr<MergePoints> Equal;
   std::unique_ptr<SurfaceEdges> Edges;
 };
 

@@ -7,6 +7,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Solid/ClosedSurface.h"
+#include "Core/Solid/SolidCoverage.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"

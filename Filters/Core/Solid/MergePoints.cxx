@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/MergePoints.h"
 
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -30,47 +33,52 @@ std::uint64_t mix(std::uint64_t bits)
   return bits ^ bits >> 32;
 }
 
-} // namespace
-
-MergePoints::MergePoints(const double* points, std::int64_t count)
-  : Points(points)
-  , Firsts(count)
-  , Table(tableSize(count))
-  , Mask(static_cast<std::uint64_t>(this->Table.size() - 1))
+std::uint64_t hash(const double* point)
 {
-  std::fill_n(this->Table.data(), this->Table.size(), std::int64_t{ -1 });
-}
-
-std::uint64_t MergePoints::PlaceOf(const double* point) const
-{
-  std::uint64_t place = 0;
+  std::uint64_t mixed = 0;
   for (int i = 0; i < 3; ++i)
   {
     const double coordinate = point[i] + 0.0; // -0 is 0
-    std::uint64_t bits;
+    std::uint64_t bits = 0;
     std::memcpy(&bits, &coordinate, sizeof(bits));
-    place = mix(place ^ bits);
+    mixed = mix(mixed ^ bits);
   }
-  return place & this->Mask;
+  return mixed;
 }
 
-void MergePoints::Enter(std::int64_t first, std::int64_t last)
+} // namespace
+
+void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
 {
-  std::int64_t* table = this->Table.data();
-  for (std::int64_t i = first; i < last; ++i)
-  {
-    const double* point = this->Points + 3 * i;
-    std::uint64_t place = this->PlaceOf(point);
-    while (table[place] >= 0 && !std::equal(point, point + 3, this->Points + 3 * table[place]))
-    {
-      place = (place + 1) & this->Mask;
-    }
-    if (table[place] < 0)
-    {
-      table[place] = i;
-    }
-    this->Firsts.data()[i] = table[place];
-  }
+  LargeBuffer<std::int64_t> memory(tableSize(points.size()));
+  std::int64_t* table = memory.data(); // of points, -1 where it is free
+  const auto mask = static_cast<std::uint64_t>(memory.size() - 1);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
+  Progress progress(context);
+  progress.BeginStage(0.1);
+  progress.ForInOrder(memory.size(), grain, [table](std::int64_t first, std::int64_t last) {
+    std::fill(table + first, table + last, std::int64_t{ -1 });
+  });
+  progress.BeginStage(1.0);
+  progress.ForInOrder(
+    points.size(), grain,
+    [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const double* point = points[i];
+        std::uint64_t place = hash(point) & mask;
+        while (table[place] >= 0 && !std::equal(point, point + 3, points[table[place]]))
+        {
+          place = (place + 1) & mask;
+        }
+        if (table[place] < 0)
+        {
+          table[place] = i;
+        }
+        firsts[i] = table[place];
+      }
+    },
+    grain);
 }
 
 } // namespace RectifiedTransport

@@ -5,20 +5,12 @@
 
 #include "Core/Geometry/GridSize.h"
 #include "Core/Parallel/Context.h"
+#include "Core/Solid/TriangleSurface.h"
 
 #include <cstdint>
 
 namespace RectifiedTransport
 {
-
-// Triangles, three indices of points each, counted from 0. Points are three coordinates each, in
-// cells of the grid: cell (i, j, k) covers [i, i+1] x [j, j+1] x [k, k+1].
-struct TriangleSurface
-{
-  ConstPointSpan<3> Points;
-  const std::int64_t* Triangles;
-  std::int64_t NumberOfTriangles;
-};
 
 struct CoverageReport
 {
@@ -27,10 +19,11 @@ struct CoverageReport
   std::int64_t OpenLines = 0;
 };
 
-// Writes the covered fraction of every cell, from 0 to 1, axis 0 fastest. The solid is where the
-// winding number is not zero: overlapping parts are united, and a shell inside of another that is
-// turned the other way is a cavity. What lies outside of the grid counts for nothing along axes 1
-// and 2 and for its border along axis 0.
+// Writes the covered fraction of every cell, from 0 to 1, axis 0 fastest. The points are in cells
+// of the grid: cell (i, j, k) covers [i, i+1] x [j, j+1] x [k, k+1]. The solid is where the winding
+// number is not zero: overlapping parts are united, and a shell inside of another that is turned
+// the other way is a cavity. What lies outside of the grid counts for nothing along axes 1 and 2
+// and for its border along axis 0.
 //
 // Each cell is crossed by supersampling^2 lines along axis 0, through the centres of as many equal
 // squares. What a line covers of the cell is exact, so that only the other two axes are sampled.

@@ -1,87 +1,112 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/SurfaceEdges.h"
 
+#include "Core/Parallel/Progress.h"
+
 #include <algorithm>
 
 namespace RectifiedTransport
 {
 
-SurfaceEdges::SurfaceEdges(const std::int64_t* triangles, std::int64_t count, std::int64_t points)
-  : Triangles(triangles)
-  , First(points + 2)
-  , Sides(3 * count)
-  , Others(3 * count)
+namespace
 {
-  std::fill_n(this->First.data(), points + 2, std::int64_t{ 0 });
-}
 
-SurfaceEdges::Ends SurfaceEdges::EndsOf(std::int64_t side) const
+// Sides that a thread takes at once, and that take some milliseconds: they are all over memory.
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t units = std::int64_t{ 1 } << 17;
+
+struct Ends
 {
-  const std::int64_t from = this->Triangles[side];
-  const std::int64_t to = this->Triangles[side % 3 == 2 ? side - 2 : side + 1];
+  std::int64_t Low;
+  std::int64_t High;
+  bool Up; // from low to high
+};
+
+Ends endsOf(const std::int64_t* triangles, std::int64_t side)
+{
+  const std::int64_t from = triangles[side];
+  const std::int64_t to = triangles[side % 3 == 2 ? side - 2 : side + 1];
   return { std::min(from, to), std::max(from, to), from < to };
 }
 
-// A counting sort. First is two ahead of the counts, so that Sort leaves it where it belongs.
-void SurfaceEdges::Count(std::int64_t firstTriangle, std::int64_t lastTriangle)
-{
-  for (std::int64_t side = 3 * firstTriangle; side < 3 * lastTriangle; ++side)
-  {
-    ++this->First.data()[this->EndsOf(side).Low + 2];
-  }
-}
+} // namespace
 
-void SurfaceEdges::Sort(std::int64_t firstTriangle, std::int64_t lastTriangle)
+SurfaceEdges::SurfaceEdges(const TriangleSurface& surface, const Context& context)
+  : Others(3 * surface.NumberOfTriangles)
 {
-  std::int64_t* first = this->First.data();
-  if (firstTriangle == 0)
-  {
-    for (std::int64_t point = 1; point < this->First.size(); ++point)
-    {
-      first[point] += first[point - 1];
-    }
-  }
-  for (std::int64_t side = 3 * firstTriangle; side < 3 * lastTriangle; ++side)
-  {
-    this->Sides.data()[first[this->EndsOf(side).Low + 1]++] = side;
-  }
-}
+  const std::int64_t count = this->Others.size();
+  const std::int64_t points = surface.Points.size();
+  const std::int64_t* triangles = surface.Triangles;
+  Progress progress(context);
 
-void SurfaceEdges::Pair(std::int64_t firstPoint, std::int64_t lastPoint)
-{
-  const std::int64_t* first = this->First.data();
-  for (std::int64_t point = firstPoint; point < lastPoint; ++point)
-  {
-    std::int64_t* begin = this->Sides.data() + first[point];
-    std::int64_t* end = this->Sides.data() + first[point + 1];
-    std::sort(begin, end, [this](std::int64_t a, std::int64_t b) {
-      const std::int64_t highA = this->EndsOf(a).High;
-      const std::int64_t highB = this->EndsOf(b).High;
-      return highA != highB ? highA < highB : a < b;
-    });
-    while (begin < end)
-    {
-      const std::int64_t high = this->EndsOf(*begin).High;
-      const std::int64_t* group = begin;
-      while (begin < end && this->EndsOf(*begin).High == high)
+  // A counting sort by the lower ends. The counts are two ahead of their points: added up, `first`
+  // is one ahead of where a point's sides begin, and where they begin once these are in place.
+  LargeBuffer<std::int64_t> firstMemory(points + 2);
+  LargeBuffer<std::int64_t> sidesMemory(count);
+  std::int64_t* first = firstMemory.data();
+  std::int64_t* sides = sidesMemory.data();
+  std::fill_n(first, points + 2, std::int64_t{ 0 });
+  progress.BeginStage(0.2);
+  progress.ForInOrder(
+    count, grain,
+    [=](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t side = begin; side < end; ++side)
       {
-        ++begin;
+        ++first[endsOf(triangles, side).Low + 2];
       }
-      this->PairGroup(group, begin - group);
-    }
+    },
+    units);
+  for (std::int64_t point = 1; point < points + 2; ++point)
+  {
+    first[point] += first[point - 1];
   }
+  progress.BeginStage(0.5);
+  progress.ForInOrder(
+    count, grain,
+    [=](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t side = begin; side < end; ++side)
+      {
+        sides[first[endsOf(triangles, side).Low + 1]++] = side;
+      }
+    },
+    units);
+  progress.BeginStage(1.0);
+  progress.For(
+    points, grain,
+    [=](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t point = begin; point < end; ++point)
+      {
+        this->Pair(triangles, sides + first[point], sides + first[point + 1]);
+      }
+    },
+    2 * grain);
 }
 
-void SurfaceEdges::PairGroup(const std::int64_t* sides, std::int64_t count)
+// Of the sides of one lower end.
+void SurfaceEdges::Pair(const std::int64_t* triangles, std::int64_t* begin, std::int64_t* end)
 {
-  if (count == 2)
+  std::sort(begin, end, [triangles](std::int64_t a, std::int64_t b) {
+    const std::int64_t highA = endsOf(triangles, a).High;
+    const std::int64_t highB = endsOf(triangles, b).High;
+    return highA != highB ? highA < highB : a < b;
+  });
+  while (begin < end)
   {
-    this->Others.data()[sides[0]] = sides[1];
-    this->Others.data()[sides[1]] = sides[0];
-    this->NumberReversed += this->EndsOf(sides[0]).Up == this->EndsOf(sides[1]).Up ? 1 : 0;
-    return;
+    const std::int64_t* edge = begin;
+    const std::int64_t high = endsOf(triangles, *edge).High;
+    while (begin < end && endsOf(triangles, *begin).High == high)
+    {
+      ++begin;
+    }
+    if (begin - edge != 2)
+    {
+      ++(begin - edge == 1 ? this->NumberOpen : this->NumberNonManifold);
+      continue;
+    }
+    this->Others.data()[edge[0]] = edge[1];
+    this->Others.data()[edge[1]] = edge[0];
+    this->NumberReversed += endsOf(triangles, edge[0]).Up == endsOf(triangles, edge[1]).Up ? 1 : 0;
   }
-  ++(count == 1 ? this->NumberOpen : this->NumberNonManifold);
 }
 
 } // namespace RectifiedTransport

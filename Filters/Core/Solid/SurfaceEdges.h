@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges of a surface of triangles: whether it is closed, and which way its triangles turn.
+// The edges of a surface of triangles: whether it is closed, and which triangles meet at them.
 #ifndef RectifiedTransport_SurfaceEdges_h
 #define RectifiedTransport_SurfaceEdges_h
 
+#include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Solid/TriangleSurface.h"
 
 #include <atomic>
 #include <cstdint>
@@ -16,15 +18,10 @@ namespace RectifiedTransport
 class SurfaceEdges
 {
 public:
-  // `triangles` holds three different indices each of points from 0 to points - 1. Throws
-  // std::bad_alloc.
-  SurfaceEdges(const std::int64_t* triangles, std::int64_t count, std::int64_t points);
-
-  // The three steps, each over all triangles or points. The first two take ranges in ascending
-  // order, on one thread; Pair takes any ranges on any threads.
-  void Count(std::int64_t firstTriangle, std::int64_t lastTriangle);
-  void Sort(std::int64_t firstTriangle, std::int64_t lastTriangle);
-  void Pair(std::int64_t firstPoint, std::int64_t lastPoint);
+  // The corners of a triangle are three different points. The sides are sorted by their ends, in
+  // O(sides log sides) however many meet in a point. Memory: 8 bytes a side, and as much again and
+  // 8 bytes a point meanwhile. Throws std::bad_alloc and Cancelled.
+  explicit SurfaceEdges(const TriangleSurface& surface, const Context& context = Context());
 
   // Edges of one side, edges of more than two, and edges of two that run the same way.
   std::int64_t Open() const { return this->NumberOpen; }
@@ -35,18 +32,8 @@ public:
   std::int64_t Other(std::int64_t side) const { return this->Others.data()[side]; }
 
 private:
-  struct Ends
-  {
-    std::int64_t Low;
-    std::int64_t High;
-    bool Up; // from low to high
-  };
-  Ends EndsOf(std::int64_t side) const;
-  void PairGroup(const std::int64_t* sides, std::int64_t count);
+  void Pair(const std::int64_t* triangles, std::int64_t* begin, std::int64_t* end);
 
-  const std::int64_t* Triangles;
-  LargeBuffer<std::int64_t> First;  // of the sides whose lower end is a point
-  LargeBuffer<std::int64_t> Sides;  // by their lower ends
   LargeBuffer<std::int64_t> Others; // by sides
   std::atomic<std::int64_t> NumberOpen{ 0 };
   std::atomic<std::int64_t> NumberNonManifold{ 0 };

@@ -1,99 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/SurfaceOrientation.h"
 
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace RectifiedTransport
 {
 
-SurfaceOrientation::SurfaceOrientation(
-  const double* points, std::int64_t* triangles, std::int64_t count, const SurfaceEdges& edges)
-  : Points(points)
-  , Triangles(triangles)
-  , Count(count)
-  , Edges(edges)
-  , Turns(count)
-  , Queue(count)
+namespace
 {
-  std::fill_n(this->Turns.data(), count, static_cast<signed char>(0));
-}
 
-double SurfaceOrientation::AreaOf(std::int64_t triangle) const
+class OrientationRun
 {
-  const std::int64_t* ids = this->Triangles + 3 * triangle;
-  double u[3];
-  double v[3];
-  for (int i = 0; i < 3; ++i)
+public:
+  OrientationRun(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
+    const SurfaceEdges& edges)
+    : Points(points)
+    , Triangles(triangles)
+    , Edges(edges)
+    , Turns(count)
+    , Queue(count)
   {
-    u[i] = this->Points[3 * ids[1] + i] - this->Points[3 * ids[0] + i];
-    v[i] = this->Points[3 * ids[2] + i] - this->Points[3 * ids[0] + i];
+    std::fill_n(this->Turns.data(), count, static_cast<signed char>(0));
   }
-  return std::hypot(
-    u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-}
 
-std::int64_t SurfaceOrientation::Visit(std::int64_t most)
-{
-  std::int64_t visited = 0;
-  while (visited < most)
+  // False if there is no orientation.
+  bool Run(Progress& progress)
   {
-    if (this->QueueNext == this->QueueEnd)
+    const std::int64_t count = this->Turns.size();
+    progress.BeginStage(1.0, count);
+    for (std::int64_t start = 0; start < count; ++start)
     {
-      this->FinishComponent();
-      while (this->Start < this->Count && this->Turns.data()[this->Start] != 0)
+      if (this->Turns.data()[start] == 0)
       {
-        ++this->Start;
+        this->OrientComponent(start, progress);
       }
-      if (this->Start == this->Count)
+    }
+    return this->Orientable;
+  }
+
+private:
+  // The triangles that are joined to this one, breadth first.
+  void OrientComponent(std::int64_t start, Progress& progress)
+  {
+    std::int64_t* queue = this->Queue.data();
+    this->QueueEnd = 0;
+    this->Enter(start, 1);
+    double area = 0.0; // turned as the first triangle, less the rest
+    for (std::int64_t next = 0; next < this->QueueEnd; ++next)
+    {
+      area += this->Turns.data()[queue[next]] * this->AreaOf(queue[next]);
+      this->EnterNeighbours(queue[next]);
+      progress.Add(1);
+    }
+    const signed char keep = area < 0.0 ? -1 : 1;
+    for (std::int64_t i = 0; i < this->QueueEnd; ++i)
+    {
+      if (this->Turns.data()[queue[i]] != keep)
       {
-        break;
+        std::swap(this->Triangles[3 * queue[i] + 1], this->Triangles[3 * queue[i] + 2]);
       }
-      this->Turns.data()[this->Start] = 1;
-      this->Queue.data()[this->QueueEnd++] = this->Start;
     }
-    this->VisitNeighbours(this->Queue.data()[this->QueueNext++]);
-    ++visited;
   }
-  return visited;
-}
 
-void SurfaceOrientation::VisitNeighbours(std::int64_t triangle)
-{
-  const signed char turn = this->Turns.data()[triangle];
-  this->Area += turn * this->AreaOf(triangle);
-  for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
+  void Enter(std::int64_t triangle, signed char turn)
   {
-    const std::int64_t other = this->Edges.Other(side);
-    const std::int64_t neighbour = other / 3;
-    // Sides of triangles that turn the same way begin at different ends of the edge.
-    const bool same = this->Triangles[side] != this->Triangles[other];
-    const auto wanted = static_cast<signed char>(same ? turn : -turn);
-    signed char& found = this->Turns.data()[neighbour];
-    if (found == 0)
-    {
-      found = wanted;
-      this->Queue.data()[this->QueueEnd++] = neighbour;
-    }
-    else if (found != wanted)
-    {
-      this->Orientable = false;
-    }
+    this->Turns.data()[triangle] = turn;
+    this->Queue.data()[this->QueueEnd++] = triangle;
   }
-}
 
-void SurfaceOrientation::FinishComponent()
-{
-  const signed char keep = this->Area < 0.0 ? -1 : 1;
-  for (; this->QueueBegin < this->QueueEnd; ++this->QueueBegin)
+  void EnterNeighbours(std::int64_t triangle)
   {
-    const std::int64_t triangle = this->Queue.data()[this->QueueBegin];
-    if (this->Turns.data()[triangle] != keep)
+    const signed char turn = this->Turns.data()[triangle];
+    for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
     {
-      std::swap(this->Triangles[3 * triangle + 1], this->Triangles[3 * triangle + 2]);
+      const std::int64_t other = this->Edges.Other(side);
+      // Sides of triangles that turn the same way begin at different ends of the edge.
+      const bool same = this->Triangles[side] != this->Triangles[other];
+      const auto wanted = static_cast<signed char>(same ? turn : -turn);
+      const signed char found = this->Turns.data()[other / 3];
+      if (found == 0)
+      {
+        this->Enter(other / 3, wanted);
+      }
+      else if (found != wanted)
+      {
+        this->Orientable = false;
+      }
     }
   }
-  this->Area = 0.0;
+
+  double AreaOf(std::int64_t triangle) const
+  {
+    const std::int64_t* ids = this->Triangles + 3 * triangle;
+    double u[3];
+    double v[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      u[i] = this->Points[ids[1]][i] - this->Points[ids[0]][i];
+      v[i] = this->Points[ids[2]][i] - this->Points[ids[0]][i];
+    }
+    return std::hypot(
+      u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+  }
+
+  ConstPointSpan<3> Points;
+  std::int64_t* Triangles;
+  const SurfaceEdges& Edges;
+  LargeBuffer<signed char> Turns;  // 0 not reached, 1 as the component's first triangle, -1 not
+  LargeBuffer<std::int64_t> Queue; // the triangles of a component
+  std::int64_t QueueEnd = 0;
+  bool Orientable = true;
+};
+
+} // namespace
+
+bool orientSurface(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
+  const SurfaceEdges& edges, const Context& context)
+{
+  Progress progress(context);
+  return OrientationRun(points, triangles, count, edges).Run(progress);
 }
 
 } // namespace RectifiedTransport

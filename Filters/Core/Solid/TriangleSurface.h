@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface of triangles, in memory that belongs to someone else.
+#ifndef RectifiedTransport_TriangleSurface_h
+#define RectifiedTransport_TriangleSurface_h
+
+#include "Core/Geometry/Points.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Triangles are three indices of points each, counted from 0.
+struct TriangleSurface
+{
+  ConstPointSpan<3> Points;
+  const std::int64_t* Triangles;
+  std::int64_t NumberOfTriangles;
+};
+
+} // namespace RectifiedTransport
+
+#endif
