@@ -7,6 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
 
@@ -22,13 +23,13 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkMassSplatter);
+vtkImplementAssociationPropertiesMacro(vtkMassSplatter);
 vtkImplementSplatPropertiesMacro(vtkMassSplatter);
 
 namespace
 {
 using namespace RectifiedTransport;
 
-const char* const AssociationTexts[] = { "Points", "Cells" };
 const char* const BoundaryTexts[] = { "Renormalize", "Drop" };
 
 void requireDimensions(const int dimensions[3])
@@ -45,7 +46,6 @@ void requireDimensions(const int dimensions[3])
 //------------------------------------------------------------------------------
 vtkMassSplatter::vtkMassSplatter()
   : Dimensions{ 128, 128, 128 }
-  , Association(POINTS)
   , Boundary(RENORMALIZE)
   , DivideByVolume(true)
 {
@@ -56,12 +56,6 @@ vtkMassSplatter::vtkMassSplatter()
 
 //------------------------------------------------------------------------------
 vtkMassSplatter::~vtkMassSplatter() = default;
-
-//------------------------------------------------------------------------------
-const char* vtkMassSplatter::GetAssociationAsString()
-{
-  return choiceText(AssociationTexts, this->Association);
-}
 
 //------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetBoundaryAsString()
@@ -111,7 +105,7 @@ int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
 MassSplatter vtkMassSplatter::GetSplatter()
 {
   return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
-    this->Association == POINTS, this->DivideByVolume != 0, {} };
+    this->GetAssociationSettings().IsOnPoints(), this->DivideByVolume != 0, {} };
 }
 
 //------------------------------------------------------------------------------
@@ -161,7 +155,7 @@ int vtkMassSplatter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
-  requireChoice("Association", this->Association, AssociationTexts);
+  this->GetAssociationSettings().Check();
   requireChoice("Boundary", this->Boundary, BoundaryTexts);
   MassSplatter splatter = this->GetSplatter();
   splatter.Splat = this->GetSplatSettings().Options();

@@ -53,7 +53,7 @@
 #define vtkMassSplatter_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the kernel
+#include "vtkTransportProperties.h" // for the kernel and where values are
 
 namespace RectifiedTransport
 {
@@ -74,15 +74,6 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What Association may be.
-   */
-  enum AssociationType
-  {
-    POINTS = 0,
-    CELLS = 1
-  };
-
-  /**
    * What Boundary may be.
    */
   enum BoundaryType
@@ -100,18 +91,7 @@ public:
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
-  ///@{
-  /**
-   * Whether the values are those of Points (default), ready for contours and volume rendering, or
-   * of Cells.
-   */
-  vtkSetMacro(Association, int);
-  vtkGetMacro(Association, int);
-  void SetAssociationToPoints() { this->SetAssociation(POINTS); }
-  void SetAssociationToCells() { this->SetAssociation(CELLS); }
-  const char* GetAssociationAsString();
-  ///@}
-
+  vtkAssociationPropertiesMacro();
   vtkSplatPropertiesMacro();
 
 public:
@@ -162,7 +142,6 @@ protected:
     vtkInformationVector* outputVector) override;
 
   int Dimensions[3];
-  int Association;
   int Boundary;
   vtkTypeBool DivideByVolume;
 

@@ -6,6 +6,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Solid/SolidDensity.h"
 
 #include "vtkImageData.h"
@@ -16,12 +17,12 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkSolidDensity);
+vtkImplementAssociationPropertiesMacro(vtkSolidDensity);
 
 namespace
 {
 using namespace RectifiedTransport;
 
-const char* const AssociationTexts[] = { "Points", "Cells" };
 constexpr int MaximumSupersampling = 16;
 } // namespace
 
@@ -30,7 +31,6 @@ vtkSolidDensity::vtkSolidDensity()
   : Resolution(64)
   , Supersampling(2)
   , Padding(0.05)
-  , Association(POINTS)
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
@@ -38,12 +38,6 @@ vtkSolidDensity::vtkSolidDensity()
 
 //------------------------------------------------------------------------------
 vtkSolidDensity::~vtkSolidDensity() = default;
-
-//------------------------------------------------------------------------------
-const char* vtkSolidDensity::GetAssociationAsString()
-{
-  return choiceText(AssociationTexts, this->Association);
-}
 
 //------------------------------------------------------------------------------
 vtkImageData* vtkSolidDensity::GetOutput()
@@ -72,7 +66,7 @@ int vtkSolidDensity::RequestInformation(
   this->UpdateInputBeforeData(0, inputVector, outputVector);
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
-    this->Association == POINTS };
+    this->GetAssociationSettings().IsOnPoints() };
   const ImageGrid grid = surface && surface->GetNumberOfPoints() > 0
     ? solid.GridAround(surface)
     : ImageGrid().WithValuesOn(solid.OnPoints);
@@ -86,7 +80,7 @@ int vtkSolidDensity::RequestData(
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
-  requireChoice("Association", this->Association, AssociationTexts);
+  this->GetAssociationSettings().Check();
   requireSolidGrid(this->Resolution, this->Padding);
   AlgorithmProgress progress(this, this->Threading);
 
@@ -103,7 +97,7 @@ int vtkSolidDensity::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
-    this->Association == POINTS };
+    this->GetAssociationSettings().IsOnPoints() };
   solid.Run(input, progress, output);
   // It may have changed with time.
   announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));

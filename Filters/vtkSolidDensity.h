@@ -43,6 +43,7 @@
 #define vtkSolidDensity_h
 
 #include "vtkGuardedAlgorithm.h"
+#include "vtkTransportProperties.h" // for where values are
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -53,15 +54,6 @@ public:
   static vtkSolidDensity* New();
   vtkTypeMacro(vtkSolidDensity, vtkGuardedAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * What Association may be.
-   */
-  enum AssociationType
-  {
-    POINTS = 0,
-    CELLS = 1
-  };
 
   ///@{
   /**
@@ -90,18 +82,9 @@ public:
   vtkGetMacro(Padding, double);
   ///@}
 
-  ///@{
-  /**
-   * Where the values are. Points (default): on points at the cells' centres, ready for contours and
-   * volume rendering. Cells: on the cells. The numbers are the same.
-   */
-  vtkSetMacro(Association, int);
-  vtkGetMacro(Association, int);
-  void SetAssociationToPoints() { this->SetAssociation(POINTS); }
-  void SetAssociationToCells() { this->SetAssociation(CELLS); }
-  const char* GetAssociationAsString();
-  ///@}
+  vtkAssociationPropertiesMacro();
 
+public:
   /**
    * The image.
    */
@@ -121,7 +104,6 @@ protected:
   int Resolution;
   int Supersampling;
   double Padding;
-  int Association;
 
 private:
   vtkSolidDensity(const vtkSolidDensity&) = delete;

@@ -219,7 +219,6 @@ void vtkTransportBlend::PrintSelf(ostream& os, vtkIndent indent)
      << this->Dimensions[2] << "\n";
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
   os << indent << "MassMode: " << this->GetMassModeAsString() << "\n";
-  os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
+  this->GetSplatSettings().Print(os, indent);
 }
 VTK_ABI_NAMESPACE_END

@@ -13,6 +13,7 @@
 
 namespace RectifiedTransport
 {
+struct AssociationSettings;
 struct FlowSettings;
 struct SplatSettings;
 } // namespace RectifiedTransport
@@ -134,5 +135,35 @@ protected:                                                                      
   RectifiedTransport::SplatSettings GetSplatSettings();                                            \
   int Kernel = CLOUD_IN_CELL;                                                                      \
   double Radius = 1.0
+
+/**
+ * Where the values of the image are that a filter makes:
+ *
+ * - Association. Points (default): on points at the cells' centres (of an image whose geometry the
+ *   filter takes: on its points), ready for contours and volume rendering. Cells: on the cells. The
+ *   numbers are the same.
+ */
+#define vtkAssociationPropertiesMacro()                                                            \
+public:                                                                                            \
+  enum AssociationType                                                                             \
+  {                                                                                                \
+    POINTS = 0,                                                                                    \
+    CELLS = 1                                                                                      \
+  };                                                                                               \
+  vtkSetMacro(Association, int);                                                                   \
+  vtkGetMacro(Association, int);                                                                   \
+  void SetAssociationToPoints()                                                                    \
+  {                                                                                                \
+    this->SetAssociation(POINTS);                                                                  \
+  }                                                                                                \
+  void SetAssociationToCells()                                                                     \
+  {                                                                                                \
+    this->SetAssociation(CELLS);                                                                   \
+  }                                                                                                \
+  const char* GetAssociationAsString();                                                            \
+                                                                                                   \
+protected:                                                                                         \
+  RectifiedTransport::AssociationSettings GetAssociationSettings();                                \
+  int Association = POINTS
 
 #endif
