@@ -3,7 +3,6 @@
 
 A picture here is an array of rows, columns and RGB, the lowest row first, as in VTK.
 """
-import argparse
 import os
 import sys
 import tempfile
@@ -21,18 +20,6 @@ from vtkmodules.vtkImagingCore import (vtkImageExtractComponents, vtkImageInterp
                                        vtkImageResize, vtkImageShiftScale, vtkImageShrink3D)
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkTextProperty, vtkTextRenderer
-
-RACCOON = os.path.join(example.DATA, "raccoon.png")
-
-
-def at_least(smallest):
-    """The type of an argument that is a whole number."""
-    def number(text):
-        if not text.isdigit() or int(text) < smallest:
-            raise argparse.ArgumentTypeError("%s is not a whole number of at least %d"
-                                             % (text, smallest))
-        return int(text)
-    return number
 
 
 def table(title, headings, rows):

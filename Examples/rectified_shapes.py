@@ -22,7 +22,7 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkProbeFilter
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkImagingCore import vtkImageConstantPad
 
-MESHES = os.path.join(example.HERE, os.pardir, "build-meshes")
+MESHES = os.path.join(example.ROOT, "build-meshes")
 # The file, and which of its axes point right and up when the shape is seen from its best side.
 SHAPES = {"armadillo": ("armadillo.off", "-x", "+y"),
           "bear": ("bear.off", "+x", "+y"),
@@ -176,6 +176,13 @@ class Watch:
         now = np.array([time.perf_counter(), time.process_time()])
         before, self.now = getattr(self, "now", now), now
         return now - before
+
+
+def names(default, words, joined=True):
+    """An argument of a parser that is shapes; two may be joined in pictures."""
+    return dict(nargs="*", default=default,
+                help=words + ": names of rectified_shapes.py or files of surfaces"
+                + (", or two joined by + to be side by side" if joined else ""))
 
 
 def pairs(parser, names):

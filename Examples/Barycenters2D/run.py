@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 12 of the paper: barycenters of the silhouettes of four real shapes."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -13,19 +12,10 @@ from paraview import simple
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["bunny", "coupling", "spot+bear", "knot"],
-                        help="four shapes, top left, top right, bottom left, bottom right: names "
-                        "of rectified_shapes.py or files of surfaces, or two joined by +")
-    parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images")
-    parser.add_argument("--particles", type=figures.at_least(1), default=9,
-                        help="particles a pixel; the paper has 1")
-    parser.add_argument("--rows", type=figures.at_least(2), default=5,
-                        help="rows and columns of pictures")
-    parser.add_argument("--panel", type=figures.at_least(16), default=256,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
+    parser = example.parser(
+        __doc__, shapes=shapes.names(["bunny", "coupling", "spot+bear", "knot"], "four shapes, top "
+                                     "left, top right, bottom left, bottom right"),
+        size=256, particles=9, rows=example.number(5, "rows and columns of pictures", 2), panel=256)
     arguments = parser.parse_args()
     if len(arguments.shapes) != 4:
         parser.error("%d shapes are given; it must be four" % len(arguments.shapes))

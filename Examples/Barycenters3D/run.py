@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 13 of the paper: barycenters of three solids, in a triangle."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -13,16 +12,10 @@ from paraview import simple
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "eight", "bunny"],
-                        help="three closed surfaces, top, left and right: names of "
-                        "rectified_shapes.py or files")
-    parser.add_argument("--resolution", type=figures.at_least(8), default=96,
-                        help="cells along the longest axis of a solid; the paper has 256")
-    parser.add_argument("--rows", type=figures.at_least(2), default=4, help="rows of the triangle")
-    parser.add_argument("--panel", type=figures.at_least(16), default=360,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
+    parser = example.parser(
+        __doc__, shapes=shapes.names(["spot", "eight", "bunny"],
+                                     "three closed surfaces, top, left and right", joined=False),
+        resolution=96, rows=example.number(4, "rows of the triangle", 2), panel=360)
     arguments = parser.parse_args()
     if len(arguments.shapes) != 3:
         parser.error("%d shapes are given; it must be three" % len(arguments.shapes))

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws a photograph under a labelled grid, and both warped so that the ink is spread evenly."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 from paraview import simple
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -82,15 +81,12 @@ def draw(path, parts, array, bounds, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=os.path.join(example.DATA, "raccoon.png"),
-                        help="a photograph in any format that ParaView reads")
-    parser.add_argument("--columns", type=int, default=8, help="cells of the grid, left to right")
-    parser.add_argument("--rows", type=int, default=6, help="and top to bottom")
-    parser.add_argument("--blend", type=float, default=1, help="how far to warp, from 0 to 1")
-    parser.add_argument("--pixels", type=int, default=2000, help="width of the picture")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, image=example.file(),
+        columns=example.number(8, "cells of the grid, left to right"),
+        rows=example.number(6, "and top to bottom"),
+        blend=dict(type=float, default=1, help="how far to warp, from 0 to 1"),
+        pixels=example.number(2000, "width of the picture")).parse_args()
 
     example.load_plugin()
     image = example.open_image(arguments.image)

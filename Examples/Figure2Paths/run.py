@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 2 of the paper: paths in space and time to a density in one dimension."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -160,18 +159,13 @@ def draw(density, number, start, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cells", type=figures.at_least(8), default=512,
-                        help="cells of the density")
-    parser.add_argument("--particles", type=figures.at_least(1), default=10000,
-                        help="number of particles that the errors are taken over")
-    parser.add_argument("--paths", type=figures.at_least(1), default=64,
-                        help="number of paths in the picture")
-    parser.add_argument("--start", type=float, help="where the purple path starts, in cells; by "
-                        "default in the middle: 256 of 512")
-    parser.add_argument("--pixels", type=figures.at_least(100), default=1200,
-                        help="width of the picture")
-    parser.add_argument("--output", default=".", help="folder of the picture")
+    parser = example.parser(
+        __doc__, cells=example.number(512, "cells of the density", 8),
+        particles=example.number(10000, "number of particles that the errors are taken over"),
+        paths=example.number(64, "number of paths in the picture"),
+        start=dict(type=float, help="where the purple path starts, in cells; by default in the "
+                   "middle: 256 of 512"),
+        pixels=example.number(1200, "width of the picture", 100))
     arguments = parser.parse_args()
     start = arguments.cells / 2 if arguments.start is None else arguments.start
     if not 0 < start < arguments.cells:

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 4 of the paper: what interpolating the tables and the number of steps do."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -134,28 +133,16 @@ def count_steps(photograph, arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=figures.RACCOON,
-                        help="a photograph in any format that ParaView reads")
-    parser.add_argument("--resolutions", type=figures.at_least(2), nargs="+",
-                        default=[16, 64, 256, 1024],
-                        help="pixels along the sides of the photograph, upper part")
-    parser.add_argument("--steps", type=figures.at_least(1), nargs="+",
-                        default=[5, 10, 25, 50, 100], help="numbers of steps, lower part")
-    parser.add_argument("--size", type=figures.at_least(2), default=1024,
-                        help="pixels along the sides of the photograph, lower part")
-    parser.add_argument("--samples", type=figures.at_least(2), default=1024,
-                        help="samples of the maps along each side, upper part")
-    parser.add_argument("--step-samples", type=figures.at_least(2), default=512,
-                        help="the same, lower part")
-    parser.add_argument("--published", type=figures.at_least(2), default=256,
-                        help="the same, of the published scheme, upper part")
-    parser.add_argument("--check", type=figures.at_least(2), default=150,
-                        help="the same, for errors and times")
-    parser.add_argument("--panel", type=figures.at_least(16), default=256,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the pictures")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, image=example.file(),
+        resolutions=example.number([16, 64, 256, 1024],
+                                   "pixels along the sides of the photograph, upper part", 2),
+        steps=example.number([5, 10, 25, 50, 100], "numbers of steps, lower part"),
+        size=example.number(1024, "pixels along the sides of the photograph, lower part", 2),
+        samples=example.number(1024, "samples of the maps along each side, upper part", 2),
+        step_samples=example.number(512, "the same, lower part", 2),
+        published=example.number(256, "the same, of the published scheme, upper part", 2),
+        check=example.number(150, "the same, for errors and times", 2), panel=256).parse_args()
 
     example.load_plugin()
     photograph = figures.photograph(arguments.image)

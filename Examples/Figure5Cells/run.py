@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes the paper's Figure 5: the cells of random sites and of sites on a disc, and their costs."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -74,13 +73,11 @@ def draw(path, sets, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--sites", type=figures.at_least(1), default=1024, help="how many, in each of the two sets")
-    parser.add_argument("--resolution", type=figures.at_least(1), default=1024, help="pixels of the square's side")
-    parser.add_argument("--seed", type=figures.at_least(0), default=1, help="of the random sites")
-    parser.add_argument("--pixels", type=figures.at_least(64), default=2040, help="width of the picture")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, sites=example.number(1024, "how many, in each of the two sets"),
+        resolution=example.number(1024, "pixels of the square's side"),
+        seed=example.number(1, "of the random sites", 0),
+        pixels=example.number(2040, "width of the picture", 64)).parse_args()
 
     example.load_plugin()
     square = vtkImageData()

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 6 of the paper: the displacement of the map and its divergence."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
 
-BRAIN = os.path.join(example.DATA, "brain-t1.vti")
 # Relative errors against the optimum in the l2 norm, of T, of its displacement and divergence.
 PAPER = {"photograph": ("1.5 %", "14.6 %", "21.8 %"), "subject": ("2.6 %", "13.2 %", "125 %")}
 
@@ -74,18 +72,13 @@ def measure(name, image, invert, direction):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=figures.RACCOON,
-                        help="a photograph that covers the plane; dark is mass")
-    parser.add_argument("--subject", default=BRAIN,
-                        help="a picture, or a volume of which the middle slice is taken, with a "
-                        "background of 0; bright is mass")
-    parser.add_argument("--size", type=figures.at_least(2), default=512,
-                        help="pixels along the sides of both")
-    parser.add_argument("--panel", type=figures.at_least(16), default=384,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__,
+        image=example.file(words="a photograph that covers the plane; dark is mass"),
+        subject=dict(default=example.BRAIN,
+                     help="a picture, or a volume of which the middle slice is taken, with a "
+                     "background of 0; bright is mass"),
+        size=example.number(512, "pixels along the sides of both", 2), panel=384).parse_args()
 
     example.load_plugin()
     photograph = figures.grey_square(figures.photograph(arguments.image), arguments.size)

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 7 of the paper: stipplings by growing numbers of steps."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 import rectified_figures as figures
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -20,23 +19,14 @@ def positions(dots, **options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=figures.RACCOON,
-                        help="a photograph in any format that ParaView reads")
-    parser.add_argument("--size", type=figures.at_least(8), default=1024,
-                        help="pixels along the sides of the photograph")
-    parser.add_argument("--particles", type=figures.at_least(1), default=16384,
-                        help="number of dots")
-    parser.add_argument("--steps", type=figures.at_least(1), nargs="+",
-                        default=[1, 2, 5, 10, 25, 50, 200], help="numbers of steps")
-    parser.add_argument("--pictures", type=figures.at_least(1), default=6,
-                        help="how many of them are drawn, from the first on")
-    parser.add_argument("--block", type=figures.at_least(1), default=32,
-                        help="pixels along the sides of a block of DensityError")
-    parser.add_argument("--panel", type=figures.at_least(16), default=384,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, image=example.file(),
+        size=example.number(1024, "pixels along the sides of the photograph", 8),
+        particles=example.number(16384, "number of dots"),
+        steps=example.number([1, 2, 5, 10, 25, 50, 200], "numbers of steps"),
+        pictures=example.number(6, "how many of them are drawn, from the first on"),
+        block=example.number(32, "pixels along the sides of a block of DensityError"),
+        panel=384).parse_args()
 
     example.load_plugin()
     stipple = example.script("StippleImage")

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Remakes Figure 8 of the paper: numbers of samples and resolutions of the image."""
-import argparse
 import math
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
@@ -63,24 +62,14 @@ def whole_time(image, number, repeats):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=figures.RACCOON,
-                        help="a photograph in any format that ParaView reads")
-    parser.add_argument("--samples", type=figures.at_least(1), nargs="+",
-                        default=[2048, 8192, 32768, 131072], help="numbers of samples, first row")
-    parser.add_argument("--size", type=figures.at_least(BLOCKS), default=2048,
-                        help="pixels along the sides of the photograph, first row")
-    parser.add_argument("--sizes", type=figures.at_least(BLOCKS), nargs="+",
-                        default=[256, 512, 1024, 2048, 4096],
-                        help="pixels along the sides of the photograph, second row")
-    parser.add_argument("--particles", type=figures.at_least(1), default=32768,
-                        help="number of samples, second row")
-    parser.add_argument("--repeats", type=figures.at_least(1), default=9,
-                        help="runs of which the fastest counts")
-    parser.add_argument("--panel", type=figures.at_least(16), default=480,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, image=example.file(),
+        samples=example.number([2048, 8192, 32768, 131072], "numbers of samples, first row"),
+        size=example.number(2048, "pixels along the sides of the photograph, first row", BLOCKS),
+        sizes=example.number([256, 512, 1024, 2048, 4096],
+                             "pixels along the sides of the photograph, second row", BLOCKS),
+        particles=example.number(32768, "number of samples, second row"),
+        repeats=example.number(9, "runs of which the fastest counts"), panel=480).parse_args()
 
     example.load_plugin()
     photograph = figures.photograph(arguments.image)

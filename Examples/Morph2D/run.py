@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morphs silhouettes of real shapes: one piece into two, and holes into other holes."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -13,19 +12,11 @@ from paraview import simple
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["bunny", "camel+dinosaur", "knot",
-                                                      "coupling", "bull", "rings"],
-                        help="pairs of shapes, a morph each: names of rectified_shapes.py or files "
-                        "of surfaces, or two joined by + to be side by side")
-    parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images")
-    parser.add_argument("--particles", type=figures.at_least(1), default=9,
-                        help="particles a pixel; the paper has 1")
-    parser.add_argument("--frames", type=figures.at_least(2), default=7, help="pictures of a morph")
-    parser.add_argument("--panel", type=figures.at_least(16), default=256,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
+    parser = example.parser(
+        __doc__,
+        shapes=shapes.names(["bunny", "camel+dinosaur", "knot", "coupling", "bull", "rings"],
+                            "pairs of shapes, a morph each"),
+        size=256, particles=9, frames=7, panel=256)
     arguments = parser.parse_args()
     pairs = shapes.pairs(parser, arguments.shapes)
 

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morphs one solid into another: two closed meshes, a density each, and surfaces in between."""
-import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -44,21 +43,16 @@ def morph(names, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["spot", "bunny", "spot", "eight"],
-                        help="pairs of closed surfaces, a morph each: names of "
-                        "rectified_shapes.py or files")
-    parser.add_argument("--resolution", type=figures.at_least(8), default=128,
-                        help="cells along the longest axis of a solid; the paper has 256")
-    parser.add_argument("--cube", action="store_true",
-                        help="grow the boxes of the solids to cubes, as the paper has them")
-    parser.add_argument("--kernel", default="Gaussian",
-                        choices=["Gaussian", "CloudInCell", "TriangularShapedCloud"],
-                        help="how a particle's mass is spread")
-    parser.add_argument("--frames", type=figures.at_least(2), default=5, help="pictures of a morph")
-    parser.add_argument("--panel", type=figures.at_least(16), default=400,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the picture")
+    parser = example.parser(
+        __doc__, shapes=shapes.names(["spot", "bunny", "spot", "eight"],
+                                     "pairs of closed surfaces, a morph each", joined=False),
+        resolution=128,
+        cube=dict(action="store_true",
+                  help="grow the boxes of the solids to cubes, as the paper has them"),
+        kernel=dict(default="Gaussian",
+                    choices=["Gaussian", "CloudInCell", "TriangularShapedCloud"],
+                    help="how a particle's mass is spread"),
+        frames=5, panel=400)
     arguments = parser.parse_args()
     pairs = shapes.pairs(parser, arguments.shapes)
 

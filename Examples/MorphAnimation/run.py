@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plays a morph as ParaView's play button does, beside a cross-fade of the same two images."""
-import argparse
 import os
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -46,21 +45,11 @@ def flat_view(sources, size, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("shapes", nargs="*", default=["knot", "coupling"],
-                        help="two shapes: names of rectified_shapes.py or files of surfaces, or "
-                        "two joined by +")
-    parser.add_argument("--size", type=figures.at_least(8), default=256,
-                        help="pixels along the sides of the images")
-    parser.add_argument("--particles", type=figures.at_least(1), default=9,
-                        help="particles a pixel")
-    parser.add_argument("--frames", type=figures.at_least(2), default=21, help="of the animation")
-    parser.add_argument("--seconds", type=float, default=2, help="that it takes, one way")
-    parser.add_argument("--pictures", type=figures.at_least(2), default=5,
-                        help="how many frames the strip shows")
-    parser.add_argument("--panel", type=figures.at_least(16), default=320,
-                        help="side of each of the pictures")
-    parser.add_argument("--output", default=".", help="folder of the animation and the strip")
+    parser = example.parser(
+        __doc__, shapes=shapes.names(["knot", "coupling"], "two shapes"), size=256, particles=9,
+        frames=example.number(21, "of the animation", 2),
+        seconds=dict(type=float, default=2, help="that it takes, one way"),
+        pictures=example.number(5, "how many frames the strip shows", 2), panel=320)
     arguments = parser.parse_args()
     if len(arguments.shapes) != 2:
         parser.error("%d shapes are given; it must be two" % len(arguments.shapes))

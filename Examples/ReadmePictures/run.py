@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the pictures of README.md and Documentation/."""
-import argparse
 import os
 import shutil
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-EXAMPLES = os.path.dirname(HERE)
-sys.path.insert(0, EXAMPLES)
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import numpy as np
 import rectified_example as example
 import rectified_figures as figures
@@ -18,14 +15,13 @@ from vtkmodules.vtkImagingColor import vtkImageLuminance
 from vtkmodules.vtkImagingCore import vtkImageResize
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
-PHOTOGRAPH = os.path.join(example.DATA, "raccoon.png")
 STRIP = [560, 420]  # the size of a picture of the photograph
 
 
 def draw_density(path):
     """The photograph as the filter sees it: its luminance."""
     photograph = vtkPNGReader()
-    photograph.SetFileName(PHOTOGRAPH)
+    photograph.SetFileName(example.PHOTOGRAPH)
     grey = vtkImageLuminance()
     grey.SetInputConnection(photograph.GetOutputPort())
     small = vtkImageResize()
@@ -38,7 +34,7 @@ def draw_density(path):
 
 
 def draw_particles(path, stipple):
-    dots, radius = stipple.stipple(example.open_image(PHOTOGRAPH), 10000)
+    dots, radius = stipple.stipple(example.open_image(example.PHOTOGRAPH), 10000)
     stipple.write_png(path, dots, [-0.5, 1023.5, -0.5, 767.5], radius, STRIP[0])
 
 
@@ -70,7 +66,7 @@ def draw_patterns(path, stipple):
 
 
 def draw_flow(path, stipple):
-    photograph = example.open_image(PHOTOGRAPH)
+    photograph = example.open_image(example.PHOTOGRAPH)
     draw_row(path, [simple.SampleDensity(Input=photograph, InvertDensity=1, NumberOfParticles=3000,
                                          FlowTime=time) for time in (0, 0.5, 0.8, 1)],
              [1024, 768], 6, 1200, stipple)
@@ -84,7 +80,7 @@ def flat_picture(path, view, centre, half_height):
 
 def draw_map(path):
     """A grid as the map bends it: its cells hold equal masses."""
-    transport = simple.TransportMap(Input=example.open_image(PHOTOGRAPH), InvertDensity=1,
+    transport = simple.TransportMap(Input=example.open_image(example.PHOTOGRAPH), InvertDensity=1,
                                     SampleDimensions=[120, 90, 1])
     transport.UpdatePipeline()  # WarpByVector looks for its vectors when it is made
     view = example.picture_view(STRIP, [1, 1, 1])
@@ -100,7 +96,7 @@ def draw_map(path):
 
 
 def draw_paths(path):
-    paths = simple.SampleDensity(Input=example.open_image(PHOTOGRAPH), InvertDensity=1,
+    paths = simple.SampleDensity(Input=example.open_image(example.PHOTOGRAPH), InvertDensity=1,
                                  NumberOfParticles=250, OutputPaths=1)
     view = example.picture_view(STRIP, [1, 1, 1])
     shown = simple.Show(paths, view, "GeometryRepresentation")
@@ -114,7 +110,7 @@ def draw_paths(path):
 
 def draw_splats(path, stipple, cells=(80, 60), side=240):
     """10,000 particles of the photograph's ink and what each kernel makes of them."""
-    dots, radius = stipple.stipple(example.open_image(PHOTOGRAPH), 10000)
+    dots, radius = stipple.stipple(example.open_image(example.PHOTOGRAPH), 10000)
     row = [("particles", figures.drawn(stipple.write_png, dots, [-0.5, 1023.5, -0.5, 767.5],
                                        radius, side))]
     splat = simple.SplatMass(Input=dots, Dimensions=[*cells, 1], MassArray=["POINTS", "Mass"])
@@ -143,10 +139,7 @@ def draw_solid(path, resolution=48, side=300):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", help="folder of the pictures, by default the documentation's",
-                        default=os.path.join(os.path.dirname(EXAMPLES), "Documentation", "Images"))
-    folder = parser.parse_args().output
+    folder = example.parser(__doc__, output=example.IMAGES).parse_args().output
     os.makedirs(folder, exist_ok=True)
     example.load_plugin()
     stipple = example.script("StippleImage")

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the README's picture of ParaView's window after the README's five clicks."""
-import argparse
 import os
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path[:0] = [os.path.join(ROOT, "Examples"), os.path.join(ROOT, "Testing", "Python")]
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
+
+sys.path.insert(0, os.path.join(example.ROOT, "Testing", "Python"))
 import rt_window
 
 SIZE = 1100, 800
@@ -20,15 +19,12 @@ STYLE = """
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", help="folder of the picture, by default the documentation's",
-                        default=os.path.join(ROOT, "Documentation", "Images"))
-    folder = parser.parse_args().output
+    folder = example.parser(__doc__, output=example.IMAGES).parse_args().output
     os.makedirs(folder, exist_ok=True)
     picture = os.path.join(folder, "window.png")
     if not os.environ.get("DISPLAY"):
         sys.exit('Needs a display: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython ...')
-    steps = rt_window.first_stippling(os.path.join(example.DATA, "raccoon.png"))
+    steps = rt_window.first_stippling(example.PHOTOGRAPH)
     with tempfile.TemporaryDirectory() as home:
         style = os.path.join(home, "style.qss")
         with open(style, "w", encoding="utf-8") as file:

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Turns a volume into particles and draws half of them as spheres, coloured by the volume."""
-import argparse
 import math
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 from paraview import simple
 
@@ -40,13 +39,12 @@ def draw(path, particles, bounds, radius, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("volume", nargs="?", default=os.path.join(example.DATA, "brain-t1.vti"),
-                        help="an image of three dimensions in any format that ParaView reads")
-    parser.add_argument("--particles", type=int, default=300000, help="number of particles")
-    parser.add_argument("--pixels", type=int, default=1200, help="side of the picture")
-    parser.add_argument("--output", default=".", help="folder of the picture")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__,
+        volume=example.file(example.BRAIN,
+                            "an image of three dimensions in any format that ParaView reads"),
+        particles=example.number(300000, "number of particles"),
+        pixels=example.number(1200, "side of the picture")).parse_args()
 
     example.load_plugin()
     volume = example.open_image(arguments.volume)

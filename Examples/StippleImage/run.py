@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws a photograph with dots, as a PNG and as an SVG."""
-import argparse
 import math
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
 import rectified_example as example
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -53,13 +52,10 @@ def write_png(path, dots, bounds, radius, longest):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("image", nargs="?", default=os.path.join(example.DATA, "raccoon.png"),
-                        help="a photograph in any format that ParaView reads")
-    parser.add_argument("--particles", type=int, default=40000, help="number of dots")
-    parser.add_argument("--pixels", type=int, default=2048, help="longest side of the PNG")
-    parser.add_argument("--output", default=".", help="folder of the pictures")
-    arguments = parser.parse_args()
+    arguments = example.parser(
+        __doc__, image=example.file(),
+        particles=example.number(40000, "number of dots"),
+        pixels=example.number(2048, "longest side of the PNG")).parse_args()
 
     example.load_plugin()
     image = example.open_image(arguments.image)
