@@ -56,6 +56,17 @@ def parser(description, output=".", **arguments):
     return made
 
 
+def output(arguments, name):
+    """The path of a file in the folder --output, which is made."""
+    os.makedirs(arguments.output, exist_ok=True)
+    return os.path.join(arguments.output, name)
+
+
+def stem(path):
+    """The name of a file without folder and ending."""
+    return os.path.splitext(os.path.basename(path))[0]
+
+
 def plugin_path():
     """The plugin that RT_PLUGIN names, else the one in build/, else None: ParaView looks itself."""
     built = glob.glob(os.path.join(ROOT, "build", "lib*", "**", "RectifiedTransport.so"),

@@ -244,6 +244,13 @@ def montage(path, rows, width, gap=10, caption=26):
     save(path, np.concatenate(strips[::-1]))
 
 
+def write_montage(arguments, name, rows, **layout):
+    """Writes a montage of panels of --panel into the folder --output. Returns its path."""
+    path = example.output(arguments, name)
+    montage(path, rows, arguments.panel, **layout)
+    return path
+
+
 def save(path, picture):
     writer = vtkPNGWriter()
     writer.SetInputData(image_of(picture))

@@ -41,10 +41,7 @@ def main():
                    (("four maps, and the first barycenter", times[0]),
                     ("another barycenter", np.mean(times[1:], axis=0)),
                     ("all %d barycenters" % len(times), np.sum(times, axis=0)))])
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "barycenters-2d.png")
-    figures.montage(path, pictures, arguments.panel, caption=0)
-    print("\n" + path)
+    print("\n" + figures.write_montage(arguments, "barycenters-2d.png", pictures, caption=0))
 
 
 if __name__ == "__main__":

@@ -48,8 +48,7 @@ def main():
                     ("three maps, the first barycenter and surface", times[0], "1394"),
                     ("another barycenter and surface", np.mean(times[1:], axis=0), "4"))])
     print("\nAt most %.2f GiB of memory" % shapes.peak_memory())
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "barycenters-3d.png")
+    path = example.output(arguments, "barycenters-3d.png")
     figures.save(path, picture)
     print(path)
 

@@ -99,9 +99,7 @@ def main():
     if example.fetch(warped[0]).GetNumberOfPoints() == 0:
         sys.exit(1)  # the filter has said why
 
-    os.makedirs(arguments.output, exist_ok=True)
-    name = os.path.splitext(os.path.basename(arguments.image))[0]
-    path = os.path.join(arguments.output, "cartogram-" + name + ".png")
+    path = example.output(arguments, "cartogram-" + example.stem(arguments.image) + ".png")
     draw(path, (parts, warped), data.GetPointData().GetArray(0), bounds, arguments.pixels)
     print("%d points warped: %s" % (data.GetNumberOfPoints(), path))
 

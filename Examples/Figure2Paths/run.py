@@ -174,8 +174,7 @@ def main():
     example.load_plugin()
     density = two_gaussians(arguments.cells)
     print_errors(density, arguments.particles, start)
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "figure2-paths.png")
+    path = example.output(arguments, "figure2-paths.png")
     figures.save(path, draw(density, arguments.paths, start, arguments.pixels))
     print("\n%d paths: %s" % (arguments.paths, path))
 

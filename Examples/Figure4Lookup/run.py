@@ -146,8 +146,6 @@ def main():
 
     example.load_plugin()
     photograph = figures.photograph(arguments.image)
-    os.makedirs(arguments.output, exist_ok=True)
-
     rows, pictures = compare_lookups(photograph, arguments)
     figures.table(
         "Top: lookup in the tables, RK4, T = %d. NaN of %d samples of the published scheme and of "
@@ -156,8 +154,7 @@ def main():
         ["image", "published Nearest", "Nearest", "Interpolated", "mean distance", "largest",
          "time ratio"], [*rows, ["paper", "many at low resolution", "-", "0", "-", "-",
                                  "about 0.5"]])
-    top = os.path.join(arguments.output, "figure4-lookup.png")
-    figures.montage(top, pictures, arguments.panel)
+    top = figures.write_montage(arguments, "figure4-lookup.png", pictures)
 
     rows, pictures = count_steps(photograph, arguments)
     figures.table(
@@ -166,8 +163,7 @@ def main():
         ["steps N", "RungeKutta4, N (4 N velocities)", "Multistep, N (N - 1 velocities)",
          "Multistep, 4 N + 1 (4 N velocities)"],
         [*rows, ["paper", "pictures; T = 50 chosen", "-", "-"]])
-    bottom = os.path.join(arguments.output, "figure4-steps.png")
-    figures.montage(bottom, pictures, arguments.panel)
+    bottom = figures.write_montage(arguments, "figure4-steps.png", pictures)
     print("\n%s, %s" % (top, bottom))
 
 

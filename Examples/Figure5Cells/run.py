@@ -94,8 +94,7 @@ def main():
     figures.table("Upper bounds of the costs", ["sites", *("W_%g^%g" % c for c in COSTS)],
                   [*costs, ["paper", *("-" for _ in COSTS)]])
 
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "figure5-cells.png")
+    path = example.output(arguments, "figure5-cells.png")
     draw(path, sets, arguments.pixels)
     print(path)
 

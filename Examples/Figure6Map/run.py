@@ -102,10 +102,7 @@ def main():
                   ["map", "mean distance, cells", "divergence", "1 % to 99 %",
                    "cost / width\u00b2"],
                   [*rows, ["paper", "pictures only", "-", "-", "-"]])
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "figure6-map.png")
-    figures.montage(path, pictures, arguments.panel)
-    print("\n" + path)
+    print("\n" + figures.write_montage(arguments, "figure6-map.png", pictures))
 
 
 if __name__ == "__main__":

@@ -57,10 +57,7 @@ def main():
         "(RungeKutta4), N (Euler), N - 1 (Multistep)."
         % (arguments.particles, arguments.size, arguments.block), ["steps N", *INTEGRATORS],
         [*rows, ["paper", "pictures; N = 50 chosen", "similar with more steps", "-"]])
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "figure7-steps.png")
-    figures.montage(path, pictures, arguments.panel)
-    print("\n" + path)
+    print("\n" + figures.write_montage(arguments, "figure7-steps.png", pictures))
 
 
 if __name__ == "__main__":

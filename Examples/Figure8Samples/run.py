@@ -96,10 +96,7 @@ def main():
                   [[name_of(number, side), "%.3f" % whole_time(source_of(side), number,
                                                                arguments.repeats), paper]
                    for number, side, paper in PAPER])
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "figure8-samples.png")
-    figures.montage(path, pictures, arguments.panel)
-    print("\n" + path)
+    print("\n" + figures.write_montage(arguments, "figure8-samples.png", pictures))
 
 
 if __name__ == "__main__":

@@ -41,10 +41,7 @@ def main():
                   "processors" % (arguments.size, arguments.particles),
                   ["morph", "maps and a frame", "another frame",
                    "%d frames" % arguments.frames], rows)
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "morph-2d.png")
-    figures.montage(path, pictures, arguments.panel)
-    print("\n" + path)
+    print("\n" + figures.write_montage(arguments, "morph-2d.png", pictures))
 
 
 if __name__ == "__main__":

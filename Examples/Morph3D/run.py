@@ -65,10 +65,7 @@ def main():
                       ["stage", "clock", "all processors", "paper, 256\u00b3, 32 cores"], times)
         pictures.append(line)
     print("\nAt most %.2f GiB of memory" % shapes.peak_memory())
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "morph-3d.png")
-    figures.montage(path, pictures, arguments.panel)
-    print(path)
+    print(figures.write_montage(arguments, "morph-3d.png", pictures))
 
 
 if __name__ == "__main__":

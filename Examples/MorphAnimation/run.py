@@ -77,8 +77,7 @@ def main():
             scene.AnimationTime = moment
             frames.append(figures.drawn(example.save_picture, view))
 
-    os.makedirs(arguments.output, exist_ok=True)
-    path = os.path.join(arguments.output, "morph-animation")
+    path = example.output(arguments, "morph-animation")
     film = [Image.fromarray(frame[::-1]) for frame in frames + frames[-2:0:-1]]
     film[0].save(path + ".gif", save_all=True, append_images=film[1:], loop=0,
                  duration=round(1000 * arguments.seconds / (arguments.frames - 1)))

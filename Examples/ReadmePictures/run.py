@@ -139,13 +139,12 @@ def draw_solid(path, resolution=48, side=300):
 
 
 def main():
-    folder = example.parser(__doc__, output=example.IMAGES).parse_args().output
-    os.makedirs(folder, exist_ok=True)
+    arguments = example.parser(__doc__, output=example.IMAGES).parse_args()
     example.load_plugin()
     stipple = example.script("StippleImage")
 
     def path(name):
-        return os.path.join(folder, name + ".png")
+        return example.output(arguments, name + ".png")
 
     draw_density(path("density"))
     draw_particles(path("particles"), stipple)
@@ -166,7 +165,7 @@ def main():
     draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
     print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
-          "morph-3d, barycenters, splats, solid: " + folder)
+          "morph-3d, barycenters, splats, solid: " + arguments.output)
 
 
 if __name__ == "__main__":

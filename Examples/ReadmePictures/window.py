@@ -19,9 +19,8 @@ STYLE = """
 
 
 def main():
-    folder = example.parser(__doc__, output=example.IMAGES).parse_args().output
-    os.makedirs(folder, exist_ok=True)
-    picture = os.path.join(folder, "window.png")
+    arguments = example.parser(__doc__, output=example.IMAGES).parse_args()
+    picture = example.output(arguments, "window.png")
     if not os.environ.get("DISPLAY"):
         sys.exit('Needs a display: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython ...')
     steps = rt_window.first_stippling(example.PHOTOGRAPH)
@@ -35,7 +34,7 @@ def main():
                               ["-crop", "%dx%d+0+0" % SIZE, "+repage", "+dither", "-colors", "256"])
     if "Success =  true" not in said:
         sys.exit(said)
-    print("window: " + folder)
+    print("window: " + arguments.output)
 
 
 if __name__ == "__main__":

@@ -58,9 +58,7 @@ def main():
     coloured = simple.ResampleWithDataset(SourceDataArrays=volume, DestinationMesh=cloud)
     coloured.UpdatePipeline()
 
-    os.makedirs(arguments.output, exist_ok=True)
-    name = os.path.splitext(os.path.basename(arguments.volume))[0]
-    path = os.path.join(arguments.output, "particles-" + name + ".png")
+    path = example.output(arguments, "particles-" + example.stem(arguments.volume) + ".png")
     draw(path, coloured, bounds, radius, arguments.pixels)
     print("%d particles: %s" % (data.GetNumberOfPoints(), path))
 

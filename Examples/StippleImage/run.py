@@ -62,9 +62,7 @@ def main():
     dots, radius = stipple(image, arguments.particles)
     bounds = example.pixel_bounds(example.fetch(image))
 
-    os.makedirs(arguments.output, exist_ok=True)
-    name = os.path.splitext(os.path.basename(arguments.image))[0]
-    path = os.path.join(arguments.output, "stipple-" + name)
+    path = example.output(arguments, "stipple-" + example.stem(arguments.image))
     points = vtk_to_numpy(example.fetch(dots).GetPoints().GetData())
     write_svg(path + ".svg", points[:, :2], bounds, radius)
     write_png(path + ".png", dots, bounds, radius, arguments.pixels)
