@@ -94,6 +94,17 @@ def fetch(source):
     return simple.servermanager.Fetch(source)
 
 
+def result(proxy, **options):
+    """What a filter makes with options set, which must not be empty; not a copy."""
+    for name, value in options.items():
+        setattr(proxy, name, value)
+    proxy.UpdatePipeline()
+    data = proxy.GetClientSideObject().GetOutputDataObject(0)
+    if data.GetNumberOfPoints() == 0:
+        sys.exit(1)  # the filter has said why
+    return data
+
+
 def producer(data):
     """A source that holds a data object."""
     source = simple.TrivialProducer()
@@ -148,12 +159,29 @@ def look_down(view, middle, height, distance):
     view.CameraParallelScale = height / 2
 
 
-def apply_preset(colours, name):
-    """Gives a transfer function one of matplotlib's maps; from 6 on ParaView refuses its old name."""
+def moved(source, x, y, z):
+    """A source's data at another place."""
+    place = simple.Transform(Input=source, Transform="Transform")
+    place.Transform.Translate = [x, y, z]
+    return place
+
+
+def paint(shown, colour):
+    """Shows data in one colour."""
+    shown.ColorArrayName = [None, ""]
+    shown.AmbientColor = shown.DiffuseColor = colour
+
+
+def colour_by(shown, view, array, preset):
+    """Shows data in one of matplotlib's maps of an array, without a legend. Returns the map."""
+    simple.ColorBy(shown, array)
+    shown.SetScalarBarVisibility(view, False)
+    colours = simple.GetColorTransferFunction(array[1])
     try:
-        colours.ApplyPreset(name + " (matplotlib)", True)
-    except RuntimeError:
-        colours.ApplyPreset(name, True)
+        colours.ApplyPreset(preset + " (matplotlib)", True)
+    except RuntimeError:  # from 6 on ParaView refuses the old name
+        colours.ApplyPreset(preset, True)
+    return colours
 
 
 def save_picture(path, view):

@@ -13,8 +13,8 @@ import rectified_example as example
 import vtkmodules.vtkRenderingFreeType  # noqa: F401, the text renderer needs it
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkImagingColor import vtkImageLuminance
 from vtkmodules.vtkImagingCore import (vtkImageExtractComponents, vtkImageInterpolator,
                                        vtkImageResize, vtkImageShiftScale, vtkImageShrink3D)
@@ -38,6 +38,16 @@ def apply(algorithm, data, **options):
         getattr(algorithm, "Set" + name)(value)
     algorithm.Update()
     return algorithm.GetOutput()
+
+
+def polydata(points):
+    """A vtkPolyData of points, given as rows of x and y or of x, y and z."""
+    coordinates = np.zeros((len(points), 3))
+    coordinates[:, :np.shape(points)[1]] = points
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    data.GetPoints().SetData(numpy_to_vtk(coordinates, deep=1))
+    return data
 
 
 def image_of(values):
@@ -124,15 +134,6 @@ def fastest(proxy, name, values):
     return min(times)
 
 
-def result(proxy):
-    """What a filter makes, which must not be empty; not a copy."""
-    proxy.UpdatePipeline()
-    data = proxy.GetClientSideObject().GetOutputDataObject(0)
-    if data.GetNumberOfPoints() == 0:
-        sys.exit(1)  # the filter has said why
-    return data
-
-
 def field(image, name):
     """A point array of an image as rows and columns; of vectors the components x and y."""
     width, height = image.GetDimensions()[:2]
@@ -143,9 +144,7 @@ def field(image, name):
 
 def displacement(transport, **options):
     """The Displacement of a Transport Map with options set."""
-    for name, value in options.items():
-        setattr(transport, name, value)
-    return field(result(transport), "Displacement").copy()
+    return field(example.result(transport, **options), "Displacement").copy()
 
 
 def lengths(vectors):

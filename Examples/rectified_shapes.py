@@ -14,9 +14,8 @@ import numpy as np
 import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkProbeFilter
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
@@ -71,9 +70,7 @@ def read_off(path):
     except (IndexError, ValueError):
         sys.exit(path + " holds no polygons of the Object File Format as text")
 
-    mesh = vtkPolyData()
-    mesh.SetPoints(vtkPoints())
-    mesh.GetPoints().SetData(numpy_to_vtk(coordinates, deep=1))
+    mesh = figures.polydata(coordinates)
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(np.cumsum([0, *map(len, corners)]), deep=1),
                   numpy_to_vtkIdTypeArray(ids, deep=1))
@@ -225,8 +222,7 @@ def lit(mesh, colour, pixels):
     view = example.picture_view([pixels, pixels], [1, 1, 1])
     source = example.producer(mesh)
     shown = simple.Show(source, view, "GeometryRepresentation")
-    shown.ColorArrayName = [None, ""]
-    shown.DiffuseColor = shown.AmbientColor = [0.35 + 0.65 * part / 255 for part in colour]
+    example.paint(shown, [0.35 + 0.65 * part / 255 for part in colour])
     shown.Ambient, shown.Specular, shown.SpecularPower = 0.12, 0.15, 20
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = [0, 0, 0]

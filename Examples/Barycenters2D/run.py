@@ -31,7 +31,7 @@ def main():
         for right in np.linspace(0, 1, arguments.rows):
             mean.Weights = np.outer([1 - down, down], [1 - right, right]).ravel().tolist()
             watch.lap()
-            image = figures.result(mean)
+            image = example.result(mean)
             times.append(watch.lap())
             line.append(("", shapes.inked(image, shapes.mixed(mean.Weights))))
         pictures.append(line)

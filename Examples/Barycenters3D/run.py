@@ -25,7 +25,7 @@ def main():
                                   Resolution=arguments.resolution) for name in arguments.shapes]
     watch = shapes.Watch()
     for solid in solids:
-        figures.result(solid)
+        example.result(solid)
     voxels = watch.lap()
     mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
     step, last = arguments.panel, arguments.rows - 1
@@ -35,7 +35,7 @@ def main():
         for column in range(row + 1):
             mean.Weights = [(last - row) / last, (row - column) / last, column / last]
             watch.lap()
-            density = figures.result(mean)
+            density = example.result(mean)
             surface = shapes.surface(density)
             times.append(watch.lap())
             left, low = round((last - row) / 2 * step) + column * step, (last - row) * step

@@ -60,14 +60,12 @@ def draw(path, parts, array, bounds, pixels):
     colors = (None, [1, 0.85, 0.1], [1, 1, 1])
     for column, row in enumerate(parts):
         for height, (part, color) in enumerate(zip(row, colors)):
-            place = simple.Transform(Input=part, Transform="Transform")
-            place.Transform.Translate = [column * step, 0, height]
-            shown = simple.Show(place, view, "GeometryRepresentation")
+            shown = simple.Show(example.moved(part, column * step, 0, height), view,
+                                "GeometryRepresentation")
             shown.SetRepresentationType("Surface")
             shown.Ambient, shown.Diffuse = 1, 0
             if color:
-                shown.ColorArrayName = [None, ""]
-                shown.AmbientColor = shown.DiffuseColor = color
+                example.paint(shown, color)
                 shown.LineWidth = 2
             else:
                 simple.ColorBy(shown, ("POINTS", array.GetName()))
@@ -96,8 +94,7 @@ def main():
     parts = [surface, *map(example.producer, grid(bounds, arguments.columns, arguments.rows))]
     warped = [simple.DensityEqualizingWarp(Input=part, Density=image, Blend=arguments.blend,
                                            InvertDensity=1) for part in parts]
-    if example.fetch(warped[0]).GetNumberOfPoints() == 0:
-        sys.exit(1)  # the filter has said why
+    example.result(warped[0])
 
     path = example.output(arguments, "cartogram-" + example.stem(arguments.image) + ".png")
     draw(path, (parts, warped), data.GetPointData().GetArray(0), bounds, arguments.pixels)

@@ -9,8 +9,7 @@ import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
 
 HEIGHT = 0.55  # of the paths' part of the picture, of its width; so are these:
 DENSITY = 0.16
@@ -42,11 +41,7 @@ def exact_ends(density, seeds):
 
 def shape(points, sizes, kind="Lines"):
     """Lines, polygons or vertices through points of the plane, so many points each."""
-    coordinates = np.zeros((len(points), 3))
-    coordinates[:, :2] = points
-    data = vtkPolyData()
-    data.SetPoints(vtkPoints())
-    data.GetPoints().SetData(numpy_to_vtk(coordinates, deep=1))
+    data = figures.polydata(points)
     cells, first = vtkCellArray(), 0
     for size in sizes:
         cells.InsertNextCell(size, range(first, first + size))
@@ -62,9 +57,7 @@ def seed_points(seeds):
 
 def ends_of(transport, **options):
     """Seeds and ends of particles that flow with options of Sample Density."""
-    for name, value in options.items():
-        setattr(transport, name, value)
-    data = figures.result(transport)
+    data = example.result(transport, **options)
     seeds = vtk_to_numpy(data.GetPointData().GetArray("SeedPosition"))[:, 0]
     return seeds, vtk_to_numpy(data.GetPoints().GetData())[:, 0]
 
@@ -95,7 +88,7 @@ def paths_of(density, seeds, steps=128):
     """The paths of seeds: x and t, with rows for the seeds."""
     paths = simple.SampleDensity(line_image(density), Seeds=seed_points(seeds),
                                  OutputPaths=1, NumberOfSteps=steps)
-    data = figures.result(paths)
+    data = example.result(paths)
     x = vtk_to_numpy(data.GetPoints().GetData())[:, 0].reshape(len(seeds), -1)
     return x, vtk_to_numpy(data.GetPointData().GetArray("Time")).reshape(len(seeds), -1)
 
@@ -130,12 +123,10 @@ def draw(density, number, start, pixels):
              (shape(flat[-1], [x.shape[1]]), purple, 7),
              (shape([(0, 0), (cells, 0), (cells, top), (0, top), (0, 0)], [5]), [0.2] * 3, 2)]
     for height, (data, colour, width) in enumerate(parts):
-        place = simple.Transform(Input=example.producer(data), Transform="Transform")
-        place.Transform.Translate = [0, 0, height]
-        shown = simple.Show(place, view, "GeometryRepresentation")
+        shown = simple.Show(example.moved(example.producer(data), 0, 0, height), view,
+                            "GeometryRepresentation")
         shown.Ambient, shown.Diffuse = 1, 0
-        shown.ColorArrayName = [None, ""]
-        shown.AmbientColor = shown.DiffuseColor = colour
+        example.paint(shown, colour)
         shown.LineWidth = width
         shown.RenderLinesAsTubes = int(width > 4)  # wide lines have gaps where they bend
     low, high = -MARGIN * cells, top + (DENSITY + MARGIN) * cells

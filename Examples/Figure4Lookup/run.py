@@ -98,7 +98,7 @@ def compare_lookups(photograph, arguments):
             moved[lookup] = figures.displacement(transport, TableLookup=lookup)
             counts[lookup] = np.isnan(moved[lookup]).any(axis=-1).sum()
             row.append(("%s, %s: %d NaN" % (lookup, name, counts[lookup]), figures.coloured(
-                figures.field(figures.result(transport), "Divergence"), *RANGE)))
+                figures.field(example.result(transport), "Divergence"), *RANGE)))
         simple.Delete(transport)
         apart = figures.lengths(moved["Nearest"] - moved["Interpolated"])
         rows.append([name, share, *("%d" % counts[lookup] for lookup in counts),
@@ -126,7 +126,7 @@ def count_steps(photograph, arguments):
         rows.append(["%d" % steps, *("%.3f / %.3f" % pair for pair in errors)])
         for row, integrator, pair in zip(pictures, ("RungeKutta4", "Multistep"), errors):
             shown.Integrator, shown.NumberOfSteps = integrator, steps
-            field = figures.field(figures.result(shown), "Divergence")
+            field = figures.field(example.result(shown), "Divergence")
             row.append(("%s, %d: %.3f cells" % (integrator, steps, pair[0]),
                         figures.coloured(field, *RANGE)))
     return rows, pictures

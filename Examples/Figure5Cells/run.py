@@ -8,21 +8,10 @@ import numpy as np
 import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
 
 COSTS = ((2, 2), (4, 4), (2, 4), (4, 1.6))  # p, q of the paper's W_p^q
-
-
-def sites_at(coordinates):
-    """A source of sites, given as rows of x and y."""
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    points.SetData(numpy_to_vtk(np.c_[coordinates, np.zeros(len(coordinates))], deep=1))
-    data = vtkPolyData()
-    data.SetPoints(points)
-    return example.producer(data)
 
 
 def make_sites(count, seed):
@@ -36,7 +25,7 @@ def make_sites(count, seed):
 def measure(name, cells, count):
     """Rows of what the cells of a set of sites are like, and what the way to the sites costs."""
     time = figures.seconds(cells)
-    labels = figures.result(cells)
+    labels = example.result(cells)
     found = np.bincount(vtk_to_numpy(labels.GetCellData().GetArray("SiteId")), minlength=count)
     costs = []
     for cells.NormExponent, cells.CostExponent in COSTS:
@@ -51,19 +40,15 @@ def draw(path, sets, pixels):
     view = example.picture_view([pixels, round(pixels / 2.04)], [1, 1, 1])
     for column, cells in enumerate(sets):
         for port, colour in ((0, None), (2, [0, 0, 0]), (1, [0, 0, 0])):
-            place = simple.Transform(Input=simple.OutputPort(cells, port), Transform="Transform")
-            place.Transform.Translate = [1.04 * column, 0, 0.01 * port]
-            shown = simple.Show(place, view)
+            shown = simple.Show(example.moved(simple.OutputPort(cells, port), 1.04 * column, 0,
+                                              0.01 * port), view)
             shown.Ambient, shown.Diffuse = 1, 0
             shown.LineWidth = 1.5
             if colour is None:
                 # Neighbours in the list of sites are no neighbours in the plane.
-                simple.ColorBy(shown, ("CELLS", "SiteId"))
-                shown.SetScalarBarVisibility(view, False)
-                example.apply_preset(simple.GetColorTransferFunction("SiteId"), "Viridis")
+                example.colour_by(shown, view, ("CELLS", "SiteId"), "Viridis")
             else:
-                shown.ColorArrayName = [None, ""]
-                shown.AmbientColor = shown.DiffuseColor = colour
+                example.paint(shown, colour)
             if port == 1:
                 shown.SetRepresentationType("Point Gaussian")
                 shown.ShaderPreset = "Plain circle"
@@ -84,7 +69,8 @@ def main():
     square.SetDimensions(2, 2, 1)
     sets, masses, costs = [], [], []
     for name, sites in make_sites(arguments.sites, arguments.seed).items():
-        sets.append(simple.EqualMassCells(Input=sites_at(sites), Domain=example.producer(square),
+        sets.append(simple.EqualMassCells(Input=example.producer(figures.polydata(sites)),
+                                          Domain=example.producer(square),
                                           Resolution=arguments.resolution, Threading="Serial"))
         mass, cost = measure(name, sets[-1], arguments.sites)
         masses.append(mass)

@@ -29,7 +29,7 @@ def maps(transport, **options):
     """T in cells, its displacement and divergence."""
     moved = figures.displacement(transport, **options)
     places = np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in moved.shape[1::-1])), axis=-1)
-    return places + moved, moved, figures.field(figures.result(transport), "Divergence").copy()
+    return places + moved, moved, figures.field(example.result(transport), "Divergence").copy()
 
 
 def relative_errors(found, exact, where):
@@ -43,7 +43,7 @@ def measure(name, image, invert, direction):
     transport = simple.TransportMap(example.producer(image), InvertDensity=invert,
                                     Direction=direction)
     exact = maps(transport, Integrator="Adaptive", Tolerance=1e-4)
-    cost = figures.result(transport).GetFieldData().GetArray("TransportCost").GetValue(0)
+    cost = example.result(transport).GetFieldData().GetArray("TransportCost").GetValue(0)
     density = figures.values_of(image).astype(float)
     density = 255 - density if invert else density
     forward = direction == "UniformToDensity"

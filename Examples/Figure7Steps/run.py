@@ -13,9 +13,7 @@ INTEGRATORS = ("RungeKutta4", "Euler", "Multistep")
 
 def positions(dots, **options):
     """Where the dots are with options of Sample Density set."""
-    for name, value in options.items():
-        setattr(dots, name, value)
-    return vtk_to_numpy(figures.result(dots).GetPoints().GetData()).copy()
+    return vtk_to_numpy(example.result(dots, **options).GetPoints().GetData()).copy()
 
 
 def main():

@@ -37,7 +37,7 @@ def stipplings(image, side, numbers, repeats, panel):
     rows, pictures = [], []
     for number, flow in times.items():
         dots.NumberOfParticles = number
-        mass = figures.result(dots).GetPointData().GetArray("Mass").GetValue(0)
+        mass = example.result(dots).GetPointData().GetArray("Mass").GetValue(0)
         found = figures.quality(dots, image, side // BLOCKS)
         rows.append([name_of(number, side), "%.1f" % (1e3 * tables),
                      "%.1f" % (1e9 * tables / side ** 2), "%.1f" % (1e3 * flow),

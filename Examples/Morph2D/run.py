@@ -30,7 +30,7 @@ def main():
         watch, line, times = shapes.Watch(), [], []
         for t in np.linspace(0, 1, arguments.frames):
             morph.Parameter = t
-            image = figures.result(morph)
+            image = example.result(morph)
             times.append(watch.lap())
             line.append(("t = %.2f" % t, shapes.inked(image, shapes.mixed([1 - t, t]))))
             watch.lap()

@@ -23,7 +23,7 @@ def morph(names, options):
         mesh = example.producer(shapes.posed(name))
         watch.lap()
         solid = simple.SolidDensity(Input=mesh, Resolution=options.resolution)
-        density = figures.result(solid)
+        density = example.result(solid)
         if options.cube:
             solid = example.producer(shapes.cubed(density, options.resolution))
         took("solid of " + name)
@@ -33,7 +33,7 @@ def morph(names, options):
     for t in np.linspace(0, 1, options.frames):
         watch.lap()
         between.Parameter = t
-        density = figures.result(between)
+        density = example.result(between)
         took(*("step t = %.2f" % t, "3") if pictures else ("two maps, step t = 0", "815"))
         surface = shapes.surface(density)
         took("its surface", "with the step")

@@ -64,7 +64,7 @@ def main():
                                   Target=example.producer(images[1]),
                                   ParticlesPerCell=arguments.particles, PublishTime=1,
                                   NumberOfTimeSteps=arguments.frames, **shapes.SMOOTH)
-    figures.result(morph)
+    example.result(morph)
     frames = []
     with tempfile.TemporaryDirectory() as folder:
         fade = simple.TemporalInterpolator(Input=time_series(folder, images),

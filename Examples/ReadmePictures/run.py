@@ -49,12 +49,8 @@ def draw_example(path, name, picture, *arguments):
 def draw_row(path, parts, size, radius, pixels, stipple):
     """Point sets that fill boxes of one size from the origin, side by side."""
     step = 1.06 * size[0]
-    moved = []
-    for i, part in enumerate(parts):
-        place = simple.Transform(Input=part, Transform="Transform")
-        place.Transform.Translate = [i * step, 0, 0]
-        moved.append(place)
-    row = simple.AppendGeometry(Input=moved)
+    row = simple.AppendGeometry(Input=[example.moved(part, i * step, 0, 0)
+                                       for i, part in enumerate(parts)])
     width = (len(parts) - 1) * step + size[0]
     stipple.write_png(path, row, [0, width, 0, size[1]], radius, pixels)
 
@@ -87,10 +83,7 @@ def draw_map(path):
     shown = simple.Show(simple.WarpByVector(Input=transport), view, "StructuredGridRepresentation")
     shown.SetRepresentationType("Wireframe")
     shown.LineWidth = 1.5
-    simple.ColorBy(shown, ("POINTS", "JacobianDeterminant"))
-    shown.SetScalarBarVisibility(view, False)
-    colours = simple.GetColorTransferFunction("JacobianDeterminant")
-    example.apply_preset(colours, "Viridis")
+    colours = example.colour_by(shown, view, ("POINTS", "JacobianDeterminant"), "Viridis")
     colours.RescaleTransferFunction(0.5, 2.0)
     flat_picture(path, view, [511.5, 383.5], 384)
 
@@ -102,9 +95,7 @@ def draw_paths(path):
     shown = simple.Show(paths, view, "GeometryRepresentation")
     shown.SetRepresentationType("Wireframe")
     shown.LineWidth = 2
-    simple.ColorBy(shown, ("POINTS", "Time"))
-    shown.SetScalarBarVisibility(view, False)
-    example.apply_preset(simple.GetColorTransferFunction("Time"), "Viridis")
+    example.colour_by(shown, view, ("POINTS", "Time"), "Viridis")
     flat_picture(path, view, [511.5, 383.5], 384)
 
 
@@ -116,7 +107,7 @@ def draw_splats(path, stipple, cells=(80, 60), side=240):
     splat = simple.SplatMass(Input=dots, Dimensions=[*cells, 1], MassArray=["POINTS", "Mass"])
     for kernel in ("NearestCell", "CloudInCell", "TriangularShapedCloud", "Gaussian"):
         splat.Kernel = kernel
-        ink = np.clip(figures.values_of(figures.result(splat)), 0, 255)
+        ink = np.clip(figures.values_of(example.result(splat)), 0, 255)
         row.append((kernel, figures.grey((255 - ink).round().astype(np.uint8))))
     figures.montage(path, [row], side)
 
@@ -124,7 +115,7 @@ def draw_splats(path, stipple, cells=(80, 60), side=240):
 def draw_solid(path, resolution=48, side=300):
     """Spot's surface, a slice of its density with one square a cell, and the density's contour."""
     spot = shapes.posed("spot")
-    density = figures.result(simple.SolidDensity(example.producer(spot), Resolution=resolution))
+    density = example.result(simple.SolidDensity(example.producer(spot), Resolution=resolution))
     values = figures.values_of(density, density.GetDimensions()[2] // 3)[..., None]
     cells = (255 - values * (255 - shapes.COLOURS[0])).round().astype(np.uint8)
     cells = figures.fitted(cells, side // resolution * cells.shape[1])

@@ -23,10 +23,7 @@ def draw(path, particles, bounds, radius, pixels):
     shown.ShaderPreset = "Sphere"
     shown.GaussianRadius = radius
     name = next(n for n in particles.PointData.keys() if n != "vtkValidPointMask")
-    simple.ColorBy(shown, ("POINTS", name))
-    shown.SetScalarBarVisibility(view, False)
-    colors = simple.GetColorTransferFunction(name)
-    example.apply_preset(colors, "Inferno")
+    colors = example.colour_by(shown, view, ("POINTS", name), "Inferno")
     lowest, highest = particles.PointData[name].GetRange(-1)
     colors.RescaleTransferFunction(lowest + 0.15 * (highest - lowest), highest)
 
@@ -49,9 +46,7 @@ def main():
     example.load_plugin()
     volume = example.open_image(arguments.volume)
     cloud = simple.SampleDensity(Input=volume, NumberOfParticles=arguments.particles)
-    data = example.fetch(cloud)
-    if data.GetNumberOfPoints() == 0:
-        sys.exit(1)  # the filter has said why
+    data = example.result(cloud)
     bounds = data.GetBounds()
     room = math.prod(bounds[2 * i + 1] - bounds[2 * i] for i in range(3))
     radius = 0.32 * (room / data.GetNumberOfPoints()) ** (1 / 3)

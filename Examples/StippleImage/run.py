@@ -15,12 +15,9 @@ def stipple(image, number, **options):
     dots = simple.SampleDensity(Input=image, **options)
     dots.InvertDensity = 1  # dark ink is mass
     dots.NumberOfParticles = number
-    result = example.fetch(dots)
-    if result.GetNumberOfPoints() == 0:
-        sys.exit(1)  # the filter has said why
+    mass = example.result(dots).GetPointData().GetArray("Mass").GetValue(0)
     array = example.fetch(image).GetPointData().GetArray(0)
     black = 255.0 if array.GetDataTypeSize() == 1 else array.GetRange(-1)[1]
-    mass = result.GetPointData().GetArray("Mass").GetValue(0)
     return dots, math.sqrt(mass / black / math.pi)
 
 
@@ -45,8 +42,7 @@ def write_png(path, dots, bounds, radius, longest):
     shown.SetRepresentationType("Point Gaussian")
     shown.ShaderPreset = "Plain circle"
     shown.GaussianRadius = radius
-    shown.ColorArrayName = [None, ""]
-    shown.DiffuseColor = shown.AmbientColor = [0, 0, 0]
+    example.paint(shown, [0, 0, 0])
     example.look_down(view, [(x0 + x1) / 2, (y0 + y1) / 2], y1 - y0, max(x1 - x0, y1 - y0))
     example.save_picture(path, view)
 
