@@ -4,7 +4,7 @@ images that are less than announced, and blocks of other types."""
 import unittest
 
 import rectifiedtransport as rt
-from rt_testing import Listener, closed_surface, density_image, main, points_in
+from rt_testing import Listener, chain, closed_surface, density_image, main, points_in
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -60,11 +60,7 @@ class Part(VTKPythonAlgorithmBase):
 class Announced(unittest.TestCase):
     def timed(self, filter_):
         source = Growing()
-        filter_.SetInputConnection(source.GetOutputPort())
-        behind = vtkImageShiftScale()
-        behind.SetInputConnection(filter_.GetOutputPort())
-        last = vtkImageShiftScale()
-        last.SetInputConnection(behind.GetOutputPort())
+        last = chain(source, filter_, vtkImageShiftScale(), vtkImageShiftScale())
         heights = []
         for time in (3.0, 1.0, 5.0, 2.0, 2.0, 1.0):
             last.UpdateTimeStep(time)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Filters behind an image of ours that failed, was aborted or is a later piece: they would read all
 that was announced, so that they must be asked for nothing. A crash is a failure here."""
+import functools
 import unittest
 
 import rectifiedtransport as rt
-from rt_testing import Listener, closed_surface, density_image, main, points_in
+from rt_testing import Listener, chain, closed_surface, density_image, main, points_in
 from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkFlyingEdges2D, vtkFlyingEdges3D
 from vtkmodules.vtkImagingCore import vtkImageShiftScale
 from vtkmodules.vtkImagingGeneral import vtkImageGradient
@@ -59,19 +60,21 @@ READERS = (vtkImageShiftScale, vtkImageGradient, vtkContourFilter, vtkFlyingEdge
            vtkFlyingEdges3D)
 
 
+def each_producer(test):
+    """Runs a test with every producer."""
+    @functools.wraps(test)
+    def run(self):
+        for make in PRODUCERS:
+            with self.subTest(producer=make.__name__):
+                test(self, make, *make())
+    return run
+
+
 class Downstream(unittest.TestCase):
     def behind(self, producer):
         """Each kind of reader, and each behind an image filter."""
-        readers = []
-        for kind in READERS:
-            first = kind()
-            first.SetInputConnection(producer.GetOutputPort())
-            between = vtkImageShiftScale()
-            between.SetInputConnection(producer.GetOutputPort())
-            second = kind()
-            second.SetInputConnection(between.GetOutputPort())
-            readers += [first, second]
-        return readers
+        return [chain(producer, *between, kind()) for kind in READERS
+                for between in ((), (vtkImageShiftScale(),))]
 
     def check(self, readers, empty):
         """After an update."""
@@ -80,82 +83,71 @@ class Downstream(unittest.TestCase):
             points = reader.GetOutput().GetNumberOfPoints()
             self.assertEqual(points == 0, empty, reader.GetClassName())
 
-    def test_failures(self):
-        for make in PRODUCERS:
-            with self.subTest(producer=make.__name__):
-                producer, turn, wrong, right = make()
-                turn(wrong)
-                heard = Listener(producer)
-                readers = self.behind(producer)
-                for _ in range(2):
-                    for reader in readers:
-                        reader.Update()
-                        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-                self.assertEqual(len(heard.errors), 2, heard.errors)  # one, and the executive's
-                self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-                turn(right)
-                if make is cells:
-                    continue  # its labels are on cells
-                images = [r for r in readers if r.IsA("vtkImageAlgorithm")]
-                self.check(images, False)
-                turn(wrong)
-                for reader in images:
-                    reader.Update()
-                self.check(images, True)
-                turn(right)
-                producer.Update()
-                self.assertGreater(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-
-    def test_aborts(self):
-        for make in PRODUCERS:
-            with self.subTest(producer=make.__name__):
-                producer, turn, _, right = make()
-                turn(right)
-                heard = Listener(producer)
-                readers = self.behind(producer)
-                for reader in readers:
-                    tag = producer.AddObserver(
-                        "ProgressEvent", lambda *_: producer.SetAbortExecute(1))
-                    producer.Modified()
-                    reader.Update()
-                    self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-                    self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-                    producer.RemoveObserver(tag)
-                    producer.SetAbortExecute(0)
-                self.assertEqual(heard.errors, [])
-                producer.Modified()
-                shifted = readers[0]
-                if make is not cells:
-                    shifted.Update()
-                    self.assertGreater(shifted.GetOutput().GetNumberOfPoints(), 0)
-
-    def test_later_pieces(self):
-        for make in PRODUCERS:
-            with self.subTest(producer=make.__name__):
-                producer, turn, _, right = make()
-                turn(right)
-                for reader in self.behind(producer):
-                    reader.UpdatePiece(1, 2, 0)
-                    self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-                    self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-
-    def test_deleted_readers(self):
-        """VTK does not forget them."""
-        for make in PRODUCERS:
-            with self.subTest(producer=make.__name__):
-                producer, turn, wrong, right = make()
-                turn(wrong)
-                reader = self.behind(producer)[0]
-                reader.Update()
+    @each_producer
+    def test_failures(self, make, producer, turn, wrong, right):
+        turn(wrong)
+        heard = Listener(producer)
+        readers = self.behind(producer)
+        for _ in range(2):
+            for reader in readers:
                 reader.Update()
                 self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-                turn(right)
-                if make is not cells:
-                    self.check([reader], False)
-                producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
-                producer.Modified()
-                reader.Update()
-                self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+        self.assertEqual(len(heard.errors), 2, heard.errors)  # one, and the executive's
+        self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+        turn(right)
+        if make is cells:
+            return  # its labels are on cells
+        images = [r for r in readers if r.IsA("vtkImageAlgorithm")]
+        self.check(images, False)
+        turn(wrong)
+        for reader in images:
+            reader.Update()
+        self.check(images, True)
+        turn(right)
+        producer.Update()
+        self.assertGreater(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+
+    @each_producer
+    def test_aborts(self, make, producer, turn, wrong, right):
+        turn(right)
+        heard = Listener(producer)
+        readers = self.behind(producer)
+        for reader in readers:
+            tag = producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
+            producer.Modified()
+            reader.Update()
+            self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+            self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+            producer.RemoveObserver(tag)
+            producer.SetAbortExecute(0)
+        self.assertEqual(heard.errors, [])
+        producer.Modified()
+        if make is not cells:
+            self.check(readers[:1], False)
+
+    @each_producer
+    def test_later_pieces(self, make, producer, turn, wrong, right):
+        turn(right)
+        for reader in self.behind(producer):
+            reader.UpdatePiece(1, 2, 0)
+            self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
+            self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+
+    @each_producer
+    def test_deleted_readers(self, make, producer, turn, wrong, right):
+        """VTK does not forget them."""
+        turn(wrong)
+        reader = self.behind(producer)[0]
+        reader.Update()
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
+        turn(right)
+        if make is not cells:
+            self.check([reader], False)
+        producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
+        producer.Modified()
+        reader.Update()
+        self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
 
     def test_only_the_first_piece_of_a_solid(self):
         made = solid()[0]

@@ -85,6 +85,18 @@ def first(cell):
 
 
 class Examples(unittest.TestCase):
+    def ran(self, example, *arguments):
+        """What an example says that runs."""
+        said, code = run(example, *arguments)
+        self.assertEqual(code, 0, said)
+        return said
+
+    def refused(self, example, *arguments):
+        """What an example says that refuses its arguments."""
+        said, code = run(example, *arguments)
+        self.assertNotEqual(code, 0)
+        return said
+
     def check_falls(self, numbers):
         """Numbers become less from one to the next."""
         numbers = [first(cell) for cell in numbers]
@@ -109,21 +121,18 @@ class Examples(unittest.TestCase):
         self.assertLess((difference > 40).mean(), 0.002, drawn)
 
     def test_stipple_image(self):
-        said, code = run("StippleImage")
-        self.assertEqual(code, 0, said)
+        self.ran("StippleImage")
         self.check_picture("stipple-raccoon.png")
 
     def test_stipple_has_the_tone_of_the_photograph(self):
         """The dots' discs overlap a little, so that the drawing is somewhat lighter."""
-        said, code = run("StippleImage", os.path.join(DATA, "ascent.png"))
-        self.assertEqual(code, 0, said)
+        self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
         drawn = 1 - read(os.path.join(OUTPUT, "stipple-ascent.png"))[0].mean() / 255
         ink = 1 - read(os.path.join(DATA, "ascent.png"))[0].mean() / 255
         self.assertLess(abs(drawn - ink), 0.1)
 
     def test_svg(self):
-        said, code = run("StippleImage", os.path.join(DATA, "ascent.png"))
-        self.assertEqual(code, 0, said)
+        self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
         with open(os.path.join(OUTPUT, "stipple-ascent.svg"), encoding="utf-8") as file:
             text = file.read()
         self.assertIn('viewBox="0 0 512 512"', text)
@@ -141,14 +150,12 @@ class Examples(unittest.TestCase):
         writer.SetInputData(read(os.path.join(DATA, "raccoon.png"))[1])
         writer.SetFileName(os.path.join(OUTPUT, "own.jpg"))
         writer.Write()
-        said, code = run("StippleImage", os.path.join(OUTPUT, "own.jpg"))
-        self.assertEqual(code, 0, said)
+        self.ran("StippleImage", os.path.join(OUTPUT, "own.jpg"))
         self.assertTrue(os.path.isfile(os.path.join(OUTPUT, "stipple-own.png")))
 
     def test_no_such_file(self):
         for example in set(SMALL) - OWN:
-            said, code = run(example, *["nowhere.png"] * SHAPES.get(example, 1))
-            self.assertNotEqual(code, 0)
+            said = self.refused(example, *["nowhere.png"] * SHAPES.get(example, 1))
             self.assertIn("nowhere.png", said)
 
     def test_not_an_image(self):
@@ -156,35 +163,29 @@ class Examples(unittest.TestCase):
             path = os.path.join(OUTPUT, name)
             with open(path, "w") as file:
                 file.write("<VTKFile>")
-            said, code = run("SampleVolume", path)
-            self.assertNotEqual(code, 0)
+            said = self.refused("SampleVolume", path)
             self.assertIn(path, said)
             self.assertIn(what, said)
 
     def test_cartogram(self):
-        said, code = run("Cartogram")
-        self.assertEqual(code, 0, said)
+        self.ran("Cartogram")
         self.check_picture("cartogram-raccoon.png")
 
     def test_sample_volume(self):
-        said, code = run("SampleVolume")
-        self.assertEqual(code, 0, said)
+        self.ran("SampleVolume")
         self.check_picture("particles-brain-t1.png")
 
     def test_not_a_picture(self):
-        said, code = run("Figure7Steps", os.path.join(DATA, "brain-t1.vti"))
-        self.assertNotEqual(code, 0)
+        said = self.refused("Figure7Steps", os.path.join(DATA, "brain-t1.vti"))
         self.assertIn("90 x 108 x 90 values; it must be a picture", said)
 
     def test_not_a_number(self):
         for example, option in ("Figure2Paths", "--cells"), ("Figure8Samples", "--sizes"):
-            said, code = run(example, option, "0")
-            self.assertNotEqual(code, 0)
+            said = self.refused(example, option, "0")
             self.assertIn("argument %s: 0 is not a whole number of at least" % option, said)
 
     def test_figure_2(self):
-        said, code = run("Figure2Paths")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure2Paths")
         errors, curve = tables(said)
         mean = {row[0]: row[1] for row in errors}
         self.check_falls(mean["Multistep, N = %d" % n] for n in (8, 16, 32, 64, 128))
@@ -194,8 +195,7 @@ class Examples(unittest.TestCase):
         self.check_picture("figure2-paths.png")
 
     def test_figure_4(self):
-        said, code = run("Figure4Lookup")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure4Lookup")
         lookup, steps = tables(said)
         coarse, fine, _ = lookup
         self.assertGreater(first(coarse[1]), 90)
@@ -213,8 +213,7 @@ class Examples(unittest.TestCase):
         self.assertTrue(0 < black[:, 118:210].mean() < 0.9)
 
     def test_figure_5(self):
-        said, code = run("Figure5Cells")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure5Cells")
         masses, costs = tables(said)
         for row in masses[:-1]:
             self.assertEqual(row[1:3], ["256 to 256", "0"])
@@ -223,8 +222,7 @@ class Examples(unittest.TestCase):
         self.check_picture("figure5-cells.png")
 
     def test_figure_6(self):
-        said, code = run("Figure6Map")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure6Map")
         errors, maps = tables(said)
         found = {(row[0], row[1]): row[2:] for row in errors}
         for row in maps[:-1]:
@@ -237,8 +235,7 @@ class Examples(unittest.TestCase):
         self.check_picture("figure6-map.png")
 
     def test_figure_7(self):
-        said, code = run("Figure7Steps")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure7Steps")
         rows = tables(said)[0]
         for column in 1, 2, 3:
             self.check_falls(row[column] for row in rows[:3])
@@ -250,8 +247,7 @@ class Examples(unittest.TestCase):
         self.assertTrue(50 < drawn.mean() < 205)
 
     def test_figure_8(self):
-        said, code = run("Figure8Samples")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Figure8Samples")
         rows, whole = tables(said)
         self.check_falls(row[5] for row in rows[:2])
         for row in rows[:4]:
@@ -262,8 +258,7 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_morph_2d(self):
-        said, code = run("Morph2D")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Morph2D")
         times = tables(said)[0]
         self.assertEqual([row[0] for row in times],
                          ["bunny to camel+dinosaur", "knot to coupling", "bull to rings"])
@@ -271,8 +266,7 @@ class Examples(unittest.TestCase):
 
     def test_morph_of_a_shape_into_itself(self):
         """All of its frames are alike but for the colour."""
-        said, code = run("Morph2D", "spot", "spot")
-        self.assertEqual(code, 0, said)
+        self.ran("Morph2D", "spot", "spot")
         drawn = 255 - read(os.path.join(OUTPUT, "morph-2d.png"))[0].mean(axis=2)
         frames = [drawn[10:106, left:left + 96] for left in (10, 116, 222)]
         self.assertTrue(0.1 < (frames[0] > 0.5 * frames[0].max()).mean() < 0.4)
@@ -281,8 +275,7 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_morph_3d(self):
-        said, code = run("Morph3D")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Morph3D")
         steps = ["two maps, step t = 0", "its surface", "step t = 0.50", "its surface",
                  "step t = 1.00", "its surface"]
         self.assertEqual(
@@ -299,8 +292,7 @@ class Examples(unittest.TestCase):
         writer.SetInputConnection(triangles.GetOutputPort())
         writer.SetFileName(os.path.join(OUTPUT, "own.stl"))
         writer.Write()
-        said, code = run("Morph3D", *[os.path.join(OUTPUT, "own.stl")] * 2)
-        self.assertEqual(code, 0, said)
+        self.ran("Morph3D", *[os.path.join(OUTPUT, "own.stl")] * 2)
         drawn = read(os.path.join(OUTPUT, "morph-3d.png"))[0]
         inked = [(drawn[10:130, left:left + 120] < 250).any(axis=2).mean() for left in
                  (10, 140, 270)]
@@ -313,11 +305,9 @@ class Examples(unittest.TestCase):
             path = os.path.join(OUTPUT, name)
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-            said, code = run("Morph3D", path, "spot")
-            self.assertNotEqual(code, 0)
+            said = self.refused("Morph3D", path, "spot")
             self.assertIn(path + " holds no ", said)
-        said, code = run("Barycenters3D", "spot", "brain", "knot")
-        self.assertNotEqual(code, 0)
+        said = self.refused("Barycenters3D", "spot", "brain", "knot")
         self.assertIn("the shapes with names are armadillo, bear", said)
 
     @need_meshes
@@ -326,23 +316,21 @@ class Examples(unittest.TestCase):
         drawn = os.path.join(OUTPUT, "morph-3d.png")
         if os.path.exists(drawn):
             os.remove(drawn)
-        said, code = run("Morph3D", os.path.join(SOURCE, "build-meshes", "lion-head.off"), "spot")
-        self.assertNotEqual(code, 0)
+        mesh = os.path.join(SOURCE, "build-meshes", "lion-head.off")
+        said = self.refused("Morph3D", mesh, "spot")
         self.assertIn("The input surface is not closed: it has ", said)
         self.assertIn("every edge must be one of exactly two triangles", said)
         self.assertFalse(os.path.exists(drawn))
 
     def test_number_of_shapes(self):
         for example, number in SHAPES.items():
-            said, code = run(example, "spot")
-            self.assertNotEqual(code, 0)
+            said = self.refused(example, "spot")
             self.assertIn("1 shapes are given; it must be", said)
 
     @need_meshes
     def test_morph_animation(self):
         """The cross-fade's middle is the mean of its ends; the morph's is not, for mass moves."""
-        said, code = run("MorphAnimation")
-        self.assertEqual(code, 0, said)
+        self.ran("MorphAnimation")
         with Image.open(os.path.join(OUTPUT, "morph-animation.gif")) as film:
             self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
         drawn = read(os.path.join(OUTPUT, "morph-animation.png"))[0]
@@ -355,14 +343,12 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_barycenters_2d(self):
-        said, code = run("Barycenters2D")
-        self.assertEqual(code, 0, said)
+        self.ran("Barycenters2D")
         self.check_picture("barycenters-2d.png")
 
     @need_meshes
     def test_barycenters_3d(self):
-        said, code = run("Barycenters3D")
-        self.assertEqual(code, 0, said)
+        said = self.ran("Barycenters3D")
         self.assertEqual(self.stages(tables(said)[0]),
                          ["three solids", "three maps, the first barycenter and surface",
                           "another barycenter and surface"])

@@ -80,6 +80,13 @@ def feed(algorithm):
                                    points_in(image))
 
 
+def chain(*algorithms):
+    """The last of algorithms, each of which reads what the one before it makes."""
+    for source, reader in zip(algorithms, algorithms[1:]):
+        reader.SetInputConnection(source.GetOutputPort())
+    return algorithms[-1]
+
+
 def size_of(data):
     """How many points a data set or rows a table has."""
     return data.GetNumberOfElements(data.ROW if data.IsA("vtkTable") else data.POINT)
