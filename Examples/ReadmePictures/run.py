@@ -13,24 +13,15 @@ import rectified_shapes as shapes
 from paraview import simple
 from vtkmodules.vtkImagingColor import vtkImageLuminance
 from vtkmodules.vtkImagingCore import vtkImageResize
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 STRIP = [560, 420]  # the size of a picture of the photograph
 
 
 def draw_density(path):
     """The photograph as the filter sees it: its luminance."""
-    photograph = vtkPNGReader()
-    photograph.SetFileName(example.PHOTOGRAPH)
-    grey = vtkImageLuminance()
-    grey.SetInputConnection(photograph.GetOutputPort())
-    small = vtkImageResize()
-    small.SetInputConnection(grey.GetOutputPort())
-    small.SetOutputDimensions(*STRIP, 1)
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(small.GetOutputPort())
-    writer.SetFileName(path)
-    writer.Write()
+    grey = figures.apply(vtkImageLuminance(), figures.photograph(example.PHOTOGRAPH))
+    small = figures.apply(vtkImageResize(), grey, OutputDimensions=(*STRIP, 1))
+    figures.save(path, figures.values_of(small))
 
 
 def draw_particles(path, stipple):
