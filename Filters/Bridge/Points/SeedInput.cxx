@@ -19,7 +19,6 @@ class PlaceSeed
 public:
   PlaceSeed(const ImageGrid& geometry, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
     : Geometry(geometry)
-    , Diagonal(geometry.Diagonal())
     , IndexSeeds(indexSeeds)
     , PhysicalSeeds(physicalSeeds)
   {
@@ -35,7 +34,7 @@ public:
     this->Geometry.template ToPhysical<D>(index, seed);
     const double distance = std::hypot(x[0] - seed[0], x[1] - seed[1], x[2] - seed[2]);
     const double rounding =
-      1e-12 * (this->Diagonal + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+      1e-12 * (this->Geometry.Diagonal() + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
     if (inside && distance <= rounding)
     {
       std::copy_n(x, 3, seed);
@@ -45,7 +44,6 @@ public:
 
 private:
   const ImageGrid& Geometry;
-  double Diagonal;
   PointSpan<D> IndexSeeds;
   PointSpan<3> PhysicalSeeds;
 };

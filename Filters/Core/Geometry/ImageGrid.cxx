@@ -194,12 +194,15 @@ void ImageGrid::FindCells()
   const double zero[3] = { 0.0, 0.0, 0.0 };
   this->ToPhysical<3>(zero, this->Corner.data());
   Eigen::Vector3d farthest = this->Corner.cwiseAbs() + this->PointOrigin.cwiseAbs();
+  Eigen::Vector3d sides = Eigen::Vector3d::Zero();
   for (int a = 0; a < this->AxisCount; ++a)
   {
-    farthest += axes.row(a).transpose().cwiseAbs() *
-      static_cast<double>(this->Cells[static_cast<std::size_t>(a)]);
+    const auto cells = static_cast<double>(this->Cells[static_cast<std::size_t>(a)]);
+    sides[a] = this->CellLength[a] * cells;
+    farthest += axes.row(a).transpose().cwiseAbs() * cells;
     axes.row(a) *= 1.0 / this->CellLength[a];
   }
+  this->DomainDiagonal = length(sides);
   constexpr double parallel = 1e-12;
   this->Valid = this->AxisCount > 0 && std::isfinite(this->Measure) &&
     std::isfinite(length(farthest)) && this->Measure > 0.0 &&
@@ -252,17 +255,6 @@ std::int64_t ImageGrid::NumberOfCells() const
 bool ImageGrid::IsMirrored() const
 {
   return this->AxisCount == 3 && this->Step.determinant() < 0.0;
-}
-
-double ImageGrid::Diagonal() const
-{
-  Eigen::Vector3d lengths = Eigen::Vector3d::Zero();
-  for (int a = 0; a < this->AxisCount; ++a)
-  {
-    lengths[a] =
-      this->CellLength[a] * static_cast<double>(this->Cells[static_cast<std::size_t>(a)]);
-  }
-  return length(lengths);
 }
 
 } // namespace RectifiedTransport

@@ -66,7 +66,7 @@ public:
   // The length, area or volume of a cell.
   double CellMeasure() const { return this->Measure; }
   // The physical length of the domain's diagonal, were its axes at right angles.
-  double Diagonal() const;
+  double Diagonal() const { return this->DomainDiagonal; }
   // Whether the axes of a volume are left-handed.
   bool IsMirrored() const;
   // How far beyond the border a point may lie and not be outside: by more than single precision
@@ -206,6 +206,7 @@ private:
   Matrix Inverse = Matrix::Zero(); // physical offset to physical length along each axis
   Matrix Normal = Matrix::Zero();  // from the axes' number on: unit vectors across the axes
   double Measure = 0.0;
+  double DomainDiagonal = 0.0;
 };
 
 } // namespace RectifiedTransport
