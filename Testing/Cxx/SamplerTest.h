@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <initializer_list>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -51,6 +52,17 @@ public:
 private:
   int Failures = 0;
 };
+
+// Makes all checks of a test; what its main function returns.
+inline int runChecks(std::initializer_list<void (*)(Checks&)> all)
+{
+  Checks checks;
+  for (const auto& check : all)
+  {
+    check(checks);
+  }
+  return checks.Result();
+}
 
 #define CHECK(checks, condition) (checks).That((condition), #condition, __LINE__)
 #define CHECK_NEAR(checks, a, b, tolerance)                                                        \

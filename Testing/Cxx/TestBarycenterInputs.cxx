@@ -209,9 +209,5 @@ void checkErrors(Checks& checks)
 
 int TestBarycenterInputs(int, char*[])
 {
-  Checks checks;
-  checkComposite(checks);
-  checkDownstream(checks);
-  checkErrors(checks);
-  return checks.Result();
+  return runChecks({ checkComposite, checkDownstream, checkErrors });
 }

@@ -164,10 +164,5 @@ void checkList(Checks& checks)
 
 int TestBarycenterOutput(int, char*[])
 {
-  Checks checks;
-  checkMorph(checks);
-  checkWeights(checks);
-  checkMass(checks);
-  checkList(checks);
-  return checks.Result();
+  return runChecks({ checkMorph, checkWeights, checkMass, checkList });
 }

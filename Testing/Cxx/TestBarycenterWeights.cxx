@@ -52,8 +52,5 @@ void checkBelow(Checks& checks)
 
 int TestBarycenterWeights(int, char*[])
 {
-  Checks checks;
-  checkList(checks);
-  checkBelow(checks);
-  return checks.Result();
+  return runChecks({ checkList, checkBelow });
 }

@@ -296,10 +296,5 @@ void checkTimes(Checks& checks)
 
 int TestExtremes(int, char*[])
 {
-  Checks checks;
-  checkScales(checks);
-  checkFigures(checks);
-  checkSources(checks);
-  checkTimes(checks);
-  return checks.Result();
+  return runChecks({ checkScales, checkFigures, checkSources, checkTimes });
 }

@@ -137,10 +137,5 @@ void checkSheared(Checks& checks)
 
 int TestFramesAlike(int, char*[])
 {
-  Checks checks;
-  checkPlanes(checks);
-  checkDirections(checks);
-  checkSpacings(checks);
-  checkSheared(checks);
-  return checks.Result();
+  return runChecks({ checkPlanes, checkDirections, checkSpacings, checkSheared });
 }

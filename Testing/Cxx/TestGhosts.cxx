@@ -173,8 +173,5 @@ void checkQuality(Checks& checks)
 
 int TestGhosts(int, char*[])
 {
-  Checks checks;
-  checkLengths(checks);
-  checkQuality(checks);
-  return checks.Result();
+  return runChecks({ checkLengths, checkQuality });
 }

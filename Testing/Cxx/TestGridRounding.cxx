@@ -113,10 +113,5 @@ void checkPadding(Checks& checks)
 
 int TestGridRounding(int, char*[])
 {
-  Checks checks;
-  checkPixels(checks);
-  checkNarrow(checks);
-  checkCubes(checks);
-  checkPadding(checks);
-  return checks.Result();
+  return runChecks({ checkPixels, checkNarrow, checkCubes, checkPadding });
 }

@@ -205,10 +205,5 @@ void checkOutputs(Checks& checks)
 
 int TestInputTimes(int, char*[])
 {
-  Checks checks;
-  checkWarp(checks);
-  checkQuality(checks);
-  checkSampler(checks);
-  checkOutputs(checks);
-  return checks.Result();
+  return runChecks({ checkWarp, checkQuality, checkSampler, checkOutputs });
 }

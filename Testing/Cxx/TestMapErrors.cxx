@@ -146,10 +146,5 @@ void checkWarning(Checks& checks)
 
 int TestMapErrors(int, char*[])
 {
-  Checks checks;
-  checkSampleDimensions(checks);
-  checkProperties(checks);
-  checkInput(checks);
-  checkWarning(checks);
-  return checks.Result();
+  return runChecks({ checkSampleDimensions, checkProperties, checkInput, checkWarning });
 }

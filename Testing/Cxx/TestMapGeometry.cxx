@@ -276,13 +276,6 @@ void checkThinAxes(Checks& checks)
 
 int TestMapGeometry(int, char*[])
 {
-  Checks checks;
-  checkPlanes(checks);
-  checkTransforms(checks);
-  checkPointsAndCells(checks);
-  checkSamples(checks);
-  checkDomain(checks);
-  checkWeights(checks);
-  checkThinAxes(checks);
-  return checks.Result();
+  return runChecks({ checkPlanes, checkTransforms, checkPointsAndCells, checkSamples, checkDomain,
+    checkWeights, checkThinAxes });
 }

@@ -138,8 +138,5 @@ void checkMeasure(Checks& checks)
 
 int TestMapGradient(int, char*[])
 {
-  Checks checks;
-  checkAgainstFilter(checks);
-  checkMeasure(checks);
-  return checks.Result();
+  return runChecks({ checkAgainstFilter, checkMeasure });
 }

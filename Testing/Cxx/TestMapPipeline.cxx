@@ -260,12 +260,6 @@ void checkAbort(Checks& checks)
 
 int TestMapPipeline(int, char*[])
 {
-  Checks checks;
-  checkInformation(checks);
-  checkPieces(checks);
-  checkComposite(checks);
-  checkCache(checks);
-  checkThreads(checks);
-  checkAbort(checks);
-  return checks.Result();
+  return runChecks(
+    { checkInformation, checkPieces, checkComposite, checkCache, checkThreads, checkAbort });
 }

@@ -353,14 +353,6 @@ void checkBlocks(Checks& checks)
 
 int TestMassSplatter(int, char*[])
 {
-  Checks checks;
-  checkBounds(checks);
-  checkPlane(checks);
-  checkReference(checks);
-  checkDrop(checks);
-  checkMasses(checks);
-  checkEmpty(checks);
-  checkErrors(checks);
-  checkBlocks(checks);
-  return checks.Result();
+  return runChecks({ checkBounds, checkPlane, checkReference, checkDrop, checkMasses, checkEmpty,
+    checkErrors, checkBlocks });
 }

@@ -179,12 +179,6 @@ void checkProgressAndAbort(Checks& checks)
 
 int TestMassSplatterRun(int, char*[])
 {
-  Checks checks;
-  checkInformation(checks);
-  checkAnnouncedArray(checks);
-  checkProducedBlocks(checks);
-  checkThreads(checks);
-  checkLattice(checks);
-  checkProgressAndAbort(checks);
-  return checks.Result();
+  return runChecks({ checkInformation, checkAnnouncedArray, checkProducedBlocks, checkThreads,
+    checkLattice, checkProgressAndAbort });
 }

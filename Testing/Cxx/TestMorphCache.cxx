@@ -314,12 +314,6 @@ void checkBarycenter(Checks& checks)
 
 int TestMorphCache(int, char*[])
 {
-  Checks checks;
-  checkProperties(checks);
-  checkInputs(checks);
-  checkPlaces(checks);
-  checkOneDensity(checks);
-  checkFailures(checks);
-  checkBarycenter(checks);
-  return checks.Result();
+  return runChecks(
+    { checkProperties, checkInputs, checkPlaces, checkOneDensity, checkFailures, checkBarycenter });
 }

@@ -321,13 +321,6 @@ void checkWarning(Checks& checks)
 
 int TestMorphErrors(int, char*[])
 {
-  Checks checks;
-  checkProperties(checks);
-  checkDimensions(checks);
-  checkMemory(checks);
-  checkGeometries(checks);
-  checkDensities(checks);
-  checkEmpty(checks);
-  checkWarning(checks);
-  return checks.Result();
+  return runChecks({ checkProperties, checkDimensions, checkMemory, checkGeometries, checkDensities,
+    checkEmpty, checkWarning });
 }

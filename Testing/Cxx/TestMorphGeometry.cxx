@@ -156,11 +156,5 @@ void checkScale(Checks& checks)
 
 int TestMorphGeometry(int, char*[])
 {
-  Checks checks;
-  checkAxes(checks);
-  checkExtent(checks);
-  checkDirection(checks);
-  checkNegativeSpacing(checks);
-  checkScale(checks);
-  return checks.Result();
+  return runChecks({ checkAxes, checkExtent, checkDirection, checkNegativeSpacing, checkScale });
 }

@@ -217,12 +217,6 @@ void checkUpstream(Checks& checks)
 
 int TestMorphGrid(int, char*[])
 {
-  Checks checks;
-  checkUnion(checks);
-  checkPoints(checks);
-  checkRounding(checks);
-  checkNegativeSpacing(checks);
-  checkSame(checks);
-  checkUpstream(checks);
-  return checks.Result();
+  return runChecks(
+    { checkUnion, checkPoints, checkRounding, checkNegativeSpacing, checkSame, checkUpstream });
 }

@@ -379,15 +379,6 @@ void checkGhosts(Checks& checks)
 
 int TestMorphOutput(int, char*[])
 {
-  Checks checks;
-  checkEnds(checks);
-  checkMass(checks);
-  checkPlaces(checks);
-  checkPivot(checks);
-  checkTranslation(checks);
-  checkReverse(checks);
-  checkArrays(checks);
-  checkChoice(checks);
-  checkGhosts(checks);
-  return checks.Result();
+  return runChecks({ checkEnds, checkMass, checkPlaces, checkPivot, checkTranslation, checkReverse,
+    checkArrays, checkChoice, checkGhosts });
 }

@@ -118,9 +118,5 @@ void checkMarked(Checks& checks)
 
 int TestMorphRange(int, char*[])
 {
-  Checks checks;
-  checkRanges(checks);
-  checkHeld(checks);
-  checkMarked(checks);
-  return checks.Result();
+  return runChecks({ checkRanges, checkHeld, checkMarked });
 }

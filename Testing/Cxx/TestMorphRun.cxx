@@ -213,11 +213,5 @@ void checkComposite(Checks& checks)
 
 int TestMorphRun(int, char*[])
 {
-  Checks checks;
-  checkThreads(checks);
-  checkAbort(checks);
-  checkAgain(checks);
-  checkPieces(checks);
-  checkComposite(checks);
-  return checks.Result();
+  return runChecks({ checkThreads, checkAbort, checkAgain, checkPieces, checkComposite });
 }

@@ -231,17 +231,7 @@ void checkClamp(Checks& checks)
 
 int TestSamplerArrays(int, char*[])
 {
-  Checks checks;
-  checkTypes(checks);
-  checkColours<vtkUnsignedCharArray>(checks);
-  checkColours<vtkFloatArray>(checks);
-  checkColours<vtkSOADataArrayTemplate<short>>(checks);
-  checkColours<vtkIntArray>(checks);
-  checkWhite(checks);
-  checkGreys(checks);
-  checkWhitePaper(checks);
-  checkChoice(checks);
-  checkOnlyArray(checks);
-  checkClamp(checks);
-  return checks.Result();
+  return runChecks({ checkTypes, checkColours<vtkUnsignedCharArray>, checkColours<vtkFloatArray>,
+    checkColours<vtkSOADataArrayTemplate<short>>, checkColours<vtkIntArray>, checkWhite, checkGreys,
+    checkWhitePaper, checkChoice, checkOnlyArray, checkClamp });
 }

@@ -240,12 +240,6 @@ void checkEmpty(Checks& checks)
 
 int TestSamplerErrors(int, char*[])
 {
-  Checks checks;
-  checkProperties(checks);
-  checkComponents(checks);
-  checkArrays(checks);
-  checkValues(checks);
-  checkGeometry(checks);
-  checkEmpty(checks);
-  return checks.Result();
+  return runChecks(
+    { checkProperties, checkComponents, checkArrays, checkValues, checkGeometry, checkEmpty });
 }

@@ -223,12 +223,6 @@ void checkPhysicalEvenness(Checks& checks)
 
 int TestSamplerGeometry(int, char*[])
 {
-  Checks checks;
-  checkPlanes(checks);
-  checkPointsAndCells(checks);
-  checkTransforms(checks);
-  checkFlatAxis(checks);
-  checkThinAxes(checks);
-  checkPhysicalEvenness(checks);
-  return checks.Result();
+  return runChecks({ checkPlanes, checkPointsAndCells, checkTransforms, checkFlatAxis,
+    checkThinAxes, checkPhysicalEvenness });
 }

@@ -102,10 +102,5 @@ void checkHoles(Checks& checks)
 
 int TestSamplerHard(int, char*[])
 {
-  Checks checks;
-  checkAspect(checks);
-  checkMagnitudes(checks);
-  checkDirac(checks);
-  checkHoles(checks);
-  return checks.Result();
+  return runChecks({ checkAspect, checkMagnitudes, checkDirac, checkHoles });
 }

@@ -91,10 +91,5 @@ void checkPorts(Checks& checks)
 
 int TestSamplerPipeline(int, char*[])
 {
-  Checks checks;
-  checkPieces(checks);
-  checkUpstream(checks);
-  checkComposite(checks);
-  checkPorts(checks);
-  return checks.Result();
+  return runChecks({ checkPieces, checkUpstream, checkComposite, checkPorts });
 }

@@ -273,16 +273,6 @@ void checkSizes(Checks& checks)
 
 int TestSolidDensity(int, char*[])
 {
-  Checks checks;
-  checkGeometry(checks);
-  checkBox(checks);
-  checkSphere(checks);
-  checkSpot(checks);
-  checkTransforms(checks);
-  checkInside(checks);
-  checkPolygons(checks);
-  checkCornersThatCoincide(checks);
-  checkFlat(checks);
-  checkSizes(checks);
-  return checks.Result();
+  return runChecks({ checkGeometry, checkBox, checkSphere, checkSpot, checkTransforms, checkInside,
+    checkPolygons, checkCornersThatCoincide, checkFlat, checkSizes });
 }

@@ -337,16 +337,7 @@ void checkEmpty(Checks& checks)
 
 int TestSolidRun(int, char*[])
 {
-  Checks checks;
-  checkPipeline(checks);
-  checkNoSurface(checks);
-  checkBlocks(checks);
-  checkThreads(checks);
-  checkAborts(checks);
-  checkAbortAmongPolygons(checks);
-  checkPropertyErrors(checks);
-  checkSurfaceErrors(checks);
-  checkKleinBottle(checks);
-  checkEmpty(checks);
-  return checks.Result();
+  return runChecks({ checkPipeline, checkNoSurface, checkBlocks, checkThreads, checkAborts,
+    checkAbortAmongPolygons, checkPropertyErrors, checkSurfaceErrors, checkKleinBottle,
+    checkEmpty });
 }

@@ -214,11 +214,5 @@ void checkWrongMasses(Checks& checks)
 
 int TestSplatMasses(int, char*[])
 {
-  Checks checks;
-  checkPoints(checks);
-  checkTypes(checks);
-  checkNone(checks);
-  checkTinyCells(checks);
-  checkWrongMasses(checks);
-  return checks.Result();
+  return runChecks({ checkPoints, checkTypes, checkNone, checkTinyCells, checkWrongMasses });
 }

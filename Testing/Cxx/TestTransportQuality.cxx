@@ -380,12 +380,6 @@ void checkErrors(Checks& checks)
 
 int TestTransportQuality(int, char*[])
 {
-  Checks checks;
-  checkLattices(checks);
-  checkUnevenDensity(checks);
-  checkBlocks(checks);
-  checkSampler(checks);
-  checkOutside(checks);
-  checkErrors(checks);
-  return checks.Result();
+  return runChecks(
+    { checkLattices, checkUnevenDensity, checkBlocks, checkSampler, checkOutside, checkErrors });
 }

@@ -155,11 +155,5 @@ void checkAbort(Checks& checks)
 
 int TestUniformSeedSource(int, char*[])
 {
-  Checks checks;
-  checkPatterns(checks);
-  checkAgainstSampler(checks);
-  checkErrors(checks);
-  checkPieces(checks);
-  checkAbort(checks);
-  return checks.Result();
+  return runChecks({ checkPatterns, checkAgainstSampler, checkErrors, checkPieces, checkAbort });
 }

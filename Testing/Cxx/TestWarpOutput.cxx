@@ -353,14 +353,6 @@ void checkEmpty(Checks& checks)
 
 int TestWarpOutput(int, char*[])
 {
-  Checks checks;
-  checkTypes(checks);
-  checkBlocks(checks);
-  checkPieces(checks);
-  checkGeometry(checks);
-  checkArray(checks);
-  checkErrors(checks);
-  checkTypesOfInputs(checks);
-  checkEmpty(checks);
-  return checks.Result();
+  return runChecks({ checkTypes, checkBlocks, checkPieces, checkGeometry, checkArray, checkErrors,
+    checkTypesOfInputs, checkEmpty });
 }
