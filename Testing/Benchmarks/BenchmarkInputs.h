@@ -39,9 +39,7 @@ const TestDensity<Dimension>& texturedGaussians(std::int64_t side)
   TestDensity<Dimension>& density = densities[side];
   if (density.Values.empty())
   {
-    GridSize<Dimension> size;
-    size.fill(side);
-    density = twoGaussians<Dimension>(size);
+    density = twoGaussians<Dimension>(evenSize<Dimension>(side));
     std::mt19937_64 engine(1);
     for (double& value : density.Values)
     {

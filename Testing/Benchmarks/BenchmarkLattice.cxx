@@ -17,14 +17,6 @@ void reportCost(benchmark::State& state, std::size_t particles)
     benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-template <int Dimension>
-GridSize<Dimension> cube(std::int64_t side)
-{
-  GridSize<Dimension> size;
-  size.fill(side);
-  return size;
-}
-
 template <int Dimension, bool Backward, bool Sorted>
 void latticeFlow(benchmark::State& state)
 {
@@ -55,7 +47,7 @@ template <int Dimension>
 void latticeOrder(benchmark::State& state)
 {
   constexpr int grain = 1024;
-  const GridSize<Dimension> size = cube<Dimension>(state.range(0));
+  const GridSize<Dimension> size = evenSize<Dimension>(state.range(0));
   const LatticeOrder<Dimension> order(size, size);
   std::int64_t index[grain];
   double points[grain * Dimension];
@@ -75,7 +67,8 @@ template <int Dimension>
 void sortedOrder(benchmark::State& state)
 {
   constexpr std::int64_t chunk = std::int64_t{ 1 } << 20; // as the flow takes them
-  const Particles<Dimension> seeds = latticeParticles<Dimension>(cube<Dimension>(state.range(0)));
+  const Particles<Dimension> seeds =
+    latticeParticles<Dimension>(evenSize<Dimension>(state.range(0)));
   const auto count = static_cast<std::int64_t>(seeds.size());
   for (auto _ : state)
   {

@@ -181,10 +181,9 @@ void filterBarycenters(benchmark::State& state)
 template <int Dimension>
 void filterStep(benchmark::State& state)
 {
-  GridSize<Dimension> size;
-  size.fill(state.range(0));
   const TestDensity<Dimension> first = texturedGaussians<Dimension>(state.range(0));
-  const TestDensity<Dimension> second = discWithHole<Dimension>(size);
+  const TestDensity<Dimension> second =
+    discWithHole<Dimension>(evenSize<Dimension>(state.range(0)));
   const auto source = newImage<Dimension>(state.range(0), first.Values);
   const auto target = newImage<Dimension>(state.range(0), second.Values);
   vtkNew<vtkTransportInterpolator> filter;

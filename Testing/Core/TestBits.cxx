@@ -114,17 +114,14 @@ void expectFlow(const GridSize<Dimension>& size)
     expectDigest(name + nameOf(method), digest);
   }
 
-  GridSize<Dimension> lattice;
-  lattice.fill(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
+  const auto lattice = evenSize<Dimension>(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
   Points<Dimension> positions(static_cast<std::size_t>(cellCount<Dimension>(lattice)));
   std::vector<std::int64_t> cells(positions.size());
   flow.ForwardLattice(lattice, positions);
   flow.ForwardLatticeToCells(lattice, cells.data());
   std::vector<double> divergence(cells.size());
   std::vector<double> determinant(cells.size());
-  Point<Dimension> step;
-  step.fill(0.5);
-  MapDerivatives<Dimension>(lattice, step, positions)
+  MapDerivatives<Dimension>(lattice, evenPoint<Dimension>(0.5), positions)
     .Write(0, cellCount<Dimension>(lattice), divergence.data(), determinant.data());
   const Point<Dimension> centroid = flow.Centroid();
   Digest digest;
@@ -169,8 +166,7 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
   Points<Dimension> places = randomPoints<Dimension>(size, 30, 3);
   places.push_back(places[4]);
   const SiteDensity<Dimension> sites(size, places);
-  Point<Dimension> spacing;
-  spacing.fill(1.0);
+  auto spacing = evenPoint<Dimension>(1.0);
   spacing[0] = 1.25;
   std::vector<std::int64_t> labels(static_cast<std::size_t>(cellCount<Dimension>(size)));
   const RectifiedFlow<Dimension> flow(sites);

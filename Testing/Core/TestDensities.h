@@ -25,6 +25,23 @@ struct TestDensity
   DensityArray<Dimension, double> Source() const { return { this->Values.data(), this->Size }; }
 };
 
+// The same along every axis.
+template <int Dimension>
+GridSize<Dimension> evenSize(std::int64_t side)
+{
+  GridSize<Dimension> size;
+  size.fill(side);
+  return size;
+}
+
+template <int Dimension>
+Point<Dimension> evenPoint(double coordinate)
+{
+  Point<Dimension> point;
+  point.fill(coordinate);
+  return point;
+}
+
 template <int Dimension>
 std::int64_t cellCount(const GridSize<Dimension>& size)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What cannot be transported, and options that mean nothing: said, never clamped.
 #include "TestFlow.h"
+#include "TestRefusal.h"
 
 #include <gtest/gtest.h>
 
@@ -110,21 +111,6 @@ TEST(Errors, MemoryThatCannotBeHad)
   EXPECT_THROW(buildUnread<3>({ side, side, side }), std::bad_alloc);
   const std::int64_t huge = std::int64_t{ 1 } << 30;
   EXPECT_THROW(buildUnread<3>({ huge, huge, huge }), std::bad_alloc);
-}
-
-template <class F>
-std::string refusal(F&& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  ADD_FAILURE() << "the options were accepted";
-  return "";
 }
 
 // Every call refuses the options, and its message holds the value.

@@ -249,8 +249,7 @@ Points<Dimension> borderPoints(const GridSize<Dimension>& size)
 {
   const double shares[] = { 0.0, 5e-324, 1e-16, 1e-9, 0.5, 1.0 - 1e-9, 1.0 - 1.2e-16, 1.0 };
   constexpr int Shares = 8;
-  GridSize<Dimension> choices;
-  choices.fill(Shares);
+  const auto choices = evenSize<Dimension>(Shares);
   Points<Dimension> points(cellCount<Dimension>(choices));
   for (std::size_t i = 0; i < points.size(); ++i)
   {

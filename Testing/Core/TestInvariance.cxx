@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A particle's result depends on its seed and the density alone, to the last bit: not on who runs
 // the ranges, how many threads there are, which other seeds are there or in what order.
+#include "TestDimensions.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <memory>
 #include <thread>
-#include <type_traits>
 #include <utility>
 
 #ifdef _OPENMP
@@ -94,31 +94,14 @@ private:
 };
 
 template <class T>
-class Invariance : public testing::Test
-{
-};
-
-template <int Dimension>
-using Dim = std::integral_constant<int, Dimension>;
-using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+using Invariance = DimensionTest<T>;
 TYPED_TEST_SUITE(Invariance, Dimensions);
 
 // Empty regions, so that particles are redone, and sides that need coarse levels.
 template <int Dimension>
 TestDensity<Dimension> densityWithVoids()
 {
-  if constexpr (Dimension == 1)
-  {
-    return discWithHole<1>({ 1000 });
-  }
-  else if constexpr (Dimension == 2)
-  {
-    return discWithHole<2>({ 150, 97 });
-  }
-  else
-  {
-    return discWithHole<3>({ 40, 70, 37 });
-  }
+  return discWithHole<Dimension>(sizeFor<Dimension>({ 1000 }, { 150, 97 }, { 40, 70, 37 }));
 }
 
 // Not a multiple of any block or slice.

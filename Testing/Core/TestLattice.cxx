@@ -198,10 +198,8 @@ void expectShare(const GridSize<Dimension>& size)
     }
     EXPECT_NEAR(flow.Share(low, high), sum / all, 1e-13);
   }
-  Point<Dimension> below;
-  Point<Dimension> above;
-  below.fill(-3.0);
-  above.fill(1e9);
+  const auto below = evenPoint<Dimension>(-3.0);
+  const auto above = evenPoint<Dimension>(1e9);
   EXPECT_NEAR(flow.Share(below, above), 1.0, 1e-15);
   EXPECT_EQ(flow.Share(below, below), 0.0);
   EXPECT_EQ(flow.Share(above, above), 0.0);

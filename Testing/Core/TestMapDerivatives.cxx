@@ -126,8 +126,7 @@ double smooth(const Point<Dimension>& p)
 template <int Dimension>
 std::vector<double> measureRatios(std::int64_t side, bool backward)
 {
-  GridSize<Dimension> size;
-  size.fill(side);
+  const auto size = evenSize<Dimension>(side);
   const TestDensity<Dimension> density = sampleDensity<Dimension>(size, smooth<Dimension>);
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const Points<Dimension> samples = latticePoints<Dimension>(size, size);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exact finish of particles whose whole box is at the density's largest value.
+#include "TestDimensions.h"
 #include "TestFlow.h"
 
 namespace RectifiedTransport
@@ -7,23 +8,15 @@ namespace RectifiedTransport
 namespace
 {
 
-template <int D>
-using Dim = std::integral_constant<int, D>;
-
-template <class Dimension>
-class Plateau : public testing::Test
-{
-};
-using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+template <class T>
+using Plateau = DimensionTest<T>;
 TYPED_TEST_SUITE(Plateau, Dimensions);
 
 // Ones in half of each axis, about the middle.
 template <int Dimension>
 TestDensity<Dimension> block(std::int64_t side)
 {
-  GridSize<Dimension> size;
-  size.fill(side);
-  return sampleDensity<Dimension>(size, [](const Point<Dimension>& p) {
+  return sampleDensity<Dimension>(evenSize<Dimension>(side), [](const Point<Dimension>& p) {
     for (const double coordinate : p)
     {
       if (coordinate < 0.25 || coordinate > 0.75)
@@ -40,8 +33,7 @@ TYPED_TEST(Plateau, EndsEarly)
 {
   constexpr int D = TypeParam::value;
   const TestDensity<D> shape = block<D>(32);
-  GridSize<D> lattice; // of many blocks of neighbours
-  lattice.fill(D == 1 ? 4096 : 32);
+  const auto lattice = evenSize<D>(D == 1 ? 4096 : 32); // of many blocks of neighbours
   Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
   const RectifiedFlow<D> flow(shape.Source());
   const FlowReport report = flow.ForwardLattice(lattice, positions);
@@ -79,8 +71,7 @@ TYPED_TEST(Plateau, IsTheScaling)
   const RectifiedFlow<D> flow(shape.Source());
   FlowOptions options;
   options.NumberOfSteps = 64;
-  GridSize<D> lattice;
-  lattice.fill(16);
+  const auto lattice = evenSize<D>(16);
   Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
   flow.ForwardLattice(lattice, positions, options);
   for (std::int64_t i = 0; i < cellCount<D>(lattice); ++i)

@@ -16,11 +16,13 @@ namespace RectifiedTransport
 namespace
 {
 
+const SerialExecutor serial;
+
 // A host that notes what it hears, and says stop after it was asked so often.
 class Host
 {
 public:
-  explicit Host(const Executor& threads)
+  explicit Host(const Executor& threads = serial)
     : Threads(threads)
   {
   }
@@ -69,7 +71,6 @@ TEST(Context, IsOfOpenMPOrOfAnExecutor)
   EXPECT_NE(dynamic_cast<const OpenMPExecutor*>(usual.Threads), nullptr);
   EXPECT_FALSE(usual.Report);
   EXPECT_FALSE(usual.IsCancelled);
-  const SerialExecutor serial;
   const Context context = serial;
   EXPECT_EQ(context.Threads, &serial);
   EXPECT_EQ(&Progress(serial).Threads(), &serial);
@@ -78,7 +79,6 @@ TEST(Context, IsOfOpenMPOrOfAnExecutor)
 
 TEST(Progress, NeedsNoHost)
 {
-  const SerialExecutor serial;
   Progress progress(serial);
   progress.BeginStage(1.0, 10);
   std::int64_t sum = 0;
@@ -93,8 +93,7 @@ TEST(Progress, NeedsNoHost)
 
 TEST(Progress, StagesFollow)
 {
-  const SerialExecutor serial;
-  Host host(serial);
+  Host host;
   Progress progress(host.Context());
   progress.BeginStage(0.25);
   EXPECT_EQ(progress.StageEnd(), 0.25);
@@ -116,8 +115,7 @@ TEST(Progress, StagesFollow)
 
 TEST(Progress, StagesNest)
 {
-  const SerialExecutor serial;
-  Host host(serial);
+  Host host;
   Progress outer(host.Context());
   outer.BeginStage(0.5);
   {
@@ -148,8 +146,7 @@ TEST(Progress, StagesNest)
 // Several loops may be the work of one stage, or begin anew in it.
 TEST(Progress, IsNeverTakenBack)
 {
-  const SerialExecutor serial;
-  Host host(serial);
+  Host host;
   Progress progress(host.Context());
   progress.BeginStage(0.5);
   progress.For(count, 1, nothing, 1);
@@ -165,8 +162,7 @@ TEST(Progress, IsNeverTakenBack)
 
 TEST(Progress, AddReportsInIntervals)
 {
-  const SerialExecutor serial;
-  Host host(serial);
+  Host host;
   Progress progress(host.Context());
   constexpr std::int64_t total = 1000000;
   progress.BeginStage(1.0, total);
@@ -230,7 +226,6 @@ TEST(Progress, ForRunsAll)
 TEST(Progress, ForThrowsWhatTheKernelThrows)
 {
   const OpenMPExecutor threads;
-  const SerialExecutor serial;
   for (const Executor* executor :
     { static_cast<const Executor*>(&threads), static_cast<const Executor*>(&serial) })
   {
@@ -304,7 +299,6 @@ TEST(Progress, ForInOrderRunsHereInOrder)
 
 TEST(Progress, SlicesAreMultiplesOfTheSmallest)
 {
-  const SerialExecutor serial;
   Progress progress(serial);
   progress.BeginStage(1.0, 1 << 20);
   EXPECT_EQ(progress.NextSlice(24), 24);
@@ -325,8 +319,7 @@ TEST(Progress, SlicesAreMultiplesOfTheSmallest)
 
 TEST(Progress, CheckThrows)
 {
-  const SerialExecutor serial;
-  Host host(serial);
+  Host host;
   host.Patience = 2;
   Progress progress(host.Context());
   EXPECT_NO_THROW(progress.Check());

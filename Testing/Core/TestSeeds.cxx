@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What all seed patterns promise, and lattices. Spacing is in TestSeedsBlueNoise.cxx.
 #include "TestSeeds.h"
+#include "TestRefusal.h"
 
 #include <cmath>
 #include <cstring>
@@ -103,7 +104,7 @@ TEST(Seeds, HaveTheSameBitsEverywhere)
 template <int Dimension>
 void checkPrefix(SeedPattern pattern)
 {
-  const Point<Dimension> cube = unitCube<Dimension>();
+  const Point<Dimension> cube = evenPoint<Dimension>(1.0);
   const std::vector<double> all = seeds<Dimension>(pattern, cube, 1000, 3);
   const std::vector<double> some = seeds<Dimension>(pattern, cube, 10, 3);
   EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
@@ -175,7 +176,7 @@ TEST(Seeds, AreUniform)
 template <int Dimension>
 double clumping(SeedPattern pattern)
 {
-  const Point<Dimension> cube = unitCube<Dimension>();
+  const Point<Dimension> cube = evenPoint<Dimension>(1.0);
   double sum = 0.0;
   constexpr int numberOfSeeds = 20;
   for (int seed = 0; seed < numberOfSeeds; ++seed)
@@ -263,7 +264,7 @@ template <int Dimension>
 double discrepancy(const std::vector<double>& points)
 {
   const std::int64_t count = static_cast<std::int64_t>(points.size()) / Dimension;
-  const auto corners = seeds<Dimension>(SeedPattern::Random, unitCube<Dimension>(), 500, 77);
+  const auto corners = seeds<Dimension>(SeedPattern::Random, evenPoint<Dimension>(1.0), 500, 77);
   double largest = 0.0;
   for (int k = 0; k < 500; ++k)
   {
@@ -292,7 +293,7 @@ double discrepancy(const std::vector<double>& points)
 template <int Dimension>
 void checkDiscrepancy(double limit)
 {
-  const Point<Dimension> cube = unitCube<Dimension>();
+  const Point<Dimension> cube = evenPoint<Dimension>(1.0);
   double low = 0.0;
   double random = 0.0;
   for (int seed = 0; seed < 5; ++seed)
@@ -350,7 +351,7 @@ TEST(Lattice, HasTheKnownSizes)
 template <int Dimension>
 void checkLatticeSizes(double largestMiss, double longestCell)
 {
-  const auto exponents = seeds<Dimension>(SeedPattern::Random, unitCube<Dimension>(), 2000, 1);
+  const auto exponents = seeds<Dimension>(SeedPattern::Random, evenPoint<Dimension>(1.0), 2000, 1);
   for (int k = 0; k < 2000; ++k)
   {
     Point<Dimension> lengths;
@@ -397,32 +398,18 @@ TEST(Lattice, HasPointsAtTheCentresOfItsCells)
   generateLattice<3>({ 0, 2, 5 }, {});
 }
 
-template <class F>
-std::string messageOf(F&& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Seeds, RefuseWhatTheyCannotMake)
 {
   double point[2];
-  EXPECT_EQ(messageOf([&] {
+  EXPECT_EQ(refusal([&] {
     generateSeeds<2>(SeedPattern::Random, { 1.0, 1.0 }, 1, { point, -3 });
   }),
     "the number of seeds must not be negative, but is -3");
-  EXPECT_EQ(messageOf([&] {
+  EXPECT_EQ(refusal([&] {
     latticeSize<2>({ 1.0, 1.0 }, -1);
   }),
     "the number of seeds must not be negative, but is -1");
-  EXPECT_EQ(messageOf([&] {
+  EXPECT_EQ(refusal([&] {
     generateSeeds<2>(SeedPattern::Random, { 1.0, 0.0 }, 1, { point, 1 });
   }),
     "the sides of the seeds' box must be positive and finite, but side 1 is 0");
@@ -435,14 +422,14 @@ TEST(Seeds, RefuseWhatTheyCannotMake)
   }
   EXPECT_THROW(
     generateSeeds<2>(SeedPattern::Lattice, { 1.0, 1.0 }, 1, { point, 1 }), std::invalid_argument);
-  EXPECT_EQ(messageOf([&] {
+  EXPECT_EQ(refusal([&] {
     generateLattice<2>({ 2, -1 }, { point, 1 });
   }),
     "the seeds' grid must not have a negative size, but axis 1 has -1");
   EXPECT_THROW(generateJitteredLattice<2>({ -2, 1 }, 1, { point, 1 }), std::invalid_argument);
   const char* wrongCount = "there is memory for 1 seeds, but the grid has 6 cells";
-  EXPECT_EQ(messageOf([&] { generateLattice<2>({ 2, 3 }, { point, 1 }); }), wrongCount);
-  EXPECT_EQ(messageOf([&] { generateJitteredLattice<2>({ 2, 3 }, 1, { point, 1 }); }), wrongCount);
+  EXPECT_EQ(refusal([&] { generateLattice<2>({ 2, 3 }, { point, 1 }); }), wrongCount);
+  EXPECT_EQ(refusal([&] { generateJitteredLattice<2>({ 2, 3 }, 1, { point, 1 }); }), wrongCount);
 }
 
 } // namespace

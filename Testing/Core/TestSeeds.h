@@ -4,6 +4,7 @@
 #define RectifiedTransport_TestSeeds_h
 
 #include "Core/Seeds/Seeds.h"
+#include "TestDensities.h"
 
 #include <gtest/gtest.h>
 
@@ -22,14 +23,6 @@ std::vector<double> seeds(SeedPattern pattern, const Point<Dimension>& lengths, 
   std::vector<double> points(count * Dimension);
   generateSeeds<Dimension>(pattern, lengths, randomSeed, { points.data(), count });
   return points;
-}
-
-template <int Dimension>
-Point<Dimension> unitCube()
-{
-  Point<Dimension> lengths;
-  lengths.fill(1.0);
-  return lengths;
 }
 
 } // namespace RectifiedTransport

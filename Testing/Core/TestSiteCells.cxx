@@ -42,14 +42,6 @@ Labels flowToSites(const SiteDensity<Dimension>& sites, const FlowOptions& optio
   return labels;
 }
 
-template <int Dimension>
-Point<Dimension> unitSpacing()
-{
-  Point<Dimension> spacing;
-  spacing.fill(1.0);
-  return spacing;
-}
-
 std::vector<std::int64_t> countLabels(const Labels& labels, std::int64_t count)
 {
   std::vector<std::int64_t> counts(count, 0);
@@ -64,7 +56,7 @@ std::vector<std::int64_t> countLabels(const Labels& labels, std::int64_t count)
 template <int Dimension>
 void expectBalanced(const SiteDensity<Dimension>& sites, Labels labels, const std::string& what)
 {
-  equalizeSiteCells<Dimension>(sites, unitSpacing<Dimension>(), labels.data());
+  equalizeSiteCells<Dimension>(sites, evenPoint<Dimension>(1.0), labels.data());
   const auto each = static_cast<std::int64_t>(labels.size()) / sites.NumberOfSites();
   const auto counts = countLabels(labels, sites.NumberOfPixels());
   for (std::int64_t k = 0; k < sites.NumberOfPixels(); ++k)
@@ -401,34 +393,30 @@ TEST(SiteCells, SitesInOnePixelDivideItsCell)
   }
 }
 
+// Two sites in one of 6 x 4 pixels have halves along x where pixels are square, and along y where
+// they are tall.
+void expectHalves(const Points<2>& places, double height)
+{
+  const auto sites = pixelsOf<2>({ 6, 4 }, places);
+  const Labels square = shared<2>(sites, places, Labels(24, 0), { 1.0, 1.0 });
+  const Labels tall = shared<2>(sites, places, Labels(24, 0), { 1.0, height });
+  for (std::size_t i = 0; i < 24; ++i)
+  {
+    EXPECT_EQ(square[i], i % 6 < 3 ? 0 : 1) << i;
+    EXPECT_EQ(tall[i], i / 6 < 2 ? 0 : 1) << i;
+  }
+}
+
 // The axis along which sites differ most is that of the physical length, too.
 TEST(SiteCells, SitesOnUnevenPixelsDivideTheirCell)
 {
-  const GridSize<2> size{ 6, 4 };
-  const Points<2> places{ { 2.2, 2.3 }, { 2.8, 2.7 } };
-  const auto sites = pixelsOf<2>(size, places);
-  const Labels even = shared<2>(sites, places, Labels(24, 0), { 1.0, 1.0 });
-  const Labels tall = shared<2>(sites, places, Labels(24, 0), { 1.0, 2.0 });
-  for (std::size_t i = 0; i < 24; ++i)
-  {
-    EXPECT_EQ(even[i], i % 6 < 3 ? 0 : 1) << i;
-    EXPECT_EQ(tall[i], i / 6 < 2 ? 0 : 1) << i;
-  }
+  expectHalves({ { 2.2, 2.3 }, { 2.8, 2.7 } }, 2.0);
 }
 
 // Sites at one point cut the cell across its longest axis, in physical length.
 TEST(SiteCells, SitesAtOnePointDivideTheirCell)
 {
-  const GridSize<2> size{ 6, 4 };
-  const Points<2> places{ { 2.5, 2.5 }, { 2.5, 2.5 } };
-  const auto sites = pixelsOf<2>(size, places);
-  const Labels wide = shared<2>(sites, places, Labels(24, 0), { 1.0, 1.0 });
-  const Labels tall = shared<2>(sites, places, Labels(24, 0), { 1.0, 10.0 });
-  for (std::size_t i = 0; i < 24; ++i)
-  {
-    EXPECT_EQ(wide[i], i % 6 < 3 ? 0 : 1) << i;
-    EXPECT_EQ(tall[i], i / 6 < 2 ? 0 : 1) << i;
-  }
+  expectHalves({ { 2.5, 2.5 }, { 2.5, 2.5 } }, 10.0);
 }
 
 TEST(SiteCells, ManySitesInOnePixelHaveEqualParts)

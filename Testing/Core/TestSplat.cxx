@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles to a grid: mass and centroid, weights against their definitions, the border, the map.
 #include "TestSplat.h"
+#include "TestDensities.h"
+#include "TestDimensions.h"
 
 #include <gtest/gtest.h>
 
@@ -12,18 +14,11 @@ namespace
 template <int D>
 GridSize<D> someSize()
 {
-  const std::int64_t sizes[3] = { 23, 19, 21 };
-  GridSize<D> size;
-  std::copy_n(sizes, D, size.begin());
-  return size;
+  return sizeFor<D>({ 23 }, { 23, 19 }, { 23, 19, 21 });
 }
 
-template <class Dimension>
-class Splat : public testing::Test
-{
-};
-using Dimensions = testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 2>,
-  std::integral_constant<int, 3>>;
+template <class T>
+using Splat = DimensionTest<T>;
 TYPED_TEST_SUITE(Splat, Dimensions, );
 
 TYPED_TEST(Splat, KeepsMassAndCentroid)
@@ -64,8 +59,7 @@ TYPED_TEST(Splat, KeepsMassAtBorders)
   // Also grids with fewer cells than the kernels.
   for (const std::int64_t cells : { 1, 2, 3, 5, 12 })
   {
-    GridSize<D> size;
-    size.fill(cells);
+    const auto size = evenSize<D>(cells);
     const Cloud<D> cloud = borderCloud<D>(size);
     for (const SplatKernel kernel : allKernels)
     {
@@ -95,8 +89,7 @@ TYPED_TEST(Splat, KeepsMassOnFaces)
   constexpr int D = TypeParam::value;
   for (const std::int64_t cells : { 1, 2, 3, 6 })
   {
-    GridSize<D> size;
-    size.fill(cells);
+    const auto size = evenSize<D>(cells);
     for (std::int64_t half = 0; half <= 2 * cells; ++half)
     {
       Point<D> point;

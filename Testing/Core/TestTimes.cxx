@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Positions at intermediate times, all of one run.
+#include "TestDimensions.h"
 #include "TestFlow.h"
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <type_traits>
 
 namespace RectifiedTransport
 {
@@ -31,29 +31,26 @@ std::vector<Points<Dimension>> forwardAt(const RectifiedFlow<Dimension>& flow,
 }
 
 template <class T>
-class Times : public testing::Test
-{
-};
-
-template <int Dimension>
-using Dim = std::integral_constant<int, Dimension>;
-using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+using Times = DimensionTest<T>;
 TYPED_TEST_SUITE(Times, Dimensions);
 
 template <int Dimension>
 TestDensity<Dimension> density()
 {
-  if constexpr (Dimension == 1)
+  return twoGaussians<Dimension>(sizeFor<Dimension>({ 200 }, { 110, 80 }, { 24, 33, 28 }));
+}
+
+// Calls check(flow, seeds, options) with every integrator.
+template <int Dimension, class Check>
+void forAllIntegrators(
+  const TestDensity<Dimension>& target, std::size_t count, int stepCount, const Check& check)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(target);
+  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), count);
+  for (const Integrator method : AllIntegrators)
   {
-    return twoGaussians<1>({ 200 });
-  }
-  else if constexpr (Dimension == 2)
-  {
-    return twoGaussians<2>({ 110, 80 });
-  }
-  else
-  {
-    return twoGaussians<3>({ 24, 33, 28 });
+    SCOPED_TRACE(nameOf(method));
+    check(flow, seeds, steps(stepCount, method));
   }
 }
 
@@ -61,16 +58,12 @@ TestDensity<Dimension> density()
 TYPED_TEST(Times, Ends)
 {
   constexpr int Dimension = TypeParam::value;
-  const RectifiedFlow<Dimension> flow = makeFlow(density<Dimension>());
-  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 700);
-  for (const Integrator method : AllIntegrators)
-  {
-    const FlowOptions options = steps(24, method);
-    const auto positions = forwardAt(flow, seeds, Moments, options);
-    EXPECT_TRUE(sameBits<Dimension>(positions.front(), seeds)) << nameOf(method);
-    EXPECT_TRUE(sameBits<Dimension>(positions.back(), runForward(flow, seeds, options)))
-      << nameOf(method);
-  }
+  forAllIntegrators(density<Dimension>(), 700, 24,
+    [](const auto& flow, const auto& seeds, const FlowOptions& options) {
+      const auto positions = forwardAt(flow, seeds, Moments, options);
+      EXPECT_TRUE(sameBits<Dimension>(positions.front(), seeds));
+      EXPECT_TRUE(sameBits<Dimension>(positions.back(), runForward(flow, seeds, options)));
+    });
 }
 
 TYPED_TEST(Times, Oracle)
@@ -102,17 +95,14 @@ TYPED_TEST(Times, Oracle)
 TYPED_TEST(Times, AnyChoice)
 {
   constexpr int Dimension = TypeParam::value;
-  const RectifiedFlow<Dimension> flow = makeFlow(density<Dimension>());
-  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 300);
-  for (const Integrator method : AllIntegrators)
-  {
-    const FlowOptions options = steps(24, method);
-    const auto all = forwardAt(flow, seeds, Moments, options);
-    const auto some = forwardAt(flow, seeds, { 0.5, 0.5, 0.95 }, options);
-    EXPECT_TRUE(sameBits<Dimension>(some[0], all[4])) << nameOf(method);
-    EXPECT_TRUE(sameBits<Dimension>(some[1], all[4])) << nameOf(method);
-    EXPECT_TRUE(sameBits<Dimension>(some[2], all[6])) << nameOf(method);
-  }
+  forAllIntegrators(density<Dimension>(), 300, 24,
+    [](const auto& flow, const auto& seeds, const FlowOptions& options) {
+      const auto all = forwardAt(flow, seeds, Moments, options);
+      const auto some = forwardAt(flow, seeds, { 0.5, 0.5, 0.95 }, options);
+      EXPECT_TRUE(sameBits<Dimension>(some[0], all[4]));
+      EXPECT_TRUE(sameBits<Dimension>(some[1], all[4]));
+      EXPECT_TRUE(sameBits<Dimension>(some[2], all[6]));
+    });
 }
 
 // Whether a particle is redone, because it meets an empty box or ends in an empty cell, does not
@@ -120,22 +110,17 @@ TYPED_TEST(Times, AnyChoice)
 TYPED_TEST(Times, AnyChoiceWithHoles)
 {
   constexpr int Dimension = TypeParam::value;
-  const RectifiedFlow<Dimension> flow =
-    makeFlow(discWithHole<Dimension>(density<Dimension>().Size));
-  const Points<Dimension> seeds = randomPoints<Dimension>(flow.Size(), 700);
-  for (const Integrator method : AllIntegrators)
-  {
-    const FlowOptions options = steps(8, method);
-    const auto all = forwardAt(flow, seeds, Moments, options);
-    EXPECT_TRUE(sameBits<Dimension>(all.front(), seeds)) << nameOf(method);
-    EXPECT_TRUE(sameBits<Dimension>(all.back(), runForward(flow, seeds, options)))
-      << nameOf(method);
-    for (const std::size_t i : { 2, 4, 7 })
-    {
-      const auto one = forwardAt(flow, seeds, { Moments[i] }, options);
-      EXPECT_TRUE(sameBits<Dimension>(one[0], all[i])) << nameOf(method) << " at " << Moments[i];
-    }
-  }
+  forAllIntegrators(discWithHole<Dimension>(density<Dimension>().Size), 700, 8,
+    [](const auto& flow, const auto& seeds, const FlowOptions& options) {
+      const auto all = forwardAt(flow, seeds, Moments, options);
+      EXPECT_TRUE(sameBits<Dimension>(all.front(), seeds));
+      EXPECT_TRUE(sameBits<Dimension>(all.back(), runForward(flow, seeds, options)));
+      for (const std::size_t i : { 2, 4, 7 })
+      {
+        const auto one = forwardAt(flow, seeds, { Moments[i] }, options);
+        EXPECT_TRUE(sameBits<Dimension>(one[0], all[i])) << "at " << Moments[i];
+      }
+    });
 }
 
 // Who runs the ranges and who else is there matters no more than in Forward.
