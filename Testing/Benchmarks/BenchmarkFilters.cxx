@@ -13,26 +13,11 @@ namespace RectifiedTransport
 namespace
 {
 
-template <class Filter>
-void runOnPhotograph(benchmark::State& state, Filter* filter)
-{
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(Photograph::Instance().Image);
-  filter->SetInputData(image);
-  filter->InvertDensityOn();
-  filter->SetThreadingToSerial();
-  for (auto _ : state)
-  {
-    image->GetPointData()->GetScalars()->Modified();
-    filter->Update();
-  }
-}
-
 // A map at one sample a pixel, and as many particles from the same seeds.
 void map(benchmark::State& state)
 {
   vtkNew<vtkTransportMap> filter;
-  runOnPhotograph(state, filter.Get());
+  runOnPhotograph(state, filter);
 }
 
 void particles(benchmark::State& state)
@@ -40,7 +25,7 @@ void particles(benchmark::State& state)
   vtkNew<vtkTransportSampler> filter;
   filter->SetSeedPatternToLattice();
   filter->SetSamplesPerCell(1);
-  runOnPhotograph(state, filter.Get());
+  runOnPhotograph(state, filter);
 }
 
 // 1024 random sites.
@@ -62,12 +47,7 @@ void cells(benchmark::State& state)
   filter->SetInputData(sites);
   filter->SetDomainData(domain);
   filter->SetResolution(static_cast<int>(state.range(0)));
-  filter->SetThreadingToSerial();
-  for (auto _ : state)
-  {
-    points->Modified();
-    filter->Update();
-  }
+  timeUpdates(state, filter, points);
 }
 
 BENCHMARK(map)->Name("Filters/map")->Unit(benchmark::kMillisecond);

@@ -32,34 +32,36 @@ void reportStrays(benchmark::State& state, const RectifiedFlow<Dimension>& flow,
   state.counters["lost"] = static_cast<double>(lost);
 }
 
+// Calls move(density, flow, particles).
+template <int Dimension, class Move>
+void countStrays(benchmark::State& state, const Move& move)
+{
+  const TestDensity<Dimension> density =
+    discWithHole<Dimension>(evenSize<Dimension>(state.range(0)));
+  const RectifiedFlow<Dimension> flow(density.Source());
+  Particles<Dimension> particles = latticeParticles<Dimension>(density.Size);
+  for (auto _ : state)
+  {
+    move(density, flow, particles);
+  }
+  reportStrays<Dimension>(state, flow, particles);
+}
+
 template <int Dimension>
 void paperStrays(benchmark::State& state)
 {
-  GridSize<Dimension> size;
-  size.fill(state.range(0));
-  const TestDensity<Dimension> density = discWithHole<Dimension>(size);
-  Particles<Dimension> particles = latticeParticles<Dimension>(size);
-  for (auto _ : state)
-  {
-    Paper::advect(
-      Paper::buildTables(density.Values, size), particles, PaperSteps, Paper::FinalVelocity::Zero);
-  }
-  reportStrays<Dimension>(state, RectifiedFlow<Dimension>(density.Source()), particles);
+  countStrays<Dimension>(state, [](const auto& density, const auto&, auto& particles) {
+    Paper::advect(Paper::buildTables(density.Values, density.Size), particles, PaperSteps,
+      Paper::FinalVelocity::Zero);
+  });
 }
 
 template <int Dimension>
 void coreStrays(benchmark::State& state)
 {
-  GridSize<Dimension> size;
-  size.fill(state.range(0));
-  const TestDensity<Dimension> density = discWithHole<Dimension>(size);
-  Particles<Dimension> particles = latticeParticles<Dimension>(size);
-  const RectifiedFlow<Dimension> flow(density.Source());
-  for (auto _ : state)
-  {
+  countStrays<Dimension>(state, [](const auto&, const auto& flow, auto& particles) {
     moveForward(flow, particles, OpenMPExecutor());
-  }
-  reportStrays<Dimension>(state, flow, particles);
+  });
 }
 
 void once(benchmark::internal::Benchmark* b)

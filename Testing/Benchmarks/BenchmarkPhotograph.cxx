@@ -68,19 +68,9 @@ void core(benchmark::State& state, int threadCount)
 
 void filter(benchmark::State& state)
 {
-  const Photograph& photograph = Photograph::Instance();
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(photograph.Image);
   vtkNew<vtkTransportSampler> sampler;
-  sampler->SetInputData(image);
   sampler->SetNumberOfParticles(PhotographParticles);
-  sampler->InvertDensityOn();
-  sampler->SetThreadingToSerial();
-  for (auto _ : state)
-  {
-    image->GetPointData()->GetScalars()->Modified();
-    sampler->Update();
-  }
+  runOnPhotograph(state, sampler);
   vtkPolyData* output = sampler->GetOutput();
   Particles<2> particles(static_cast<std::size_t>(output->GetNumberOfPoints()));
   for (std::size_t i = 0; i < particles.size(); ++i)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole updates of the filter that covers the cells of an image by a closed surface: cells, and
 // triangles.
+#include "FilterRuns.h"
 #include "KnotInput.h"
-
-#include <benchmark/benchmark.h>
 
 #include <vtkImageData.h>
 #include <vtkSolidDensity.h>
@@ -20,12 +19,7 @@ void solid(benchmark::State& state, int around, int across)
   vtkNew<vtkSolidDensity> filter;
   filter->SetInputData(knot);
   filter->SetResolution(static_cast<int>(state.range(0)));
-  filter->SetThreadingToSerial();
-  for (auto _ : state)
-  {
-    filter->Modified();
-    filter->Update();
-  }
+  timeUpdates(state, filter, filter);
   state.counters["cells"] = static_cast<double>(filter->GetOutput()->GetNumberOfPoints());
 }
 

@@ -5,6 +5,7 @@
 // As in BenchmarkTables, memory is used once before the clock starts.
 #include "BenchmarkInputs.h"
 
+#include "FilterRuns.h"
 #include "PaperTransport.h"
 
 #include <vtkCellData.h>
@@ -134,11 +135,7 @@ void filter(benchmark::State& state)
     sampler->SetSamplesPerCell(1);
   }
   sampler->Update();
-  for (auto _ : state)
-  {
-    image->GetCellData()->GetScalars()->Modified();
-    sampler->Update();
-  }
+  timeUpdates(state, sampler, values);
   vtkPolyData* output = sampler->GetOutput();
   Particles<3> particles(static_cast<std::size_t>(output->GetNumberOfPoints()));
   if (particles.size() != volume.Seeds.size())
