@@ -35,6 +35,15 @@ bool areComplete(vtkDataSetAttributes* attributes, vtkIdType tuples)
   return true;
 }
 
+// A filter with other properties than the default ones.
+template <class Filter, class Set>
+vtkSmartPointer<vtkAlgorithm> makeSet(const Set& set)
+{
+  const auto filter = vtkSmartPointer<Filter>::New();
+  set(filter.Get());
+  return filter;
+}
+
 vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
 {
   // VTK's image filters do not look whether there are scalars, or points enough to shrink.
@@ -51,25 +60,14 @@ vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
   switch (kind)
   {
     case 0:
-    {
-      const auto shrink = vtkSmartPointer<vtkImageShrink3D>::New();
-      shrink->SetShrinkFactors(2, 1, 1);
-      return shrink;
-    }
+      return makeSet<vtkImageShrink3D>([](auto* shrink) { shrink->SetShrinkFactors(2, 1, 1); });
     case 1:
       return vtkSmartPointer<vtkImageExtractComponents>::New();
     case 2:
-    {
-      const auto contour = vtkSmartPointer<vtkContourFilter>::New();
-      contour->SetValue(0, 0.5);
-      return contour;
-    }
+      return makeSet<vtkContourFilter>([](auto* contour) { contour->SetValue(0, 0.5); });
     case 3:
-    {
-      const auto sampler = vtkSmartPointer<vtkTransportSampler>::New();
-      sampler->SetNumberOfParticles(200);
-      return sampler;
-    }
+      return makeSet<vtkTransportSampler>(
+        [](auto* sampler) { sampler->SetNumberOfParticles(200); });
     default:
       return vtkSmartPointer<vtkTransportMap>::New();
   }
@@ -80,11 +78,7 @@ vtkSmartPointer<vtkAlgorithm> drawBehindPoints(Dice& dice)
   switch (dice.Whole(0, 2))
   {
     case 0:
-    {
-      const auto splatter = vtkSmartPointer<vtkMassSplatter>::New();
-      splatter->SetDimensions(9, 8, 7);
-      return splatter;
-    }
+      return makeSet<vtkMassSplatter>([](auto* splatter) { splatter->SetDimensions(9, 8, 7); });
     case 1:
       return vtkSmartPointer<vtkCleanPolyData>::New();
     default:

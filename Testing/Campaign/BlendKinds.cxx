@@ -91,9 +91,7 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
   const bool onPoints = image->GetPointData()->GetArray("Density") != nullptr;
   const vtkIdType values = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
   findings.That(count == values * blend->GetParticlesPerCell(), "ParticlesPerCell");
-  vtkDataArray* density =
-    requireArray(image->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL),
-      "Density", 1, values, findings);
+  vtkDataArray* density = requireDensity(image, onPoints, findings);
   vtkDataArray* mass = requireArray(particles->GetPointData(), "Mass", 1, count, findings);
   const double total = requireField(image, "TotalMass", findings);
   findings.Near(requireField(particles, "TotalMass", findings), total, 0.0, "TotalMass of both");

@@ -74,9 +74,10 @@ Input drawSurface(Dice& dice);
 vtkSmartPointer<vtkDataArray> drawArray(
   Dice& dice, vtkIdType tuples, int components, std::string& text);
 
-// Marks some of the points or cells; at times by an array of the wrong length, where that is allowed.
-void drawGhosts(Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength,
-  Input& input);
+// Marks some of the points or cells; at times by an array of the wrong length, where that is
+// allowed.
+void drawGhosts(
+  Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength, Input& input);
 
 // In place of a plain input at times nothing, another type, or a composite data set.
 void drawUnusual(Dice& dice, Input& input);

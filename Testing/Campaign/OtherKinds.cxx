@@ -20,11 +20,19 @@ namespace Campaign
 namespace
 {
 
-// Of an image that only lends its geometry.
-void ignoreArrays(Input& image)
+// At times the second of two inputs: an image that only lends its geometry.
+vtkImageData* drawGeometry(Dice& dice, Settings& settings, Inputs& inputs)
 {
+  inputs.resize(2);
+  if (!dice.Chance(0.4))
+  {
+    return nullptr;
+  }
+  inputs[1] = { drawImage(dice, rulesOf(settings)) };
+  Input& image = inputs[1][0];
   image.Values = nullptr;
   image.Condition = State::Open;
+  return vtkImageData::SafeDownCast(image.Data);
 }
 
 //------------------------------------------------------------------------------
@@ -43,13 +51,8 @@ void drawCells(Settings& settings)
 
 Inputs feedCells(Dice& dice, Settings& settings)
 {
-  Inputs inputs(2);
-  if (dice.Chance(0.4))
-  {
-    inputs[1] = { drawImage(dice, rulesOf(settings)) };
-    ignoreArrays(inputs[1][0]);
-  }
-  auto* domain = inputs[1].empty() ? nullptr : vtkImageData::SafeDownCast(inputs[1][0].Data);
+  Inputs inputs;
+  vtkImageData* domain = drawGeometry(dice, settings, inputs);
   inputs[0] = { drawPoints(dice, domain, dice.Of({ 5, 12, 30 })) };
   inputs[0][0].Values = nullptr;
   return inputs;
@@ -150,13 +153,8 @@ void drawSplatter(Settings& settings)
 
 Inputs feedSplatter(Dice& dice, Settings& settings)
 {
-  Inputs inputs(2);
-  if (dice.Chance(0.4))
-  {
-    inputs[1] = { drawImage(dice, rulesOf(settings)) };
-    ignoreArrays(inputs[1][0]);
-  }
-  auto* reference = inputs[1].empty() ? nullptr : vtkImageData::SafeDownCast(inputs[1][0].Data);
+  Inputs inputs;
+  vtkImageData* reference = drawGeometry(dice, settings, inputs);
   inputs[0] = { drawPoints(dice, reference, settings.IsLarge() ? 20000 : 1500) };
   const char* const usual = inputs[0][0].Values ? "Mass" : "";
   const std::string name = dice.Chance(0.9) ? dice.Of({ "", usual, usual, "None" })
@@ -181,11 +179,8 @@ void checkSplatter(vtkAlgorithm* filter, const Inputs& inputs, Findings& finding
 {
   auto* splatter = Splatter::SafeDownCast(filter);
   vtkImageData* output = splatter->GetOutput();
-  const bool onPoints = splatter->GetAssociation() == Splatter::POINTS;
-  const vtkIdType values = onPoints ? output->GetNumberOfPoints() : output->GetNumberOfCells();
   vtkDataArray* density =
-    requireArray(output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL),
-      "Density", 1, values, findings);
+    requireDensity(output, splatter->GetAssociation() == Splatter::POINTS, findings);
   const double total = requireField(output, "TotalMass", findings);
   if (splatter->GetDivideByVolume() == 0 && splatter->GetBoundary() == Splatter::RENORMALIZE &&
     expectSplatter(filter, inputs) == State::Sound)
@@ -226,13 +221,9 @@ State expectSolid(vtkAlgorithm*, const Inputs& inputs)
 void checkSolid(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
 {
   auto* solid = Solid::SafeDownCast(filter);
-  vtkImageData* output = solid->GetOutput();
-  const bool onPoints = solid->GetAssociation() == Solid::POINTS;
-  const vtkIdType values = onPoints ? output->GetNumberOfPoints() : output->GetNumberOfCells();
   vtkDataArray* density =
-    requireArray(output->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL),
-      "Density", 1, values, findings);
-  for (vtkIdType i = 0; density && i < values; ++i)
+    requireDensity(solid->GetOutput(), solid->GetAssociation() == Solid::POINTS, findings);
+  for (vtkIdType i = 0; density && i < density->GetNumberOfTuples(); ++i)
   {
     const double value = density->GetComponent(i, 0);
     if (!(value >= 0.0 && value <= 1.0))

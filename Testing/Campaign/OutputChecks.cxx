@@ -94,6 +94,13 @@ vtkDataArray* requireArray(
   return shape ? array : nullptr;
 }
 
+vtkDataArray* requireDensity(vtkImageData* image, bool onPoints, Findings& findings)
+{
+  const int kind = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  return requireArray(
+    image->GetAttributes(kind), "Density", 1, image->GetNumberOfElements(kind), findings);
+}
+
 double requireField(vtkDataObject* data, const char* name, Findings& findings)
 {
   vtkDataArray* array = requireArray(data->GetFieldData(), name, 1, 1, findings);

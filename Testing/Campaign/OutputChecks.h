@@ -28,6 +28,9 @@ double cellMeasure(vtkImageData* image);
 vtkDataArray* requireArray(
   vtkFieldData* data, const char* name, int components, vtkIdType tuples, Findings& findings);
 
+// The density of an image, on its points or its cells.
+vtkDataArray* requireDensity(vtkImageData* image, bool onPoints, Findings& findings);
+
 // The only value of an array of the field data; 0, and a finding, if there is none.
 double requireField(vtkDataObject* data, const char* name, Findings& findings);
 
