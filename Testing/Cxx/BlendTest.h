@@ -62,7 +62,7 @@ inline vtkSmartPointer<vtkTransportBarycenter> makeBarycenter(
 // The density as it is now.
 inline Values densityValues(vtkTransportBlend* blend)
 {
-  return mapValues(blend->GetDensity(), "Density");
+  return imageValues(blend->GetDensity(), "Density");
 }
 
 inline Values runDensity(vtkTransportBlend* blend)
@@ -93,27 +93,10 @@ inline double cellMeasure(vtkImageData* image)
   return measure;
 }
 
-inline double sumOf(const Values& values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 // Density times measure, summed.
 inline double massOf(vtkImageData* image)
 {
-  return sumOf(mapValues(image, "Density")) * cellMeasure(image);
-}
-
-inline bool isEmpty(vtkDataObject* data)
-{
-  auto* set = vtkDataSet::SafeDownCast(data);
-  return set && set->GetNumberOfPoints() == 0 && set->GetPointData()->GetNumberOfArrays() == 0 &&
-    set->GetCellData()->GetNumberOfArrays() == 0;
-}
-
-inline bool isEmpty(vtkTransportBlend* blend)
-{
-  return isEmpty(blend->GetOutputDataObject(0)) && isEmpty(blend->GetOutputDataObject(1));
+  return sumOf(imageValues(image, "Density")) * cellMeasure(image);
 }
 
 // Root mean square of the differences of the sums over blocks of 4 values a side, relative.

@@ -8,35 +8,6 @@
 #include "vtkMatrix3x3.h"
 #include "vtkTransportMap.h"
 
-using Values = std::vector<double>;
-
-inline Values arrayValues(vtkDataArray* array)
-{
-  Values values;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-    {
-      values.push_back(array->GetComponent(i, c));
-    }
-  }
-  return values;
-}
-
-// An array of a map, of its points or its cells; it is empty if it is on both or on none.
-inline Values mapValues(vtkImageData* map, const char* name)
-{
-  vtkDataArray* onPoints = map->GetPointData()->GetArray(name);
-  vtkDataArray* onCells = map->GetCellData()->GetArray(name);
-  return onPoints && onCells ? Values() : arrayValues(onPoints ? onPoints : onCells);
-}
-
-inline double mapField(vtkImageData* map, const char* name)
-{
-  vtkDataArray* array = map->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfTuples() == 1 ? array->GetComponent(0, 0) : std::nan("");
-}
-
 // Where the values of a map are.
 inline Values samplePlaces(vtkImageData* map)
 {

@@ -43,6 +43,24 @@ public:
     }
   }
 
+  // So many calls at least, from 0 up to 1.
+  void ExpectRising(
+    Checks& checks, std::size_t calls, int line, const std::string& what = "heard") const
+  {
+    std::ostringstream detail;
+    detail << what << ":";
+    for (const double heard : this->Heard)
+    {
+      detail << " " << heard;
+    }
+    const auto first = this->Heard.begin();
+    const auto last = this->Heard.end();
+    checks.That(this->Heard.size() >= calls, "often", line, detail.str());
+    checks.That(std::is_sorted(first, last), "rising", line, detail.str());
+    checks.That(
+      first != last && *first >= 0.0 && *(last - 1) == 1.0, "from 0 to 1", line, detail.str());
+  }
+
   double AbortFrom = 2.0;
   std::chrono::milliseconds Delay{ 0 };
   std::vector<double> Heard;
@@ -86,10 +104,10 @@ private:
 // An abort once the progress passes `from`, or `delay` milliseconds later: nothing is left, and no
 // work goes on; that would be heard of more often than at the end of a slice and of the run. How
 // long it takes to the end is said, but decides nothing: other processes may hold this one up.
-// `outdate` makes the next update run, `isEmpty` looks at what an abort has left.
-template <class Outdate, class IsEmpty>
+// `outdate` makes the next update run.
+template <class Outdate>
 void checkAbort(Checks& checks, vtkAlgorithm* algorithm, double from, const Outdate& outdate,
-  const IsEmpty& isEmpty, int line, int delay = 0)
+  int line, int delay = 0)
 {
   ProgressTest test(algorithm);
   test.AbortFrom = from;
@@ -99,7 +117,7 @@ void checkAbort(Checks& checks, vtkAlgorithm* algorithm, double from, const Outd
   const auto end = ProgressTest::Clock::now();
   test.Wait();
   checks.That(!test.Heard.empty() && algorithm->GetAbortExecute() != 0, "aborted", line);
-  checks.That(isEmpty(), "empty output", line);
+  checks.That(isEmpty(algorithm), "empty output", line);
   checks.That(test.HeardAfter <= 2, "soon over", line, std::to_string(test.HeardAfter));
   algorithm->SetAbortExecute(0);
   const std::chrono::duration<double, std::milli> wait = end - test.AbortTime;

@@ -1,120 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the VTK classes share: checks, small images, and an ear for messages.
+// What the tests of the VTK classes share beside checks: small images and points, and the values of
+// outputs.
 #ifndef SamplerTest_h
 #define SamplerTest_h
 
-#include "vtkAlgorithm.h"
-#include "vtkCallbackCommand.h"
+#include "Checks.h"
+
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
+#include "vtkDensityAlgorithm.h"
 #include "vtkDoubleArray.h"
-#include "vtkExecutive.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkTransportSampler.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <array>
 #include <functional>
-#include <initializer_list>
-#include <iostream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-// Counts and reports what does not hold, and goes on.
-class Checks
-{
-public:
-  void That(bool holds, const char* what, int line, const std::string& detail = "")
-  {
-    if (!holds)
-    {
-      std::cout << "line " << line << ": " << what << " does not hold"
-                << (detail.empty() ? "" : ": ") << detail << "\n";
-      ++this->Failures;
-    }
-  }
-  void Near(double a, double b, double tolerance, const char* what, int line)
-  {
-    std::ostringstream detail;
-    detail << a << " and " << b << ", more than " << tolerance << " apart";
-    this->That(std::abs(a - b) <= tolerance, what, line, detail.str());
-  }
-  int Result() const { return this->Failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE; }
-
-private:
-  int Failures = 0;
-};
-
-// Makes all checks of a test; what its main function returns.
-inline int runChecks(std::initializer_list<void (*)(Checks&)> all)
-{
-  Checks checks;
-  for (const auto& check : all)
-  {
-    check(checks);
-  }
-  return checks.Result();
-}
-
-#define CHECK(checks, condition) (checks).That((condition), #condition, __LINE__)
-#define CHECK_NEAR(checks, a, b, tolerance)                                                        \
-  (checks).Near((a), (b), (tolerance), #a " == " #b, __LINE__)
-
-// Hears the errors and warnings of an algorithm, which are then not printed, and keeps the
-// executive quiet.
-class Messages
-{
-public:
-  explicit Messages(vtkAlgorithm* algorithm)
-    : Algorithm(algorithm)
-  {
-    this->Ear->SetClientData(this);
-    this->Ear->SetCallback([](vtkObject*, unsigned long event, void* self, void* text) {
-      auto* messages = static_cast<Messages*>(self);
-      (event == vtkCommand::ErrorEvent ? messages->Errors : messages->Warnings)
-        .push_back(static_cast<const char*>(text));
-    });
-    algorithm->AddObserver(vtkCommand::ErrorEvent, this->Ear);
-    algorithm->AddObserver(vtkCommand::WarningEvent, this->Ear);
-    this->Deaf->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Deaf);
-  }
-
-  ~Messages()
-  {
-    this->Algorithm->RemoveObserver(this->Ear);
-    this->Algorithm->GetExecutive()->RemoveObserver(this->Deaf);
-  }
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-
-  void Clear()
-  {
-    this->Errors.clear();
-    this->Warnings.clear();
-  }
-
-  std::vector<std::string> Errors;
-  std::vector<std::string> Warnings;
-
-private:
-  vtkSmartPointer<vtkAlgorithm> Algorithm;
-  vtkNew<vtkCallbackCommand> Ear;
-  vtkNew<vtkCallbackCommand> Deaf;
-};
-
-inline bool contains(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
+#include <numeric>
 
 // An image of a numeric type: `values` on the points of `dimensions`, or on its cells. Values come
 // from a function of the tuple's index.
@@ -147,6 +52,26 @@ inline double bumpy(vtkIdType i)
   return static_cast<double>(1 + (i * 37 + i * i % 11) % 23);
 }
 
+// Cells of width 1 with a corner at the origin.
+inline vtkSmartPointer<vtkImageData> unitCells(int nx, int ny, int nz)
+{
+  return makeImage(nx + 1, ny + 1, nz + 1, true, bumpy);
+}
+
+// The same values on cells, and on the points half a spacing within them.
+inline std::array<vtkSmartPointer<vtkImageData>, 2> makeCellsAndPoints()
+{
+  auto cells = unitCells(9, 7, 5);
+  cells->SetOrigin(1.0, 2.0, 3.0);
+  auto points = makeImage(9, 7, 5, false, bumpy);
+  points->SetOrigin(1.25, 3.0, 3.625);
+  for (vtkImageData* image : { cells.Get(), points.Get() })
+  {
+    image->SetSpacing(0.5, 2.0, 1.25);
+  }
+  return { cells, points };
+}
+
 inline vtkDataArray* densityOf(vtkDataObject* data)
 {
   auto* image = vtkImageData::SafeDownCast(data);
@@ -174,26 +99,88 @@ inline void forgetTables(vtkAlgorithm* filter, vtkDataObject* data)
   array->Modified();
 }
 
+// Updates a filter; whether that built tables.
+inline bool builds(vtkDensityAlgorithm* filter)
+{
+  const vtkMTimeType before = filter->GetTableBuildTime();
+  filter->Update();
+  return filter->GetTableBuildTime() > before;
+}
+
+// What is said of the settings that all flows have.
+template <class Filter>
+void expectFlowErrors(ErrorTest& test, Filter* filter, int line)
+{
+  const int steps = filter->GetNumberOfSteps();
+  filter->SetNumberOfSteps(0);
+  test.Expect("NumberOfSteps is 0; it must be from 1 to 10000", line);
+  filter->SetNumberOfSteps(steps);
+  filter->SetThreading(9);
+  test.Expect("Threading is 9; it must be 0 (Auto)", line);
+  filter->SetThreadingToAuto();
+}
+
 inline vtkDataArray* pointArray(vtkPolyData* data, const char* name)
 {
   return data->GetPointData()->GetArray(name);
 }
 
-inline double fieldValue(vtkPolyData* data, const char* name)
+inline double fieldValue(vtkDataObject* data, const char* name)
 {
   vtkDataArray* array = data->GetFieldData()->GetArray(name);
-  return array ? array->GetComponent(0, 0) : std::nan("");
+  return array && array->GetNumberOfTuples() == 1 ? array->GetComponent(0, 0) : std::nan("");
 }
 
-// A copy of the particles' coordinates, three a point.
-inline std::vector<double> coordinates(vtkPolyData* data)
+using Values = std::vector<double>;
+
+inline Values arrayValues(vtkDataArray* array)
 {
-  std::vector<double> all(static_cast<std::size_t>(3 * data->GetNumberOfPoints()));
+  Values values;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+    {
+      values.push_back(array->GetComponent(i, c));
+    }
+  }
+  return values;
+}
+
+// An array of an image, of its points or its cells; it is empty if it is on both or on none.
+inline Values imageValues(vtkImageData* image, const char* name)
+{
+  vtkDataArray* onPoints = image->GetPointData()->GetArray(name);
+  vtkDataArray* onCells = image->GetCellData()->GetArray(name);
+  return onPoints && onCells ? Values() : arrayValues(onPoints ? onPoints : onCells);
+}
+
+inline double sumOf(const Values& values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// A copy of the points' coordinates, three a point.
+inline Values coordinates(vtkPointSet* data)
+{
+  Values all(static_cast<std::size_t>(3 * data->GetNumberOfPoints()));
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     data->GetPoint(i, all.data() + 3 * i);
   }
   return all;
+}
+
+inline vtkSmartPointer<vtkPolyData> makePoints(const Values& x, bool single = false)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
+  for (std::size_t i = 0; i < x.size(); i += 3)
+  {
+    points->InsertNextPoint(x.data() + i);
+  }
+  data->SetPoints(points);
+  return data;
 }
 
 inline std::vector<double> sampleCoordinates(vtkTransportSampler* sampler)

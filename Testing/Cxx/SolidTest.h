@@ -67,19 +67,12 @@ inline vtkSmartPointer<vtkPolyData> together(vtkPolyData* a, vtkPolyData* b)
 inline vtkSmartPointer<vtkPolyData> makePolyhedron(
   const std::vector<double>& points, const std::vector<vtkIdType>& faces)
 {
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> corners;
-  corners->SetDataTypeToDouble();
-  for (std::size_t i = 0; i < points.size(); i += 3)
-  {
-    corners->InsertNextPoint(points.data() + i);
-  }
+  auto data = makePoints(points);
   vtkNew<vtkCellArray> polygons;
   for (std::size_t i = 0; i < faces.size(); i += 1 + static_cast<std::size_t>(faces[i]))
   {
     polygons->InsertNextCell(faces[i], faces.data() + i + 1);
   }
-  data->SetPoints(corners);
   data->SetPolys(polygons);
   return data;
 }
@@ -107,15 +100,9 @@ inline double volumeOf(vtkPolyData* surface)
 inline std::vector<double> densityOf(vtkSolidDensity* solid)
 {
   vtkImageData* image = solid->GetOutput();
-  vtkDataArray* array = solid->GetAssociation() == vtkSolidDensity::POINTS
-    ? image->GetPointData()->GetArray("Density")
-    : image->GetCellData()->GetArray("Density");
-  std::vector<double> values;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    values.push_back(array->GetTuple1(i));
-  }
-  return values;
+  return arrayValues(solid->GetAssociation() == vtkSolidDensity::POINTS
+      ? image->GetPointData()->GetArray("Density")
+      : image->GetCellData()->GetArray("Density"));
 }
 
 inline std::vector<double> runSolid(vtkSolidDensity* solid)
@@ -127,13 +114,8 @@ inline std::vector<double> runSolid(vtkSolidDensity* solid)
 // The sum of the output's density times the cells' volume.
 inline double massOf(vtkSolidDensity* solid)
 {
-  double sum = 0.0;
-  for (const double value : densityOf(solid))
-  {
-    sum += value;
-  }
   const double* spacing = solid->GetOutput()->GetSpacing();
-  return sum * spacing[0] * spacing[1] * spacing[2];
+  return sumOf(densityOf(solid)) * spacing[0] * spacing[1] * spacing[2];
 }
 
 // How many values are not from 0 to 1, or above 0 in cells that touch the bounds nowhere. All are

@@ -25,31 +25,12 @@ inline void checkExtent(
 inline std::vector<double> splatValues(vtkMassSplatter* splatter)
 {
   splatter->Update();
-  vtkImageData* output = splatter->GetOutput();
-  vtkDataArray* array = output->GetPointData()->GetArray("Density");
-  array = array ? array : output->GetCellData()->GetArray("Density");
-  std::vector<double> values;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    values.push_back(array->GetTuple1(i));
-  }
-  return values;
+  return imageValues(splatter->GetOutput(), "Density");
 }
 
 inline double totalMass(vtkMassSplatter* splatter)
 {
-  vtkDataArray* array = splatter->GetOutput()->GetFieldData()->GetArray("TotalMass");
-  return array ? array->GetTuple1(0) : std::nan("");
-}
-
-inline double sumOf(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-  {
-    sum += value;
-  }
-  return sum;
+  return fieldValue(splatter->GetOutput(), "TotalMass");
 }
 
 #endif

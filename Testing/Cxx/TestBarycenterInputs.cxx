@@ -2,6 +2,7 @@
 // The inputs of vtkTransportBarycenter: connections, blocks of composite data, both; and what is
 // wrong with one of them.
 #include "BlendTest.h"
+#include "BlocksTest.h"
 
 #include "vtkContourFilter.h"
 #include "vtkMultiBlockDataSet.h"
@@ -69,9 +70,7 @@ void checkComposite(Checks& checks)
   CHECK(checks, runDensity(barycenter) == expected);
 
   // Both: blocks in the place of their connection.
-  vtkNew<vtkMultiBlockDataSet> pair;
-  pair->SetBlock(0, in.A);
-  pair->SetBlock(1, in.B);
+  auto pair = makeBlocks({ in.A, in.B });
   barycenter->SetInputDataObject(pair);
   barycenter->AddInputDataObject(in.C);
   CHECK(checks, runDensity(barycenter) == expected);
@@ -103,9 +102,7 @@ void checkComposite(Checks& checks)
 void checkDownstream(Checks& checks)
 {
   const Inputs in;
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, in.A);
-  blocks->SetBlock(1, in.B);
+  auto blocks = makeBlocks({ in.A, in.B });
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(blocks);
   vtkNew<vtkTransportBarycenter> barycenter;
@@ -125,25 +122,13 @@ void checkDownstream(Checks& checks)
     last = contour->GetOutput()->GetNumberOfPoints();
   }
   // Blocks of another size.
-  vtkNew<vtkMultiBlockDataSet> others;
-  others->SetBlock(0, makeDensity({ 40, 30, 1 }, false, smoothDensity(40, 30)));
-  others->SetBlock(1, makeDensity({ 40, 30, 1 }, false, otherDensity(40, 30)));
+  auto others = makeBlocks({ makeDensity({ 40, 30, 1 }, false, smoothDensity(40, 30)),
+    makeDensity({ 40, 30, 1 }, false, otherDensity(40, 30)) });
   producer->SetOutput(others);
   contour->Update();
   CHECK(checks, densityValues(barycenter).size() == 40u * 30);
   CHECK(checks, contour->GetOutput()->GetBounds()[1] > 24.0);
   CHECK(checks, hear.Errors.empty());
-}
-
-void expectError(
-  Checks& checks, vtkTransportBarycenter* barycenter, const std::string& text, int line)
-{
-  Messages hear(barycenter);
-  barycenter->Update();
-  checks.That(hear.Errors.size() == 1, "one error", line);
-  const std::string said = hear.Errors.empty() ? "" : hear.Errors[0];
-  checks.That(contains(said, text), text.c_str(), line, said);
-  checks.That(isEmpty(barycenter), "empty outputs", line);
 }
 
 void checkErrors(Checks& checks)
@@ -153,51 +138,51 @@ void checkErrors(Checks& checks)
   barycenter->Update();
   CHECK(checks, !isEmpty(barycenter));
   setWeights(barycenter, { 1, 2 });
-  expectError(checks, barycenter,
-    "The number of Weights is 2 and that of inputs 3; there must be one for each, or none for "
-    "equal weights",
-    __LINE__);
+  ErrorTest(checks, barycenter)
+    .Expect(
+      "The number of Weights is 2 and that of inputs 3; there must be one for each, or none for "
+      "equal weights",
+      __LINE__);
   setWeights(barycenter, { 1, 2, 3, 4 });
-  expectError(checks, barycenter, "The number of Weights is 4 and that of inputs 3", __LINE__);
+  ErrorTest(checks, barycenter).Expect("The number of Weights is 4 and that of inputs 3", __LINE__);
   setWeights(barycenter, { 1 });
-  expectError(checks, barycenter, "The number of Weights is 1 and that of inputs 3", __LINE__);
+  ErrorTest(checks, barycenter).Expect("The number of Weights is 1 and that of inputs 3", __LINE__);
   setWeights(barycenter, { 1, -2, 3 });
-  expectError(checks, barycenter,
-    "Weight 1 of the Weights is -2; weights must be finite and at least 0", __LINE__);
+  ErrorTest(checks, barycenter)
+    .Expect("Weight 1 of the Weights is -2; weights must be finite and at least 0", __LINE__);
   setWeights(barycenter, { 1, 2, std::numeric_limits<double>::quiet_NaN() });
-  expectError(checks, barycenter, "Weight 2 of the Weights is nan", __LINE__);
+  ErrorTest(checks, barycenter).Expect("Weight 2 of the Weights is nan", __LINE__);
   setWeights(barycenter, { HUGE_VAL, 2, 1 });
-  expectError(checks, barycenter, "Weight 0 of the Weights is inf", __LINE__);
+  ErrorTest(checks, barycenter).Expect("Weight 0 of the Weights is inf", __LINE__);
   setWeights(barycenter, { 0, 0, 0 });
-  expectError(checks, barycenter, "All Weights are 0; at least one must be above 0", __LINE__);
+  ErrorTest(checks, barycenter).Expect("All Weights are 0; at least one must be above 0", __LINE__);
   setWeights(barycenter, {});
 
   // Which input it is, by its number.
   const auto nothing = [](vtkIdType) { return 0.0; };
-  expectError(checks, makeBarycenter({ in.A, makeDensity({ 24, 18, 1 }, false, nothing), in.C }),
-    "Input 2 of 3: The density array 'Density' has a total mass of zero", __LINE__);
-  expectError(checks, makeBarycenter({ in.A, in.C, makeDensity({ 9, 8, 7 }, false, bumpy) }),
-    "Input 1 of 3 has the axes x and y, Input 3 of 3 has the axes x and y and z", __LINE__);
+  ErrorTest(checks, makeBarycenter({ in.A, makeDensity({ 24, 18, 1 }, false, nothing), in.C }))
+    .Expect("Input 2 of 3: The density array 'Density' has a total mass of zero", __LINE__);
+  ErrorTest(checks, makeBarycenter({ in.A, in.C, makeDensity({ 9, 8, 7 }, false, bumpy) }))
+    .Expect("Input 1 of 3 has the axes x and y, Input 3 of 3 has the axes x and y and z", __LINE__);
   auto renamed = makeDensity({ 24, 18, 1 }, false, bumpy);
   renamed->GetPointData()->GetScalars()->SetName("Other");
   barycenter = makeBarycenter({ renamed, in.A });
   barycenter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-  expectError(checks, barycenter,
-    "Input 1 of 2: The input image has no density array 'Density'; it has Other (point)", __LINE__);
+  ErrorTest(checks, barycenter)
+    .Expect("Input 1 of 2: The input image has no density array 'Density'; it has Other (point)",
+      __LINE__);
   barycenter = makeBarycenter({ in.A, in.B, in.C });
   barycenter->SetMassMode(7);
-  expectError(checks, barycenter, "MassMode is 7; it must be 0 (Linear)", __LINE__);
+  ErrorTest(checks, barycenter).Expect("MassMode is 7; it must be 0 (Linear)", __LINE__);
 
   // A block that is no image does not go unsaid.
-  vtkNew<vtkMultiBlockDataSet> blocks;
   vtkNew<vtkPolyData> points;
-  blocks->SetBlock(0, in.A);
-  blocks->SetBlock(1, points);
+  auto blocks = makeBlocks({ in.A, points });
   barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
   barycenter->SetInputDataObject(blocks);
-  expectError(checks, barycenter,
-    "Input 2 of 2: The density has a block of type vtkPolyData; it must be a vtkImageData",
-    __LINE__);
+  ErrorTest(checks, barycenter)
+    .Expect("Input 2 of 2: The density has a block of type vtkPolyData; it must be a vtkImageData",
+      __LINE__);
   blocks->SetBlock(1, in.B);
   blocks->Modified();
   Messages hear(barycenter);

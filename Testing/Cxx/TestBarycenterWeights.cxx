@@ -41,8 +41,7 @@ void checkBelow(Checks& checks)
   barycenter->SetWeight(0, 3.0);
   Messages messages(barycenter);
   barycenter->SetWeight(-1, 2.0);
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks, !messages.Errors.empty() && contains(messages.Errors[0], "-1"));
+  CHECK(checks, messages.IsOneError("-1"));
   barycenter->SetNumberOfWeights(-1);
   CHECK(checks, messages.Errors.size() == 2);
   CHECK(checks, barycenter->GetNumberOfWeights() == 1 && barycenter->GetWeight(0) == 3.0);

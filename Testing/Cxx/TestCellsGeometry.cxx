@@ -205,8 +205,7 @@ void checkSiteForEachPixel(Checks& checks)
   x.insert(x.end(), { 1.1, 1.1, 0.0 });
   cells->SetInputData(makePoints(x));
   cells->Update();
-  CHECK(checks,
-    messages.Errors.size() == 1 && contains(messages.Errors[0], "13 sites for 4 x 3 pixels"));
+  CHECK(checks, messages.IsOneError("13 sites for 4 x 3 pixels"));
   CHECK(checks, cells->GetLabels()->GetNumberOfPoints() == 0);
 }
 

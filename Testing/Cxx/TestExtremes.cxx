@@ -170,8 +170,7 @@ void checkFigures(Checks& checks)
     Messages messages(filter);
     filter->SetInputDataObject(image);
     filter->Update();
-    CHECK(checks, messages.Errors.size() == 1);
-    CHECK(checks, contains(messages.Errors.at(0), "TransportCost, the mean of the squared"));
+    CHECK(checks, messages.IsOneError("TransportCost, the mean of the squared"));
   }
   // The sum over the particles passes the largest double, the mean does not.
   auto large = makeScaled({ 9, 1, 1 }, true, 1.0);
@@ -190,8 +189,7 @@ void checkFigures(Checks& checks)
   {
     Messages messages(filter);
     filter->Update();
-    CHECK(checks, messages.Errors.size() == 1);
-    CHECK(checks, contains(messages.Errors.at(0), "make densities past the largest double"));
+    CHECK(checks, messages.IsOneError("make densities past the largest double"));
   }
 
   // Spacings of particles do not depend on the units.
@@ -279,8 +277,7 @@ void checkTimes(Checks& checks)
   morph->PublishTimeOn();
   Messages messages(morph);
   morph->UpdateTimeStep(std::numeric_limits<double>::quiet_NaN());
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks, contains(messages.Errors.at(0), "time is nan; it must be a number"));
+  CHECK(checks, messages.IsOneError("time is nan; it must be a number"));
   CHECK(checks, isEmpty(morph));
   messages.Clear();
   for (const double time : { -HUGE_VAL, HUGE_VAL, 0.5 })

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ghost arrays of another length than what they belong to are an error wherever ghosts count, and
 // what Transport Quality measures is that of the particles that are no ghosts.
-#include "WarpTest.h"
+#include "QualityTest.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkMassSplatter.h"
-#include "vtkTable.h"
-#include "vtkTransportQuality.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkVariant.h"
 
 #include <limits>
 
@@ -34,11 +31,8 @@ void setGhosts(
 
 void expectError(Checks& checks, vtkAlgorithm* filter, const std::string& text, int line)
 {
-  Messages messages(filter);
   filter->Modified();
-  filter->Update();
-  const std::string found = messages.Errors.empty() ? "" : messages.Errors[0];
-  checks.That(messages.Errors.size() == 1 && contains(found, text), text.c_str(), line, found);
+  ErrorTest(checks, filter).Expect(text, line);
 }
 
 void checkLengths(Checks& checks)
@@ -111,18 +105,6 @@ vtkSmartPointer<vtkPolyData> makeParticles(const std::vector<Particle>& all)
   return data;
 }
 
-std::vector<double> row(vtkTransportQuality* quality)
-{
-  quality->Update();
-  vtkTable* table = quality->GetOutput();
-  std::vector<double> values;
-  for (vtkIdType i = 0; table->GetNumberOfRows() == 1 && i < table->GetNumberOfColumns(); ++i)
-  {
-    values.push_back(table->GetValue(0, i).ToDouble());
-  }
-  return values;
-}
-
 void checkQuality(Checks& checks)
 {
   std::vector<Particle> all;
@@ -135,7 +117,7 @@ void checkQuality(Checks& checks)
   quality->SetBlockSize(2);
   quality->SetDensityData(makeImage(5, 4, 1, true, [](vtkIdType i) { return i == 5 ? 0 : 1 + i; }));
   quality->SetInputData(makeParticles(all));
-  const std::vector<double> expected = row(quality);
+  const std::vector<double> expected = runQuality(quality);
   CHECK(checks, expected.size() == 8 && expected[0] == 12 && expected[2] == 1 && expected[5] > 0);
 
   // On others, in the empty cell, outside, with figures that are none; before, between and after.
@@ -145,7 +127,7 @@ void checkQuality(Checks& checks)
   more.push_back({ { 0.41, 0.6, 0.0 }, -1.0, 1e200, static_cast<unsigned char>(duplicate | 64) });
   more.push_back({ { 40.0, 1.0, 0.0 }, 1.0, 1.0, hidden });
   quality->SetInputData(makeParticles(more));
-  CHECK(checks, row(quality) == expected);
+  CHECK(checks, runQuality(quality) == expected);
   CHECK(checks, messages.Errors.empty());
 
   // Errors count all points.
@@ -165,7 +147,7 @@ void checkQuality(Checks& checks)
     particle.Ghost = duplicate;
   }
   quality->SetInputData(makeParticles(more));
-  CHECK(checks, row(quality).empty() && quality->GetOutput()->GetNumberOfColumns() == 0);
+  CHECK(checks, runQuality(quality).empty() && quality->GetOutput()->GetNumberOfColumns() == 0);
   CHECK(checks, messages.Errors.empty());
 }
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters of two inputs follow the time of either.
+#include "TestSource.h"
 #include "WarpTest.h"
 
 #include "vtkEqualMassCells.h"
-#include "vtkImageAlgorithm.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
-#include "vtkObjectFactory.h"
-#include "vtkPolyDataAlgorithm.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTransportInterpolator.h"
@@ -19,73 +15,45 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-void publish(vtkInformationVector* outputs, const std::vector<double>& times)
+void publish(vtkInformation* output, const std::vector<double>& times)
 {
-  vtkInformation* output = outputs->GetInformationObject(0);
   const double range[2] = { times.front(), times.back() };
   output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
   output->Set(Pipeline::TIME_RANGE(), range, 2);
 }
 
-double askedTime(vtkInformationVector* outputs)
+double askedTime(vtkInformation* output)
 {
-  vtkInformation* output = outputs->GetInformationObject(0);
   return output->Has(Pipeline::UPDATE_TIME_STEP()) ? output->Get(Pipeline::UPDATE_TIME_STEP())
                                                    : 0.0;
 }
 
 // A density that is another one at every time.
-class TimedImage : public vtkImageAlgorithm
+vtkSmartPointer<ImageSource> makeTimedImages()
 {
-public:
-  static TimedImage* New();
-  vtkTypeMacro(TimedImage, vtkImageAlgorithm);
-  int Runs = 0;
-
-protected:
-  TimedImage() { this->SetNumberOfInputPorts(0); }
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
+  auto source = vtkSmartPointer<ImageSource>::New();
+  source->Publish = [](vtkInformation* output) {
     const int extent[6] = { 0, 8, 0, 6, 0, 0 };
-    outputs->GetInformationObject(0)->Set(Pipeline::WHOLE_EXTENT(), extent, 6);
-    publish(outputs, { 0.0, 1.0, 3.0 });
-    return 1;
-  }
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    ++this->Runs;
-    const double time = askedTime(outputs);
-    vtkImageData::GetData(outputs)->ShallowCopy(makeImage(
-      9, 7, 1, true, [=](vtkIdType i) { return bumpy(i + 5 * static_cast<vtkIdType>(time)); }));
-    return 1;
-  }
-};
-vtkStandardNewMacro(TimedImage);
+    output->Set(Pipeline::WHOLE_EXTENT(), extent, 6);
+    publish(output, { 0.0, 1.0, 3.0 });
+  };
+  source->Make = [](vtkInformation* output) {
+    const auto time = static_cast<vtkIdType>(askedTime(output));
+    return makeImage(9, 7, 1, true, [=](vtkIdType i) { return bumpy(i + 5 * time); });
+  };
+  return source;
+}
 
 // A point that moves.
-class TimedPoints : public vtkPolyDataAlgorithm
+vtkSmartPointer<PointSource> makeTimedPoints()
 {
-public:
-  static TimedPoints* New();
-  vtkTypeMacro(TimedPoints, vtkPolyDataAlgorithm);
-
-protected:
-  TimedPoints() { this->SetNumberOfInputPorts(0); }
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    publish(outputs, { 0.5, 1.0 });
-    return 1;
-  }
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    const double time = askedTime(outputs);
-    vtkPolyData::GetData(outputs)->ShallowCopy(makePoints({ 3.0 + time, 2, 0, 4, 2, 0 }));
-    return 1;
-  }
-};
-vtkStandardNewMacro(TimedPoints);
+  auto source = vtkSmartPointer<PointSource>::New();
+  source->Publish = [](vtkInformation* output) { publish(output, { 0.5, 1.0 }); };
+  source->Make = [](vtkInformation* output) {
+    return makePoints({ 3.0 + askedTime(output), 2, 0, 4, 2, 0 });
+  };
+  return source;
+}
 
 void expectTimes(
   Checks& checks, vtkAlgorithm* filter, const std::vector<double>& expected, int line)
@@ -111,7 +79,12 @@ void expectTimes(
 // A density that changes under points that do not, and the reverse.
 void checkWarp(Checks& checks)
 {
-  vtkNew<TimedImage> images;
+  auto images = makeTimedImages();
+  int runs = 0;
+  images->Make = [&runs, make = images->Make](vtkInformation* output) {
+    ++runs;
+    return make(output);
+  };
   vtkNew<vtkDensityEqualizingWarp> warp;
   warp->SetInputData(makePoints({ 3, 2, 0 }));
   warp->SetDensityConnection(images->GetOutputPort());
@@ -126,9 +99,9 @@ void checkWarp(Checks& checks)
     vtkInformation* information = warp->GetOutput()->GetInformation();
     CHECK(checks, information->Get(vtkDataObject::DATA_TIME_STEP()) == time);
   }
-  CHECK(checks, images->Runs == 3);
+  CHECK(checks, runs == 3);
 
-  vtkNew<TimedPoints> points;
+  auto points = makeTimedPoints();
   warp->SetInputConnection(points->GetOutputPort());
   expectTimes(checks, warp, { 0.0, 0.5, 1.0, 3.0 }, __LINE__);
 
@@ -146,7 +119,7 @@ void checkWarp(Checks& checks)
 
 void checkQuality(Checks& checks)
 {
-  vtkNew<TimedImage> images;
+  auto images = makeTimedImages();
   vtkNew<vtkTransportQuality> quality;
   quality->SetInputData(makePoints({ 3, 2, 0, 4, 2, 0 }));
   quality->SetDensityConnection(images->GetOutputPort());
@@ -165,7 +138,7 @@ void checkQuality(Checks& checks)
 // Seeds that move sample a density that stays.
 void checkSampler(Checks& checks)
 {
-  vtkNew<TimedPoints> seeds;
+  auto seeds = makeTimedPoints();
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(makeImage(9, 7, 1, true, bumpy));
   expectTimes(checks, sampler, {}, __LINE__);
@@ -180,8 +153,8 @@ void checkSampler(Checks& checks)
 // Every output follows, whichever is asked.
 void checkOutputs(Checks& checks)
 {
-  vtkNew<TimedImage> images;
-  vtkNew<TimedPoints> points;
+  auto images = makeTimedImages();
+  auto points = makeTimedPoints();
   vtkNew<vtkTransportInterpolator> morph;
   morph->SetInputData(makeImage(9, 7, 1, true, bumpy));
   morph->SetTargetConnection(images->GetOutputPort());

@@ -7,53 +7,33 @@
 namespace
 {
 
-class MapErrorTest
+class MapErrorTest : public ErrorTest
 {
 public:
-  explicit MapErrorTest(Checks& checks)
-    : Check(checks)
-    , Hear(this->Map)
+  MapErrorTest(Checks& checks, vtkTransportMap* map)
+    : ErrorTest(checks, map)
+    , Check(checks)
+    , Map(map)
   {
-    this->Map->SetInputData(makeImage(6, 5, 1, true, bumpy));
+    map->SetInputData(makeImage(6, 5, 1, true, bumpy));
   }
 
-  void Expect(const std::string& text, int line)
+  void ExpectNone(std::size_t samples, int line)
   {
-    this->Hear.Clear();
-    this->Map->Update();
-    this->Check.That(this->Hear.Errors.size() == 1, "one error", line);
-    const std::string said = this->Hear.Errors.empty() ? "" : this->Hear.Errors[0];
-    this->Check.That(contains(said, text), text.c_str(), line, said);
-    vtkImageData* output = this->Map->GetOutput();
-    this->Check.That(output->GetNumberOfPoints() == 0 &&
-        output->GetPointData()->GetNumberOfArrays() == 0 &&
-        output->GetCellData()->GetNumberOfArrays() == 0 &&
-        output->GetFieldData()->GetNumberOfArrays() == 0,
-      "empty output", line);
-  }
-
-  void ExpectNone(vtkIdType samples, int line)
-  {
-    this->Hear.Clear();
-    this->Map->Update();
-    this->Check.That(this->Hear.Errors.empty(), "no error", line,
-      this->Hear.Errors.empty() ? "" : this->Hear.Errors[0]);
-    this->Check.That(
-      static_cast<vtkIdType>(mapValues(this->Map->GetOutput(), "Divergence").size()) == samples,
+    this->ErrorTest::ExpectNone(line);
+    this->Check.That(imageValues(this->Map->GetOutput(), "Divergence").size() == samples,
       "number of samples", line);
   }
 
-  vtkNew<vtkTransportMap> Map;
-
 private:
   Checks& Check;
-  Messages Hear;
+  vtkTransportMap* Map;
 };
 
 void checkSampleDimensions(Checks& checks)
 {
-  MapErrorTest test(checks);
-  vtkTransportMap* map = test.Map;
+  vtkNew<vtkTransportMap> map;
+  MapErrorTest test(checks, map);
   test.ExpectNone(20, __LINE__);
   map->SetSampleDimensions(4, -1, 0);
   test.Expect("SampleDimensions is 4 -1 0; it must be 0 (as many as the input) or greater along "
@@ -81,8 +61,8 @@ void checkSampleDimensions(Checks& checks)
 
 void checkProperties(Checks& checks)
 {
-  MapErrorTest test(checks);
-  vtkTransportMap* map = test.Map;
+  vtkNew<vtkTransportMap> map;
+  MapErrorTest test(checks, map);
   for (const int direction : { -1, 2 })
   {
     map->SetDirection(direction);
@@ -91,19 +71,14 @@ void checkProperties(Checks& checks)
       __LINE__);
   }
   map->SetDirection(1);
-  map->SetNumberOfSteps(0);
-  test.Expect("NumberOfSteps is 0; it must be from 1 to 10000", __LINE__);
-  map->SetNumberOfSteps(1);
-  map->SetThreading(9);
-  test.Expect("Threading is 9; it must be 0 (Auto)", __LINE__);
-  map->SetThreading(0);
+  expectFlowErrors(test, map.Get(), __LINE__);
   test.ExpectNone(20, __LINE__);
 }
 
 void checkInput(Checks& checks)
 {
-  MapErrorTest test(checks);
-  vtkTransportMap* map = test.Map;
+  vtkNew<vtkTransportMap> map;
+  MapErrorTest test(checks, map);
   map->SetInputData(makeImage(6, 5, 1, true, [](vtkIdType i) { return i == 3 ? -1.0 : 1.0; }));
   test.Expect("'Density' has 1 negative value, the first at index 3", __LINE__);
   map->SetInputData(makeImage(6, 5, 1, true, [](vtkIdType) { return 0.0; }));

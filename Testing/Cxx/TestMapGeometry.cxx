@@ -29,14 +29,9 @@ Map mapOf(vtkImageData* image, int direction = 0, std::array<int, 3> samples = {
   map->SetSampleDimensions(samples.data());
   map->Update();
   vtkImageData* output = map->GetOutput();
-  return { mapValues(output, "Displacement"), mapValues(output, "Divergence"),
-    mapValues(output, "JacobianDeterminant"), samplePlaces(output),
-    mapField(output, "TransportCost"), mapField(output, "TotalMass") };
-}
-
-vtkSmartPointer<vtkImageData> unitCells(int nx, int ny, int nz)
-{
-  return makeImage(nx + 1, ny + 1, nz + 1, true, bumpy);
+  return { imageValues(output, "Displacement"), imageValues(output, "Divergence"),
+    imageValues(output, "JacobianDeterminant"), samplePlaces(output),
+    fieldValue(output, "TransportCost"), fieldValue(output, "TotalMass") };
 }
 
 // One row or rectangle of cells in every orientation gives the same map, its axes permuted.
@@ -120,12 +115,7 @@ void checkTransforms(Checks& checks)
 // Values on points are those of cells half a spacing around them.
 void checkPointsAndCells(Checks& checks)
 {
-  auto cells = unitCells(9, 7, 5);
-  cells->SetSpacing(0.5, 2.0, 1.25);
-  cells->SetOrigin(1.0, 2.0, 3.0);
-  auto points = makeImage(9, 7, 5, false, bumpy);
-  points->SetSpacing(0.5, 2.0, 1.25);
-  points->SetOrigin(1.25, 3.0, 3.625);
+  const auto [cells, points] = makeCellsAndPoints();
   for (const int direction : { 0, 1 })
   {
     for (const std::array<int, 3>& samples :
@@ -158,18 +148,10 @@ void checkAgainstSampler(Checks& checks, vtkImageData* image, std::array<int, 3>
     count *= static_cast<std::size_t>(samples[a] > 0 ? samples[a] : values);
   }
   CHECK(checks, map.Divergence.size() == count && map.Places.size() == 3 * count);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (std::size_t i = 0; i < map.Places.size(); i += 3)
-  {
-    points->InsertNextPoint(map.Places.data() + i);
-  }
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
   vtkNew<vtkTransportSampler> sampler;
   Messages messages(sampler);
   sampler->SetInputData(image);
-  sampler->SetSeedsData(seeds);
+  sampler->SetSeedsData(makePoints(map.Places));
   sampler->Update();
   CHECK_NEAR(checks,
     largestDifference(

@@ -26,9 +26,9 @@ void checkGradient(Checks& checks, vtkImageData* image, const std::vector<int>& 
     gradient->SetResultArrayName("Gradient");
     gradient->Update();
     auto* output = vtkImageData::SafeDownCast(gradient->GetOutput());
-    const Values gradients = mapValues(output, "Gradient");
-    const Values divergences = mapValues(output, "Divergence");
-    const Values determinants = mapValues(output, "JacobianDeterminant");
+    const Values gradients = imageValues(output, "Gradient");
+    const Values divergences = imageValues(output, "Divergence");
+    const Values determinants = imageValues(output, "JacobianDeterminant");
     CHECK(checks, !divergences.empty() && gradients.size() == 9 * divergences.size());
     double worst = 0.0;
     for (std::size_t i = 0; i < divergences.size() && gradients.size() >= 9 * (i + 1); ++i)
@@ -97,9 +97,9 @@ double spread(int n, int direction)
   map->SetDirection(direction);
   map->SetNumberOfSteps(128);
   map->Update();
-  const Values determinants = mapValues(map->GetOutput(), "JacobianDeterminant");
-  const Values displacement = mapValues(map->GetOutput(), "Displacement");
-  const double mean = mapField(map->GetOutput(), "TotalMass") / (n * n);
+  const Values determinants = imageValues(map->GetOutput(), "JacobianDeterminant");
+  const Values displacement = imageValues(map->GetOutput(), "Displacement");
+  const double mean = fieldValue(map->GetOutput(), "TotalMass") / (n * n);
   double squares = 0.0;
   for (int i = 0; i < n * n; ++i)
   {

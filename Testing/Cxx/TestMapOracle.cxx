@@ -13,7 +13,7 @@ double meanError(vtkTransportMap* map, const RectifiedTransport::Oracle<2>& orac
   const double spacing[3])
 {
   map->Update();
-  const Values displacement = mapValues(map->GetOutput(), "Displacement");
+  const Values displacement = imageValues(map->GetOutput(), "Displacement");
   double sum = 0.0;
   for (int i = 0; i < nx * ny; ++i)
   {

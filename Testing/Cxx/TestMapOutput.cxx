@@ -31,12 +31,8 @@ void checkArrays(Checks& checks, bool cells)
   map->SetInputData(image);
   map->Update();
   vtkImageData* output = map->GetOutput();
-  vtkDataSetAttributes* data = output->GetPointData();
-  vtkDataSetAttributes* other = output->GetCellData();
-  if (cells)
-  {
-    std::swap(data, other);
-  }
+  auto* data = output->GetAttributes(cells ? vtkDataObject::CELL : vtkDataObject::POINT);
+  auto* other = output->GetAttributes(cells ? vtkDataObject::POINT : vtkDataObject::CELL);
   const vtkIdType count = cells ? image->GetNumberOfCells() : image->GetNumberOfPoints();
   const char* const names[] = { "Displacement", "Divergence", "JacobianDeterminant" };
   for (const char* name : names)
@@ -51,20 +47,20 @@ void checkArrays(Checks& checks, bool cells)
   CHECK(checks, data->GetScalars() && data->GetScalars()->GetName() == std::string("Density"));
   CHECK(checks, std::equal(image->GetBounds(), image->GetBounds() + 6, output->GetBounds()));
 
-  const Values density = mapValues(output, "Density");
+  const Values density = imageValues(output, "Density");
   const double measure = 0.5 * 2.0 * 1.5;
   const double mass = measure * std::accumulate(density.begin(), density.end(), 0.0);
-  CHECK_NEAR(checks, mapField(output, "TotalMass") / mass, 1.0, 1e-14);
+  CHECK_NEAR(checks, fieldValue(output, "TotalMass") / mass, 1.0, 1e-14);
   const Values even(density.size(), 1.0);
   CHECK_NEAR(checks,
-    mapField(output, "TransportCost") / meanSquare(mapValues(output, "Displacement"), even), 1.0,
-    1e-13);
+    fieldValue(output, "TransportCost") / meanSquare(imageValues(output, "Displacement"), even),
+    1.0, 1e-13);
   map->SetDirectionToDensityToUniform();
   map->Update();
   CHECK_NEAR(checks,
-    mapField(output, "TransportCost") / meanSquare(mapValues(output, "Displacement"), density), 1.0,
-    1e-11);
-  CHECK_NEAR(checks, mapField(output, "TotalMass") / mass, 1.0, 1e-14);
+    fieldValue(output, "TransportCost") / meanSquare(imageValues(output, "Displacement"), density),
+    1.0, 1e-11);
+  CHECK_NEAR(checks, fieldValue(output, "TotalMass") / mass, 1.0, 1e-14);
 }
 
 // The input's field data is kept; its other data where they still fit.
@@ -97,8 +93,8 @@ void checkInputData(Checks& checks)
     CHECK(checks, (output->GetPointData()->GetArray("OnPoints") != nullptr) == same);
     CHECK(checks, (output->GetCellData()->GetArray("OnCells") != nullptr) == same);
     CHECK(checks, (output->GetCellData()->GetArray("Density") != nullptr) == same);
-    CHECK(checks, mapValues(output, "Displacement").size() == (same ? 56u : 35u) * 3);
-    CHECK(checks, mapField(output, "TotalMass") != 3.5);
+    CHECK(checks, imageValues(output, "Displacement").size() == (same ? 56u : 35u) * 3);
+    CHECK(checks, fieldValue(output, "TotalMass") != 3.5);
     CHECK(checks, output->GetFieldData()->GetAbstractArray("Words") != nullptr);
     CHECK(checks, output->GetCellData()->GetNumberOfArrays() == (same ? 5 : 3));
   }
@@ -117,15 +113,15 @@ void checkUniform(Checks& checks)
     map->SetDirection(direction);
     map->SetNumberOfSteps(64);
     map->Update();
-    const double cost = mapField(map->GetOutput(), "TransportCost");
+    const double cost = fieldValue(map->GetOutput(), "TransportCost");
     CHECK_NEAR(checks, cost, 0.0, 1e-5);
-    for (const double value : mapValues(map->GetOutput(), "JacobianDeterminant"))
+    for (const double value : imageValues(map->GetOutput(), "JacobianDeterminant"))
     {
       CHECK_NEAR(checks, value, 1.0, 0.01);
     }
     map->SetNumberOfSteps(256);
     map->Update();
-    CHECK_NEAR(checks, mapField(map->GetOutput(), "TransportCost"), 0.0, 0.05 * cost);
+    CHECK_NEAR(checks, fieldValue(map->GetOutput(), "TransportCost"), 0.0, 0.05 * cost);
   }
 }
 
@@ -139,13 +135,13 @@ void checkInverse(Checks& checks)
   map->SetInputData(makeImage(nx, ny, 1, false, smoothDensity(nx, ny)));
   map->SetNumberOfSteps(128);
   map->Update();
-  const Values forth = mapValues(map->GetOutput(), "Displacement");
-  const double cost = mapField(map->GetOutput(), "TransportCost");
+  const Values forth = imageValues(map->GetOutput(), "Displacement");
+  const double cost = fieldValue(map->GetOutput(), "TransportCost");
   map->SetDirectionToDensityToUniform();
   map->Update();
-  const Values back = mapValues(map->GetOutput(), "Displacement");
+  const Values back = imageValues(map->GetOutput(), "Displacement");
   CHECK(checks, cost > 1.0);
-  CHECK_NEAR(checks, mapField(map->GetOutput(), "TransportCost") / cost, 1.0, 0.01);
+  CHECK_NEAR(checks, fieldValue(map->GetOutput(), "TransportCost") / cost, 1.0, 0.01);
   double worst = 0.0;
   for (int j = 1; j < ny - 1; ++j)
   {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How vtkTransportMap lives in a pipeline: what it publishes and keeps, pieces, progress, abort,
 // threads.
+#include "BlocksTest.h"
 #include "InformationTest.h"
 #include "MapTest.h"
 #include "ProgressTest.h"
+#include "ThreadsTest.h"
 
 #include "vtkImageShiftScale.h"
 #include "vtkImageShrink3D.h"
 #include "vtkInformation.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPointDataToCellData.h"
 #include "vtkRTAnalyticSource.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ void checkInformation(Checks& checks)
   {
     unknown->Update();
     CHECK(checks, unknown->GetOutput()->GetNumberOfCells() == 1000);
-    CHECK(checks, mapValues(unknown->GetOutput(), "Divergence").size() == 1000);
+    CHECK(checks, imageValues(unknown->GetOutput(), "Divergence").size() == 1000);
   }
   const vtkMTimeType made = unknown->GetOutput()->GetMTime();
   unknown->Update();
@@ -109,28 +109,25 @@ void checkPieces(Checks& checks)
   map->SetInputConnection(source->GetOutputPort());
   map->SetNegativeValuesToClamp();
   map->Update();
-  const Values whole = mapValues(map->GetOutput(), "Displacement");
+  const Values whole = imageValues(map->GetOutput(), "Displacement");
   map->UpdatePiece(0, 2, 1);
   CHECK(checks, whole.size() == 3u * 22 * 8 * 7);
-  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == whole);
+  CHECK(checks, imageValues(map->GetOutput(), "Displacement") == whole);
   map->UpdatePiece(1, 2, 0);
   CHECK(checks, map->GetOutput()->GetNumberOfPoints() == 0);
 }
 
 void checkComposite(Checks& checks)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makeImage(9, 9, 1, true, bumpy));
-  blocks->SetBlock(2, makeImage(5, 6, 7, false, bumpy));
+  auto blocks =
+    makeBlocks({ makeImage(9, 9, 1, true, bumpy), nullptr, makeImage(5, 6, 7, false, bumpy) });
   vtkNew<vtkTransportMap> map;
   map->SetInputDataObject(blocks);
   map->Update();
-  auto* output = vtkMultiBlockDataSet::SafeDownCast(map->GetOutputDataObject(0));
-  CHECK(checks, output != nullptr);
   for (const unsigned int block : { 0u, 2u })
   {
-    auto* fields = output ? vtkImageData::SafeDownCast(output->GetBlock(block)) : nullptr;
-    CHECK(checks, fields && mapValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
+    auto* fields = outputBlock<vtkImageData>(map, block);
+    CHECK(checks, fields && imageValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
   }
 
   // A block that is no image does not go unsaid.
@@ -139,10 +136,7 @@ void checkComposite(Checks& checks)
   blocks->SetBlock(2, points);
   map->Modified();
   map->Update();
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks,
-    !messages.Errors.empty() &&
-      contains(messages.Errors[0], "a block of type vtkPolyData; it must be a vtkImageData"));
+  CHECK(checks, messages.IsOneError("a block of type vtkPolyData; it must be a vtkImageData"));
 }
 
 // One table serves both directions and all samples.
@@ -155,19 +149,19 @@ void checkCache(Checks& checks)
   map->Update();
   const vtkMTimeType built = map->GetTableBuildTime();
   CHECK(checks, built > 0);
-  const Values forth = mapValues(map->GetOutput(), "Displacement");
+  const Values forth = imageValues(map->GetOutput(), "Displacement");
   const vtkMTimeType made = map->GetOutput()->GetMTime();
   map->Update();
   CHECK(checks, map->GetOutput()->GetMTime() == made);
   map->SetDirectionToDensityToUniform();
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
-  const Values back = mapValues(map->GetOutput(), "Displacement");
+  const Values back = imageValues(map->GetOutput(), "Displacement");
   CHECK(checks, back != forth);
   map->SetSampleDimensions(10, 50, 1);
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
-  CHECK(checks, mapValues(map->GetOutput(), "Divergence").size() == 500);
+  CHECK(checks, imageValues(map->GetOutput(), "Divergence").size() == 500);
   map->SetNumberOfSteps(16);
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
@@ -178,11 +172,11 @@ void checkCache(Checks& checks)
   map->SetDirectionToUniformToDensity();
   map->Update();
   CHECK(checks, map->GetTableBuildTime() == built);
-  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
+  CHECK(checks, imageValues(map->GetOutput(), "Displacement") == forth);
   forgetTables(map, image);
   map->Update();
   CHECK(checks, map->GetTableBuildTime() > built);
-  CHECK(checks, mapValues(map->GetOutput(), "Displacement") == forth);
+  CHECK(checks, imageValues(map->GetOutput(), "Displacement") == forth);
 }
 
 void checkThreads(Checks& checks)
@@ -199,30 +193,17 @@ void checkThreads(Checks& checks)
         map->SetThreading(threading);
         forgetTables(map, image);
         map->Update();
-        Values all = mapValues(map->GetOutput(), "Displacement");
+        Values all = imageValues(map->GetOutput(), "Displacement");
         for (const char* name : { "Divergence", "JacobianDeterminant" })
         {
-          const Values values = mapValues(map->GetOutput(), name);
+          const Values values = imageValues(map->GetOutput(), name);
           all.insert(all.end(), values.begin(), values.end());
         }
-        all.push_back(mapField(map->GetOutput(), "TransportCost"));
-        all.push_back(mapField(map->GetOutput(), "TotalMass"));
+        all.push_back(fieldValue(map->GetOutput(), "TransportCost"));
+        all.push_back(fieldValue(map->GetOutput(), "TotalMass"));
         return all;
       };
-      const Values serial = run(vtkTransportMap::THREADING_SERIAL);
-      for (const char* backend : { "Sequential", "STDThread" })
-      {
-        for (const int threads : { 2, 3 })
-        {
-          if (vtkSMPTools::SetBackend(backend))
-          {
-            vtkSMPTools::Initialize(threads);
-            CHECK(checks, run(vtkTransportMap::THREADING_VTK) == serial);
-            CHECK(checks, run(vtkTransportMap::THREADING_AUTO) == serial);
-          }
-        }
-      }
-      CHECK(checks, run(vtkTransportMap::THREADING_OPENMP) == serial);
+      expectSameBits(checks, run, __LINE__);
     }
   }
 }
@@ -239,20 +220,13 @@ void checkAbort(Checks& checks)
   for (const double from : { 0.001, 0.5, 0.97 })
   {
     checkAbort(
-      checks, map, from, [&]() { changeDensity(image); },
-      [&]() {
-        return map->GetOutput()->GetNumberOfPoints() == 0 &&
-          map->GetOutput()->GetCellData()->GetNumberOfArrays() == 0;
-      },
-      __LINE__);
+      checks, map, from, [&]() { changeDensity(image); }, __LINE__);
   }
   ProgressTest progress(map);
   changeDensity(image);
   map->Update();
-  CHECK(checks, mapValues(map->GetOutput(), "Divergence").size() == 119u * 109 * 99);
-  CHECK(checks, progress.Heard.size() > 10);
-  CHECK(checks, std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
-  CHECK(checks, !progress.Heard.empty() && progress.Heard.back() == 1.0);
+  CHECK(checks, imageValues(map->GetOutput(), "Divergence").size() == 119u * 109 * 99);
+  progress.ExpectRising(checks, 11, __LINE__);
   CHECK(checks, messages.Errors.empty());
 }
 

@@ -193,7 +193,7 @@ void checkMasses(Checks& checks)
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   Messages messages(splatter);
   splatter->Update();
-  CHECK(checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "no active Scalars"));
+  CHECK(checks, messages.IsOneError("no active Scalars"));
   points->GetPointData()->SetActiveScalars("Weight");
   splatter->Update();
   CHECK_NEAR(checks, totalMass(splatter), 4.0, 1e-14);
@@ -241,19 +241,11 @@ void checkEmpty(Checks& checks)
 void checkErrors(Checks& checks)
 {
   vtkNew<vtkMassSplatter> splatter;
-  Messages messages(splatter);
+  ErrorTest test(checks, splatter);
   vtkSmartPointer<vtkPolyData> points = makePoints(pointsOfBox());
-  const auto expect = [&](const std::vector<std::string>& parts, int line) {
-    messages.Clear();
+  const auto expect = [&](std::initializer_list<std::string> parts, int line) {
     splatter->Modified();
-    splatter->Update();
-    const std::string text = messages.Errors.empty() ? "" : messages.Errors[0];
-    checks.That(messages.Errors.size() == 1, "one error", line, text);
-    for (const std::string& part : parts)
-    {
-      checks.That(contains(text, part), part.c_str(), line, text);
-    }
-    checks.That(splatter->GetOutput()->GetNumberOfPoints() == 0, "empty output", line);
+    test.Expect(parts, line);
   };
   splatter->SetInputData(points);
   splatter->SetDimensions(4, 0, 4);

@@ -3,14 +3,15 @@
 // particles to the density that they came from.
 #include "SplatTest.h"
 
+#include "BlocksTest.h"
 #include "ProgressTest.h"
+#include "ThreadsTest.h"
 
 #include "vtkElevationFilter.h"
 #include "vtkImageDataToPointSet.h"
 #include "vtkImageShiftScale.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataGroupFilter.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkSphereSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransportSampler.h"
@@ -47,10 +48,7 @@ void checkInformation(Checks& checks)
   producer->SetOutput(reference);
   splatter->SetReferenceConnection(producer->GetOutputPort());
   CHECK(checks, (published(splatter) == std::array<int, 6>{ 2, 4, 0, 0, 7, 9 }));
-  // All cells are in the first piece.
-  splatter->UpdatePiece(1, 2, 0);
-  CHECK(checks, splatter->GetOutput()->GetNumberOfPoints() == 0);
-  splatter->UpdatePiece(0, 2, 0);
+  expectOnePiece(checks, splatter, __LINE__);
   CHECK(checks, splatter->GetOutput()->GetNumberOfCells() == 4);
 }
 
@@ -101,7 +99,7 @@ void checkProducedBlocks(Checks& checks)
       splatter->Update();
       auto* blocks = vtkMultiBlockDataSet::SafeDownCast(splatter->GetOutputDataObject(0));
       CHECK(checks, blocks && blocks->GetNumberOfBlocks() == 2);
-      auto* image = vtkImageData::SafeDownCast(blocks ? blocks->GetBlock(1) : nullptr);
+      auto* image = outputBlock<vtkImageData>(splatter, 1);
       CHECK(checks, image && image->GetNumberOfPoints() == 64);
       CHECK_NEAR(checks, image ? image->GetCenter()[0] : 0.0, 10.0, 0.1);
       CHECK_NEAR(checks, image ? image->GetSpacing()[2] : 0.0, 0.5 * radius, 1e-6);
@@ -118,14 +116,12 @@ void checkThreads(Checks& checks)
   for (int kernel = 0; kernel < 4; ++kernel)
   {
     splatter->SetKernel(kernel);
-    splatter->SetThreadingToSerial();
-    const std::vector<double> expected = splatValues(splatter);
-    CHECK(checks, expected.size() == 60000);
-    for (const int threading : { 0, 1, 2 })
-    {
+    const auto run = [&](int threading) {
       splatter->SetThreading(threading);
-      CHECK(checks, splatValues(splatter) == expected);
-    }
+      splatter->Modified();
+      return splatValues(splatter);
+    };
+    CHECK(checks, expectSameBits(checks, run, __LINE__).size() == 60000);
   }
 }
 
@@ -161,14 +157,12 @@ void checkProgressAndAbort(Checks& checks)
   {
     ProgressTest test(splatter);
     splatter->Update();
-    CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
-    CHECK(checks, test.Heard.size() > 5 && test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+    test.ExpectRising(checks, 6, __LINE__);
   }
   for (const double from : { 0.0, 0.15, 0.3, 0.8 })
   {
     checkAbort(
-      checks, splatter, from, [&]() { splatter->Modified(); },
-      [&]() { return splatter->GetOutput()->GetNumberOfPoints() == 0; }, __LINE__);
+      checks, splatter, from, [&]() { splatter->Modified(); }, __LINE__);
   }
   splatter->SetKernelToNearestCell();
   splatter->Modified();

@@ -19,12 +19,11 @@ bool sameMemory(const Array& a, const Array& b)
   return a && b && a->GetPointer(0) == b->GetPointer(0);
 }
 
-// Updates; whether that built tables.
-bool builds(vtkTransportBlend* blend)
+vtkSmartPointer<vtkImageData> anew(vtkImageData* image)
 {
-  const vtkMTimeType before = blend->GetTableBuildTime();
-  blend->Update();
-  return blend->GetTableBuildTime() != before;
+  auto copy = vtkSmartPointer<vtkImageData>::New();
+  copy->ShallowCopy(image);
+  return copy;
 }
 
 class MorphTest
@@ -44,6 +43,41 @@ public:
     this->Morph->Update();
     this->From = positionsOf(this->Morph, "SourcePosition");
     this->To = positionsOf(this->Morph, "TargetPosition");
+  }
+
+  void Connect()
+  {
+    this->Morph->SetInputData(this->Source);
+    this->Morph->SetTargetData(this->Target);
+  }
+
+  // The other way round, and the maps with the images.
+  void Swap()
+  {
+    std::swap(this->Source, this->Target);
+    std::swap(this->From, this->To);
+    this->Connect();
+  }
+
+  // As a host that hands on shallow copies does at every update.
+  void Renew()
+  {
+    this->Source = anew(this->Source);
+    this->Target = anew(this->Target);
+    this->Connect();
+  }
+
+  void Abort(Checks& checks, double from)
+  {
+    {
+      ProgressTest abort(this->Morph);
+      abort.AbortFrom = from;
+      this->Morph->Update();
+      CHECK(checks, this->Morph->GetAbortExecute() != 0 && isEmpty(this->Morph));
+      this->Morph->SetAbortExecute(0);
+    }
+    this->Morph->Modified();
+    this->Remember();
   }
 
   // Updates: which of the maps are made anew, and what comes out is what a new filter gives.
@@ -125,14 +159,6 @@ void setValue(vtkImageData* image, double value)
   image->Modified();
 }
 
-// As a host that hands on shallow copies does at every update.
-vtkSmartPointer<vtkImageData> anew(vtkImageData* image)
-{
-  auto copy = vtkSmartPointer<vtkImageData>::New();
-  copy->ShallowCopy(image);
-  return copy;
-}
-
 void checkInputs(Checks& checks)
 {
   MorphTest test;
@@ -147,19 +173,12 @@ void checkInputs(Checks& checks)
   test.Source = anew(test.Source);
   test.Morph->SetInputData(test.Source);
   EXPECT_MAPS(test, false, false);
-  test.Target = anew(test.Target);
-  test.Source = anew(test.Source);
-  test.Morph->SetTargetData(test.Target);
-  test.Morph->SetInputData(test.Source);
+  test.Renew();
   EXPECT_MAPS(test, false, false);
   test.Source->Modified();
   EXPECT_MAPS(test, false, false);
 
-  // Source and target change their places, and their maps with them.
-  std::swap(test.Source, test.Target);
-  std::swap(test.From, test.To);
-  test.Morph->SetInputData(test.Source);
-  test.Morph->SetTargetData(test.Target);
+  test.Swap();
   EXPECT_MAPS(test, false, false);
 
   // Written into without a word to the array.
@@ -190,15 +209,9 @@ void checkPlaces(Checks& checks)
   test.Target->SetOrigin(10.0, 5.0, 0.0);
   test.Morph->SetTargetData(test.Target);
   EXPECT_MAPS(test, false, true);
-  test.Target = anew(test.Target);
-  test.Source = anew(test.Source);
-  test.Morph->SetTargetData(test.Target);
-  test.Morph->SetInputData(test.Source);
+  test.Renew();
   EXPECT_MAPS(test, false, false);
-  std::swap(test.Source, test.Target);
-  std::swap(test.From, test.To);
-  test.Morph->SetInputData(test.Source);
-  test.Morph->SetTargetData(test.Target);
+  test.Swap();
   EXPECT_MAPS(test, false, false);
 }
 
@@ -237,15 +250,7 @@ void checkFailures(Checks& checks)
   {
     setValue(test.Source, 5.0 + from);
     setValue(test.Target, 6.0 + from);
-    {
-      ProgressTest abort(test.Morph);
-      abort.AbortFrom = from;
-      test.Morph->Update();
-      CHECK(checks, test.Morph->GetAbortExecute() != 0 && isEmpty(test.Morph));
-      test.Morph->SetAbortExecute(0);
-    }
-    test.Morph->Modified();
-    test.Remember();
+    test.Abort(checks, from);
     test.Morph->SetParameter(0.5 - 0.1 * from);
     EXPECT_MAPS(test, false, false);
   }
@@ -254,15 +259,7 @@ void checkFailures(Checks& checks)
   for (const double from : { 0.0, 0.2, 0.5 })
   {
     test.Morph->SetNumberOfSteps(test.Morph->GetNumberOfSteps() / 2);
-    {
-      ProgressTest abort(test.Morph);
-      abort.AbortFrom = from;
-      test.Morph->Update();
-      CHECK(checks, test.Morph->GetAbortExecute() != 0 && isEmpty(test.Morph));
-      test.Morph->SetAbortExecute(0);
-    }
-    test.Morph->Modified();
-    test.Remember();
+    test.Abort(checks, from);
     test.Morph->SetParameter(0.2 + 0.1 * from);
     EXPECT_MAPS(test, false, false);
   }

@@ -10,42 +10,25 @@ namespace
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-class BlendErrorTest
+class BlendErrorTest : public ErrorTest
 {
 public:
   BlendErrorTest(Checks& checks, vtkTransportBlend* blend)
-    : Check(checks)
+    : ErrorTest(checks, blend)
+    , Check(checks)
     , Blend(blend)
-    , Hear(blend)
   {
-  }
-
-  void Expect(const std::string& text, int line)
-  {
-    this->Hear.Clear();
-    this->Blend->Update();
-    this->Check.That(this->Hear.Errors.size() == 1, "one error", line);
-    const std::string said = this->Hear.Errors.empty() ? "" : this->Hear.Errors[0];
-    this->Check.That(contains(said, text), text.c_str(), line, said);
-    this->Check.That(isEmpty(this->Blend), "empty outputs", line);
-    this->Check.That(this->Blend->GetDensity()->GetFieldData()->GetNumberOfArrays() == 0 &&
-        this->Blend->GetParticles()->GetFieldData()->GetNumberOfArrays() == 0,
-      "no field data", line);
   }
 
   void ExpectNone(std::size_t values, int line)
   {
-    this->Hear.Clear();
-    const Values found = runDensity(this->Blend);
-    this->Check.That(this->Hear.Errors.empty(), "no error", line,
-      this->Hear.Errors.empty() ? "" : this->Hear.Errors[0]);
-    this->Check.That(found.size() == values, "number of values", line);
+    this->ErrorTest::ExpectNone(line);
+    this->Check.That(densityValues(this->Blend).size() == values, "number of values", line);
   }
 
 private:
   Checks& Check;
   vtkTransportBlend* Blend;
-  Messages Hear;
 };
 
 void checkProperties(Checks& checks)
@@ -95,12 +78,7 @@ void checkProperties(Checks& checks)
     test.Expect(text.str(), __LINE__);
   }
   morph->SetRadius(1.0);
-  morph->SetNumberOfSteps(0);
-  test.Expect("NumberOfSteps is 0; it must be from 1 to 10000", __LINE__);
-  morph->SetNumberOfSteps(1);
-  morph->SetThreading(9);
-  test.Expect("Threading is 9; it must be 0 (Auto)", __LINE__);
-  morph->SetThreading(0);
+  expectFlowErrors(test, morph.Get(), __LINE__);
   morph->SetNegativeValues(2);
   test.Expect("NegativeValues is 2; it must be 0 (Error) or 1 (Clamp)", __LINE__);
   morph->SetNegativeValues(0);

@@ -16,9 +16,9 @@ double errorOfEnds(
   vtkTransportInterpolator* morph, vtkImageData* source, vtkImageData* target, const Counts& values)
 {
   morph->SetParameter(0.0);
-  const double first = blockError(runDensity(morph), mapValues(source, "Density"), values);
+  const double first = blockError(runDensity(morph), imageValues(source, "Density"), values);
   morph->SetParameter(1.0);
-  const double last = blockError(runDensity(morph), mapValues(target, "Density"), values);
+  const double last = blockError(runDensity(morph), imageValues(target, "Density"), values);
   return std::max(first, last);
 }
 
@@ -81,7 +81,7 @@ void checkMass(Checks& checks, vtkImageData* source, vtkImageData* target)
       {
         morph->SetParameter(t);
         morph->Update();
-        const double total = mapField(morph->GetDensity(), "TotalMass");
+        const double total = fieldValue(morph->GetDensity(), "TotalMass");
         const double wanted = expectedMass(mode, t, first, last);
         CHECK_NEAR(checks, total, wanted, 1e-12 * wanted);
         CHECK_NEAR(checks, massOf(morph->GetDensity()), total, 1e-12 * total);
@@ -107,8 +107,7 @@ void checkMass(Checks& checks)
 // over the domain of an image of cells.
 Values sampleOf(vtkImageData* image, const Counts& grid)
 {
-  vtkNew<vtkPoints> seeds;
-  seeds->SetDataTypeToDouble();
+  Values seeds;
   double bounds[6];
   image->GetBounds(bounds);
   for (int k = 0; k < grid[2]; ++k)
@@ -118,20 +117,17 @@ Values sampleOf(vtkImageData* image, const Counts& grid)
       for (int i = 0; i < grid[0]; ++i)
       {
         const int at[3] = { i, j, k };
-        double x[3];
         for (int a = 0; a < 3; ++a)
         {
-          x[a] = bounds[2 * a] + (bounds[2 * a + 1] - bounds[2 * a]) * (at[a] + 0.5) / grid[a];
+          seeds.push_back(
+            bounds[2 * a] + (bounds[2 * a + 1] - bounds[2 * a]) * (at[a] + 0.5) / grid[a]);
         }
-        seeds->InsertNextPoint(x);
       }
     }
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(seeds);
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(image);
-  sampler->SetSeedsData(data);
+  sampler->SetSeedsData(makePoints(seeds));
   return sampleCoordinates(sampler);
 }
 
@@ -276,12 +272,8 @@ void checkArrays(Checks& checks)
     auto morph = swap ? makeMorph(target, source) : makeMorph(source, target);
     morph->Update();
     vtkImageData* image = morph->GetDensity();
-    vtkDataSetAttributes* with = image->GetCellData();
-    vtkDataSetAttributes* without = image->GetPointData();
-    if (swap)
-    {
-      std::swap(with, without);
-    }
+    auto* with = image->GetAttributes(swap ? vtkDataObject::POINT : vtkDataObject::CELL);
+    auto* without = image->GetAttributes(swap ? vtkDataObject::CELL : vtkDataObject::POINT);
     CHECK(checks, with->GetNumberOfArrays() == 1 && without->GetNumberOfArrays() == 0);
     vtkDataArray* density = with->GetScalars();
     CHECK(checks, density && density->GetName() == std::string("Density"));
@@ -364,7 +356,7 @@ void checkGhosts(Checks& checks)
   auto target = makeDensity({ 12, 10, 1 }, true, bumpy);
   auto morph = makeMorph(source, target, 0.0);
   morph->Update();
-  CHECK_NEAR(checks, mapField(morph->GetDensity(), "TotalMass"), 60.0, 1e-12);
+  CHECK_NEAR(checks, fieldValue(morph->GetDensity(), "TotalMass"), 60.0, 1e-12);
   CHECK(checks, morph->GetDensity()->GetCellGhostArray() == nullptr);
   const Values places = particlePlaces(morph);
   double right = 0.0;

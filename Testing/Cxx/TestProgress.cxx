@@ -19,16 +19,7 @@ void expectRising(Checks& checks, vtkAlgorithm* filter, const char* what, int li
   ProgressTest test(filter);
   filter->Modified();
   filter->Update();
-  std::ostringstream detail;
-  detail << what << ":";
-  for (const double heard : test.Heard)
-  {
-    detail << " " << heard;
-  }
-  checks.That(test.Heard.size() >= 2, "progress", line, detail.str());
-  checks.That(std::is_sorted(test.Heard.begin(), test.Heard.end()), "rising", line, detail.str());
-  checks.That(!test.Heard.empty() && test.Heard.front() >= 0.0 && test.Heard.back() == 1.0,
-    "from 0 to 1", line, detail.str());
+  test.ExpectRising(checks, 2, line, what);
 }
 
 void expectRising(Checks& checks, vtkAlgorithm* filter, vtkImageData* density, int line)

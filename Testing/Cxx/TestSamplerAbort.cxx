@@ -14,9 +14,7 @@ void checkProgress(Checks& checks, vtkTransportSampler* sampler)
   ProgressTest test(sampler);
   sampler->Modified();
   sampler->Update();
-  CHECK(checks, test.Heard.size() > 10);
-  CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
-  CHECK(checks, test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+  test.ExpectRising(checks, 11, __LINE__);
   double step = 0.0;
   for (std::size_t i = 1; i < test.Heard.size(); ++i)
   {
@@ -28,13 +26,7 @@ void checkProgress(Checks& checks, vtkTransportSampler* sampler)
 void checkAbort(Checks& checks, vtkTransportSampler* sampler, double from, int line)
 {
   checkAbort(
-    checks, sampler, from, [&]() { changeDensity(sampler->GetInputDataObject(0, 0)); },
-    [&]() {
-      return sampler->GetOutput() && sampler->GetOutput()->GetNumberOfPoints() == 0 &&
-        sampler->GetOutput()->GetNumberOfCells() == 0 &&
-        sampler->GetOutput()->GetPointData()->GetNumberOfArrays() == 0;
-    },
-    line);
+    checks, sampler, from, [&]() { changeDensity(sampler->GetInputDataObject(0, 0)); }, line);
 }
 
 } // namespace

@@ -44,32 +44,23 @@ Points pointsOf(const std::function<double(vtkIdType)>& density)
   return pointsOf(makeImage(width, height, 1, false, density));
 }
 
-template <class ArrayT>
-void checkType(Checks& checks, const Points& expected)
+template <class... ArrayTs>
+void checkAlike(Checks& checks)
 {
-  auto image = makeImage<ArrayT>(width, height, 1, false, bumpy);
-  checks.That(pointsOf(image) == expected, "same particles", __LINE__,
-    image->GetPointData()->GetScalars()->GetClassName());
+  const Points expected = pointsOf(bumpy);
+  for (const auto& image : { makeImage<ArrayTs>(width, height, 1, false, bumpy)... })
+  {
+    checks.That(pointsOf(image) == expected, "same particles", __LINE__,
+      image->GetPointData()->GetScalars()->GetClassName());
+  }
 }
 
 void checkTypes(Checks& checks)
 {
-  const Points expected = pointsOf(bumpy);
-  checkType<vtkCharArray>(checks, expected);
-  checkType<vtkSignedCharArray>(checks, expected);
-  checkType<vtkUnsignedCharArray>(checks, expected);
-  checkType<vtkShortArray>(checks, expected);
-  checkType<vtkUnsignedShortArray>(checks, expected);
-  checkType<vtkIntArray>(checks, expected);
-  checkType<vtkUnsignedIntArray>(checks, expected);
-  checkType<vtkLongArray>(checks, expected);
-  checkType<vtkUnsignedLongArray>(checks, expected);
-  checkType<vtkLongLongArray>(checks, expected);
-  checkType<vtkUnsignedLongLongArray>(checks, expected);
-  checkType<vtkIdTypeArray>(checks, expected);
-  checkType<vtkFloatArray>(checks, expected);
-  checkType<vtkSOADataArrayTemplate<float>>(checks, expected);
-  checkType<vtkSOADataArrayTemplate<int>>(checks, expected);
+  checkAlike<vtkCharArray, vtkSignedCharArray, vtkUnsignedCharArray, vtkShortArray,
+    vtkUnsignedShortArray, vtkIntArray, vtkUnsignedIntArray, vtkLongArray, vtkUnsignedLongArray,
+    vtkLongLongArray, vtkUnsignedLongLongArray, vtkIdTypeArray, vtkFloatArray,
+    vtkSOADataArrayTemplate<float>, vtkSOADataArrayTemplate<int>>(checks);
 
   const auto bit = [](vtkIdType i) { return i % 3 == 0 ? 1.0 : 0.0; };
   CHECK(checks, pointsOf(makeImage<vtkBitArray>(width, height, 1, false, bit)) == pointsOf(bit));
@@ -212,7 +203,7 @@ void checkOnlyArray(Checks& checks)
   Messages messages(sampler);
   sampler->SetInputData(image);
   sampler->Update();
-  CHECK(checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "no active scalars"));
+  CHECK(checks, messages.IsOneError("no active scalars"));
 }
 
 // Clamp takes negative values as 0.

@@ -14,54 +14,21 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
-class ErrorTest
+class SamplerErrorTest : public ErrorTest
 {
 public:
-  explicit ErrorTest(Checks& checks)
-    : Check(checks)
-    , Hear(this->Sampler)
+  SamplerErrorTest(Checks& checks, vtkTransportSampler* sampler)
+    : ErrorTest(checks, sampler)
   {
-    this->Sampler->SetNumberOfParticles(50);
-    this->Sampler->SetInputData(makeImage(6, 5, 1, true, bumpy));
+    sampler->SetNumberOfParticles(50);
+    sampler->SetInputData(makeImage(6, 5, 1, true, bumpy));
   }
-
-  // One error with all the parts, and no particles.
-  void Expect(const std::vector<std::string>& parts, int line)
-  {
-    this->Hear.Clear();
-    this->Sampler->Update();
-    this->Check.That(this->Hear.Errors.size() == 1, "one error", line);
-    const std::string text = this->Hear.Errors.empty() ? "" : this->Hear.Errors[0];
-    for (const std::string& part : parts)
-    {
-      this->Check.That(contains(text, part), part.c_str(), line, text);
-    }
-    vtkPolyData* output = this->Sampler->GetOutput();
-    this->Check.That(output->GetNumberOfPoints() == 0 && output->GetNumberOfCells() == 0 &&
-        output->GetPointData()->GetNumberOfArrays() == 0 &&
-        output->GetFieldData()->GetNumberOfArrays() == 0,
-      "empty output", line);
-  }
-
-  void ExpectNone(int line)
-  {
-    this->Hear.Clear();
-    this->Sampler->Update();
-    this->Check.That(this->Hear.Errors.empty(), "no error", line,
-      this->Hear.Errors.empty() ? "" : this->Hear.Errors[0]);
-  }
-
-  vtkNew<vtkTransportSampler> Sampler;
-
-private:
-  Checks& Check;
-  Messages Hear;
 };
 
 void checkProperties(Checks& checks)
 {
-  ErrorTest test(checks);
-  vtkTransportSampler* s = test.Sampler;
+  vtkNew<vtkTransportSampler> s;
+  SamplerErrorTest test(checks, s);
   for (const vtkIdType count : { 0, -3 })
   {
     s->SetNumberOfParticles(count);
@@ -122,20 +89,21 @@ void checkProperties(Checks& checks)
 
 void checkComponents(Checks& checks)
 {
-  ErrorTest test(checks);
-  test.Sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 9));
+  vtkNew<vtkTransportSampler> sampler;
+  SamplerErrorTest test(checks, sampler);
+  sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 9));
   test.Expect({ "Component is -1", "'Density'", "9 components", "an index from 0 to 8" }, __LINE__);
-  test.Sampler->SetComponent(8);
+  sampler->SetComponent(8);
   test.ExpectNone(__LINE__);
-  test.Sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 3));
+  sampler->SetInputData(makeImage(6, 5, 1, true, bumpy, 3));
   test.Expect(
     { "Component is 8", "3 components", "-1 (luminance) or an index from 0 to 2" }, __LINE__);
 }
 
 void checkArrays(Checks& checks)
 {
-  ErrorTest test(checks);
-  vtkTransportSampler* s = test.Sampler;
+  vtkNew<vtkTransportSampler> s;
+  SamplerErrorTest test(checks, s);
   using Object = vtkDataObject;
   s->SetInputArrayToProcess(0, 0, 0, Object::FIELD_ASSOCIATION_POINTS, "Missing");
   test.Expect({ "no density array 'Missing'", "no point arrays", "Density (cell)" }, __LINE__);
@@ -167,9 +135,10 @@ void checkArrays(Checks& checks)
 
 void checkValues(Checks& checks)
 {
-  ErrorTest test(checks);
+  vtkNew<vtkTransportSampler> sampler;
+  SamplerErrorTest test(checks, sampler);
   const auto use = [&](const std::function<double(vtkIdType)>& value) {
-    test.Sampler->SetInputData(makeImage(6, 5, 1, false, value));
+    sampler->SetInputData(makeImage(6, 5, 1, false, value));
   };
   use([](vtkIdType i) {
     return i == 4 ? notANumber : i == 9 ? infinity : i == 7 ? -infinity : 1.0;
@@ -177,17 +146,17 @@ void checkValues(Checks& checks)
   test.Expect(
     { "'Density' has 3 values that are NaN or infinite", "first at index 4", "must be finite" },
     __LINE__);
-  test.Sampler->SetNegativeValuesToClamp(); // minus infinity is not negative, it is wrong
+  sampler->SetNegativeValuesToClamp(); // minus infinity is not negative, it is wrong
   test.Expect({ "has 3 values that are NaN or infinite" }, __LINE__);
-  test.Sampler->InvertDensityOn();
+  sampler->InvertDensityOn();
   test.Expect({ "has 3 values that are NaN or infinite", "first at index 4" }, __LINE__);
-  test.Sampler->InvertDensityOff();
+  sampler->InvertDensityOff();
   use([](vtkIdType i) { return i == 11 ? notANumber : 1.0; });
   test.Expect({ "has 1 value that is NaN", "first at index 11" }, __LINE__);
-  test.Sampler->SetNegativeValuesToError();
+  sampler->SetNegativeValuesToError();
   use([](vtkIdType i) { return i > 27 ? -1e-300 : 1.0; });
   test.Expect({ "'Density' has 2 negative values", "first at index 28", "Clamp" }, __LINE__);
-  test.Sampler->SetNegativeValuesToClamp();
+  sampler->SetNegativeValuesToClamp();
   test.ExpectNone(__LINE__);
   use([](vtkIdType) { return -1.0; });
   test.Expect({ "'Density' has a total mass of zero", "at least one value" }, __LINE__);
@@ -199,7 +168,7 @@ void checkValues(Checks& checks)
   // The cells' sum is a double, the mass is not.
   auto image = makeImage(6, 5, 1, false, [](vtkIdType) { return 1e300; });
   image->SetSpacing(1e5, 1e5, 1.0);
-  test.Sampler->SetInputData(image);
+  sampler->SetInputData(image);
   test.Expect({ "'Density' has a total mass past the largest double" }, __LINE__);
   image->GetPointData()->GetScalars()->SetName(nullptr);
   test.Expect({ "density array (which has no name)" }, __LINE__);
@@ -207,13 +176,14 @@ void checkValues(Checks& checks)
 
 void checkGeometry(Checks& checks)
 {
-  ErrorTest test(checks);
-  test.Sampler->SetInputData(makeImage(1, 1, 1, false, bumpy));
+  vtkNew<vtkTransportSampler> sampler;
+  SamplerErrorTest test(checks, sampler);
+  sampler->SetInputData(makeImage(1, 1, 1, false, bumpy));
   test.Expect({ "one point along every axis" }, __LINE__);
-  test.Sampler->SetInputData(makeImage(1, 1, 1, true, bumpy));
+  sampler->SetInputData(makeImage(1, 1, 1, true, bumpy));
   test.Expect({ "one point along every axis" }, __LINE__);
   auto image = makeImage(6, 5, 1, true, bumpy);
-  test.Sampler->SetInputData(image);
+  sampler->SetInputData(image);
   for (const double spacing : { 0.0, notANumber, infinity })
   {
     image->SetSpacing(spacing, 1.0, 1.0);
@@ -228,12 +198,13 @@ void checkGeometry(Checks& checks)
 // Nothing upstream yet is no error.
 void checkEmpty(Checks& checks)
 {
-  ErrorTest test(checks);
+  vtkNew<vtkTransportSampler> sampler;
+  SamplerErrorTest test(checks, sampler);
   vtkNew<vtkImageData> empty;
-  test.Sampler->SetInputData(empty);
+  sampler->SetInputData(empty);
   test.ExpectNone(__LINE__);
-  CHECK(checks, test.Sampler->GetOutput() != nullptr);
-  CHECK(checks, test.Sampler->GetOutput()->GetNumberOfPoints() == 0);
+  CHECK(checks, sampler->GetOutput() != nullptr);
+  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 0);
 }
 
 } // namespace

@@ -13,13 +13,6 @@ namespace
 
 using Points = std::vector<double>;
 
-// The reference: cells of width 1 with a corner at the origin.
-vtkSmartPointer<vtkImageData> unitCells(int nx, int ny, int nz)
-{
-  const auto points = [](int n) { return n == 0 ? 1 : n + 1; };
-  return makeImage(points(nx), points(ny), points(nz), true, bumpy);
-}
-
 // One row or rectangle of cells in every orientation gives the same particles, coordinates
 // permuted.
 void checkPlanes(Checks& checks)
@@ -58,12 +51,7 @@ void checkPlanes(Checks& checks)
 // Values on points are those of cells half a spacing around them.
 void checkPointsAndCells(Checks& checks)
 {
-  auto cells = unitCells(9, 7, 5);
-  cells->SetSpacing(0.5, 2.0, 1.25);
-  cells->SetOrigin(1.0, 2.0, 3.0);
-  auto points = makeImage(9, 7, 5, false, bumpy);
-  points->SetSpacing(0.5, 2.0, 1.25);
-  points->SetOrigin(1.25, 3.0, 3.625);
+  const auto [cells, points] = makeCellsAndPoints();
   vtkNew<vtkTransportSampler> sampler;
   sampler->SetInputData(cells);
   const Points ofCells = sampleCoordinates(sampler);

@@ -11,23 +11,14 @@
 namespace
 {
 
-void expectError(
-  Checks& checks, vtkAlgorithm* algorithm, Messages& messages, const char* what, int line)
+void expectError(Checks& checks, vtkAlgorithm* algorithm, const char* what, int line)
 {
-  messages.Clear();
-  algorithm->Update();
-  const std::string text = messages.Errors.empty() ? "no error" : messages.Errors[0];
-  checks.That(messages.Errors.size() == 1 && contains(text, "Not enough memory for") &&
-      contains(text, what) && contains(text, "were asked for"),
-    "one error about memory", line, text);
-  auto* output = vtkPolyData::SafeDownCast(algorithm->GetOutputDataObject(0));
-  checks.That(output && output->GetNumberOfPoints() == 0, "empty output", line);
+  ErrorTest(checks, algorithm).Expect({ "Not enough memory for", what, "were asked for" }, line);
 }
 
 void checkAbsurdNumbers(Checks& checks)
 {
   vtkNew<vtkTransportSampler> sampler;
-  Messages messages(sampler);
   auto image = makeImage(12, 9, 1, true, bumpy);
   sampler->SetInputData(image);
   sampler->SetNumberOfParticles(100);
@@ -35,50 +26,46 @@ void checkAbsurdNumbers(Checks& checks)
   const vtkMTimeType built = sampler->GetTableBuildTime();
 
   sampler->SetNumberOfParticles(1000000000000);
-  expectError(checks, sampler, messages, "1000000000000 particles", __LINE__);
-  CHECK(checks, contains(messages.Errors[0], "TB were asked for"));
+  ErrorTest test(checks, sampler);
+  test.Expect(
+    { "Not enough memory for", "1000000000000 particles", "TB were asked for" }, __LINE__);
   // A particle of a volume takes the bytes of its arrays: three of 3 doubles, Mass, SeedId, and its
   // vertex of two ids.
   sampler->SetInputData(makeImage(12, 9, 5, true, bumpy));
-  sampler->Update();
-  CHECK(checks, contains(messages.Errors.back(), ": 104 TB were asked for"));
+  test.Expect(": 104 TB were asked for", __LINE__);
   sampler->SetInputData(image);
   for (int pattern = 0; pattern < 5; ++pattern)
   {
     sampler->SetSeedPattern(pattern);
     sampler->SetNumberOfParticles(std::numeric_limits<vtkIdType>::max());
-    expectError(checks, sampler, messages, "particles", __LINE__);
+    expectError(checks, sampler, "particles", __LINE__);
   }
   sampler->SetNumberOfParticles(100);
   sampler->SetSeedPatternToLattice();
   sampler->SetSamplesPerCell(std::numeric_limits<int>::max());
-  expectError(checks, sampler, messages, "SamplesPerCell", __LINE__);
+  expectError(checks, sampler, "SamplesPerCell", __LINE__);
   sampler->SetSamplesPerCell(0);
   sampler->SetSeedPatternToBlueNoise();
   sampler->OutputPathsOn();
   sampler->SetNumberOfSteps(10000);
   sampler->SetNumberOfParticles(1000000000);
-  expectError(checks, sampler, messages, "the paths of 1000000000 particles", __LINE__);
+  expectError(checks, sampler, "the paths of 1000000000 particles", __LINE__);
   sampler->OutputPathsOff();
   sampler->SetNumberOfParticles(100);
-  messages.Clear();
-  sampler->Update();
-  CHECK(checks, messages.Errors.empty());
+  test.ExpectNone(__LINE__);
   CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 100);
   CHECK(checks, sampler->GetTableBuildTime() == built);
 
   vtkNew<vtkUniformSeedSource> source;
-  Messages ofSource(source);
   for (const int dimension : { 2, 3 })
   {
     source->SetDimension(dimension);
     source->SetNumberOfPoints(1000000000000000);
-    expectError(checks, source, ofSource, "NumberOfPoints", __LINE__);
+    expectError(checks, source, "NumberOfPoints", __LINE__);
   }
   source->SetNumberOfPoints(10);
-  ofSource.Clear();
-  source->Update();
-  CHECK(checks, ofSource.Errors.empty() && source->GetOutput()->GetNumberOfPoints() == 10);
+  ErrorTest(checks, source).ExpectNone(__LINE__);
+  CHECK(checks, source->GetOutput()->GetNumberOfPoints() == 10);
 }
 
 #ifdef HAS_MEMORY_LIMIT
@@ -88,7 +75,6 @@ void checkLimits(Checks& checks)
   auto large = makeImage<vtkUnsignedCharArray>(
     160, 160, 160, false, [](vtkIdType i) { return static_cast<double>(1 + i % 200); });
   vtkNew<vtkTransportSampler> sampler;
-  Messages messages(sampler);
   sampler->SetThreadingToSerial(); // new threads need memory of their own
   sampler->SetNumberOfParticles(1000);
   sampler->SetInputData(small);
@@ -96,17 +82,14 @@ void checkLimits(Checks& checks)
   {
     const MemoryLimit limit(64 << 20);
     sampler->SetInputData(large);
-    expectError(
-      checks, sampler, messages, "the tables of a density of 160 x 160 x 160 cells", __LINE__);
+    expectError(checks, sampler, "the tables of a density of 160 x 160 x 160 cells", __LINE__);
     sampler->SetInputData(small);
     sampler->SetNumberOfParticles(2000000);
-    expectError(checks, sampler, messages, "2000000 particles", __LINE__);
+    expectError(checks, sampler, "2000000 particles", __LINE__);
   }
-  messages.Clear();
   sampler->SetInputData(large);
   sampler->SetNumberOfParticles(1000);
-  sampler->Update();
-  CHECK(checks, messages.Errors.empty());
+  ErrorTest(checks, sampler).ExpectNone(__LINE__);
   CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 1000);
 }
 #endif

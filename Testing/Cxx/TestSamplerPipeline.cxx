@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the sampler asks of the pipeline, and how it lives in one.
+#include "BlocksTest.h"
 #include "SamplerTest.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPointDataToCellData.h"
 #include "vtkRTAnalyticSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -56,18 +56,14 @@ void checkUpstream(Checks& checks)
 // Every image of a composite input is sampled.
 void checkComposite(Checks& checks)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makeImage(9, 9, 1, true, bumpy));
-  blocks->SetBlock(2, makeImage(5, 6, 7, false, bumpy));
   vtkNew<vtkTransportSampler> sampler;
-  sampler->SetInputDataObject(blocks);
+  sampler->SetInputDataObject(
+    makeBlocks({ makeImage(9, 9, 1, true, bumpy), nullptr, makeImage(5, 6, 7, false, bumpy) }));
   sampler->SetNumberOfParticles(60);
   sampler->Update();
-  auto* output = vtkMultiBlockDataSet::SafeDownCast(sampler->GetOutputDataObject(0));
-  CHECK(checks, output != nullptr);
   for (const unsigned int block : { 0u, 2u })
   {
-    auto* particles = output ? vtkPolyData::SafeDownCast(output->GetBlock(block)) : nullptr;
+    auto* particles = outputBlock<vtkPolyData>(sampler, block);
     CHECK(checks, particles && particles->GetNumberOfPoints() == 60);
   }
 }

@@ -14,31 +14,9 @@
 namespace
 {
 
-vtkSmartPointer<vtkPolyData> makeSeeds(const std::vector<double>& x, bool single = false)
-{
-  auto seeds = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  for (std::size_t i = 0; i < x.size(); i += 3)
-  {
-    points->InsertNextPoint(x.data() + i);
-  }
-  seeds->SetPoints(points);
-  return seeds;
-}
-
 std::vector<double> seedPositions(vtkTransportSampler* sampler)
 {
-  vtkDataArray* array = pointArray(sampler->GetOutput(), "SeedPosition");
-  std::vector<double> x;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      x.push_back(array->GetComponent(i, c));
-    }
-  }
-  return x;
+  return arrayValues(pointArray(sampler->GetOutput(), "SeedPosition"));
 }
 
 // Given back as seeds, in another order, the sampler's own seeds end where they ended.
@@ -63,7 +41,7 @@ void checkRoundTrip(Checks& checks, int depth)
   {
     reversed[seeds.size() - 3 - i + 2 * (i % 3)] = seeds[i];
   }
-  sampler->SetSeedsData(makeSeeds(reversed));
+  sampler->SetSeedsData(makePoints(reversed));
   sampler->SetNumberOfParticles(0); // not used
   const std::vector<double> backwards = sampleCoordinates(sampler);
   CHECK(checks, seedPositions(sampler) == reversed);
@@ -93,7 +71,7 @@ void checkOutside(Checks& checks)
   vtkNew<vtkTransportSampler> sampler;
   Messages messages(sampler);
   sampler->SetInputData(image);
-  sampler->SetSeedsData(makeSeeds({ 1, 1, 0, -2, 1, 0, 1, 9, 0, 2, 2, 0.5, 4, 3, 0, 5, 5, 5 }));
+  sampler->SetSeedsData(makePoints({ 1, 1, 0, -2, 1, 0, 1, 9, 0, 2, 2, 0.5, 4, 3, 0, 5, 5, 5 }));
   sampler->Update();
   CHECK(checks, messages.Errors.empty());
   CHECK(checks, messages.Warnings.size() == 1);
@@ -104,7 +82,7 @@ void checkOutside(Checks& checks)
 
   // One that misses the border by its last bit is on it, without a word.
   messages.Clear();
-  sampler->SetSeedsData(makeSeeds({ std::nextafter(4.0, 5.0), 1, 0, 2, -1e-300, 0 }));
+  sampler->SetSeedsData(makePoints({ std::nextafter(4.0, 5.0), 1, 0, 2, -1e-300, 0 }));
   sampler->Update();
   CHECK(checks, messages.Warnings.empty());
   CHECK(checks, seedPositions(sampler) == std::vector<double>({ 4, 1, 0, 2, 0, 0 }));
@@ -116,7 +94,7 @@ void checkOutside(Checks& checks)
   image->GetBounds(bounds);
   messages.Clear();
   sampler->SetSeedsData(
-    makeSeeds({ bounds[0], bounds[2], bounds[4], bounds[1], bounds[3], bounds[5] }, true));
+    makePoints({ bounds[0], bounds[2], bounds[4], bounds[1], bounds[3], bounds[5] }, true));
   sampler->Update();
   CHECK(checks, messages.Warnings.empty());
   for (std::size_t i = 0; i < 6; ++i)
@@ -131,24 +109,20 @@ void checkNotFinite(Checks& checks)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   vtkNew<vtkTransportSampler> sampler;
-  Messages messages(sampler);
   sampler->SetInputData(makeImage(5, 4, 1, true, bumpy));
   std::vector<double> x(30000, 1.0);
   x[3 * 8500 + 1] = nan;
   x[3 * 41] = infinity;
   x[3 * 41 + 2] = nan;
-  sampler->SetSeedsData(makeSeeds(x));
-  sampler->Update();
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks, contains(messages.Errors[0], "Seeds has 2 points that are NaN or infinite"));
-  CHECK(checks, contains(messages.Errors[0], "first at index 41"));
-  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 0);
+  sampler->SetSeedsData(makePoints(x));
+  ErrorTest(checks, sampler)
+    .Expect({ "Seeds has 2 points that are NaN or infinite", "first at index 41" }, __LINE__);
 }
 
 // Data of the seeds goes with the particles; the sampler's own arrays replace namesakes.
 void checkData(Checks& checks)
 {
-  auto seeds = makeSeeds({ 1, 1, 0, 2, 2, 0, 3, 1, 0 });
+  auto seeds = makePoints({ 1, 1, 0, 2, 2, 0, 3, 1, 0 });
   vtkNew<vtkFloatArray> colour;
   colour->SetName("Colour");
   colour->SetNumberOfTuples(3);

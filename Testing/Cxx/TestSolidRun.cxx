@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How vtkSolidDensity runs: in a pipeline, the same bits on any number of threads, progress, an
 // abort, and what it says of wrong input.
+#include "BlocksTest.h"
 #include "ProgressTest.h"
 #include "SolidTest.h"
+#include "ThreadsTest.h"
 
 #include "vtkContourFilter.h"
 #include "vtkFeatureEdges.h"
 #include "vtkImageShiftScale.h"
 #include "vtkMultiBlockDataGroupFilter.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPlaneSource.h"
-#include "vtkSMPTools.h"
 
 #include <limits>
 
@@ -87,18 +87,15 @@ void checkNoSurface(Checks& checks)
 // A block at a time, with an image for each.
 void checkBlocks(Checks& checks)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makeBox(0, 1, 0, 1, 0, 1));
-  blocks->SetBlock(1, makeSphere(9, 9, 9, 2.0));
   vtkNew<vtkSolidDensity> solid;
-  solid->SetInputData(blocks);
+  solid->SetInputData(makeBlocks({ makeBox(0, 1, 0, 1, 0, 1), makeSphere(9, 9, 9, 2.0) }));
   solid->SetResolution(12);
   solid->Update();
   auto* output = vtkMultiBlockDataSet::SafeDownCast(solid->GetOutputDataObject(0));
   CHECK(checks, output && output->GetNumberOfBlocks() == 2);
-  for (unsigned int i = 0; output && i < 2; ++i)
+  for (const unsigned int block : { 0u, 1u })
   {
-    auto* image = vtkImageData::SafeDownCast(output->GetBlock(i));
+    auto* image = outputBlock<vtkImageData>(solid, block);
     CHECK(checks, image && image->GetNumberOfPoints() == 12 * 12 * 12);
   }
   vtkNew<vtkSphereSource> sphere;
@@ -110,8 +107,7 @@ void checkBlocks(Checks& checks)
   {
     sphere->SetRadius(radius);
     solid->Update();
-    output = vtkMultiBlockDataSet::SafeDownCast(solid->GetOutputDataObject(0));
-    auto* image = vtkImageData::SafeDownCast(output ? output->GetBlock(1) : nullptr);
+    auto* image = outputBlock<vtkImageData>(solid, 1);
     CHECK(checks, image && image->GetNumberOfPoints() == 12 * 12 * 12);
     CHECK_NEAR(checks, image ? image->GetSpacing()[0] : 0.0, radius * 2.2 / 12, 1e-6);
   }
@@ -125,24 +121,12 @@ void checkThreads(Checks& checks)
   solid->SetInputData(surface);
   solid->SetResolution(70);
   solid->SetSupersampling(3);
-  solid->SetThreadingToSerial();
-  const std::vector<double> serial = runSolid(solid);
-  CHECK(checks, serial.size() > 100000);
-  for (const char* backend : { "Sequential", "STDThread" })
-  {
-    vtkSMPTools::SetBackend(backend);
-    for (const int threads : { 1, 2, 3 })
-    {
-      vtkSMPTools::Initialize(threads);
-      for (const int threading : { 0, 1, 2 })
-      {
-        solid->SetThreading(threading);
-        solid->Modified();
-        CHECK(checks, runSolid(solid) == serial);
-      }
-    }
-  }
-  vtkSMPTools::Initialize(0);
+  const auto run = [&](int threading) {
+    solid->SetThreading(threading);
+    solid->Modified();
+    return runSolid(solid);
+  };
+  CHECK(checks, expectSameBits(checks, run, __LINE__).size() > 100000);
 }
 
 void checkAborts(Checks& checks)
@@ -154,18 +138,15 @@ void checkAborts(Checks& checks)
   solid->SetResolution(200);
   solid->SetSupersampling(8);
   const auto outdate = [&]() { solid->Modified(); };
-  const auto isEmpty = [&]() { return solid->GetOutput()->GetNumberOfPoints() == 0; };
   for (const double from : { 0.001, 0.1, 0.15, 0.3, 0.39, 0.45, 0.5, 0.55, 0.8 })
   {
-    checkAbort(checks, solid, from, outdate, isEmpty, __LINE__);
+    checkAbort(checks, solid, from, outdate, __LINE__);
   }
-  checkAbort(checks, solid, 0.51, outdate, isEmpty, __LINE__, 20);
+  checkAbort(checks, solid, 0.51, outdate, __LINE__, 20);
   ProgressTest progress(solid);
   solid->Modified();
   CHECK(checks, !runSolid(solid).empty());
-  CHECK(checks, std::is_sorted(progress.Heard.begin(), progress.Heard.end()));
-  CHECK(checks, progress.Heard.size() > 10 && progress.Heard.front() >= 0.0);
-  CHECK_NEAR(checks, progress.Heard.back(), 1.0, 1e-12);
+  progress.ExpectRising(checks, 11, __LINE__);
   CHECK(checks, messages.Errors.empty());
 }
 
@@ -179,22 +160,11 @@ void checkAbortAmongPolygons(Checks& checks)
   Messages messages(solid);
   solid->SetInputConnection(plane->GetOutputPort());
   checkAbort(
-    checks, solid, 0.05, [&]() { solid->Modified(); },
-    [&]() { return solid->GetOutput()->GetNumberOfPoints() == 0; }, __LINE__);
+    checks, solid, 0.05, [&]() { solid->Modified(); }, __LINE__);
   CHECK(checks, messages.Errors.empty());
   solid->Modified();
   solid->Update();
-  CHECK(checks, messages.Errors.size() == 1 && contains(messages.Errors[0], "2800 open edges"));
-}
-
-void expectError(Checks& checks, vtkSolidDensity* solid, const std::string& text, int line)
-{
-  Messages messages(solid);
-  solid->Update();
-  checks.That(messages.Errors.size() == 1, "one error", line, text);
-  checks.That(!messages.Errors.empty() && contains(messages.Errors.front(), text), text.c_str(),
-    line, messages.Errors.empty() ? "no message" : messages.Errors.front());
-  checks.That(solid->GetOutput()->GetNumberOfPoints() == 0, "empty output", line);
+  CHECK(checks, messages.IsOneError("2800 open edges"));
 }
 
 void checkPropertyErrors(Checks& checks)
@@ -202,35 +172,35 @@ void checkPropertyErrors(Checks& checks)
   vtkNew<vtkSolidDensity> solid;
   solid->SetInputData(makeBox(0, 1, 0, 1, 0, 1));
   solid->SetResolution(0);
-  expectError(checks, solid, "Resolution is 0; it must be from 1 to 1073741824", __LINE__);
+  ErrorTest(checks, solid).Expect("Resolution is 0; it must be from 1 to 1073741824", __LINE__);
   solid->SetResolution(-7);
-  expectError(checks, solid, "Resolution is -7; it must be from 1", __LINE__);
+  ErrorTest(checks, solid).Expect("Resolution is -7; it must be from 1", __LINE__);
   solid->SetResolution(1 << 30);
-  expectError(checks, solid,
-    "Not enough memory for a density of 1073741824 x 1073741824 x 1073741824 "
-    "cells (see Resolution)",
-    __LINE__);
+  ErrorTest(checks, solid)
+    .Expect("Not enough memory for a density of 1073741824 x 1073741824 x 1073741824 "
+            "cells (see Resolution)",
+      __LINE__);
   solid->SetResolution(8);
   solid->SetSupersampling(0);
-  expectError(checks, solid, "Supersampling is 0; it must be from 1 to 16", __LINE__);
+  ErrorTest(checks, solid).Expect("Supersampling is 0; it must be from 1 to 16", __LINE__);
   solid->SetSupersampling(17);
-  expectError(checks, solid, "Supersampling is 17; it must be from 1 to 16", __LINE__);
+  ErrorTest(checks, solid).Expect("Supersampling is 17; it must be from 1 to 16", __LINE__);
   solid->SetSupersampling(2);
   for (const double padding : { -0.1, nan, infinity })
   {
     solid->SetPadding(padding);
     std::ostringstream text;
     text << "Padding is " << padding << "; it must be 0 or a positive number";
-    expectError(checks, solid, text.str(), __LINE__);
+    ErrorTest(checks, solid).Expect(text.str(), __LINE__);
   }
   solid->SetPadding(1e308);
-  expectError(checks, solid, "Padding is 1e+308 and the input's longest side 1", __LINE__);
+  ErrorTest(checks, solid).Expect("Padding is 1e+308 and the input's longest side 1", __LINE__);
   solid->SetPadding(0.1);
   solid->SetAssociation(2);
-  expectError(checks, solid, "Association is 2; it must be 0 (Points) or 1 (Cells)", __LINE__);
+  ErrorTest(checks, solid).Expect("Association is 2; it must be 0 (Points) or 1 (Cells)", __LINE__);
   solid->SetAssociation(0);
   solid->SetThreading(4);
-  expectError(checks, solid, "Threading is 4; it must be 0 (Auto)", __LINE__);
+  ErrorTest(checks, solid).Expect("Threading is 4; it must be 0 (Auto)", __LINE__);
   solid->SetThreading(0);
   Messages messages(solid);
   CHECK(checks, runSolid(solid).size() == 512);
@@ -243,7 +213,7 @@ void checkSurfaceErrors(Checks& checks)
   solid->SetResolution(8);
   const auto expect = [&](vtkPolyData* surface, const std::string& text, int line) {
     solid->SetInputData(surface);
-    expectError(checks, solid, text, line);
+    ErrorTest(checks, solid).Expect(text, line);
   };
   const std::vector<double> corners{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 };
   const std::vector<vtkIdType> faces{ 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 };
@@ -320,7 +290,7 @@ void checkKleinBottle(Checks& checks)
   }
   vtkNew<vtkSolidDensity> solid;
   solid->SetInputData(makePolyhedron(points, faces));
-  expectError(checks, solid, "The input surface is not orientable", __LINE__);
+  ErrorTest(checks, solid).Expect("The input surface is not orientable", __LINE__);
 }
 
 void checkEmpty(Checks& checks)

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The numbers of vtkTransportQuality, against what is known by hand.
-#include "WarpTest.h"
+#include "QualityTest.h"
 
 #include "vtkStringArray.h"
 #include "vtkStructuredGrid.h"
-#include "vtkTable.h"
-#include "vtkTransportQuality.h"
 #include "vtkTransportSampler.h"
-#include "vtkVariant.h"
 
 #include <array>
 #include <limits>
@@ -298,27 +295,14 @@ void checkErrors(Checks& checks)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vtkNew<vtkTransportQuality> quality;
-  Messages messages(quality);
+  ErrorTest test(checks, quality);
   const auto points = []() { return makePoints({ 1, 1, 0, 2, 2, 0 }); };
   quality->SetInputData(points());
   quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
-  const auto expect = [&](const std::vector<std::string>& parts, int line) {
-    messages.Clear();
-    quality->Update();
-    checks.That(messages.Errors.size() == 1, "one error", line);
-    const std::string text = messages.Errors.empty() ? "" : messages.Errors[0];
-    for (const std::string& part : parts)
-    {
-      checks.That(contains(text, part), part.c_str(), line, text);
-    }
-    checks.That(quality->GetOutput()->GetNumberOfRows() == 0 &&
-        quality->GetOutput()->GetNumberOfColumns() == 0,
-      "empty output", line);
-  };
   for (const int size : { 0, -8 })
   {
     quality->SetBlockSize(size);
-    expect({ "BlockSize is " + std::to_string(size), "at least 1" }, __LINE__);
+    test.Expect({ "BlockSize is " + std::to_string(size), "at least 1" }, __LINE__);
   }
   quality->SetBlockSize(2147483647);
   CHECK(checks, measured(quality, "DensityError") == 0.0); // one block
@@ -329,51 +313,49 @@ void checkErrors(Checks& checks)
     quality->SetInputData(set);
   };
   withArray("Mass", { 1, nan }, 1);
-  expect({ "'Mass' of the particles has the value nan at index 1", "finite" }, __LINE__);
+  test.Expect({ "'Mass' of the particles has the value nan at index 1", "finite" }, __LINE__);
   withArray("Mass", { -2, 1 }, 1);
-  expect({ "'Mass' of the particles has the value -2 at index 0", "not negative" }, __LINE__);
+  test.Expect({ "'Mass' of the particles has the value -2 at index 0", "not negative" }, __LINE__);
   withArray("Mass", { 0, 0 }, 1);
-  expect({ "'Mass' of the particles sums to 0", "positive" }, __LINE__);
+  test.Expect({ "'Mass' of the particles sums to 0", "positive" }, __LINE__);
   withArray("Mass", { 1, 2, 3, 4 }, 2);
-  expect({ "'Mass' of the particles has 2 components", "have 1" }, __LINE__);
+  test.Expect({ "'Mass' of the particles has 2 components", "have 1" }, __LINE__);
   withArray("Mass", { 1, 2, 3 }, 1);
-  expect({ "'Mass' of the particles has 3 tuples", "2 particles" }, __LINE__);
+  test.Expect({ "'Mass' of the particles has 3 tuples", "2 particles" }, __LINE__);
   withArray("Displacement", { 1, 2 }, 1);
-  expect({ "'Displacement' of the particles has 1 component;", "have 3" }, __LINE__);
+  test.Expect({ "'Displacement' of the particles has 1 component;", "have 3" }, __LINE__);
   withArray("Displacement", { 1, 2, 3, 4, nan, 6 }, 3);
-  expect({ "'Displacement' of the particles has the value nan at index 1" }, __LINE__);
+  test.Expect({ "'Displacement' of the particles has the value nan at index 1" }, __LINE__);
   auto words = points();
   vtkNew<vtkStringArray> text;
   text->SetName("Mass");
   text->SetNumberOfValues(2);
   words->GetPointData()->AddArray(text);
   quality->SetInputData(words);
-  expect({ "'Mass' of the particles is not numeric" }, __LINE__);
+  test.Expect({ "'Mass' of the particles is not numeric" }, __LINE__);
   quality->SetInputData(makePoints({ 3, 2, 0, 1, nan, 0 }));
-  expect({ "input point set has 1 point that is NaN", "first at index 1" }, __LINE__);
+  test.Expect({ "input point set has 1 point that is NaN", "first at index 1" }, __LINE__);
   quality->SetInputData(points());
   quality->SetDensityData(
     makeImage(5, 4, 1, true, [](vtkIdType i) { return 1.0 - static_cast<double>(i); }));
-  expect({ "'Density' has 10 negative values" }, __LINE__);
+  test.Expect({ "'Density' has 10 negative values" }, __LINE__);
   quality->SetDensityData(makeImage(1, 1, 1, false, bumpy));
-  expect({ "one point along every axis" }, __LINE__);
+  test.Expect({ "one point along every axis" }, __LINE__);
   quality->SetInputArrayToProcess(0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
   quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
-  expect({ "no density array 'Missing'" }, __LINE__);
+  test.Expect({ "no density array 'Missing'" }, __LINE__);
 
   // Nothing there is no error.
-  messages.Clear();
   quality->SetInputArrayToProcess(0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
   vtkNew<vtkStructuredGrid> nothing;
   quality->SetInputData(nothing);
-  quality->Update();
+  test.ExpectNone(__LINE__);
   CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
   quality->SetInputData(points());
   vtkNew<vtkImageData> empty;
   quality->SetDensityData(empty);
-  quality->Update();
+  test.ExpectNone(__LINE__);
   CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
-  CHECK(checks, messages.Errors.empty());
 }
 
 } // namespace

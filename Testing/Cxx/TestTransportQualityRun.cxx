@@ -2,49 +2,17 @@
 // How vtkTransportQuality runs: tables that are kept, the same bits on any number of threads and in
 // any place among others, progress, an abort.
 #include "ProgressTest.h"
-#include "WarpTest.h"
-
-#include "vtkSMPTools.h"
-#include "vtkTable.h"
-#include "vtkTransportQuality.h"
-#include "vtkVariant.h"
+#include "QualityTest.h"
+#include "ThreadsTest.h"
 
 namespace
 {
 
-std::vector<double> row(vtkTransportQuality* quality)
-{
-  quality->Update();
-  std::vector<double> values;
-  vtkTable* table = quality->GetOutput();
-  for (vtkIdType i = 0; i < table->GetNumberOfColumns() && table->GetNumberOfRows() == 1; ++i)
-  {
-    values.push_back(table->GetValue(0, i).ToDouble());
-  }
-  return values;
-}
-
 void checkCache(Checks& checks)
 {
   vtkNew<vtkTransportQuality> quality;
-  auto image = makeImage(9, 7, 1, true, bumpy);
-  quality->SetDensityData(image);
-  quality->SetInputData(makePoints({ 3, 2, 0 }));
-  vtkMTimeType last = 0;
-  const auto expect = [&](bool built, const char* what, int line) {
-    quality->Update();
-    checks.That((quality->GetTableBuildTime() > last) == built, what, line);
-    last = quality->GetTableBuildTime();
-  };
-  expect(true, "the first run builds", __LINE__);
-  quality->SetInputData(makePoints({ 4, 2, 0, 1, 1, 1 }));
-  expect(false, "other particles", __LINE__);
-  quality->SetBlockSize(3);
-  expect(false, "BlockSize", __LINE__);
-  quality->InvertDensityOn();
-  expect(true, "InvertDensity", __LINE__);
-  changeDensity(image);
-  expect(true, "the image", __LINE__);
+  checkTables(
+    checks, quality.Get(), { { "BlockSize", [&]() { quality->SetBlockSize(3); } } }, __LINE__);
 }
 
 // The row is in the first piece alone, and has the field data of the particles.
@@ -82,21 +50,13 @@ void checkThreads(Checks& checks, int depth)
   vtkNew<vtkTransportQuality> quality;
   quality->SetInputData(particles);
   quality->SetDensityData(image);
-  vtkSMPTools::SetBackend("STDThread");
-  vtkSMPTools::Initialize(1);
-  const std::vector<double> one = row(quality);
+  const auto run = [&](int threading) {
+    quality->SetThreading(threading);
+    forgetTables(quality, image);
+    return runQuality(quality);
+  };
+  const std::vector<double> one = expectSameBits(checks, run, __LINE__);
   CHECK(checks, one.size() == 8 && one[2] > 0 && one[3] > 0);
-  for (const char* backend : { "Sequential", "STDThread" })
-  {
-    vtkSMPTools::SetBackend(backend);
-    for (const int threads : { 1, 2, 3 })
-    {
-      vtkSMPTools::Initialize(threads);
-      forgetTables(quality, image);
-      checks.That(row(quality) == one, "same bits", __LINE__,
-        std::string(backend) + ", " + std::to_string(threads) + " threads");
-    }
-  }
 }
 
 // In the middle of the spacings, which take a volume long; their first slice, too.
@@ -107,8 +67,7 @@ void checkLateAbort(Checks& checks)
   quality->SetInputData(makePoints(randomCoordinates(bounds, 300000)));
   quality->SetDensityData(makeImage(61, 61, 61, true, bumpy));
   checkAbort(
-    checks, quality, 0.6999, [&]() { quality->Modified(); },
-    [&]() { return quality->GetOutput()->GetNumberOfColumns() == 0; }, __LINE__, 20);
+    checks, quality, 0.6999, [&]() { quality->Modified(); }, __LINE__, 20);
 }
 
 void checkAbort(Checks& checks)
@@ -123,17 +82,14 @@ void checkAbort(Checks& checks)
   for (const double from : { 0.01, 0.43, 0.5, 0.62, 0.8 })
   {
     checkAbort(
-      checks, quality, from, [&]() { quality->Modified(); },
-      [&]() { return quality->GetOutput()->GetNumberOfColumns() == 0; }, __LINE__);
+      checks, quality, from, [&]() { quality->Modified(); }, __LINE__);
   }
   checkLateAbort(checks);
   ProgressTest test(quality);
   changeDensity(image);
   quality->SetInputData(makePoints(randomCoordinates(bounds, 50000)));
-  CHECK(checks, row(quality).size() == 8);
-  CHECK(checks, test.Heard.size() > 5);
-  CHECK(checks, std::is_sorted(test.Heard.begin(), test.Heard.end()));
-  CHECK(checks, test.Heard.front() >= 0.0 && test.Heard.back() == 1.0);
+  CHECK(checks, runQuality(quality).size() == 8);
+  test.ExpectRising(checks, 6, __LINE__);
   CHECK(checks, messages.Errors.empty());
 }
 

@@ -91,52 +91,41 @@ void checkAgainstSampler(Checks& checks)
 void checkErrors(Checks& checks)
 {
   vtkNew<vtkUniformSeedSource> source;
-  Messages messages(source);
-  const auto expect = [&](const char* what, const char* right, int line) {
-    messages.Clear();
-    source->Update();
-    const std::string text = messages.Errors.empty() ? "" : messages.Errors[0];
-    checks.That(messages.Errors.size() == 1 && contains(text, what) && contains(text, right), what,
-      line, text);
-    checks.That(source->GetOutput()->GetNumberOfPoints() == 0, "empty output", line);
-  };
+  ErrorTest test(checks, source);
   const double infinity = std::numeric_limits<double>::infinity();
   source->SetNumberOfPoints(0);
-  expect("NumberOfPoints is 0", "at least 1", __LINE__);
+  test.Expect({ "NumberOfPoints is 0", "at least 1" }, __LINE__);
   source->SetNumberOfPoints(-8);
-  expect("NumberOfPoints is -8", "at least 1", __LINE__);
+  test.Expect({ "NumberOfPoints is -8", "at least 1" }, __LINE__);
   source->SetNumberOfPoints(100);
   for (const int dimension : { 1, 4 })
   {
     source->SetDimension(dimension);
-    expect(dimension == 1 ? "Dimension is 1" : "Dimension is 4", "2 or 3", __LINE__);
+    test.Expect({ dimension == 1 ? "Dimension is 1" : "Dimension is 4", "2 or 3" }, __LINE__);
   }
   source->SetDimension(2);
   source->SetPattern(-1);
-  expect("Pattern is -1", "0 (BlueNoise)", __LINE__);
+  test.Expect({ "Pattern is -1", "0 (BlueNoise)" }, __LINE__);
   source->SetPatternToRandom();
   source->SetBounds(0, 1, 2, 1, 0, 1);
-  expect("Bounds are 2 to 1 in y", "the second greater", __LINE__);
+  test.Expect({ "Bounds are 2 to 1 in y", "the second greater" }, __LINE__);
   source->SetBounds(0, 0, 0, 1, 0, 1);
-  expect("Bounds are 0 to 0 in x", "the second greater", __LINE__);
+  test.Expect({ "Bounds are 0 to 0 in x", "the second greater" }, __LINE__);
   source->SetBounds(0, infinity, 0, 1, 0, 1);
-  expect("Bounds are 0 to inf in x", "finite", __LINE__);
+  test.Expect({ "Bounds are 0 to inf in x", "finite" }, __LINE__);
   source->SetBounds(0, 1, 0, 1, 1, 0);
-  expect("Bounds are 1 to 0 in z", "the second greater", __LINE__);
+  test.Expect({ "Bounds are 1 to 0 in z", "the second greater" }, __LINE__);
   source->SetBounds(0, 1, 0, 1, 3, 3);
-  messages.Clear();
-  CHECK(checks, seedCoordinates(source)[2] == 3.0 && messages.Errors.empty());
+  test.ExpectNone(__LINE__);
+  CHECK(checks, coordinates(source->GetOutput())[2] == 3.0);
   source->SetDimension(3);
-  expect("Bounds are 3 to 3 in z", "the second greater", __LINE__);
+  test.Expect({ "Bounds are 3 to 3 in z", "the second greater" }, __LINE__);
 }
 
-// All points are in the first piece.
 void checkPieces(Checks& checks)
 {
   vtkNew<vtkUniformSeedSource> source;
-  source->UpdatePiece(1, 2, 0);
-  CHECK(checks, source->GetOutput()->GetNumberOfPoints() == 0);
-  source->UpdatePiece(0, 2, 0);
+  expectOnePiece(checks, source, __LINE__);
   CHECK(checks, source->GetOutput()->GetNumberOfPoints() == 8192);
 }
 
@@ -147,8 +136,7 @@ void checkAbort(Checks& checks)
   source->SetDimension(3);
   source->SetNumberOfPoints(8000000);
   checkAbort(
-    checks, source, 1e-9, [&]() { source->Modified(); },
-    [&]() { return source->GetOutput()->GetNumberOfPoints() == 0; }, __LINE__);
+    checks, source, 1e-9, [&]() { source->Modified(); }, __LINE__);
 }
 
 } // namespace

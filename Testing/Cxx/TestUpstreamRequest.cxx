@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What filters ask of their inputs, whatever piece they are asked for themselves: all of it and no
 // ghosts, which would be there twice. The warp alone moves a piece of its points at a time.
+#include "TestSource.h"
 #include "WarpTest.h"
 
 #include "vtkEqualMassCells.h"
-#include "vtkImageAlgorithm.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMassSplatter.h"
-#include "vtkObjectFactory.h"
-#include "vtkPolyDataAlgorithm.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransportBarycenter.h"
 #include "vtkTransportInterpolator.h"
@@ -43,55 +39,6 @@ struct Asked
   }
 };
 
-class AskedImage : public vtkImageAlgorithm
-{
-public:
-  static AskedImage* New();
-  vtkTypeMacro(AskedImage, vtkImageAlgorithm);
-  Asked Last;
-
-protected:
-  AskedImage() { this->SetNumberOfInputPorts(0); }
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    const int extent[6] = { 0, 8, 0, 6, 0, 0 };
-    outputs->GetInformationObject(0)->Set(Pipeline::WHOLE_EXTENT(), extent, 6);
-    return 1;
-  }
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    this->Last.Read(outputs->GetInformationObject(0));
-    vtkImageData::GetData(outputs)->ShallowCopy(makeImage(9, 7, 1, true, bumpy));
-    return 1;
-  }
-};
-vtkStandardNewMacro(AskedImage);
-
-class AskedPoints : public vtkPolyDataAlgorithm
-{
-public:
-  static AskedPoints* New();
-  vtkTypeMacro(AskedPoints, vtkPolyDataAlgorithm);
-  Asked Last;
-
-protected:
-  AskedPoints() { this->SetNumberOfInputPorts(0); }
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-    return 1;
-  }
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs) override
-  {
-    this->Last.Read(outputs->GetInformationObject(0));
-    vtkPolyData::GetData(outputs)->ShallowCopy(makePoints({ 3, 2, 0, 4, 5, 0, 6, 1, 0 }));
-    return 1;
-  }
-};
-vtkStandardNewMacro(AskedPoints);
-
 void expectWhole(Checks& checks, const Asked& asked, const char* name)
 {
   checks.That(asked.Piece == 0 && asked.Pieces == 1, "one piece", __LINE__, name);
@@ -101,8 +48,25 @@ void expectWhole(Checks& checks, const Asked& asked, const char* name)
 // Both ports of a filter, of either of which there may be none.
 void checkFilter(Checks& checks, vtkAlgorithm* filter, bool pointsFirst, bool imageSecond)
 {
-  vtkNew<AskedImage> image;
-  vtkNew<AskedPoints> points;
+  const std::array<int, 6> whole{ 0, 8, 0, 6, 0, 0 };
+  Asked ofImage;
+  vtkNew<ImageSource> image;
+  image->Publish = [&](vtkInformation* output) {
+    output->Set(Pipeline::WHOLE_EXTENT(), whole.data(), 6);
+  };
+  image->Make = [&](vtkInformation* output) {
+    ofImage.Read(output);
+    return makeImage(9, 7, 1, true, bumpy);
+  };
+  Asked ofPoints;
+  vtkNew<PointSource> points;
+  points->Publish = [](vtkInformation* output) {
+    output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  };
+  points->Make = [&](vtkInformation* output) {
+    ofPoints.Read(output);
+    return makePoints({ 3, 2, 0, 4, 5, 0, 6, 1, 0 });
+  };
   vtkAlgorithm* first = pointsFirst ? static_cast<vtkAlgorithm*>(points) : image;
   filter->SetInputConnection(0, first->GetOutputPort());
   const bool second = filter->GetNumberOfInputPorts() > 1;
@@ -117,18 +81,17 @@ void checkFilter(Checks& checks, vtkAlgorithm* filter, bool pointsFirst, bool im
   checks.That(messages.Errors.empty(), "no error", __LINE__, name);
   if (!pointsFirst || (second && imageSecond))
   {
-    expectWhole(checks, image->Last, name);
-    const std::array<int, 6> whole{ 0, 8, 0, 6, 0, 0 };
-    checks.That(image->Last.Extent == whole, "the whole extent", __LINE__, name);
+    expectWhole(checks, ofImage, name);
+    checks.That(ofImage.Extent == whole, "the whole extent", __LINE__, name);
   }
   if (pointsFirst && filter->IsA("vtkDensityEqualizingWarp"))
   {
-    const Asked& asked = points->Last;
-    checks.That(asked.Piece == 0 && asked.Pieces == 3 && asked.Ghosts == 2, "a piece", __LINE__);
+    checks.That(
+      ofPoints.Piece == 0 && ofPoints.Pieces == 3 && ofPoints.Ghosts == 2, "a piece", __LINE__);
   }
   else if (pointsFirst || (second && !imageSecond))
   {
-    expectWhole(checks, points->Last, name);
+    expectWhole(checks, ofPoints, name);
   }
 }
 

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What comes out: the type of the input, its cells, order and data; any geometry of the density;
 // pieces and blocks; what is wrong, and what is empty.
+#include "BlocksTest.h"
 #include "WarpTest.h"
 
 #include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPlaneSource.h"
 #include "vtkStructuredGrid.h"
 #include "vtkTrivialProducer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 
 namespace
@@ -82,20 +84,11 @@ void expectMoved(Checks& checks, vtkPointSet* set, int line)
     "Displacement", line);
   checks.That(output->GetCellData()->GetArray("Label") != nullptr, "cell data", line);
   checks.That(output->GetFieldData()->GetArray("Label") != nullptr, "field data", line);
-  double largest = 0.0;
-  for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i)
-  {
-    double x[3];
-    double y[3];
-    set->GetPoint(i, x);
-    output->GetPoint(i, y);
-    for (int r = 0; r < 3; ++r)
-    {
-      CHECK_NEAR(checks, y[r] - x[r], moved->GetComponent(i, r), 1e-12);
-      largest = std::max(largest, std::abs(y[r] - x[r]));
-    }
-  }
-  checks.That(largest > 0.1, "moved", line);
+  Values way = coordinates(output);
+  const Values from = coordinates(set);
+  std::transform(way.begin(), way.end(), from.begin(), way.begin(), std::minus<>());
+  checks.Near(largestDifference(way, arrayValues(moved)), 0.0, 1e-12, "the way", line);
+  checks.That(largestDifference(way, Values(way.size(), 0.0)) > 0.1, "moved", line);
   double after[3];
   set->GetPoint(0, after);
   checks.That(std::equal(corner, corner + 3, after) &&
@@ -136,11 +129,9 @@ void checkTypes(Checks& checks)
 // Blocks one by one, with one build of the tables.
 void checkBlocks(Checks& checks)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, makePoints({ 1, 2, 0, 3, 4, 0 }));
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(makePoints({ 5, 1, 0 })->GetPoints());
-  blocks->SetBlock(1, grid);
+  auto blocks = makeBlocks({ makePoints({ 1, 2, 0, 3, 4, 0 }), grid });
   vtkNew<vtkTrivialProducer> source;
   source->SetOutput(blocks);
   vtkNew<vtkDensityEqualizingWarp> warp;
@@ -150,21 +141,17 @@ void checkBlocks(Checks& checks)
   warp->Update();
   auto* output = vtkMultiBlockDataSet::SafeDownCast(warp->GetOutputDataObject(0));
   CHECK(checks, output != nullptr && output->GetNumberOfBlocks() == 2);
-  CHECK(checks, output && vtkPolyData::SafeDownCast(output->GetBlock(0)) != nullptr);
-  CHECK(checks, output && vtkUnstructuredGrid::SafeDownCast(output->GetBlock(1)) != nullptr);
+  CHECK(checks, outputBlock<vtkPolyData>(warp, 0) != nullptr);
+  CHECK(checks, outputBlock<vtkUnstructuredGrid>(warp, 1) != nullptr);
   CHECK(checks, messages.Errors.empty());
 
   // A block without points of its own does not go unsaid, and the others are moved.
   blocks->SetBlock(1, flatDensity());
   source->Modified();
   warp->Update();
-  output = vtkMultiBlockDataSet::SafeDownCast(warp->GetOutputDataObject(0));
-  auto* moved = output ? vtkPolyData::SafeDownCast(output->GetBlock(0)) : nullptr;
+  auto* moved = outputBlock<vtkPolyData>(warp, 0);
   CHECK(checks, moved && moved->GetNumberOfPoints() == 2);
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks,
-    !messages.Errors.empty() &&
-      contains(messages.Errors[0], "a block of type vtkImageData; it must be a vtkPointSet"));
+  CHECK(checks, messages.IsOneError("a block of type vtkImageData; it must be a vtkPointSet"));
 }
 
 // A piece of the points goes where the whole takes it.
@@ -252,24 +239,14 @@ void checkErrors(Checks& checks)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vtkNew<vtkDensityEqualizingWarp> warp;
-  Messages messages(warp);
+  ErrorTest test(checks, warp);
   auto points = makePoints({ 3, 2, 0, 1, 1, 0 });
   addData(points);
   warp->SetInputData(points);
   warp->SetDensityData(flatDensity());
-  const auto expect = [&](const std::vector<std::string>& parts, int line) {
-    messages.Clear();
-    warp->Update();
-    checks.That(messages.Errors.size() == 1, "one error", line);
-    const std::string text = messages.Errors.empty() ? "" : messages.Errors[0];
-    for (const std::string& part : parts)
-    {
-      checks.That(contains(text, part), part.c_str(), line, text);
-    }
-    vtkPointSet* output = warp->GetOutput();
-    checks.That(output->IsA("vtkPolyData") && output->GetNumberOfPoints() == 0 &&
-        output->GetPointData()->GetNumberOfArrays() == 0,
-      "empty output", line);
+  const auto expect = [&](std::initializer_list<std::string> parts, int line) {
+    test.Expect(parts, line);
+    checks.That(warp->GetOutput()->IsA("vtkPolyData"), "the type of the input", line);
   };
   for (const double blend : { -0.5, 1.5, nan })
   {
@@ -277,12 +254,8 @@ void checkErrors(Checks& checks)
     expect({ "Blend is ", "from 0 to 1" }, __LINE__);
   }
   warp->SetBlend(1.0);
-  warp->SetNumberOfSteps(0);
-  expect({ "NumberOfSteps is 0", "from 1 to 10000" }, __LINE__);
-  warp->SetNumberOfSteps(32);
-  warp->SetThreading(9);
-  expect({ "Threading is 9" }, __LINE__);
-  warp->SetThreading(0);
+  expectFlowErrors(test, warp.Get(), __LINE__);
+  CHECK(checks, warp->GetOutput()->IsA("vtkPolyData"));
   warp->SetDensityData(makeImage(6, 5, 1, true, [&](vtkIdType i) { return i == 3 ? nan : 1.0; }));
   expect({ "'Density' has 1 value that is NaN", "first at index 3" }, __LINE__);
   warp->SetDensityData(makeImage(6, 5, 1, true, [](vtkIdType) { return 0.0; }));
@@ -296,9 +269,8 @@ void checkErrors(Checks& checks)
   warp->SetInputData(makePoints({ 3, 2, 0, 1, nan, 0, 1, 1, 1, 0, 0, HUGE_VAL }));
   expect({ "input point set has 2 points that are NaN or infinite", "first at index 1" }, __LINE__);
   warp->SetInputData(points);
-  messages.Clear();
-  warp->Update();
-  CHECK(checks, messages.Errors.empty() && warp->GetOutput()->GetNumberOfPoints() == 2);
+  test.ExpectNone(__LINE__);
+  CHECK(checks, warp->GetOutput()->GetNumberOfPoints() == 2);
 }
 
 // An input of another type: the executive says what would be right.

@@ -120,8 +120,7 @@ void checkSurface(Checks& checks)
   box->GetPolys()->GetConnectivityArray()->SetComponent(3, 0, 8.0);
   box->Modified();
   solid->Update();
-  CHECK(checks, messages.Errors.size() == 1);
-  CHECK(checks, contains(messages.Errors.at(0), "has the point 8; there are points 0 to 7"));
+  CHECK(checks, messages.IsOneError("has the point 8; there are points 0 to 7"));
 }
 
 } // namespace

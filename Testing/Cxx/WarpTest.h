@@ -10,19 +10,6 @@
 #include <algorithm>
 #include <random>
 
-inline vtkSmartPointer<vtkPolyData> makePoints(const std::vector<double>& x, bool single = false)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(single ? VTK_FLOAT : VTK_DOUBLE);
-  for (std::size_t i = 0; i < x.size(); i += 3)
-  {
-    points->InsertNextPoint(x.data() + i);
-  }
-  data->SetPoints(points);
-  return data;
-}
-
 // Coordinates at random in a box, three a point.
 inline std::vector<double> randomCoordinates(const double bounds[6], int count)
 {
@@ -40,25 +27,35 @@ inline std::vector<double> randomCoordinates(const double bounds[6], int count)
 inline std::vector<double> warpCoordinates(vtkDensityEqualizingWarp* warp)
 {
   warp->Update();
-  vtkPointSet* output = warp->GetOutput();
-  std::vector<double> all(static_cast<std::size_t>(3 * output->GetNumberOfPoints()));
-  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-  {
-    output->GetPoint(i, all.data() + 3 * i);
-  }
-  return all;
+  return coordinates(warp->GetOutput());
 }
 
 // The values of the output's Displacement, three a point.
 inline std::vector<double> displacements(vtkDensityEqualizingWarp* warp)
 {
-  vtkDataArray* array = warp->GetOutput()->GetPointData()->GetArray("Displacement");
-  std::vector<double> all;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    all.insert(all.end(), array->GetTuple3(i), array->GetTuple3(i) + 3);
-  }
-  return all;
+  return arrayValues(warp->GetOutput()->GetPointData()->GetArray("Displacement"));
+}
+
+// A filter of points in a density builds tables for another density, and neither for other points
+// nor after the changes.
+template <class Filter>
+void checkTables(Checks& checks, Filter* filter, Changes changes, int line)
+{
+  auto image = makeImage(9, 7, 1, true, bumpy);
+  auto points = makePoints({ 4, 2, 0, 1, 1, 1 });
+  filter->SetDensityData(image);
+  filter->SetInputData(makePoints({ 3, 2, 0 }));
+  const auto build = [&]() { return builds(filter); };
+  checks.That(build(), "the first run", line);
+  expectAfterEach(checks, build, false,
+    { { "other points", [&]() { filter->SetInputData(points); } },
+      { "changed points", [&]() { points->Modified(); } } },
+    line);
+  expectAfterEach(checks, build, false, changes, line);
+  expectAfterEach(checks, build, true,
+    { { "InvertDensity", [&]() { filter->InvertDensityOn(); } },
+      { "the image", [&]() { changeDensity(image); } } },
+    line);
 }
 
 #endif
