@@ -114,8 +114,8 @@ struct Surface
 };
 
 // The time of filters made anew.
-template <class Make>
-void runFilter(benchmark::State& state, const Make& make)
+template <class Filter, class Set>
+void runFilter(benchmark::State& state, vtkPolyData* surface, const Set& set)
 {
   using Clock = std::chrono::steady_clock;
   struct Silence
@@ -135,7 +135,9 @@ void runFilter(benchmark::State& state, const Make& make)
   double longest = std::numeric_limits<double>::infinity();
   for (auto _ : state)
   {
-    auto filter = make();
+    vtkNew<Filter> filter;
+    filter->SetInputData(surface);
+    set(filter.Get());
     Silence silence;
     vtkNew<vtkCallbackCommand> observer;
     observer->SetClientData(&silence);
@@ -165,23 +167,16 @@ template <MakeSurface Make>
 void mergeStaticClean(benchmark::State& state)
 {
   const Surface surface(Make);
-  runFilter(state, [&surface]() {
-    auto filter = vtkSmartPointer<vtkStaticCleanPolyData>::New();
-    filter->SetInputData(surface.Data);
-    return filter;
-  });
+  runFilter<vtkStaticCleanPolyData>(state, surface.Data, [](auto*) {});
 }
 
 template <MakeSurface Make>
 void mergeClean(benchmark::State& state)
 {
   const Surface surface(Make);
-  runFilter(state, [&surface]() {
-    auto filter = vtkSmartPointer<vtkCleanPolyData>::New();
-    filter->SetInputData(surface.Data);
+  runFilter<vtkCleanPolyData>(state, surface.Data, [](auto* filter) {
     filter->ToleranceIsAbsoluteOn();
     filter->SetAbsoluteTolerance(0.0);
-    return filter;
   });
 }
 
@@ -200,12 +195,7 @@ template <MakeSurface Make>
 void edgesOfVTK(benchmark::State& state)
 {
   const Surface surface(Make);
-  runFilter(state, [&surface]() {
-    auto filter = vtkSmartPointer<vtkFeatureEdges>::New();
-    filter->SetInputData(surface.Data);
-    filter->FeatureEdgesOff();
-    return filter;
-  });
+  runFilter<vtkFeatureEdges>(state, surface.Data, [](auto* filter) { filter->FeatureEdgesOff(); });
 }
 
 template <MakeSurface Make>
@@ -225,14 +215,11 @@ template <MakeSurface Make>
 void orientByNormals(benchmark::State& state)
 {
   const Surface surface(Make, true);
-  runFilter(state, [&surface]() {
-    auto filter = vtkSmartPointer<vtkPolyDataNormals>::New();
-    filter->SetInputData(surface.Data);
+  runFilter<vtkPolyDataNormals>(state, surface.Data, [](auto* filter) {
     filter->SplittingOff();
     filter->ConsistencyOn();
     filter->ComputePointNormalsOff(); // normals of some kind it has to make
     filter->ComputeCellNormalsOn();
-    return filter;
   });
 }
 
