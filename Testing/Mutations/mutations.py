@@ -85,7 +85,7 @@ OTHERS = [
       "0.001 * larger(distance, -distance)"),
     E(CORE + "Flow/Kernels/FlowLanes.txx", "const double stop = «x1[axis][lane] - rest * length * v1[axis][lane]»",
       "x1[axis][lane] + rest * length * v1[axis][lane]"),
-    E(CORE + "Flow/Kernels/BoxMoments.txx", "boxes.Moment[1][lane] = «sums.Linear[2] + sums.Bent[0]»",
+    E(CORE + "Flow/Kernels/BoxMoments.txx", "boxes.Moment[1][lane] = «sums.Linear[2] + sums.Quadratic[0]»",
       "sums.Linear[2]"),
     E(CORE + "Tables/NearestMass.cxx", "return tables.Occupied + «row * tables.WordsPerRow»",
       "row * ((tables.Cells[0] >> 6) + 1)"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One advection of many particles: ranges of blocks for the kernels, those in trouble again with
-// smaller steps, the rest onto the nearest mass.
+// One advection of many particles (paper, Section 3.3): ranges of blocks for the kernels,
+// unresolved particles again with smaller steps, the rest moved to the nearest mass.
 #ifndef RectifiedTransport_AdvectionRun_h
 #define RectifiedTransport_AdvectionRun_h
 
@@ -41,13 +41,13 @@ inline void check(const FlowOptions& options)
   }
 }
 
-// A step's error is told from rounding down to about this part of the domain's longest side; less
-// would take ever more steps for nothing.
+// Relative to the domain's longest side. Below it the estimate of a step's error is rounding alone,
+// and smaller steps gain no accuracy.
 constexpr double finestTolerance = 0x1p-40;
 
-// The width of the box in cells of a level from which that level is used: coarse levels are faster
-// and add an error that a larger number of steps does not remove. In 3D they gain less, as the sums
-// on the finest level are simpler.
+// The least width of a box, in cells of a level, at which that level is used: coarse levels are
+// faster and add an error that a larger number of steps does not remove. In 3D they gain less, as
+// the sums on the finest level are simpler.
 template <int Dimension>
 double coarseRatio(const FlowOptions& options, bool toPoints)
 {
@@ -60,8 +60,8 @@ double coarseRatio(const FlowOptions& options, bool toPoints)
   return exact ? never : accurate ? 64.0 : usual;
 }
 
-// With few steps nearly all particles miss cells that lie scattered like points: what they would
-// be redone with is the first try.
+// Where only isolated cells have mass, nearly all particles miss them with few steps: the first
+// pass takes the number of steps that they would be redone with.
 inline int firstRefinement(const FlowOptions& options)
 {
   constexpr int enough = 128;
@@ -74,7 +74,7 @@ inline int firstRefinement(const FlowOptions& options)
   return refinement;
 }
 
-// What the ranges of one advection count; sums of integers do not depend on their order.
+// Counted over the ranges of one advection; sums of integers do not depend on their order.
 struct Counters
 {
   std::atomic<std::int64_t> Redone{ 0 };
@@ -82,16 +82,15 @@ struct Counters
   std::atomic<std::int64_t> Evaluations{ 0 };
 };
 
-// Particles in trouble, to be redone.
+// Particles that met an empty box or ended in an empty cell, to be redone.
 template <int Dimension>
-struct Leftovers
+struct UnresolvedParticles
 {
   std::vector<std::int64_t> Index; // in the output
   std::vector<double> Seeds;
 };
 
-// Puts a particle that ends in an empty cell, where no smaller steps have helped, on the nearest
-// mass.
+// Moves a particle that ends in an empty cell even with the smallest steps to the nearest mass.
 template <int Dimension>
 void moveToMass(const FlowJob<Dimension>& job, std::int64_t particle, Counters& counters)
 {
@@ -118,33 +117,33 @@ public:
     : Job(job)
     , First(firstRefinement)
     , Count(counters)
-    , Pace(progress)
+    , Monitor(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
 
-  // Takes particles of a source.
+  // Reads `count` particles of a source.
   template <class Source>
   void Fill(Source& source, std::int64_t first, int count)
   {
-    // The output may be the array of the seeds, so these are kept until all is done.
+    // Copies, as the output may be the array of the seeds.
     source.Fill(first, count, this->Index, this->Seeds);
     this->Number = count;
   }
 
-  // Advects those that there are, and keeps those in trouble, to be redone.
+  // Advects the particles and keeps the unresolved ones, to be redone.
   void Pass(int refinement)
   {
     const int count = std::exchange(this->Number, 0);
-    for (int first = 0; first < count && !this->Pace.ShouldStop(); first += BlockSize)
+    for (int first = 0; first < count && !this->Monitor.ShouldStop(); first += BlockSize)
     {
       const int lanes = std::min(BlockSize, count - first);
-      bool troubled[BlockSize] = {};
+      bool unresolved[BlockSize] = {};
       this->Count.Evaluations += this->Advect(this->Job, this->Seeds + first * Dimension,
-        this->Index + first, lanes, refinement, troubled);
+        this->Index + first, lanes, refinement, unresolved);
       for (int i = 0; i < lanes; ++i)
       {
-        if (troubled[i])
+        if (unresolved[i])
         {
           this->Index[this->Number] = this->Index[first + i];
           std::copy_n(this->Seeds + (first + i) * Dimension, Dimension,
@@ -160,21 +159,20 @@ public:
     }
   }
 
-  // All passes, each with twice as many steps, and what is left onto the nearest mass.
+  // All passes, each with twice as many steps; what is left moves to the nearest mass.
   void Run()
   {
     for (int pass = this->First; this->Number > 0 && pass <= refinements; ++pass)
     {
       this->Pass(pass);
     }
-    for (int i = 0; i < this->Number && !this->Pace.ShouldStop(); ++i)
+    for (int i = 0; i < this->Number && !this->Monitor.ShouldStop(); ++i)
     {
       moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
     }
   }
 
-  // Those that are to be redone.
-  Leftovers<Dimension> Left() const
+  UnresolvedParticles<Dimension> Unresolved() const
   {
     return { { this->Index, this->Index + this->Number },
       { this->Seeds, this->Seeds + this->Number * Dimension } };
@@ -184,43 +182,43 @@ private:
   const FlowJob<Dimension>& Job;
   const int First;
   Counters& Count;
-  Progress& Pace;
+  Progress& Monitor;
   const AdvectBlock<Dimension> Advect;
   int Number = 0;
   std::int64_t Index[rangeBlocks * BlockSize];
   double Seeds[rangeBlocks * BlockSize * Dimension];
 };
 
-// Advects the leftovers of many ranges together: a block costs nearly the same with few particles
-// as with all, and most ranges leave few.
+// Advects the unresolved particles of many ranges together: a block costs nearly the same with few
+// particles as with all, and most ranges leave few.
 template <int Dimension>
-class LeftoverAdvection
+class UnresolvedAdvection
 {
 public:
-  LeftoverAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
+  UnresolvedAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
     : Job(job)
     , Count(counters)
-    , Pace(progress)
+    , Monitor(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
 
-  // With ever more steps, twice as many each time, from `refinement` on.
-  void Run(const std::vector<Leftovers<Dimension>>& ranges, int refinement)
+  // With 2^refinement times the steps, then twice as many in each pass.
+  void Run(const std::vector<UnresolvedParticles<Dimension>>& ranges, int refinement)
   {
-    for (const Leftovers<Dimension>& range : ranges)
+    for (const UnresolvedParticles<Dimension>& range : ranges)
     {
       this->Index.insert(this->Index.end(), range.Index.begin(), range.Index.end());
       this->Seeds.insert(this->Seeds.end(), range.Seeds.begin(), range.Seeds.end());
     }
-    this->Troubled.resize(this->Index.size());
+    this->IsUnresolved.resize(this->Index.size());
     for (; !this->Index.empty() && refinement <= refinements; ++refinement)
     {
       this->Pass(refinement);
     }
     const auto left = static_cast<std::int64_t>(this->Index.size());
-    this->Pace.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last && !this->Pace.ShouldStop(); ++i)
+    this->Monitor.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !this->Monitor.ShouldStop(); ++i)
       {
         moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
       }
@@ -231,21 +229,21 @@ private:
   void Pass(int refinement)
   {
     const auto count = static_cast<std::int64_t>(this->Index.size());
-    this->Pace.Threads().For(
+    this->Monitor.Threads().For(
       count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
-        if (this->Pace.ShouldStop())
+        if (this->Monitor.ShouldStop())
         {
           return;
         }
-        bool troubled[BlockSize] = {};
+        bool unresolved[BlockSize] = {};
         this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
-          this->Index.data() + first, static_cast<int>(last - first), refinement, troubled);
-        std::copy(troubled, troubled + (last - first), this->Troubled.data() + first);
+          this->Index.data() + first, static_cast<int>(last - first), refinement, unresolved);
+        std::copy(unresolved, unresolved + (last - first), this->IsUnresolved.data() + first);
       });
     std::size_t left = 0;
     for (std::size_t i = 0; i < this->Index.size(); ++i)
     {
-      if (this->Troubled[i])
+      if (this->IsUnresolved[i])
       {
         this->Index[left] = this->Index[i];
         std::copy_n(
@@ -258,14 +256,14 @@ private:
 
   const FlowJob<Dimension>& Job;
   Counters& Count;
-  Progress& Pace;
+  Progress& Monitor;
   const AdvectBlock<Dimension> Advect;
   std::vector<std::int64_t> Index;
   std::vector<double> Seeds;
-  std::vector<unsigned char> Troubled;
+  std::vector<unsigned char> IsUnresolved;
 };
 
-// The samples of a lattice for one range, whose ends stay in memory of the range's own.
+// The samples of a lattice for one range, with local memory for their end points.
 template <int Dimension>
 class RangeCells
 {
@@ -285,7 +283,8 @@ public:
     std::iota(index, index + count, std::int64_t{ 0 });
   }
 
-  // Writes the cells with mass that the samples have come to. Returns how many missed them.
+  // Writes the number of the grid cell with mass that each sample ends in, or that is nearest.
+  // Returns how many end in empty cells.
   std::int64_t Write(int count, std::int64_t* cells) const
   {
     std::int64_t missed = 0;
@@ -310,7 +309,7 @@ public:
   }
 
 private:
-  // Of the cell that holds a point; of two that meet there, the upper one.
+  // The centre of the grid cell that holds a point; of a point on a face, of the upper cell.
   Point<Dimension> Middle(const Point<Dimension>& point) const
   {
     Point<Dimension> middle;
@@ -337,7 +336,7 @@ public:
     double* positions, bool backward, const FlowOptions& options, const Context& context,
     bool toPoints = false)
     : First(toPoints ? firstRefinement(options) : 0)
-    , Pace(context)
+    , Monitor(context)
   {
     check(options);
     this->Job.Tables = tables;
@@ -360,9 +359,11 @@ public:
       }
     }
     this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
-    this->Job.ShouldStop = [](void* host) { return static_cast<Progress*>(host)->ShouldStop(); };
-    this->Job.Host = &this->Pace;
-    // A range is short enough to be waited for, however many steps there are.
+    this->Job.ShouldStop = [](void* clientData) {
+      return static_cast<Progress*>(clientData)->ShouldStop();
+    };
+    this->Job.ClientData = &this->Monitor;
+    // Fewer particles a range where there are many steps: bounds the time between progress reports.
     constexpr int usualSteps = 64;
     const int steps = options.NumberOfSteps << this->First;
     this->Grain =
@@ -372,16 +373,16 @@ public:
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
-  // Advects the particles of a source, one chunk of them after the other: source.Prepare(first)
-  // makes the chunk that begins at particle `first` and returns its length, and source.Fill takes
-  // particles of it. Throws Cancelled.
+  // Advects the particles of a source chunk by chunk: source.Prepare(first) makes the chunk that
+  // begins at particle `first` and returns its length, source.Fill reads particles of it. Throws
+  // Cancelled.
   template <class Source>
   FlowReport Advect(Source&& source)
   {
-    constexpr std::size_t enough = 2048; // to fill blocks, and few enough to be waited for
-    const Executor& threads = this->Pace.Threads();
-    this->Pace.BeginStage(1.0, source.Count());
-    std::vector<Leftovers<Dimension>> leftovers;
+    constexpr std::size_t enough = 2048; // particles: fills blocks, and takes little time
+    const Executor& threads = this->Monitor.Threads();
+    this->Monitor.BeginStage(1.0, source.Count());
+    std::vector<UnresolvedParticles<Dimension>> unresolved;
     std::size_t left = 0;
     std::int64_t chunkEnd = 0;
     for (std::int64_t chunk = 0, begin = 0; begin < source.Count();)
@@ -392,45 +393,45 @@ public:
         chunkEnd += source.Prepare(begin);
       }
       const std::int64_t slice =
-        std::min(chunkEnd - begin, this->Pace.NextSlice(this->Grain * threads.Concurrency()));
-      const std::size_t before = leftovers.size();
-      leftovers.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
+        std::min(chunkEnd - begin, this->Monitor.NextSlice(this->Grain * threads.Concurrency()));
+      const std::size_t before = unresolved.size();
+      unresolved.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Pace);
+        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Monitor);
         range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
         range.Pass(this->First);
-        leftovers[before + static_cast<std::size_t>(first / this->Grain)] = range.Left();
+        unresolved[before + static_cast<std::size_t>(first / this->Grain)] = range.Unresolved();
       });
-      for (std::size_t range = before; range < leftovers.size(); ++range)
+      for (std::size_t range = before; range < unresolved.size(); ++range)
       {
-        left += leftovers[range].Index.size();
+        left += unresolved[range].Index.size();
       }
       begin += slice;
       if (left >= enough || begin == chunkEnd)
       {
-        LeftoverAdvection<Dimension>(this->Job, this->Count, this->Pace)
-          .Run(leftovers, this->First + 1);
-        leftovers.clear();
+        UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Monitor)
+          .Run(unresolved, this->First + 1);
+        unresolved.clear();
         left = 0;
       }
-      this->Pace.EndSlice(slice);
+      this->Monitor.EndSlice(slice);
     }
     return this->Report();
   }
 
-  // Advects the samples of a lattice and writes the cell that each comes to. Throws Cancelled.
+  // Advects the samples of a lattice and writes the grid cell that each ends in. Throws Cancelled.
   FlowReport AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
-    this->Pace.BeginStage(1.0);
-    this->Pace.For(
+    this->Monitor.BeginStage(1.0);
+    this->Monitor.For(
       lattice.Count(), this->Grain,
       [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
-        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Pace);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Monitor);
         range.Fill(ends, first, length);
         range.Run();
-        if (!this->Pace.ShouldStop())
+        if (!this->Monitor.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);
         }
@@ -453,7 +454,7 @@ private:
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;
   Counters Count;
-  Progress Pace;
+  Progress Monitor;
   std::int64_t Grain = BlockSize;
 };
 

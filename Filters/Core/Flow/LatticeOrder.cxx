@@ -9,7 +9,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// A block of 64 particles is a cube of cells, and so is what the caches are to hold.
+// Cells a side, by dimension, of a block of 64 particles and of a tile that fits the caches.
 constexpr std::int64_t blockSides[] = { 64, 8, 4 };
 constexpr std::int64_t tileSides[] = { 4096, 64, 16 };
 
@@ -29,8 +29,9 @@ struct Region
     return count;
   }
 
-  // Cut into cubes, those at the upper border smaller, and counted cube by cube, axis 0 fastest:
-  // narrows the region to the cube that holds cell `number`, which becomes a number in the cube.
+  // Divided into cubes, those at the upper border smaller, and counted cube by cube, axis 0
+  // fastest: narrows the region to the cube that holds cell `number`, which becomes a number in the
+  // cube.
   void Narrow(std::int64_t side, std::int64_t& number)
   {
     for (int axis = Dimension; axis-- > 0;)

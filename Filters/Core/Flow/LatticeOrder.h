@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One point in each of a grid of cells that fill a box, in an order in which neighbours in memory
-// are neighbours in space. What ParticleOrder finds by a sort follows here from the grid alone:
-// nothing is stored, and every range can be made by itself.
+// One point in each cell of a lattice that fills a box, in an order in which neighbours in memory
+// are neighbours in space. ParticleOrder sorts points for that; here the order follows from the
+// lattice alone: nothing is stored, and any range is computed independently.
 #ifndef RectifiedTransport_LatticeOrder_h
 #define RectifiedTransport_LatticeOrder_h
 
@@ -16,7 +16,7 @@ template <int Dimension>
 class LatticeOrder
 {
 public:
-  // `lattice` cells an axis on the box [0, size]; `place` is that of the point in its cell.
+  // `lattice` cells an axis on the box [0, size]; `place` is the point in its cell, in [0, 1].
   LatticeOrder(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size,
     const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
@@ -27,10 +27,10 @@ public:
 
   std::int64_t Count() const;
 
-  // All of the order from `first` on is there without preparation. Returns how many these are.
+  // The number of samples from `first` on: needs no preparation.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: their numbers in the grid, axis 0 fastest, and
+  // Samples [first, first + count) of this order: their numbers in the lattice, axis 0 fastest, and
   // their coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
@@ -41,7 +41,7 @@ private:
 };
 
 // A coordinate of the point at `place` in cell `cell` of `cells` on [0, size]; exact at the centre
-// where they are as many.
+// if cells == size.
 inline double latticePoint(std::int64_t cell, double place, std::int64_t cells, std::int64_t size)
 {
   return (static_cast<double>(cell) + place) * static_cast<double>(size) /

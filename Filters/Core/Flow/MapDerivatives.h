@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// First derivatives of a map that is known at the centres of a grid of cells: central differences,
-// one-sided at the border.
+// First derivatives of a transport map at the cell centres of a lattice (paper, Section 4.2, Figure
+// 6): central differences, one-sided at the border.
 #ifndef RectifiedTransport_MapDerivatives_h
 #define RectifiedTransport_MapDerivatives_h
 
@@ -11,16 +11,16 @@
 namespace RectifiedTransport
 {
 
-// The trace of the displacement's gradient and the determinant of the map's Jacobian matrix do not
-// change with the coordinates that both points and values are given in, so that what is found in
-// index space holds for every spacing and direction. Along an axis of one cell nothing can be told,
-// and the displacement is taken to be constant.
+// The trace of the displacement's gradient and the determinant of the map's Jacobian matrix are
+// invariant under an affine change of the coordinates of both points and values, so that those of
+// index space hold for every spacing and direction. Along an axis of one cell the displacement is
+// taken to be constant.
 template <int Dimension>
 class MapDerivatives
 {
 public:
-  // `positions` are where the map takes the centres of the cells, axis 0 fastest; `step` is the
-  // width of a cell in the same units.
+  // `positions` are the images of the cell centres, axis 0 fastest; `step` is the width of a
+  // lattice cell in the same units.
   MapDerivatives(const GridSize<Dimension>& lattice, const Point<Dimension>& step,
     ConstPointSpan<Dimension> positions)
     : Lattice(lattice)

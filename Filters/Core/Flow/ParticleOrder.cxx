@@ -12,7 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Spreads the bits of a tile number so that those of the other axes fit in between.
+// Spreads the bits of a tile's number along one axis, for a Morton code.
 template <int Dimension>
 std::uint32_t spreadBits(std::uint32_t value)
 {
@@ -57,7 +57,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     }
   }
 
-  // Cubic tiles, so many that each has its share of the particles.
+  // Cubic tiles, about count / particlesPerTile of them.
   double measure = 1.0;
   double widest = 0.0;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -100,7 +100,7 @@ std::int64_t ParticleOrder<Dimension>::Sort(
     std::uint32_t key = 0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      // The high end belongs to the last tile, and so does what overflows.
+      // The high end is in the last tile, and so is what overflows.
       const double place = (begin[i * Dimension + axis] - low[axis]) * perUnit[axis];
       const double tile = place < lastTile[axis] ? place : lastTile[axis];
       key |= keys[axis][static_cast<std::size_t>(tile)];

@@ -37,8 +37,8 @@ std::int64_t integerRoot(std::int64_t value)
   return guess;
 }
 
-// A stretch of the recurrence with its middle at the centre: point i and the one as far from the
-// other end are mirror images.
+// Point i of `count` consecutive ones of the recurrence, shifted so that points i and count - 1 - i
+// are mirror images about the centre.
 template <int Dimension>
 Point<Dimension> placeInCell(std::int64_t i, std::int64_t count)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles of the pivot, the uniform measure that all densities are reached from (Section 3.4):
-// equally many in each cell of a grid.
+// Particles of the pivot, the uniform measure that is transported to each density (paper, Section
+// 3.4): equally many in each cell of a grid.
 #ifndef RectifiedTransport_PivotLattice_h
 #define RectifiedTransport_PivotLattice_h
 
@@ -12,8 +12,8 @@
 namespace RectifiedTransport
 {
 
-// One particle at each of the places in each cell of a lattice. They are counted place by place,
-// within one over the cells with axis 0 fastest.
+// One particle at each place, in [0, 1], in each cell of a lattice. They are numbered place by
+// place, within one over the cells with axis 0 fastest.
 template <int Dimension>
 struct PivotLattice
 {

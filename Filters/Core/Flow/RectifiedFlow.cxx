@@ -80,7 +80,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
   return LatticeOrder<Dimension>(lattice, size, place);
 }
 
-// Points of an array, in chunks in the order of a sort, as LatticeOrder gives those of a lattice.
+// Points of an array in chunks, each in ParticleOrder; the same interface as LatticeOrder.
 template <int Dimension>
 class SortedPoints
 {

@@ -8,7 +8,7 @@
 //   std::vector<Point<2>> seeds = ...;                              // uniform in the box
 //   auto particles = transportPoints<2>(source, seeds);             // one-off
 //
-//   RectifiedFlow<2> flow(source);                                  // keeps the tables
+//   RectifiedFlow<2> flow(source);                                  // stores the tables
 //   FlowOptions options;
 //   options.NumberOfSteps = 64;
 //   flow.Forward(seeds, particles, options);
@@ -37,8 +37,8 @@ class RectifiedFlow
 public:
   explicit RectifiedFlow(
     const DensitySource<Dimension>& density, const Context& context = Context());
-  // The same in the memory of `previous`, where its tables are as large: for a density that changes
-  // with time. It takes about half the time that new memory takes, and never holds both tables.
+  // The same in the memory of `previous`, if its tables are as large: for a density that changes
+  // with time. Takes about half the time that new memory takes, and never allocates both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,
     const Context& context = Context());
   ~RectifiedFlow();
@@ -49,17 +49,17 @@ public:
   double Total() const;              // sum of the density over the cells
   Point<Dimension> Centroid() const; // of the density
   std::int64_t MemorySize() const;   // bytes that the tables hold
-  // Whether the cell that holds a point has mass (a point on a face: any of its cells).
+  // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
   // The share of the mass in a box.
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const;
-  // The measure, in cells, of the smallest box about a point that holds a share of the mass, the
-  // part in the domain; the sides of the box are in proportion to `aspect`.
+  // The measure, in grid cells, of the part in the domain of the smallest box about a point that
+  // holds a share of the mass; the sides of the box are in proportion to `aspect`.
   double MeasureOfShare(
     const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
 
   // Advects points of time 0 (uniform) to time 1 (distributed like the density). There are as many
-  // positions as seeds, and both may be in the same memory. Points outside the box are taken from
+  // positions as seeds, and both may be in the same memory. Points outside the box are clamped to
   // its border.
   FlowReport Forward(ConstPointSpan<Dimension> seeds, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
@@ -83,9 +83,9 @@ public:
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
-  // Forwards too, but of every sample only the cell of the density that it comes to, which has
-  // mass: cells are numbered with axis 0 fastest. For densities of few cells scattered like points,
-  // which most particles miss at first: fewer than 128 steps become up to 32 times as many at once.
+  // Forwards, but writes of each sample only the number, axis 0 fastest, of the density's cell with
+  // mass that it ends in. For densities of isolated cells, which most particles miss at first:
+  // fewer than 128 steps become up to 32 times as many in the first pass.
   FlowReport ForwardLatticeToCells(const GridSize<Dimension>& lattice, std::int64_t* cells,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
@@ -94,7 +94,7 @@ private:
   std::unique_ptr<Internals> Data;
 };
 
-// One-off: builds the tables, transports the points, forgets the tables.
+// One-off: builds the tables, transports the points, releases the tables.
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
   ConstPointSpan<Dimension> seeds, const FlowOptions& options = {});

@@ -9,7 +9,7 @@ namespace RectifiedTransport
 void writeWeightedMean(
   const std::vector<WeightedPositions>& parts, std::int64_t first, std::int64_t last, double* mean)
 {
-  // Short enough for what is written to stay in the nearest cache from part to part.
+  // Doubles: a block of the sum stays in the L1 cache from part to part.
   constexpr std::int64_t block = 1024;
   for (std::int64_t begin = first; begin < last; begin += block)
   {

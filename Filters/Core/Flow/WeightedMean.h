@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a particle is between densities that it reaches from one pivot (Section 3.4): at the mean
-// of its positions, weighted. Of two densities it moves on a straight line.
+// The position of a particle between densities that one pivot is transported to (paper, Section
+// 3.4): the weighted mean of its positions. Between two densities it moves on a straight line.
 #ifndef RectifiedTransport_WeightedMean_h
 #define RectifiedTransport_WeightedMean_h
 
@@ -16,8 +16,8 @@ struct WeightedPositions
   double Weight;
 };
 
-// Writes the numbers [first, last) of the sum of weight * positions. Parts of weight 0 are not
-// read; one of weight 1 alone comes out to the bit. There is at least one other than 0.
+// Writes coordinates [first, last) of the sum of weight * positions. Parts of weight 0 are not
+// read; a single one of weight 1 is copied to the bit. At least one weight is not 0.
 void writeWeightedMean(
   const std::vector<WeightedPositions>& parts, std::int64_t first, std::int64_t last, double* mean);
 

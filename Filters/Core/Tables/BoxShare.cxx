@@ -12,7 +12,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// A side of a box on one axis: the node below and the place in its cell.
+// A side of a box on one axis: the node below and the place in the grid cell above it, in [0, 1].
 struct Side
 {
   std::int64_t Node;
@@ -26,8 +26,8 @@ Side findSide(double x, std::int64_t cells)
   return { node, clipped - static_cast<double>(node) };
 }
 
-// The sum of the density over [low, high] on the axes from `Axis` down, with the nodes of the axes
-// above added to `nodes` (Section 3.3, Algorithm 1, for the mass alone).
+// The sum of the density over [low, high] on the axes from `Axis` down; `nodes` includes the
+// offsets of the axes above (paper, Section 3.3; Algorithm 1, for the mass alone).
 template <int Dimension, int Axis>
 double sumBox(
   const TableView<Dimension>& tables, const Side (&sides)[Dimension][2], const double* nodes)
@@ -55,7 +55,7 @@ double sumBox(
   return ends[1] - ends[0];
 }
 
-// Boxes that grow about a point.
+// The boxes with half the sides h * aspect about a point.
 template <int Dimension>
 class GrowingBox
 {
@@ -142,8 +142,8 @@ double measureOfShare(const TableView<Dimension>& tables, const Point<Dimension>
   {
     return box.Measure(above);
   }
-  // The root of the share is nearly linear in the size. False position, halving now and then: the
-  // share may stand still where there is no mass.
+  // The root of the share is nearly linear in the size. False position, with a bisection in every
+  // third step, as the share may be constant where there is no mass.
   const double wanted = root<Dimension>(share);
   const auto excess = [&](double h) { return root<Dimension>(box.Share(h)) - wanted; };
   double below = 0.0;
@@ -156,7 +156,7 @@ double measureOfShare(const TableView<Dimension>& tables, const Point<Dimension>
     if (step % 3 != 2 && excessAbove > excessBelow)
     {
       const double slope = (excessAbove - excessBelow) / (above - below);
-      // A little to the side of the farther end, so that both ends come near.
+      // Shifted to either side in turn, so that both ends converge.
       const double guess = below - excessBelow / slope;
       const double aside = (step % 3 == 0 ? 1.0 : -1.0) * 0.25 * precision * above;
       h = std::clamp(guess + aside, below, above);

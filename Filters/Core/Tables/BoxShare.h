@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of a density is in a box, and how large a box holds a given share.
+// The share of a density's mass in a box, by summed-area tables (paper, Section 3.3), and the box
+// that holds a given share.
 #ifndef RectifiedTransport_BoxShare_h
 #define RectifiedTransport_BoxShare_h
 
@@ -15,9 +16,9 @@ template <int Dimension>
 double boxShare(
   const TableView<Dimension>& tables, const Point<Dimension>& low, const Point<Dimension>& high);
 
-// The measure, in cells, of the smallest box about `centre` that holds a share of the mass: the
-// part of it in the domain. The box has half the sides h * `aspect`, and h is sought. The whole
-// domain if the share is 1 or more, 0 if it is not above 0.
+// The measure, in grid cells, of the part in the domain of the smallest box about `centre` that
+// holds a share of the mass. Half the sides of the box are h * `aspect` with unknown h. The measure
+// of the domain if the share is 1 or more, 0 if it is not above 0.
 template <int Dimension>
 double measureOfShare(const TableView<Dimension>& tables, const Point<Dimension>& centre,
   const Point<Dimension>& aspect, double share);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A piecewise-constant density on a grid of unit cells: how the tables read it, and what is wrong
-// with one that cannot be transported.
+// A piecewise-constant density on a grid of unit cells (paper, Section 3.2): the interface to its
+// values, and the error for one that has no transport.
 #ifndef RectifiedTransport_Density_h
 #define RectifiedTransport_Density_h
 
@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// The values of the cells, which are numbered with axis 0 fastest.
+// The values of the grid cells, which are numbered with axis 0 fastest.
 class DensityValues
 {
 public:
@@ -54,7 +54,8 @@ private:
   GridSize<Dimension> Size;
 };
 
-// What one pass over a density finds. Indices count cells, axis 0 fastest; -1 if there are none.
+// The result of one pass over a density. Indices are of grid cells, axis 0 fastest; -1 if there are
+// none.
 struct DensitySummary
 {
   std::int64_t NotFinite = 0;

@@ -10,7 +10,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Counts what is wrong with cells, of which the first has the index `index`.
+// Counts values that are not finite or negative; the first value is that of cell `index`.
 void findWrong(const double* values, std::int64_t count, std::int64_t index, DensitySummary& found)
 {
   for (std::int64_t i = 0; i < count; ++i)
@@ -26,7 +26,7 @@ void findWrong(const double* values, std::int64_t count, std::int64_t index, Den
   }
 }
 
-// One bit a cell that has mass.
+// Sets one bit for each cell that has mass.
 void markOccupied(const double* values, std::int64_t count, std::uint64_t* words)
 {
   for (std::int64_t first = 0; first < count; first += 64)

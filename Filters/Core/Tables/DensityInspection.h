@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tables find in a density while they read it.
+// Checks of a density's values while the tables read them.
 #ifndef RectifiedTransport_DensityInspection_h
 #define RectifiedTransport_DensityInspection_h
 
@@ -11,12 +11,12 @@
 namespace RectifiedTransport
 {
 
-// Inspects part of a row of cells, the first of which has the index `index`, and sets one bit a
-// cell that has mass. Adds to all of `found` but the total.
+// Inspects part of a row of grid cells, of which the first has the index `index`, and sets one bit
+// of `words` for each that has mass. Adds to all of `found` but the total.
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found);
 
-// Adds what was found in one part to what was found in others.
+// Adds the summary of a part to that of the whole.
 void merge(const DensitySummary& part, DensitySummary& whole);
 
 } // namespace RectifiedTransport

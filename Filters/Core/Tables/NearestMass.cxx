@@ -30,7 +30,7 @@ bool isSet(const std::uint64_t* row, std::int64_t column)
   return (row[column >> 6] >> (column & 63)) & 1;
 }
 
-// The distance of a coordinate from cell `cell`.
+// The distance of a coordinate from grid cell `cell`.
 double gap(double x, std::int64_t cell)
 {
   const double low = static_cast<double>(cell);
@@ -63,7 +63,7 @@ std::int64_t nearestAbove(const std::uint64_t* row, std::int64_t start, std::int
   return found <= last ? found : -1;
 }
 
-// The cell of a row with mass that is nearest to x, -1 if there is none within `limit`.
+// The column of the nearest cell with mass in a row, -1 if there is none within `limit` of x.
 std::int64_t nearestInRow(const std::uint64_t* row, std::int64_t columns, double x, double limit)
 {
   const double last = static_cast<double>(columns - 1);

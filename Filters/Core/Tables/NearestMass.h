@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest cell that has mass.
+// The nearest grid cell that has mass, for points in empty cells.
 #ifndef RectifiedTransport_NearestMass_h
 #define RectifiedTransport_NearestMass_h
 
@@ -9,11 +9,11 @@
 namespace RectifiedTransport
 {
 
-// Whether the cell that holds a point has mass; of a point on a face, any of its cells.
+// Whether the grid cell that holds a point has mass; of a point on a face, any of its cells.
 template <int Dimension>
 bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 
-// The point of a cell with mass that is nearest to `point`, just inside that cell.
+// The point of a grid cell with mass that is nearest to `point`, at least 2^-20 inside that cell.
 template <int Dimension>
 Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 

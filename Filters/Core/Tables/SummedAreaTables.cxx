@@ -15,14 +15,14 @@ namespace RectifiedTransport
 namespace
 {
 
-// A coarse level is of use only while a box can be this many of its cells wide.
+// A coarse level exists if the domain is at least this many of its cells wide on every axis.
 constexpr std::int64_t narrowestBox = 16;
-// Tables past this size are fetched ahead.
+// Tables past this size are prefetched.
 constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
 
-// The least stride, in cache lines, that is at least `lines` and sends the rows that a particle's
-// neighbourhood reads to different sets of the caches. A grid of 2^k cells would send them all to
-// one. `rowStride` is that of the axis before, 0 for the first.
+// The least stride, in cache lines, that is at least `lines` and maps the rows that a particle's
+// neighbourhood reads to different sets of the caches; those of a grid of 2^k cells would be in one
+// set. `rowStride` is that of the axis before, 0 for the first.
 std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
 {
   constexpr std::int64_t sets = 64;
@@ -55,7 +55,7 @@ std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
   return lines;
 }
 
-// Keeps memory of the right size; other memory is given back before new is asked for.
+// Keeps memory of the right size; other memory is freed before new is allocated.
 template <class T>
 void resize(LargeBuffer<T>& buffer, std::int64_t size)
 {
@@ -103,8 +103,8 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   {
     throw InvalidDensity(found);
   }
-  // Moments of very large values overflow, those of very small ones lose bits: a power of two
-  // brings both back without changing a bit of what is computed.
+  // Moments of very large values overflow, those of very small ones lose bits: scaling by a power
+  // of two prevents both and does not round.
   constexpr double extreme = 1e200;
   this->Tables.Largest = found.Maximum;
   if (found.Maximum > extreme || found.Maximum < 1.0 / extreme)

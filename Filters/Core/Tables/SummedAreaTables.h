@@ -15,17 +15,17 @@ namespace RectifiedTransport
 
 class Progress;
 
-// What tables are kept in.
+// The memory of tables, for reuse.
 struct TableMemory
 {
   LargeBuffer<double> Nodes;
   LargeBuffer<std::uint64_t> Occupied; // one bit a cell
 };
 
-// One record of doubles a node; see TableView.h for its entries. Built in one pass over the
-// density that also inspects it, slab by slab: sums of the slab's strips first, then the tables of
-// all strips side by side. The strips are fixed, so the tables are the same to the last bit for
-// every executor. Integer-valued densities give exact sums below 2^53.
+// One record of doubles a node; see TableView.h for its entries. Built in O(cells), in one pass
+// over the density that also inspects it, slab by slab: first the sums of the slab's strips, then
+// the tables of all strips in parallel. The strips are fixed, so that the tables are the same to
+// the last bit for every executor. Integer-valued densities give exact sums below 2^53.
 template <int Dimension>
 class SummedAreaTables
 {
@@ -34,7 +34,7 @@ public:
   SummedAreaTables(
     const DensitySource<Dimension>& density, Progress& progress, TableMemory memory = {});
 
-  // Nothing but destruction may follow.
+  // No other member may be called afterwards.
   TableMemory ReleaseMemory() { return std::move(this->Memory); }
 
   const TableView<Dimension>& View() const { return this->Tables; }

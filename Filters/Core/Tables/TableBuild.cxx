@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Sums are taken over strips of this many cells, whatever runs them.
+// Sums are taken over strips of fixed size, for every executor.
 constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
 constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
 constexpr std::int64_t slabCells = std::int64_t{ 1 } << 16;
@@ -47,8 +47,8 @@ void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, st
   }
 }
 
-// Slabs of rows: first the sums of each row's cells before every strip, then the strips side by
-// side.
+// Slabs of rows: first the sums of each row's cells before every strip, then all strips in
+// parallel.
 class Builder2D
 {
 public:
@@ -70,13 +70,14 @@ public:
 
   void Run()
   {
-    Progress& pace = this->Build.Pace;
-    const Executor& threads = pace.Threads();
+    Progress& progress = this->Build.Monitor;
+    const Executor& threads = progress.Threads();
     while (this->Begin < this->Rows)
     {
-      this->Count = std::min({ this->Slab, this->Rows - this->Begin, pace.NextSlice(this->Slab) });
+      this->Count =
+        std::min({ this->Slab, this->Rows - this->Begin, progress.NextSlice(this->Slab) });
       threads.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
-        const std::int64_t end = pace.ShouldStop() ? first : last;
+        const std::int64_t end = progress.ShouldStop() ? first : last;
         for (std::int64_t j = first; j < end; ++j)
         {
           this->SumRow(j);
@@ -87,13 +88,13 @@ public:
         merge(this->Found[j], this->Build.Found);
       }
       threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
+        for (std::int64_t strip = first; strip < last && !progress.ShouldStop(); ++strip)
         {
           this->AddStrip(strip);
         }
       });
       this->Begin += this->Count;
-      pace.EndSlice(this->Count);
+      progress.EndSlice(this->Count);
     }
   }
 
@@ -172,7 +173,7 @@ private:
 };
 
 // Slabs of slices: first the sums of each strip's columns, then those of the columns before every
-// strip, then the strips side by side.
+// strip, then all strips in parallel.
 class Builder3D
 {
 public:
@@ -197,14 +198,14 @@ public:
 
   void Run()
   {
-    Progress& pace = this->Build.Pace;
-    const Executor& threads = pace.Threads();
+    Progress& progress = this->Build.Monitor;
+    const Executor& threads = progress.Threads();
     while (this->Begin < this->Slices)
     {
       this->Count =
-        std::min({ this->Slab, this->Slices - this->Begin, pace.NextSlice(this->Slab) });
+        std::min({ this->Slab, this->Slices - this->Begin, progress.NextSlice(this->Slab) });
       threads.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t task = first; task < last && !pace.ShouldStop(); ++task)
+        for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
         {
           this->SumStrip(task);
         }
@@ -214,19 +215,19 @@ public:
         merge(this->Found[task], this->Build.Found);
       }
       threads.For(this->Count, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last && !pace.ShouldStop(); ++k)
+        for (std::int64_t k = first; k < last && !progress.ShouldStop(); ++k)
         {
           this->SumBefore(k);
         }
       });
       threads.For(this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t strip = first; strip < last && !pace.ShouldStop(); ++strip)
+        for (std::int64_t strip = first; strip < last && !progress.ShouldStop(); ++strip)
         {
           this->AddStrip(strip);
         }
       });
       this->Begin += this->Count;
-      pace.EndSlice(this->Count);
+      progress.EndSlice(this->Count);
     }
   }
 
@@ -366,7 +367,7 @@ void buildTables(const TableBuild<1>& build)
   }
   for (std::int64_t first = 0; first < size; first += segment)
   {
-    build.Pace.NextSlice(1);
+    build.Monitor.NextSlice(1);
     const std::int64_t count = std::min(segment, size - first);
     build.Density.Read(first, count, values.data());
     DensitySummary part;
@@ -384,7 +385,7 @@ void buildTables(const TableBuild<1>& build)
     {
       copyToLevel<2>(nodes.data(), first, count, size, level, build.Level(level));
     }
-    build.Pace.EndSlice(count);
+    build.Monitor.EndSlice(count);
   }
 }
 

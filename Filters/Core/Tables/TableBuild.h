@@ -17,7 +17,7 @@ template <int Dimension>
 struct TableBuild
 {
   const DensityValues& Density;
-  Progress& Pace;
+  Progress& Monitor;
   const TableView<Dimension>& Tables;
   double* Nodes; // of all levels
   std::uint64_t* Occupied;
@@ -29,7 +29,7 @@ struct TableBuild
   }
 };
 
-// Fills all levels and the bits of occupied cells, and adds to what is found. Throws Cancelled.
+// Fills all levels and the bits of occupied cells, and adds to `Found`. Throws Cancelled.
 void buildTables(const TableBuild<1>& build);
 void buildTables(const TableBuild<2>& build);
 void buildTables(const TableBuild<3>& build);

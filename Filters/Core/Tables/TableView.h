@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernels see of the summed-area tables: plain pointers and numbers.
+// A view of the summed-area tables (paper, Section 3.3) for kernels: plain pointers and numbers.
 //
 // A node record is {E, E_0} in 1D, {E, E_0, E_1, E} in 2D and {E, E_0, E_1, E_2} in 3D, where E is
-// the sum of the density over the cells below the node and E_a the sum of density times cell
-// centre along axis a (paper, Section 3.3 and Algorithm 2). Level l holds every 4^l-th node; where
-// 4^l does not divide the size, the last coarse cell is narrower.
+// the sum of the density over the grid cells below the node and E_a the sum of density times cell
+// centre along axis a (paper, Algorithm 2). Level l holds every 4^l-th node; where 4^l does not
+// divide the size, the last coarse cell is narrower.
 #ifndef RectifiedTransport_TableView_h
 #define RectifiedTransport_TableView_h
 
@@ -19,7 +19,7 @@ constexpr int levelShift = 2;
 template <int Dimension>
 struct TableView
 {
-  // Doubles a node. In 64 bits, and so is all that is counted in them.
+  // Doubles a node. In 64 bits, as offsets in doubles need them.
   static constexpr std::int64_t Record = Dimension == 1 ? 2 : 4;
   static constexpr int MaximumLevels = 16;
 
@@ -32,10 +32,10 @@ struct TableView
   Level Levels[MaximumLevels];
   int LevelCount;
   bool EvenLevels[Dimension]; // no level has a narrower last cell
-  bool BeyondCaches;          // the finest level is worth fetching ahead
+  bool BeyondCaches;          // prefetching the finest level pays
   double Size[Dimension];
   double Centroid[Dimension];
-  double VoidMass; // a box with no more than this is taken to be empty
+  double VoidMass; // a box with at most this counts as empty
   double Largest;  // value of a cell
 
   // One bit a cell, rows padded to whole words; null if every cell has mass.

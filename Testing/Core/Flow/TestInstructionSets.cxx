@@ -38,7 +38,7 @@ template <int Dimension>
 struct BlockRun
 {
   Points<Dimension> Positions;
-  std::vector<char> Troubled;
+  std::vector<char> Unresolved;
   std::int64_t Evaluations = 0;
 };
 
@@ -54,11 +54,11 @@ BlockRun<Dimension> advect(
   std::iota(index.begin(), index.end(), 0);
   for (std::int64_t first = 0; first < count; first += BlockSize)
   {
-    bool troubled[BlockSize] = {};
+    bool unresolved[BlockSize] = {};
     const int lanes = static_cast<int>(std::min<std::int64_t>(BlockSize, count - first));
     run.Evaluations += kernels.Advect<Dimension>()(
-      job, seeds[first].data(), index.data() + first, lanes, 0, troubled);
-    std::copy_n(troubled, lanes, run.Troubled.begin() + first);
+      job, seeds[first].data(), index.data() + first, lanes, 0, unresolved);
+    std::copy_n(unresolved, lanes, run.Unresolved.begin() + first);
   }
   return run;
 }
@@ -98,7 +98,7 @@ void expectSameBits(const TestDensity<Dimension>& density)
             (back ? ", backward" : ", forward") + (nearest ? ", nearest" : "");
           const BlockRun<Dimension> run = advect(flowKernels(set), job, seeds);
           EXPECT_TRUE(sameBits<Dimension>(run.Positions, plain.Positions)) << what;
-          EXPECT_EQ(run.Troubled, plain.Troubled) << what;
+          EXPECT_EQ(run.Unresolved, plain.Unresolved) << what;
           EXPECT_EQ(run.Evaluations, plain.Evaluations) << what;
         }
       }

@@ -69,7 +69,7 @@ TEST(BoxMoments, FarAlongALine)
     const double node = static_cast<double>(cells - 8) + whole;
     boxes.Node[0][side][0] = static_cast<std::int32_t>(node);
     boxes.Place[0][side][0] = place;
-    boxes.Own[0][side][0] = place * (node + 0.5 * place) / (node + 0.5);
+    boxes.MomentWeight[0][side][0] = place * (node + 0.5 * place) / (node + 0.5);
   }
   sumBox(tables, boxes, 0);
   munmap(memory, bytes);

@@ -2,15 +2,15 @@
 // Mass and first moments of a density over boxes, from interpolated summed-area tables (paper,
 // Section 3.3; Algorithm 1). Included by FlowKernels.txx.
 //
-// A table is interpolated along its own axis by a quadratic and linearly along the others, which
-// is exact for a piecewise-constant density: with r the place in a cell of width h,
+// A table is interpolated along its own axis by a quadratic and linearly along the others, which is
+// exact for a piecewise-constant density: with r in [0, 1] the place in a cell of width h,
 //   L[F] = F_i + r (F_i+1 - F_i),    Q[F] = b (F_i+1 - F_i),    b = -(h/2) r (1-r),
 //   E(x) = (L (x) L (x) L) E,        E_a(x) = (L (x) L (x) L) E_a + (Q_a (x) L (x) L) E.
 // On the finest level (h = 1) E_a rises by i + 1/2 times as much as E from node i to the next, so
-// that the quadratic is a weight of E_a itself:
+// that the quadratic is linear in E_a, with weight q:
 //   L[E_a] + Q[E] = E_a,i + q (E_a,i+1 - E_a,i),    q = r (i + r/2) / (i + 1/2).
-// A box takes the difference of its two sides on every axis. The low face of the domain takes no
-// node (the tables are zero there), the high face one (they are total).
+// The sum over a box is the difference of its two sides on every axis. A side on the low face of
+// the domain reads no node (the tables are zero there), one on the high face a single node.
 
 using Lanes = double[BlockSize];
 
@@ -20,20 +20,20 @@ constexpr int onLowFace = 1;
 constexpr int onHighFace = 2;
 constexpr int onBothFaces = 3;
 
-// Where these are in the number of a box's faces. In 2D and 3D only the low face of axis 0 is told.
+// The bit of an axis in BoxLanes::Faces. In 2D and 3D only the low face of axis 0 has one.
 constexpr int facesShift(int axis)
 {
   return axis == 0 ? 0 : 2 * axis - 1;
 }
 
-// The boxes of a block of particles, as the sums below want them, and what they return. [0] is the
-// low side, [1] the high side.
+// The boxes of a block of particles, input of the sums below, and their results. [0] is the low
+// side, [1] the high side.
 template <int Dimension>
 struct BoxLanes
 {
-  alignas(64) double Place[Dimension][2][BlockSize]; // r
-  alignas(64) double Bend[Dimension][2][BlockSize];  // b
-  alignas(64) double Own[Dimension][2][BlockSize];   // q, in 3D
+  alignas(64) double Place[Dimension][2][BlockSize];           // r
+  alignas(64) double QuadraticWeight[Dimension][2][BlockSize]; // b
+  alignas(64) double MomentWeight[Dimension][2][BlockSize];    // q, in 3D
   alignas(64) std::int32_t Node[Dimension][2][BlockSize];
   alignas(64) std::int64_t Faces[BlockSize];
   alignas(64) std::int32_t Level[BlockSize];
@@ -78,8 +78,8 @@ RT_INLINE void dispatchFaces(std::int64_t faces, const Function& function)
 struct BoxAxis
 {
   double Place[2];
-  double Bend[2];
-  std::int64_t Offset[2]; // of the sides' nodes, in doubles
+  double QuadraticWeight[2];
+  std::int64_t Offset[2]; // of the node below each side, in doubles
   std::int64_t Stride;
 };
 
@@ -87,7 +87,7 @@ template <int Dimension>
 RT_INLINE BoxAxis boxAxis(const BoxLanes<Dimension>& boxes, int axis, int lane, std::int64_t stride)
 {
   return { { boxes.Place[axis][0][lane], boxes.Place[axis][1][lane] },
-    { boxes.Bend[axis][0][lane], boxes.Bend[axis][1][lane] },
+    { boxes.QuadraticWeight[axis][0][lane], boxes.QuadraticWeight[axis][1][lane] },
     { boxes.Node[axis][0][lane] * stride, boxes.Node[axis][1][lane] * stride }, stride };
 }
 
@@ -95,10 +95,10 @@ template <int N>
 struct AxisSums
 {
   Vector<N> Linear;
-  Vector<N> Bent;
+  Vector<N> Quadratic;
 };
 
-// L and Q of one axis over the box, where value(offset) are the sums at a node of it.
+// L and Q of one axis over the box, where value(offset) are the sums at the node of that offset.
 template <int Faces, int N, class Value>
 RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
 {
@@ -108,19 +108,19 @@ RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
     const Vector<N> high = value(axis.Offset[1]);
     const Vector<N> step = value(axis.Offset[1] + axis.Stride) - high;
     sums.Linear = high + step * axis.Place[1];
-    sums.Bent = step * axis.Bend[1];
+    sums.Quadratic = step * axis.QuadraticWeight[1];
   }
   else
   {
     sums.Linear = value(axis.Offset[1] + axis.Stride);
-    sums.Bent = {};
+    sums.Quadratic = {};
   }
   if constexpr (Faces == insideBoth || Faces == onHighFace)
   {
     const Vector<N> low = value(axis.Offset[0]);
     const Vector<N> step = value(axis.Offset[0] + axis.Stride) - low;
     sums.Linear = sums.Linear - (low + step * axis.Place[0]);
-    sums.Bent = sums.Bent - step * axis.Bend[0];
+    sums.Quadratic = sums.Quadratic - step * axis.QuadraticWeight[0];
   }
   return sums;
 }
@@ -137,21 +137,21 @@ RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
   {
     const double step = high[2] - high[0];
     mass = high[0] + step * axis.Place[1];
-    moment = (high[1] + (high[3] - high[1]) * axis.Place[1]) + step * axis.Bend[1];
+    moment = (high[1] + (high[3] - high[1]) * axis.Place[1]) + step * axis.QuadraticWeight[1];
   }
   if (!(faces & onLowFace))
   {
     const double* low = nodes + axis.Offset[0];
     const double step = low[2] - low[0];
     mass -= low[0] + step * axis.Place[0];
-    moment -= (low[1] + (low[3] - low[1]) * axis.Place[0]) + step * axis.Bend[0];
+    moment -= (low[1] + (low[3] - low[1]) * axis.Place[0]) + step * axis.QuadraticWeight[0];
   }
   boxes.Mass[lane] = mass;
   boxes.Moment[0][lane] = moment;
 }
 
-// The sums of a box at one row of nodes along axis 0: those of the pairs of nodes around its two
-// sides, or around the high one alone.
+// The sums of a box at one row of nodes along axis 0, from the pairs of nodes around its two sides,
+// or around the high one alone.
 template <bool FromLowFace>
 RT_INLINE Vector4 sumRow(
   const double* low, const double* high, const Vector8& lowWeights, const Vector8& highWeights)
@@ -178,7 +178,7 @@ RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, in
   const Vector4 one = loadVector<4>(ones);
   const auto weights = [&](int side) __attribute__((always_inline))
   {
-    const Vector4 second = fillVector<3>(axis0.Place[side], axis0.Bend[side]);
+    const Vector4 second = fillVector<3>(axis0.Place[side], axis0.QuadraticWeight[side]);
     return joinVectors(one - second, second);
   };
   const Vector8 highWeights = weights(1);
@@ -189,7 +189,7 @@ RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, in
     });
   boxes.Mass[lane] = sums.Linear[0];
   boxes.Moment[0][lane] = sums.Linear[1] + sums.Linear[3];
-  boxes.Moment[1][lane] = sums.Linear[2] + sums.Bent[0];
+  boxes.Moment[1][lane] = sums.Linear[2] + sums.Quadratic[0];
 }
 
 RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
@@ -214,7 +214,8 @@ RT_INLINE FineAxis fineAxis(const BoxLanes<3>& boxes, int lane, std::int64_t str
 {
   const auto weights = [&](int side) __attribute__((always_inline))
   {
-    return fillVector<Axis + 1>(boxes.Place[Axis][side][lane], boxes.Own[Axis][side][lane]);
+    return fillVector<Axis + 1>(
+      boxes.Place[Axis][side][lane], boxes.MomentWeight[Axis][side][lane]);
   };
   return { { weights(0), weights(1) },
     { boxes.Node[Axis][0][lane] * stride, boxes.Node[Axis][1][lane] * stride }, stride };
@@ -244,7 +245,8 @@ RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, 
   const FineAxis axis2 = fineAxis<2>(boxes, lane, level.Stride[2]);
   const auto weights = [&](int side) __attribute__((always_inline))
   {
-    const Vector4 second = fillVector<1>(boxes.Place[0][side][lane], boxes.Own[0][side][lane]);
+    const Vector4 second =
+      fillVector<1>(boxes.Place[0][side][lane], boxes.MomentWeight[0][side][lane]);
     return joinVectors(fillVector(1.0) - second, second);
   };
   const Vector8 highWeights = weights(1);
@@ -270,8 +272,8 @@ RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, 
 struct PairSums
 {
   Vector8 Linear;
-  Vector8 Bent1;
-  Vector8 Bent2;
+  Vector8 Quadratic1;
+  Vector8 Quadratic2;
 };
 
 template <int Faces1>
@@ -289,7 +291,8 @@ RT_INLINE PairSums sumSide(
   const AxisSums<8> second = plane(axis2.Offset[side] + axis2.Stride);
   const Vector8 step = second.Linear - first.Linear;
   return { first.Linear + step * axis2.Place[side],
-    first.Bent + (second.Bent - first.Bent) * axis2.Place[side], step * axis2.Bend[side] };
+    first.Quadratic + (second.Quadratic - first.Quadratic) * axis2.Place[side],
+    step * axis2.QuadraticWeight[side] };
 }
 
 template <int Faces1>
@@ -303,7 +306,7 @@ RT_INLINE PairSums sumPair(
       axis1, [&](std::int64_t row) __attribute__((always_inline)) {
         return loadVector<8>(nodes + axis2.Offset[1] + axis2.Stride + row);
       });
-    sums = { total.Linear, total.Bent, {} };
+    sums = { total.Linear, total.Quadratic, {} };
   }
   else
   {
@@ -312,7 +315,8 @@ RT_INLINE PairSums sumPair(
   if (!(faces2 & onLowFace))
   {
     const PairSums low = sumSide<Faces1>(nodes, axis1, axis2, 0);
-    sums = { sums.Linear - low.Linear, sums.Bent1 - low.Bent1, sums.Bent2 - low.Bent2 };
+    sums = { sums.Linear - low.Linear, sums.Quadratic1 - low.Quadratic1,
+      sums.Quadratic2 - low.Quadratic2 };
   }
   return sums;
 }
@@ -328,22 +332,22 @@ RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes
   PairSums sums = sumPair<Faces1>(level.Nodes + axis0.Offset[1], axis1, axis2, faces2);
   Vector8 weights = joinVectors(fillVector(1.0 - axis0.Place[1]), fillVector(axis0.Place[1]));
   Vector8 linear = sums.Linear * weights;
-  Vector8 bent1 = sums.Bent1 * weights;
-  Vector8 bent2 = sums.Bent2 * weights;
-  double bent0 = axis0.Bend[1] * (sums.Linear[4] - sums.Linear[0]);
+  Vector8 quadratic1 = sums.Quadratic1 * weights;
+  Vector8 quadratic2 = sums.Quadratic2 * weights;
+  double quadratic0 = axis0.QuadraticWeight[1] * (sums.Linear[4] - sums.Linear[0]);
   if constexpr (!FromLowFace)
   {
     sums = sumPair<Faces1>(level.Nodes + axis0.Offset[0], axis1, axis2, faces2);
     weights = joinVectors(fillVector(1.0 - axis0.Place[0]), fillVector(axis0.Place[0]));
     linear = linear - sums.Linear * weights;
-    bent1 = bent1 - sums.Bent1 * weights;
-    bent2 = bent2 - sums.Bent2 * weights;
-    bent0 -= axis0.Bend[0] * (sums.Linear[4] - sums.Linear[0]);
+    quadratic1 = quadratic1 - sums.Quadratic1 * weights;
+    quadratic2 = quadratic2 - sums.Quadratic2 * weights;
+    quadratic0 -= axis0.QuadraticWeight[0] * (sums.Linear[4] - sums.Linear[0]);
   }
   boxes.Mass[lane] = linear[0] + linear[4];
-  boxes.Moment[0][lane] = (linear[1] + linear[5]) + bent0;
-  boxes.Moment[1][lane] = (linear[2] + linear[6]) + (bent1[0] + bent1[4]);
-  boxes.Moment[2][lane] = (linear[3] + linear[7]) + (bent2[0] + bent2[4]);
+  boxes.Moment[0][lane] = (linear[1] + linear[5]) + quadratic0;
+  boxes.Moment[1][lane] = (linear[2] + linear[6]) + (quadratic1[0] + quadratic1[4]);
+  boxes.Moment[2][lane] = (linear[3] + linear[7]) + (quadratic2[0] + quadratic2[4]);
 }
 
 RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
@@ -362,9 +366,8 @@ RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
     });
 }
 
-// In 2D the boxes on the finest level are the ones whose nodes are far apart in memory and not yet
-// in the caches; their addresses are known well before they are summed. In 3D there are too many of
-// them for that to pay.
+// In 2D the boxes on the finest level have nodes far apart in memory and out of the caches, at
+// addresses known before they are summed. In 3D there are too many nodes for prefetching to pay.
 constexpr int prefetchDistance = 3;
 
 RT_INLINE void prefetchBox(const TableView<2>& tables, const BoxLanes<2>& boxes, int lane)

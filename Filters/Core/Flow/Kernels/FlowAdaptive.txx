@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adams-Bashforth-Moulton 3 with a step of its own for every particle, and the closed-form finish.
+// Adams-Bashforth-Moulton 3 with the step chosen for each particle, and the closed-form finish.
 // Included by FlowKernels.txx.
 
-// The mass of one cell, by differences of the finest table.
+// The mass of one grid cell, by differences of the finest table.
 template <int Dimension>
 RT_INLINE double cellMass(const TableView<Dimension>& tables, const std::int64_t (&cell)[Dimension])
 {
@@ -52,7 +52,7 @@ RT_INLINE void finishInCells(const TableView<Dimension>& tables, const LaneVecto
   std::int64_t first[Dimension];
   double from[Dimension];
   double to[Dimension];
-  double length[Dimension][2]; // of the box in the two cells that it touches
+  double length[Dimension][2]; // of the box in the two cells that it overlaps
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const double size = tables.Size[axis];
@@ -182,14 +182,14 @@ RT_INLINE void correctAdaptive(
 // cell; backward from time 1 until the box is the whole domain.
 template <int Dimension>
 std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* troubled)
+  const std::int64_t* index, int count, int refinement, bool* unresolved)
 {
   constexpr double growth = 2.0;
   constexpr double shrinkage = 0.25;
   constexpr double safety = 0.9;
-  constexpr double firstStep = 0.02; // of what lies ahead
-  // Of what lies ahead: taken whatever its error. None is shorter than half of it, so that no
-  // tolerance makes steps that come to nothing.
+  constexpr double firstStep = 0.02; // relative to the remaining time
+  // Relative to the remaining time: accepted whatever its error. No step is shorter than half of
+  // it, so that no tolerance makes steps that do not advance.
   constexpr double shortest = 1e-6;
   constexpr double earliest = 1e-6; // time at which going backward ends
 
@@ -261,7 +261,7 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       const double reach = direction * (end - lanes.Time[i]);
       lanes.Step[i] = smaller(lanes.Step[i], reach);
       const double target = lanes.Time[i] + direction * lanes.Step[i];
-      // A finished lane computes along, on anything that is valid.
+      // A finished lane is computed at a valid time; its result is not used.
       steps.Time[i] = target > 0.0 && target < 1.0 ? target : 0.5;
     }
     predictAdaptive<Dimension>(job, lanes, direction);
@@ -285,7 +285,7 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       {
         continue;
       }
-      troubled[i] = troubled[i] || steps.Field.Void[i] > 0.0;
+      unresolved[i] = unresolved[i] || steps.Field.Void[i] > 0.0;
       const double before = lanes.Time[i];
       const double after = steps.Time[i];
       if (writer.IsDense())
@@ -336,7 +336,7 @@ std::int64_t advectAdaptive(const FlowJob<Dimension>& job, const double* seeds,
       lanes.End[axis][i] = 0.0;
     }
   }
-  finishPositions<Dimension>(job, count, lanes.End, troubled);
+  finishPositions<Dimension>(job, count, lanes.End, unresolved);
   if (writer.IsDense())
   {
     finalVelocity<Dimension>(job, lanes.End, *steps.V[3]);

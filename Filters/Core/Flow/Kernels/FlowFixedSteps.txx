@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integrators with a fixed number of steps. Included by FlowKernels.txx.
 
-// The vectors of a multistep method: velocities of the last steps, newest first.
+// The state of a multistep method: positions and the velocities of the last steps.
 template <int Dimension>
 struct MultistepLanes
 {
   alignas(64) LaneVectors<Dimension> Position;
   alignas(64) LaneVectors<Dimension> Trial;
   alignas(64) LaneVectors<Dimension> Velocities[4];
-  LaneVectors<Dimension>* V[4]; // newest, second, third, the one to be written
+  LaneVectors<Dimension>* V[4]; // newest, second, third, output
   alignas(64) Lanes Time;
-  alignas(64) Lanes Span;    // of the whole graded interval
-  alignas(64) Lanes Trouble; // 1 once a box was empty
+  alignas(64) Lanes Span;       // length of the graded interval
+  alignas(64) Lanes Unresolved; // 1 once a box was empty
   VelocityLanes<Dimension> Field;
 
   MultistepLanes()
@@ -21,7 +21,7 @@ struct MultistepLanes
       this->V[k] = &this->Velocities[k];
     }
     std::memset(this->Velocities, 0, sizeof(this->Velocities));
-    std::memset(this->Trouble, 0, sizeof(this->Trouble));
+    std::memset(this->Unresolved, 0, sizeof(this->Unresolved));
     std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
     std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
   }
@@ -54,14 +54,14 @@ struct MultistepLanes
   }
 };
 
-// Where the density is as large as anywhere in a particle's whole box, and the box is not clipped,
-// its mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities
-// with empty cells are most often shapes, of which this is nearly all.
+// Where the density has its maximum in all of a particle's box, and the box is not clipped, its
+// mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities with
+// empty cells are most often shapes of one value, where nearly all boxes become such.
 template <int Dimension>
 struct PlateauLanes
 {
   alignas(64) LaneVectors<Dimension> End; // x(1)
-  alignas(64) Lanes Done;                 // 1 from where it is known, else 0
+  alignas(64) Lanes Done;                 // 1 where End is known, else 0
   bool Active[BlockSize];                 // lanes that are not done
   int Left = BlockSize;                   // how many
 
@@ -72,8 +72,8 @@ struct PlateauLanes
     std::memset(this->Active, 1, sizeof(this->Active));
   }
 
-  // After an evaluation of the velocity in `field`, of particles that are at x then.
-  // Returns whether any lane is done since the last call, and marks those that are.
+  // After an evaluation of the velocity in `field`, with particles at x. Marks in `found` the lanes
+  // that are done since the last call, and returns whether there are any.
   RT_INLINE bool Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
     const LaneVectors<Dimension>& x, Lanes& found)
   {
@@ -99,7 +99,7 @@ struct PlateauLanes
 #pragma omp simd reduction(+ : sum)
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // that holds 1 / mass by now
+      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // Mass is 1 / mass here
       found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
       this->Done[i] += found[i];
       sum += found[i];
@@ -137,7 +137,7 @@ StepWeights stepWeights(const FlowJob<Dimension>& job, std::int64_t step, std::i
 // last step is implicit and closed, as the velocity at time 1 is x - S/2.
 template <int Dimension>
 std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* troubled)
+  const std::int64_t* index, int count, int refinement, bool* unresolved)
 {
   MultistepLanes<Dimension> lanes;
   PathWriter<Dimension> writer(job, seeds, index, count);
@@ -183,8 +183,8 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double trouble = plateau.Done[i] > 0.0 ? 0.0 : lanes.Field.Void[i];
-      lanes.Trouble[i] = larger(lanes.Trouble[i], trouble);
+      const double isVoid = plateau.Done[i] > 0.0 ? 0.0 : lanes.Field.Void[i];
+      lanes.Unresolved[i] = larger(lanes.Unresolved[i], isVoid);
     }
     if (writer.IsDense())
     {
@@ -216,7 +216,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
   for (int i = 0; i < count; ++i)
   {
-    troubled[i] = lanes.Trouble[i] > 0.0;
+    unresolved[i] = lanes.Unresolved[i] > 0.0;
   }
 
   const StepWeights last = stepWeights<Dimension>(job, steps - 1, steps);
@@ -236,7 +236,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
       final[axis][i] = lanes.Trial[axis][i] - half;
     }
   }
-  finishPositions<Dimension>(job, count, lanes.Trial, troubled);
+  finishPositions<Dimension>(job, count, lanes.Trial, unresolved);
   if (writer.IsDense())
   {
     for (int i = 0; i < count; ++i)
@@ -311,8 +311,8 @@ RT_INLINE void initialVelocity(
   }
 }
 
-// Time 1 to 0 over the reversed grid of [0,1]; a particle is done once its box is the whole
-// domain, from where its seed is known in closed form.
+// Time 1 to 0 over the reversed graded steps of [0,1]; a particle is done once its box is the whole
+// domain, as its seed is then known in closed form.
 template <int Dimension>
 std::int64_t multistepBackward(
   const FlowJob<Dimension>& job, const double* seeds, const std::int64_t* index, int count)
@@ -380,7 +380,7 @@ std::int64_t multistepBackward(
 template <int Dimension>
 RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& field, int count,
   const LaneVectors<Dimension>& x, double time, const LaneVectors<Dimension>& held,
-  LaneVectors<Dimension>& v, bool* troubled)
+  LaneVectors<Dimension>& v, bool* unresolved)
 {
   if (time <= 0.0)
   {
@@ -401,7 +401,7 @@ RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension
   evaluateVelocity<Dimension>(job, field, count, x, t, held, v);
   for (int i = 0; i < count; ++i)
   {
-    troubled[i] = troubled[i] || field.Void[i] > 0.0;
+    unresolved[i] = unresolved[i] || field.Void[i] > 0.0;
   }
 }
 
@@ -409,7 +409,7 @@ RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension
 // Algorithm 2) or Euler, in either direction.
 template <int Dimension>
 std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* troubled)
+  const std::int64_t* index, int count, int refinement, bool* unresolved)
 {
   MultistepLanes<Dimension> lanes;
   PathWriter<Dimension> writer(job, seeds, index, count);
@@ -429,7 +429,8 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   {
     lanes.Span[i] = length;
   }
-  // A lane without mass holds what it had, at first the straight line to the centroid.
+  // A lane whose box is empty keeps its velocity, at first that of the straight line to the
+  // centroid.
   initialVelocity<Dimension>(job, lanes.Position, *lanes.V[0]);
   if (writer.IsDense())
   {
@@ -447,7 +448,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
     // The slope at a step's start closes the interpolant over the step before it.
     auto& first = *lanes.V[3];
     velocityAt<Dimension>(
-      job, lanes.Field, count, lanes.Position, timeAt(2 * step), *lanes.V[0], first, troubled);
+      job, lanes.Field, count, lanes.Position, timeAt(2 * step), *lanes.V[0], first, unresolved);
     if (writer.IsDense() && step > 0)
     {
       for (int i = 0; i < count; ++i)
@@ -473,7 +474,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
         lanes.Advance(job, one, part, last, last, last, lanes.Trial);
         auto& next = *lanes.V[3];
         velocityAt<Dimension>(job, lanes.Field, count, lanes.Trial,
-          timeAt(2 * step + (stage < 3 ? 1 : 2)), last, next, troubled);
+          timeAt(2 * step + (stage < 3 ? 1 : 2)), last, next, unresolved);
         const double weight = stage < 3 ? 2.0 : 1.0;
         for (int axis = 0; axis < Dimension; ++axis)
         {
@@ -488,7 +489,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
     }
     lanes.Advance(job, one, fourStages ? 1.0 / 6.0 : 1.0, sum, sum, sum, lanes.Position);
   }
-  finishPositions<Dimension>(job, count, lanes.Position, troubled);
+  finishPositions<Dimension>(job, count, lanes.Position, unresolved);
   if (!writer.IsDense())
   {
     writer.WriteEnd(lanes.Position);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range kernels of an advection, which exist once per instruction set, and the choice among
-// them.
+// The kernels that advect a block of particles (paper, Section 3.3), one set for each instruction
+// set, and the choice among them.
 #ifndef RectifiedTransport_FlowKernels_h
 #define RectifiedTransport_FlowKernels_h
 
@@ -29,7 +29,7 @@ struct StepWeights
 // Weights of step `step` of `steps`.
 StepWeights multistepWeights(std::int64_t step, std::int64_t steps);
 
-// One advection: everything that its blocks share.
+// The input and parameters that all blocks of one advection share.
 template <int Dimension>
 struct FlowJob
 {
@@ -39,22 +39,22 @@ struct FlowJob
   bool Nearest;
   double Tolerance;
   std::int64_t Steps;
-  const StepWeights* Weights;     // of Multistep with `Steps` steps, else null
-  double CoarseRatio;             // a level is used while the box is this many of its cells wide
-  double* Output;                 // interleaved coordinates
-  const double* Times;            // dense output, ascending; null for the end point alone
-  std::int64_t TimeCount;         // 1 with the end point alone
-  bool (*ShouldStop)(void* host); // asked now and then, on any thread; null: never
-  void* Host;
+  const StepWeights* Weights;           // of Multistep with `Steps` steps, else null
+  double CoarseRatio;                   // least width of a box in cells of the level that is used
+  double* Output;                       // interleaved coordinates
+  const double* Times;                  // dense output, ascending; null for the end point alone
+  std::int64_t TimeCount;               // 1 with the end point alone
+  bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
+  void* ClientData;
 };
 
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the
-// output, with 2^refinement times the steps (or the tolerance lowered accordingly). Sets
-// troubled[i] if particle i met an empty box or ended in an empty cell. Returns the number of
-// velocity evaluations. Once the host wants to stop, positions are undefined.
+// output, with 2^refinement times the steps (Adaptive: 4^-refinement times the tolerance). Sets
+// unresolved[i] if particle i met an empty box or ended in an empty cell. Returns the number of
+// velocity evaluations. Once ShouldStop returned true, positions are undefined.
 template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* troubled);
+  const std::int64_t* index, int count, int refinement, bool* unresolved);
 
 struct FlowKernels
 {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one kernel source of an advection, compiled once per instruction set (FlowKernels*.cxx).
-// Everything has internal linkage and nothing of the standard library is called: code that is
-// compiled for a wide instruction set must never be what the linker picks for the rest of the
-// program.
+// Everything has internal linkage and nothing of the standard library is called: the linker must
+// not pick code that is compiled for a wide instruction set for the rest of the program.
 #include "Core/Flow/Kernels/FlowKernels.h"
 
 #include <cstring>
@@ -34,19 +33,19 @@ namespace
 
 template <int Dimension>
 std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* troubled)
+  const std::int64_t* index, int count, int refinement, bool* unresolved)
 {
   if (job.Method == Integrator::Adaptive)
   {
-    return advectAdaptive<Dimension>(job, seeds, index, count, refinement, troubled);
+    return advectAdaptive<Dimension>(job, seeds, index, count, refinement, unresolved);
   }
   if (job.Method == Integrator::Multistep)
   {
     return job.Backward
       ? multistepBackward<Dimension>(job, seeds, index, count)
-      : multistepForward<Dimension>(job, seeds, index, count, refinement, troubled);
+      : multistepForward<Dimension>(job, seeds, index, count, refinement, unresolved);
   }
-  return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, troubled);
+  return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, unresolved);
 }
 
 } // namespace

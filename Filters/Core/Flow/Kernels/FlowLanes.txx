@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every integrator does with a block: load it, start it on its exact straight path, write
-// positions at the requested times, and check where it ended. Included by FlowKernels.txx.
+// Steps common to all integrators: load a block, advance it along its exact straight start, write
+// positions at the requested times, check the end points. Included by FlowKernels.txx.
 
 RT_INLINE double clampToDomain(double x, double size)
 {
   return smaller(larger(x, faceDistance), size - faceDistance);
 }
 
-// Whether the host wants to stop before `step`: many steps would keep it waiting.
+// Polls for cancellation before `step`, every 64 steps.
 template <int Dimension>
 RT_INLINE bool shouldStop(const FlowJob<Dimension>& job, std::int64_t step)
 {
   constexpr std::int64_t interval = 64;
-  return step % interval == interval - 1 && job.ShouldStop && job.ShouldStop(job.Host);
+  return step % interval == interval - 1 && job.ShouldStop && job.ShouldStop(job.ClientData);
 }
 
 // Lanes from `count` on repeat the last particle: their results are not used.
@@ -64,8 +64,8 @@ RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimensio
   }
 }
 
-// Positions at the requested times, or at time 1 alone. Particles are advected to time 1 in any
-// case, because only the end tells which of them must be redone with smaller steps.
+// Writes positions at the requested times, or at time 1 alone. Particles are advected to time 1 in
+// any case: whether one must be redone with smaller steps depends on its end point.
 template <int Dimension>
 struct PathWriter
 {
@@ -89,7 +89,7 @@ struct PathWriter
     return this->Job.Output + (this->Index[lane] * this->Job.TimeCount + time) * Dimension;
   }
 
-  // Times up to `end` of a lane's path, on which place(s, axis) is the position at time s.
+  // Writes the times up to `end` of a lane's path, where place(s, axis) is the position at time s.
   template <class PositionAt>
   RT_INLINE void WriteUntil(int lane, double end, const PositionAt& place)
   {
@@ -133,7 +133,7 @@ struct PathWriter
     });
   }
 
-  // All that is left is the end point.
+  // The end point, at time 1.
   void WriteEnd(const LaneVectors<Dimension>& x)
   {
     for (int i = 0; i < this->Count; ++i)
@@ -179,10 +179,10 @@ RT_INLINE bool isOccupied(const TableView<Dimension>& tables, const double (&poi
   return (word >> (cell[0] & 63)) & 1;
 }
 
-// Clamps end points to the domain and marks those in empty cells as troubled.
+// Clamps end points to the domain and marks those in empty grid cells as unresolved.
 template <int Dimension>
 RT_INLINE void finishPositions(
-  const FlowJob<Dimension>& job, int count, LaneVectors<Dimension>& x, bool* troubled)
+  const FlowJob<Dimension>& job, int count, LaneVectors<Dimension>& x, bool* unresolved)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -204,6 +204,6 @@ RT_INLINE void finishPositions(
     {
       point[axis] = x[axis][i];
     }
-    troubled[i] = troubled[i] || !isOccupied<Dimension>(job.Tables, point);
+    unresolved[i] = unresolved[i] || !isOccupied<Dimension>(job.Tables, point);
   }
 }

@@ -2,14 +2,14 @@
 // The velocity of the rectified flow (paper, Equations 11 and 12) in a form without cancellation.
 // Included by FlowKernels.txx.
 
-// Positions keep this distance (in cells) from the domain's faces: on a face the box of a particle
-// has no volume, next to it the flow has its limit.
+// Least distance of positions from the domain's faces, in grid cells: the box of a particle on a
+// face has no volume; close to it the velocity is that of the limit.
 constexpr double faceDistance = 1.0 / (1 << 20);
 
 template <int Dimension>
 using LaneVectors = double[Dimension][BlockSize];
 
-// What the velocity of a block needs besides positions and times.
+// Intermediate results of the velocity of a block.
 template <int Dimension>
 struct VelocityLanes
 {
@@ -111,7 +111,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 }
 
 // Nodes and weights along one axis. Where the widths of all levels divide the size (EvenLevels) no
-// cell is narrower than the others; the general form gives the same bits.
+// last cell is narrower; the general form gives the same bits.
 template <int Dimension, bool Even>
 RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
   int axis, const Lanes& width, const Lanes& inverseWidth)
@@ -143,7 +143,7 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
       const double inCell = (plane - node * width[i]) * inverse;
       const double place = Even ? inCell : smaller(inCell, 1.0);
       boxes.Place[axis][side][i] = place;
-      boxes.Bend[axis][side][i] = (-0.5 * cell) * (place * (1.0 - place));
+      boxes.QuadraticWeight[axis][side][i] = (-0.5 * cell) * (place * (1.0 - place));
       boxes.Node[axis][side][i] = static_cast<std::int32_t>(node);
       nodes[side] = node;
       places[side] = place;
@@ -153,14 +153,16 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
       // One division for both sides.
       const double centre[2] = { nodes[0] + 0.5, nodes[1] + 0.5 };
       const double inverse = 1.0 / (centre[0] * centre[1]);
-      boxes.Own[axis][0][i] = places[0] * (nodes[0] + 0.5 * places[0]) * (centre[1] * inverse);
-      boxes.Own[axis][1][i] = places[1] * (nodes[1] + 0.5 * places[1]) * (centre[0] * inverse);
+      boxes.MomentWeight[axis][0][i] =
+        places[0] * (nodes[0] + 0.5 * places[0]) * (centre[1] * inverse);
+      boxes.MomentWeight[axis][1][i] =
+        places[1] * (nodes[1] + 0.5 * places[1]) * (centre[0] * inverse);
     }
   }
 }
 
-// Level, nodes and weights of every lane's box. The level depends on the lane alone: the coarsest
-// whose cells are no wider than the box's narrowest side over CoarseRatio.
+// Level, nodes and weights of every lane's box. Each lane has its own level: the coarsest whose
+// cells are no wider than the box's narrowest side over CoarseRatio.
 template <int Dimension>
 RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels that build tables, which exist once per instruction set, and the choice among them.
+// The kernels that build summed-area tables (paper, Algorithm 2), one set for each instruction set,
+// and the choice among them.
 #ifndef RectifiedTransport_TableKernels_h
 #define RectifiedTransport_TableKernels_h
 
@@ -10,8 +11,8 @@
 namespace RectifiedTransport
 {
 
-// What one pass finds in a row of cells. Sums are taken in eight lanes, in the same order for every
-// instruction set.
+// The result of one pass over a row of grid cells. Sums are taken in eight lanes, in the same order
+// for every instruction set.
 struct RowInspection
 {
   double Sum;
@@ -22,11 +23,11 @@ struct RowInspection
 };
 using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
 
-// Adds a row of cells to {f, f * centre} of every column.
+// Adds a row of grid cells to {f, f * centre} of every column.
 using AddToColumns = void (*)(
   const double* values, std::int64_t count, double centre, double* columns, double* moments);
 
-// Adds one row of cells, or a strip of it, to the row of nodes below and writes the sums out.
+// Adds one row of grid cells, or a strip of it, to the row of nodes below and writes the sums.
 // `Values` are the cells from the strip's start, `Prefix` the sums {f, f * centre along axis 0} of
 // the row's cells before it. See TableBuild.cxx for the rest.
 struct TableRow2D
@@ -37,7 +38,7 @@ struct TableRow2D
   double Prefix[2];
   double Centre;       // along axis 1
   const double* Below; // the records of the strip's nodes First+1.. below this row of cells
-  double* Nodes;       // where those above it go, not read
+  double* Nodes;       // output: the records above it
 };
 using AddTableRow2D = void (*)(const TableRow2D& row);
 
@@ -48,7 +49,7 @@ struct TableRow3D
   double Centre[2];    // along axes 1 and 2
   double* Columns;     // {f, f * centre 1} of each column of the slice so far, updated
   const double* Below; // the records of this row's nodes 1.. below this slice
-  double* Nodes;       // where those above it go, not read
+  double* Nodes;       // output: the records above it
 };
 using AddTableRow3D = void (*)(const TableRow3D& row);
 
