@@ -50,7 +50,7 @@ SURVIVED = [
       "std::uint64_t{ 0 }"),
     E(CORE + "Quality/ParticleQuality.cxx", "static_cast<double>(this->Size[axis]) / this->Scale.ToUnits(aspect[axis])",
       "1.0"),
-    E(CORE + "Solid/SurfaceOrientation.cxx", "area += this->Turns.data()[queue[next]] * «this->AreaOf(queue[next])»",
+    E(CORE + "Solid/SurfaceOrientation.cxx", "area += this->Orientations.data()[queue[next]] * «this->AreaOf(queue[next])»",
       "1.0"),
     S(BRIDGE + "Blend/DensityBlend.cxx", "array->Modified();", ";"),
     E(BRIDGE + "Blend/LinearizedMap.cxx", "«moved» +=", "moved = 0"),
@@ -100,7 +100,7 @@ OTHERS = [
       "masses[first + begin + i]"),
     E(CORE + "Splat/Kernels/SplatGaussian.txx", "for (; __builtin_fabs(x) > «0.5»", "4.0"),
     # cells, solids, quality
-    E(CORE + "SiteCells/BorderMaxFlow.cxx", "this->Capacity(from.Contact, «-from.Sign») > 0", "from.Sign"),
+    E(CORE + "SiteCells/BorderMaxFlow.cxx", "this->Capacity(from.Border, «-from.Sign») > 0", "from.Sign"),
     E(CORE + "SiteCells/SiteDensity.cxx", "«*next < first + count»", "*next <= first + count - 2"),
     E(CORE + "Solid/SolidCoverage.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
     E(CORE + "Solid/SurfaceEdges.cxx", "«endsOf(triangles, *begin).High == high»",
@@ -126,8 +126,8 @@ OTHERS = [
       "std::max(finest, std::abs(side.Spacing))"),
     E(BRIDGE + "Flow/MapField.cxx", "const double weight = «flow ? flow->Share(low, high) : 1.0»", "1.0"),
     S(BRIDGE + "Solid/ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
-    E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != nobody»)\n    {\n      this->Append(",
-      "below != nobody && above != nobody"),
+    E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != none»)\n    {\n      this->Append(",
+      "below != none && above != none"),
     # the filters
     S("Filters/vtkTransportBarycenter.cxx",
       "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",

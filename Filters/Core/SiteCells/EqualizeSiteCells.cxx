@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr int mostRounds = 1000;
-// Rounds that may pass without fewer pixels in excess than ever before.
+// Consecutive rounds without a new minimum of the pixels in excess, after which it ends.
 constexpr int mostIdleRounds = 64;
 
 template <int Dimension>
@@ -28,13 +28,13 @@ public:
     : Sites(sites)
     , Size(sites.Size())
     , Owners(owners)
-    , Pace(progress)
+    , Monitor(progress)
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
-    , Contacts(this->Cells)
+    , Borders(this->Cells)
   {
-    // Relative to the longest side: squares of lengths may pass the range of numbers.
+    // Relative to the longest side: squares of lengths may overflow.
     const double longest = *std::max_element(spacing.begin(), spacing.end());
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -48,7 +48,7 @@ public:
   // Throws Cancelled.
   void Run()
   {
-    this->Pace.BeginStage(0.2, this->Rows);
+    this->Monitor.BeginStage(0.2, this->Rows);
     this->VisitRows([this](std::int64_t row) {
       const std::int64_t* owner = this->Owners + row * this->Size[0];
       for (std::int64_t i = 0; i < this->Size[0]; ++i)
@@ -56,7 +56,7 @@ public:
         ++this->Count[owner[i]];
       }
     });
-    this->SettleEmptyCells();
+    this->FillEmptyCells();
     this->SetTargets();
     if constexpr (Dimension == 1)
     {
@@ -76,10 +76,10 @@ public:
         least = excess;
         idle = 0;
       }
-      this->Pace.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      this->Monitor.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
       this->Moved = 0;
-      this->FindContacts();
-      this->Contacts.Plan(this->Excess, this->Count, this->Pace);
+      this->FindBorders();
+      this->Borders.Plan(this->Excess, this->Count, this->Monitor);
       this->Move();
       if (this->Moved == 0)
       {
@@ -106,16 +106,16 @@ private:
     const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->Size[0]);
     for (std::int64_t row = 0; row < this->Rows;)
     {
-      const std::int64_t slice = std::min(this->Rows - row, this->Pace.NextSlice(smallest));
+      const std::int64_t slice = std::min(this->Rows - row, this->Monitor.NextSlice(smallest));
       for (const std::int64_t end = row + slice; row < end; ++row)
       {
         visit(row);
       }
-      this->Pace.EndSlice(slice);
+      this->Monitor.EndSlice(slice);
     }
   }
 
-  // Calls visit(pixel, neighbour) for all faces between pixels of two cells.
+  // Calls visit(pixel, neighbour) for all faces between pixels of two site cells.
   template <class Visit>
   void VisitBorders(const Visit& visit)
   {
@@ -145,9 +145,9 @@ private:
     });
   }
 
-  // A cell that got nothing touches no other. It begins with the pixel of its sites, and whoever
-  // loses the last one does the same.
-  void SettleEmptyCells()
+  // A site cell without pixels has no borders. It is given the pixel of its sites, and so is the
+  // cell whose last pixel that was.
+  void FillEmptyCells()
   {
     std::vector<std::int64_t> empty;
     for (std::int64_t cell = this->Cells; cell-- > 0;)
@@ -171,7 +171,7 @@ private:
     }
   }
 
-  // What does not divide goes to the cells that have most now.
+  // The remainder of the division goes to the site cells that have most now.
   void SetTargets()
   {
     const std::int64_t pixels = this->Rows * this->Size[0];
@@ -194,7 +194,7 @@ private:
     }
   }
 
-  // On a line no other cells are nearer than intervals in the order of the sites.
+  // In 1D intervals in the order of the sites are the optimal cells.
   void FillIntervals()
   {
     std::int64_t* pixel = this->Owners;
@@ -211,16 +211,16 @@ private:
         std::int64_t sum, std::int64_t excess) { return sum + std::max<std::int64_t>(excess, 0); });
   }
 
-  void FindContacts()
+  void FindBorders()
   {
-    this->Contacts.Clear();
+    this->Borders.Clear();
     this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
       const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
-      ++this->Contacts[this->Contacts.Add(low, high)].Faces;
+      ++this->Borders[this->Borders.Add(low, high)].Faces;
     });
   }
 
-  // How much further a pixel is, in squared distance, from the one than from the other.
+  // The change of a pixel's squared distance from its site when it moves to another site cell.
   double CostOf(std::int64_t pixel, std::int64_t from, std::int64_t to) const
   {
     double cost = 0.0;
@@ -242,10 +242,10 @@ private:
 
   void Move()
   {
-    std::vector<std::int64_t> first(this->Contacts.Size() + 1, 0);
-    for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
+    std::vector<std::int64_t> first(this->Borders.Size() + 1, 0);
+    for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
-      first[i + 1] = first[i] + (this->Contacts[i].Flow != 0 ? this->Contacts[i].Faces : 0);
+      first[i + 1] = first[i] + (this->Borders[i].Flow != 0 ? this->Borders[i].Faces : 0);
     }
     std::vector<Candidate> candidates(static_cast<std::size_t>(first.back()));
     std::vector<std::int64_t> next(first);
@@ -257,51 +257,52 @@ private:
         std::swap(low, high);
         std::swap(pixel, other);
       }
-      const std::int64_t number = this->Contacts.Find(low, high);
-      const std::int64_t flow = this->Contacts[number].Flow;
+      const std::int64_t number = this->Borders.Find(low, high);
+      const std::int64_t flow = this->Borders[number].Flow;
       if (flow != 0)
       {
         candidates[next[number]++] = flow > 0 ? Candidate{ this->CostOf(pixel, low, high), pixel }
                                               : Candidate{ this->CostOf(other, high, low), other };
       }
     });
-    std::vector<std::size_t> waiting;
-    for (std::size_t i = 0; i < this->Contacts.Size(); ++i)
+    std::vector<std::size_t> pending;
+    for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
-      this->Pace.Check();
-      if (this->Contacts[i].Flow != 0)
+      this->Monitor.Check();
+      if (this->Borders[i].Flow != 0)
       {
         std::sort(candidates.begin() + first[i], candidates.begin() + first[i + 1]);
         next[i] = first[i];
-        waiting.push_back(i);
+        pending.push_back(i);
       }
     }
-    // A cell of one pixel must get another before it gives its own, so that some moves wait.
+    // A site cell of one pixel must receive another before it loses its own: some moves are
+    // deferred.
     for (std::int64_t before = -1; before != this->Moved;)
     {
       before = this->Moved;
-      std::size_t kept = 0;
-      for (const std::size_t i : waiting)
+      std::size_t left = 0;
+      for (const std::size_t i : pending)
       {
-        if (this->MoveFirst(this->Contacts[i], candidates.data(), next[i], first[i + 1]))
+        if (this->MoveFirst(this->Borders[i], candidates.data(), next[i], first[i + 1]))
         {
-          waiting[kept++] = i;
+          pending[left++] = i;
         }
       }
-      waiting.resize(kept);
-      this->Pace.Check();
+      pending.resize(left);
+      this->Monitor.Check();
     }
   }
 
-  // A pixel with two faces to the other cell is there twice, and one between three cells may have
-  // moved already. True if a cell of one pixel has still to give it.
+  // A pixel with two faces to the other site cell is listed twice, and one between three may have
+  // moved already. True if a site cell of one pixel still has to lose it.
   bool MoveFirst(
-    SiteCellBorder& contact, const Candidate* candidates, std::int64_t& next, std::int64_t end)
+    SiteCellBorder& border, const Candidate* candidates, std::int64_t& next, std::int64_t end)
   {
-    const int sign = contact.Flow > 0 ? 1 : -1;
-    const std::int64_t from = sign > 0 ? contact.Low : contact.High;
-    const std::int64_t to = sign > 0 ? contact.High : contact.Low;
-    for (; next < end && contact.Flow != 0 && this->Count[from] > 1; ++next)
+    const int sign = border.Flow > 0 ? 1 : -1;
+    const std::int64_t from = sign > 0 ? border.Low : border.High;
+    const std::int64_t to = sign > 0 ? border.High : border.Low;
+    for (; next < end && border.Flow != 0 && this->Count[from] > 1; ++next)
     {
       std::int64_t& owner = this->Owners[candidates[next].Pixel];
       if (owner == from)
@@ -311,25 +312,25 @@ private:
         ++this->Count[to];
         --this->Excess[from];
         ++this->Excess[to];
-        contact.Flow -= sign;
+        border.Flow -= sign;
         ++this->Moved;
       }
     }
-    return next < end && contact.Flow != 0;
+    return next < end && border.Flow != 0;
   }
 
   const SiteDensity<Dimension>& Sites;
   const GridSize<Dimension> Size;
   std::int64_t* Owners;
-  Progress& Pace;
+  Progress& Monitor;
   const std::int64_t Cells;
-  std::vector<std::int64_t> Excess; // pixels that a cell has too many
+  std::vector<std::int64_t> Excess; // pixels of a site cell less its target
   std::vector<std::int64_t> Count;
   double Weight[Dimension];
   std::int64_t Stride[Dimension];
   std::int64_t Rows;
   std::int64_t Moved = 0;
-  BorderMaxFlow Contacts;
+  BorderMaxFlow Borders;
 };
 
 } // namespace

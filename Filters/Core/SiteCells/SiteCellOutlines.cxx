@@ -13,10 +13,10 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t nobody = -1; // outside of the domain
+constexpr std::int64_t none = -1; // the label outside of the domain; a node without a point
 
-// Goes through the layers of pixels along the last axis. Of the nodes only those of two planes have
-// their points' numbers at hand.
+// Visits the layers of pixels along the last axis. The numbers of the nodes' points are stored for
+// two planes of nodes only.
 template <int Dimension>
 class Outlines
 {
@@ -33,7 +33,7 @@ public:
       this->LayerPixels *= this->Size[a];
       nodes *= this->Size[a] + 1;
     }
-    this->Lower.assign(static_cast<std::size_t>(nodes), nobody);
+    this->Lower.assign(static_cast<std::size_t>(nodes), none);
     this->Upper = this->Lower;
   }
 
@@ -65,7 +65,7 @@ private:
     {
       if (cell[a] < 0 || cell[a] >= this->Size[a])
       {
-        return nobody;
+        return none;
       }
       pixel = pixel * this->Size[a] + cell[a];
     }
@@ -87,7 +87,7 @@ private:
       this->AddFace(cell, Dimension - 1);
     }
     std::swap(this->Lower, this->Upper);
-    std::fill(this->Upper.begin(), this->Upper.end(), nobody);
+    std::fill(this->Upper.begin(), this->Upper.end(), none);
   }
 
   // The faces across the other axes, between the two planes of nodes.
@@ -135,11 +135,11 @@ private:
     {
       std::reverse(corners, corners + Corners);
     }
-    if (below != nobody)
+    if (below != none)
     {
       this->Append(corners, below);
     }
-    if (above != nobody)
+    if (above != none)
     {
       std::reverse(corners, corners + Corners);
       this->Append(corners, above);
@@ -190,7 +190,7 @@ private:
     }
     auto& plane = node[Dimension - 1] == this->LowerPlane ? this->Lower : this->Upper;
     std::int64_t& point = plane[static_cast<std::size_t>(number)];
-    if (point == nobody)
+    if (point == none)
     {
       double index[Dimension];
       std::copy_n(node, Dimension, index);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The borders of the cells of a labelled image, along the sides of its pixels.
+// The borders of the site cells of a labelled image, along the faces of its pixels.
 #ifndef RectifiedTransport_SiteCellOutlines_h
 #define RectifiedTransport_SiteCellOutlines_h
 
@@ -20,12 +20,12 @@ struct SiteCellOutlines
 
   std::vector<Point<3>> Points;        // in physical space
   std::vector<std::int64_t> CornerIds; // which of the points, Corners for each face
-  std::vector<std::int64_t> SiteIds;   // of each face, the label of its cell
+  std::vector<std::int64_t> SiteIds;   // of each face, the label of its site cell
 };
 
-// Each cell has its own closed border; what is between two cells is there once for each. Quads are
-// seen from outside against the clock; lines go around their cell as the first of the image's axes
-// turns to the second. Throws std::bad_alloc and Cancelled.
+// Each site cell has a closed border; a face between two is listed once for each. Quads are
+// counterclockwise seen from outside; lines run around their site cell in the direction of rotation
+// from the first of the image's axes to the second. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 SiteCellOutlines<Dimension> outlineSiteCells(
   const ImageGrid& grid, const std::int64_t* labels, const Context& context = Context());

@@ -15,11 +15,11 @@ namespace RectifiedTransport
 namespace
 {
 
-// How many pixels are summed before the host is asked.
+// Pixels that are summed between two polls for cancellation.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
 
-// What is summed over the pixels of a cell. Their places are sums of halves: exact, however far
-// from the cell its site is.
+// Sums over the pixels of a site cell. Index sums half-integers: exact, however far from the cell
+// its site is.
 template <int Dimension>
 struct CellSum
 {
@@ -43,7 +43,7 @@ double squaredLength(const double* d)
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-// The largest component is taken out, so that no power of it passes the range of numbers.
+// The largest component is factored out, so that its powers do not overflow.
 double costOf(const double* d, const CostNorm& norm)
 {
   const double largest = std::max({ std::abs(d[0]), std::abs(d[1]), std::abs(d[2]) });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the cells of sites weigh, where their middles are, and what the way to the sites costs.
+// Mass, centroid and transport cost of site cells.
 #ifndef RectifiedTransport_SiteCellStatistics_h
 #define RectifiedTransport_SiteCellStatistics_h
 
@@ -17,16 +17,16 @@ struct CostNorm
   double Exponent = 2.0; // q, above 0
 };
 
-// What is written of each cell, in memory with room for all sites.
+// Output arrays of one value for each site.
 struct SiteCellStatistics
 {
   double* Mass;          // sites in one pixel share their mass, to the last bit
   PointSpan<3> Centroid; // in physical space
-  double* Cost;          // the cell's part of the cost
+  double* Cost;          // the site cell's part of the cost
 };
 
-// Measures the cells of which these are the labels. Returns the cost: the mean of |x - site|_p^q
-// over the pixels' centres x, of sites outside of the domain from where they are. Throws
+// Measures the site cells of `labels`. Returns the cost: the mean of |x - site|_p^q over the
+// pixels' centres x, for sites outside of the domain at their given positions. Throws
 // std::overflow_error for a cost or a domain past the largest double, std::bad_alloc and Cancelled.
 template <int Dimension>
 double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,

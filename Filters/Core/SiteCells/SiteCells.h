@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of equal mass: every pixel of a domain goes to one of the given sites, each of which gets
-// as much as any other. The rectified flow carries the pixels to the sites (paper, Section 4.2,
-// Figure 5); then the cells are made equal to the pixel, and sites in one pixel divide its cell.
+// Site cells of equal mass: every pixel of a domain is assigned to one of the given sites, equally
+// many to each. The rectified flow transports the pixels to the sites (paper, Section 4.2, Figure
+// 5); then the site cells are made equal to the pixel, and sites in one pixel divide its cell.
 //
-//   const ImageGrid grid = ...;                            // whose cells are the pixels
+//   const ImageGrid grid = ...;                            // its cells are the pixels
 //   const std::vector<Point<3>> sites = ...;               // in physical space
 //   const auto labels = labelSiteCells<2>(sites, grid);    // one-off
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sites on a grid of pixels: the density that has the mass of one for each of them.
+// The density of sites on a grid of pixels: mass 1 for each site in its pixel (paper, Section 4.2).
 #ifndef RectifiedTransport_SiteDensity_h
 #define RectifiedTransport_SiteDensity_h
 
@@ -27,7 +27,7 @@ public:
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Sites.size()); }
   std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }
   std::int64_t Pixel(std::int64_t k) const { return this->Pixels[k]; }
-  // Which of the pixels this is; it must be one of them.
+  // The k for which Pixel(k) is `pixel`, which must hold a site.
   std::int64_t Find(std::int64_t pixel) const;
   std::int64_t SitesIn(std::int64_t k) const { return this->First[k + 1] - this->First[k]; }
   // Site i of those in pixel k; they ascend.

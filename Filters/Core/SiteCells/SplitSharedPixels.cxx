@@ -16,10 +16,10 @@ namespace
 
 using Numbers = std::vector<std::int64_t>;
 
-// How many pixels are looked at before the host is asked.
+// Pixels between two polls for cancellation.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 16;
 
-// Where pixels are: those of a row of the grid need no division.
+// Grid coordinates of pixels, without a division for one in the row of the pixel before.
 template <int Dimension>
 class PixelPlace
 {
@@ -54,23 +54,23 @@ private:
 };
 
 template <int Dimension>
-class CellCut
+class CellBisection
 {
 public:
-  CellCut(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
+  CellBisection(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
     const Point<Dimension>& spacing, std::int64_t* labels, Progress& progress,
     std::int64_t largestCell)
     : Coordinates(coordinates)
     , Spacing(spacing)
     , Labels(labels)
-    , Pace(progress)
+    , Monitor(progress)
     , Place(sites.Size())
-    , Behind(largestCell)
+    , Upper(largestCell)
   {
   }
 
-  // The pixels ascend, and do so in each of the parts. Throws Cancelled.
-  void Cut(
+  // Labels ascending pixels by recursive bisection; both parts ascend, too. Throws Cancelled.
+  void Bisect(
     std::int64_t* sites, std::int64_t siteCount, std::int64_t* pixels, std::int64_t pixelCount)
   {
     if (siteCount == 1)
@@ -79,12 +79,12 @@ public:
       {
         this->Labels[pixels[i]] = *sites;
       }
-      return this->Pace.Add(pixelCount);
+      return this->Monitor.Add(pixelCount);
     }
     const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
     const std::int64_t half = siteCount / 2;
-    // Each gets as many as any other, or one more.
+    // Every site gets as many pixels as any other, or one more.
     const std::int64_t each = pixelCount / siteCount;
     const std::int64_t more = (pixelCount % siteCount * half + siteCount / 2) / siteCount;
     const std::int64_t part = each * half + more;
@@ -95,8 +95,8 @@ public:
         return x != y ? x < y : a < b;
       });
     this->Divide(pixels, pixelCount, part, axis, box);
-    this->Cut(sites, half, pixels, part);
-    this->Cut(sites + half, siteCount - half, pixels + part, pixelCount - part);
+    this->Bisect(sites, half, pixels, part);
+    this->Bisect(sites + half, siteCount - half, pixels + part, pixelCount - part);
   }
 
 private:
@@ -120,7 +120,7 @@ private:
       if (this->Visited >= sliceOfPixels)
       {
         this->Visited = 0;
-        this->Pace.Check();
+        this->Monitor.Check();
       }
     }
   }
@@ -142,7 +142,7 @@ private:
     return box;
   }
 
-  // Along which the sites differ most, or where they do not differ the pixels.
+  // The axis along which the sites, or if they coincide the pixels, have the largest extent.
   int ChooseAxis(const std::int64_t* sites, std::int64_t count, const Box& box) const
   {
     std::pair<double, int> bySites(0.0, -1);
@@ -166,7 +166,7 @@ private:
     return bySites.second >= 0 ? bySites.second : byPixels.second;
   }
 
-  // Brings the `first` pixels along an axis to the front, of those at one place the lowest.
+  // Moves the `first` lowest pixels along an axis to the front, those of a layer by their numbers.
   void Divide(
     std::int64_t* pixels, std::int64_t count, std::int64_t first, int axis, const Box& box)
   {
@@ -181,31 +181,31 @@ private:
       left -= this->Layers[border++];
     }
     border += low;
-    std::int64_t* behind = this->Behind.data();
-    std::int64_t* front = pixels;
+    std::int64_t* upper = this->Upper.data();
+    std::int64_t* lower = pixels;
     this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
       const std::int64_t layer = place[axis];
       if (layer < border || (layer == border && left-- > 0))
       {
-        *front++ = pixel;
+        *lower++ = pixel;
       }
       else
       {
-        *behind++ = pixel;
+        *upper++ = pixel;
       }
     });
-    this->ForPixels(this->Behind.data(), count - first,
-      [&front](std::int64_t pixel, const GridSize<Dimension>&) { *front++ = pixel; });
+    this->ForPixels(this->Upper.data(), count - first,
+      [&lower](std::int64_t pixel, const GridSize<Dimension>&) { *lower++ = pixel; });
   }
 
   ConstPointSpan<Dimension> Coordinates;
   const Point<Dimension> Spacing;
   std::int64_t* Labels;
-  Progress& Pace;
+  Progress& Monitor;
   PixelPlace<Dimension> Place;
-  std::int64_t Visited = 0; // since the host was asked
+  std::int64_t Visited = 0; // pixels since the last poll for cancellation
   Numbers Layers;
-  LargeBuffer<std::int64_t> Behind; // room for the largest cell
+  LargeBuffer<std::int64_t> Upper; // of the size of the largest site cell
 };
 
 } // namespace
@@ -220,7 +220,7 @@ void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimen
   {
     pixels *= cells;
   }
-  // The pixels of each cell of several sites.
+  // The pixels of each site cell of several sites.
   const std::int64_t cells = sites.NumberOfPixels();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
   progress.BeginStage(0.1);
@@ -250,7 +250,7 @@ void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimen
     }
   });
   progress.BeginStage(1.0, first.back());
-  CellCut<Dimension> cut(sites, coordinates, spacing, owners, progress, largest);
+  CellBisection<Dimension> bisection(sites, coordinates, spacing, owners, progress, largest);
   Numbers group;
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
@@ -261,7 +261,7 @@ void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimen
     }
     if (group.size() > 1)
     {
-      cut.Cut(group.data(), sites.SitesIn(cell), members.data() + first[cell],
+      bisection.Bisect(group.data(), sites.SitesIn(cell), members.data() + first[cell],
         first[cell + 1] - first[cell]);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the pixels that hold sites to the sites: those in one pixel divide its cell.
+// Divides the site cell of a pixel that holds several sites among these.
 #ifndef RectifiedTransport_SplitSharedPixels_h
 #define RectifiedTransport_SplitSharedPixels_h
 
@@ -11,11 +11,10 @@
 namespace RectifiedTransport
 {
 
-// Turns `owners`, which say of each pixel which of the pixels with sites it goes to, into the
-// numbers of sites. A cell of several sites is cut into halves, and these again, until each has
-// a part, equal to the pixel: across the axis along which the sites differ most, or where they do
-// not differ the cell's longest one. `coordinates` are the sites', `spacing` the lengths of a
-// pixel's sides. Throws Cancelled.
+// Replaces `owners`, the numbers of the pixels' site cells, by the numbers of sites. A site cell of
+// several sites is bisected recursively into parts that are equal to the pixel: across the axis
+// along which the sites have the largest extent, or if they coincide the site cell's longest one.
+// `coordinates` are the sites', `spacing` the lengths of a pixel's sides. Throws Cancelled.
 template <int Dimension>
 void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
   const Point<Dimension>& spacing, std::int64_t* owners, const Context& context = Context());

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// A power of two, at most half full.
+// A power of two, for a load factor of at most 1/2.
 std::int64_t tableSize(std::int64_t count)
 {
   std::int64_t size = 2;
@@ -51,7 +51,7 @@ std::uint64_t hash(const double* point)
 void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
 {
   LargeBuffer<std::int64_t> memory(tableSize(points.size()));
-  std::int64_t* table = memory.data(); // of points, -1 where it is free
+  std::int64_t* table = memory.data(); // indices of points, -1 where it is free
   const auto mask = static_cast<std::uint64_t>(memory.size() - 1);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
   Progress progress(context);

@@ -25,7 +25,7 @@ Index firstLineFrom(double coordinate, Index lines)
   return static_cast<Index>(std::max(0.0, std::min(line, static_cast<double>(lines))));
 }
 
-// Triangles by the layers of cells that have rows which cross them, in the order of the triangles.
+// Lists, for each layer of grid cells, the triangles that its rows of lines cross, in their order.
 class TriangleLayers
 {
 public:
@@ -35,16 +35,16 @@ public:
     , Layers(layers)
     , Squares(supersampling)
     , First(layers + 2)
-    , Pace(progress)
+    , Monitor(progress)
   {
   }
 
   // Throws Cancelled.
   void Build()
   {
-    // Counted as differences along the layers, so that high triangles take no longer than others.
+    // Counted as differences along the layers: O(1) for a triangle of any height.
     std::fill_n(this->First.data(), this->Layers + 2, Index{ 0 });
-    this->Pace.BeginStage(0.05, this->Surface.NumberOfTriangles);
+    this->Monitor.BeginStage(0.05, this->Surface.NumberOfTriangles);
     this->ForTriangles([this](Index, const Range& range) {
       ++this->First.data()[range.First + 1];
       --this->First.data()[range.End + 1];
@@ -61,7 +61,7 @@ public:
     this->Triangles = LargeBuffer<Index>(sum);
     LargeBuffer<Index> next(this->Layers);
     std::copy_n(first, this->Layers, next.data());
-    this->Pace.BeginStage(0.1, sum);
+    this->Monitor.BeginStage(0.1, sum);
     this->ForTriangles([this, &next](Index triangle, const Range& range) {
       for (Index k = range.First; k < range.End; ++k)
       {
@@ -107,7 +107,7 @@ private:
       {
         visit(i, range);
       }
-      this->Pace.Add(1 + range.End - range.First);
+      this->Monitor.Add(1 + range.End - range.First);
     }
   }
 
@@ -116,17 +116,17 @@ private:
   int Squares;
   LargeBuffer<Index> First;
   LargeBuffer<Index> Triangles;
-  Progress& Pace;
+  Progress& Monitor;
 };
 
-// Where a line goes through the surface, and to which side.
+// The intersection of a line with the surface.
 struct Crossing
 {
   double X;
-  int Side; // 1 or -1
+  int Side; // the change of the winding number, 1 or -1
 };
 
-// Memory for one layer that only grows.
+// Uninitialised memory that is kept from layer to layer.
 template <class T>
 class Scratch
 {
@@ -146,7 +146,7 @@ private:
   Index Count = 0;
 };
 
-// A corner of the polygon in which a plane cuts the surface.
+// A corner of the polygon in which the plane of a row intersects the surface.
 struct PlanePoint
 {
   double X;
@@ -155,8 +155,8 @@ struct PlanePoint
 
 using Corner = std::array<double, 3>;
 
-// Where the plane of a row cuts an edge that goes through it upwards. Both triangles of the edge
-// call it with the same numbers.
+// The intersection of the plane of a row with an edge that crosses it upwards. Both triangles of
+// the edge call it with the same numbers.
 PlanePoint cutEdge(const Corner& below, const Corner& above, double z)
 {
   const double t = (z - below[2]) / (above[2] - below[2]);
@@ -175,7 +175,7 @@ public:
     , LinesPerCell(supersampling * supersampling)
     , Lines(cells[1] * supersampling)
     , Coverage(coverage)
-    , Pace(progress)
+    , Monitor(progress)
   {
   }
 
@@ -186,10 +186,10 @@ public:
     scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1);
     scratch.Parts.Reserve(this->Cells[0] + 1);
     scratch.Whole.Reserve(this->Cells[0] + 1);
-    for (Index layer = first; layer < last && !this->Pace.ShouldStop(); ++layer)
+    for (Index layer = first; layer < last && !this->Monitor.ShouldStop(); ++layer)
     {
       this->FindCrossings(layer, scratch);
-      if (this->Pace.IsCancelled()) // then crossings may be missing
+      if (this->Monitor.IsCancelled()) // then crossings may be missing
       {
         return;
       }
@@ -200,13 +200,13 @@ public:
   Index OpenLines() const { return this->NumberOfOpenLines; }
 
 private:
-  // Lines of a layer are numbered so that those of a row of cells follow each other.
+  // Lines of a layer are numbered so that those of a row of grid cells are contiguous.
   struct LayerScratch
   {
     Scratch<Index> First; // of each line's crossings
     Scratch<Crossing> Crossings;
-    Scratch<double> Parts; // what lines cover of cells that they cover partly
-    Scratch<int> Whole;    // how many lines cover a whole cell, as differences along the row
+    Scratch<double> Parts; // sums of the lengths that lines cover of grid cells partly
+    Scratch<int> Whole;    // numbers of lines that cover a whole cell, as differences along the row
   };
 
   // The crossings of all lines of a layer, by lines.
@@ -222,7 +222,8 @@ private:
           ++first[this->LineOf(j, row)];
         }
       });
-    // From counts to the ends of the lines; filled from there, they become beginnings.
+    // From counts to the ends of the lines' crossings; filling them backward makes these
+    // beginnings.
     for (Index line = 1; line <= lines; ++line)
     {
       first[line] += first[line - 1];
@@ -232,7 +233,7 @@ private:
     this->ForSegments(layer,
       [this, first, crossings](
         const PlanePoint& in, const PlanePoint& out, Index from, Index end, Index row) {
-        // From the lower end, so that triangles that lie on each other have the same crossings.
+        // From the lower end, so that coincident triangles have the same crossings.
         const bool up = in.Y < out.Y;
         const PlanePoint& low = up ? in : out;
         const PlanePoint& high = up ? out : in;
@@ -253,15 +254,15 @@ private:
     return j / this->Squares * this->LinesPerCell + row * this->Squares + j % this->Squares;
   }
 
-  // Calls visit(in, out, from, end, row) for what the planes of a layer's rows cut of the
-  // triangles: a segment that crosses lines [from, end).
+  // Calls visit(in, out, from, end, row) for the intersections of the planes of a layer's rows with
+  // the triangles: segments that cross lines [from, end).
   template <class Visit>
   void ForSegments(Index layer, const Visit& visit)
   {
     const double squares = static_cast<double>(this->Squares);
     for (Index at = this->Layers.Begin(layer); at < this->Layers.End(layer); ++at)
     {
-      if ((at & 0xfff) == 0xfff && this->Pace.ShouldStop())
+      if ((at & 0xfff) == 0xfff && this->Monitor.ShouldStop())
       {
         return;
       }
@@ -284,8 +285,8 @@ private:
     }
   }
 
-  // Calls visit(in, out) if the plane cuts the triangle: from the edge that goes up through the
-  // plane to the one that goes down. A corner on the plane counts as below it.
+  // Calls visit(in, out) if the plane intersects the triangle: from the edge that crosses the plane
+  // upwards to the one that crosses it downwards. A corner on the plane counts as below it.
   template <class Visit>
   void CutTriangle(const Corner (&corners)[3], double z, const Visit& visit)
   {
@@ -316,7 +317,7 @@ private:
     const Index* first = scratch.First.data();
     for (Index j = 0; j < this->Cells[1]; ++j)
     {
-      if ((j & 0x1f) == 0x1f && this->Pace.ShouldStop())
+      if ((j & 0x1f) == 0x1f && this->Monitor.ShouldStop())
       {
         return;
       }
@@ -339,7 +340,7 @@ private:
     }
   }
 
-  // Adds the parts of a line that are inside of the solid.
+  // Adds the parts of a line that are inside the solid.
   void CoverLine(Crossing* crossings, Index count, double* parts, int* whole)
   {
     std::sort(
@@ -393,7 +394,7 @@ private:
 #pragma omp simd
     for (Index i = 0; i < count; ++i)
     {
-      // Parts of one cell may add up to more than the cell by rounding.
+      // By rounding the parts of a grid cell may sum to more than the cell.
       row[i] = std::min((static_cast<double>(whole[i]) + parts[i]) / lines, 1.0);
     }
   }
@@ -405,7 +406,7 @@ private:
   int LinesPerCell;
   Index Lines; // of a row
   double* Coverage;
-  Progress& Pace;
+  Progress& Monitor;
   std::atomic<Index> NumberOfOpenLines{ 0 };
 };
 

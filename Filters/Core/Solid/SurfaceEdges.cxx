@@ -11,7 +11,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Sides that a thread takes at once, and that take some milliseconds: they are all over memory.
+// Sides in a range, and in the first slice, which takes some milliseconds: access is scattered.
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
 constexpr std::int64_t units = std::int64_t{ 1 } << 17;
 
@@ -39,8 +39,8 @@ SurfaceEdges::SurfaceEdges(const TriangleSurface& surface, const Context& contex
   const std::int64_t* triangles = surface.Triangles;
   Progress progress(context);
 
-  // A counting sort by the lower ends. The counts are two ahead of their points: added up, `first`
-  // is one ahead of where a point's sides begin, and where they begin once these are in place.
+  // A counting sort by the lower ends. Counts are stored at the point + 2: summed, first[point + 1]
+  // is where a point's sides begin, and after they have been placed first[point] is.
   LargeBuffer<std::int64_t> firstMemory(points + 2);
   LargeBuffer<std::int64_t> sidesMemory(count);
   std::int64_t* first = firstMemory.data();
@@ -82,7 +82,7 @@ SurfaceEdges::SurfaceEdges(const TriangleSurface& surface, const Context& contex
     2 * grain);
 }
 
-// Of the sides of one lower end.
+// Pairs the sides [begin, end) of one lower end by their upper ends.
 void SurfaceEdges::Pair(const std::int64_t* triangles, std::int64_t* begin, std::int64_t* end)
 {
   std::sort(begin, end, [triangles](std::int64_t a, std::int64_t b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges of a surface of triangles: whether it is closed, and which triangles meet at them.
+// The edges of a triangle surface: whether it is closed, and which triangles share an edge.
 #ifndef RectifiedTransport_SurfaceEdges_h
 #define RectifiedTransport_SurfaceEdges_h
 
@@ -19,11 +19,11 @@ class SurfaceEdges
 {
 public:
   // The corners of a triangle are three different points. The sides are sorted by their ends, in
-  // O(sides log sides) however many meet in a point. Memory: 8 bytes a side, and as much again and
+  // O(sides log sides) for any valence of the points. Memory: 8 bytes a side, and as much again and
   // 8 bytes a point meanwhile. Throws std::bad_alloc and Cancelled.
   explicit SurfaceEdges(const TriangleSurface& surface, const Context& context = Context());
 
-  // Edges of one side, edges of more than two, and edges of two that run the same way.
+  // Edges of one side, edges of more than two, and edges of two with the same direction.
   std::int64_t Open() const { return this->NumberOpen; }
   std::int64_t NonManifold() const { return this->NumberNonManifold; }
   std::int64_t Reversed() const { return this->NumberReversed; }

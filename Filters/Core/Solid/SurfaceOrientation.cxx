@@ -22,20 +22,20 @@ public:
     : Points(points)
     , Triangles(triangles)
     , Edges(edges)
-    , Turns(count)
+    , Orientations(count)
     , Queue(count)
   {
-    std::fill_n(this->Turns.data(), count, static_cast<signed char>(0));
+    std::fill_n(this->Orientations.data(), count, static_cast<signed char>(0));
   }
 
   // False if there is no orientation.
   bool Run(Progress& progress)
   {
-    const std::int64_t count = this->Turns.size();
+    const std::int64_t count = this->Orientations.size();
     progress.BeginStage(1.0, count);
     for (std::int64_t start = 0; start < count; ++start)
     {
-      if (this->Turns.data()[start] == 0)
+      if (this->Orientations.data()[start] == 0)
       {
         this->OrientComponent(start, progress);
       }
@@ -44,45 +44,45 @@ public:
   }
 
 private:
-  // The triangles that are joined to this one, breadth first.
+  // Orients the component of a triangle, breadth first.
   void OrientComponent(std::int64_t start, Progress& progress)
   {
     std::int64_t* queue = this->Queue.data();
     this->QueueEnd = 0;
     this->Enter(start, 1);
-    double area = 0.0; // turned as the first triangle, less the rest
+    double area = 0.0; // of triangles oriented as the first one, less that of the others
     for (std::int64_t next = 0; next < this->QueueEnd; ++next)
     {
-      area += this->Turns.data()[queue[next]] * this->AreaOf(queue[next]);
+      area += this->Orientations.data()[queue[next]] * this->AreaOf(queue[next]);
       this->EnterNeighbours(queue[next]);
       progress.Add(1);
     }
     const signed char keep = area < 0.0 ? -1 : 1;
     for (std::int64_t i = 0; i < this->QueueEnd; ++i)
     {
-      if (this->Turns.data()[queue[i]] != keep)
+      if (this->Orientations.data()[queue[i]] != keep)
       {
         std::swap(this->Triangles[3 * queue[i] + 1], this->Triangles[3 * queue[i] + 2]);
       }
     }
   }
 
-  void Enter(std::int64_t triangle, signed char turn)
+  void Enter(std::int64_t triangle, signed char orientation)
   {
-    this->Turns.data()[triangle] = turn;
+    this->Orientations.data()[triangle] = orientation;
     this->Queue.data()[this->QueueEnd++] = triangle;
   }
 
   void EnterNeighbours(std::int64_t triangle)
   {
-    const signed char turn = this->Turns.data()[triangle];
+    const signed char orientation = this->Orientations.data()[triangle];
     for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
     {
       const std::int64_t other = this->Edges.Other(side);
-      // Sides of triangles that turn the same way begin at different ends of the edge.
+      // Sides of consistently oriented triangles begin at different ends of the edge.
       const bool same = this->Triangles[side] != this->Triangles[other];
-      const auto wanted = static_cast<signed char>(same ? turn : -turn);
-      const signed char found = this->Turns.data()[other / 3];
+      const auto wanted = static_cast<signed char>(same ? orientation : -orientation);
+      const signed char found = this->Orientations.data()[other / 3];
       if (found == 0)
       {
         this->Enter(other / 3, wanted);
@@ -111,8 +111,8 @@ private:
   ConstPointSpan<3> Points;
   std::int64_t* Triangles;
   const SurfaceEdges& Edges;
-  LargeBuffer<signed char> Turns;  // 0 not reached, 1 as the component's first triangle, -1 not
-  LargeBuffer<std::int64_t> Queue; // the triangles of a component
+  LargeBuffer<signed char> Orientations; // 0 not reached, 1 as the component's first, -1 opposite
+  LargeBuffer<std::int64_t> Queue;       // the triangles of a component
   std::int64_t QueueEnd = 0;
   bool Orientable = true;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the triangles of a closed surface turn the same way.
+// Orients the triangles of a closed surface consistently.
 #ifndef RectifiedTransport_SurfaceOrientation_h
 #define RectifiedTransport_SurfaceOrientation_h
 
@@ -11,12 +11,12 @@
 namespace RectifiedTransport
 {
 
-// Of triangles, three indices each, whose edges have two sides each. A component, that is triangles
-// joined by edges, keeps the orientation that most of its area has. One that most of its area turns
-// inside out stays so: to the winding number it is the same solid, and within another one a cavity.
+// Reorders the corners of triangles, three indices each, whose edges have two sides each. A
+// component, that is triangles joined by edges, gets the orientation of most of its area, even if
+// that is inside out: by the winding number it is the same solid, and within another one a cavity.
 //
-// Returns false if some triangles would have to turn both ways, as on a Klein bottle. Memory: 9
-// bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+// Returns false if the surface is not orientable, as a Klein bottle. Memory: 9 bytes a triangle. On
+// one thread. Throws std::bad_alloc and Cancelled.
 bool orientSurface(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
   const SurfaceEdges& edges, const Context& context = Context());
 

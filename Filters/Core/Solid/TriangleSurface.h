@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface of triangles, in memory that belongs to someone else.
+// A non-owning view of a triangle surface.
 #ifndef RectifiedTransport_TriangleSurface_h
 #define RectifiedTransport_TriangleSurface_h
 
@@ -10,7 +10,7 @@
 namespace RectifiedTransport
 {
 
-// Triangles are three indices of points each, counted from 0.
+// Triangles are three indices of points each, from 0.
 struct TriangleSurface
 {
   ConstPointSpan<3> Points;
