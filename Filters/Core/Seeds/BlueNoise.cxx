@@ -28,7 +28,8 @@ Matrix<Dimension> windowAxes();
 template <>
 Matrix<2> windowAxes<2>()
 {
-  // The slope is the golden ratio: of all lines, it comes back to itself on the torus latest.
+  // The slope is the golden ratio, the number that is worst approximable by rationals: lines of
+  // this direction come close to closing on the torus latest.
   constexpr double cosine = 0.85065080835203993;
   constexpr double sine = 0.52573111211913361;
   return (Matrix<2>() << cosine, sine, -sine, cosine).finished();
@@ -38,7 +39,7 @@ template <>
 Matrix<3> windowAxes<3>()
 {
   // The rotation of an integer quaternion; of 20,000 random ones, the one whose three axes and
-  // three planes stay farthest from those that close on the torus after a few turns.
+  // three planes are farthest from those that close on the torus after a few periods.
   constexpr double a = 69.0;
   constexpr double b = 60.0;
   constexpr double c = 128.0;
@@ -67,10 +68,10 @@ Matrix<Dimension> applySymmetry(Matrix<Dimension> axes, std::uint64_t choice)
   return axes;
 }
 
-// A window on the plane or space that the tile is repeated over. Coordinate v of the window is the
-// distance from its corner along each of its axes over the length that holds `count` points on
-// average: a point lies in the window of size s if every v is in [0, s], and s is close to 1 when
-// the window holds `count`.
+// A window on the periodic repetition of the tile. Its coordinates v are the distances from its
+// corner along its axes, relative to the sides of the window that holds `count` points on average:
+// a point lies in the window of size s if every v is in [0, s], and s is close to 1 when the window
+// holds `count`.
 template <int Dimension>
 class Window
 {
@@ -83,7 +84,7 @@ class Window
 public:
   Window(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
     Progress& progress)
-    : Pace(progress)
+    : Monitor(progress)
     , Count(count)
     , Axes(applySymmetry<Dimension>(windowAxes<Dimension>(), randomWord(randomSeed, Dimension)))
   {
@@ -110,8 +111,9 @@ public:
 
   void Generate(double* unitPoints)
   {
-    // Between a size that surely holds fewer than `count` points and one that holds more, the
-    // points are gathered and the count-th is selected. The fluctuation grows with the surface.
+    // Collects the points between the sizes 1 - margin, which should hold fewer than `count`, and 1
+    // + margin, which should hold more, and selects the count-th. The fluctuation of the number of
+    // points in a window grows with its surface.
     double surface = 0.0;
     for (double side : this->Sides)
     {
@@ -195,7 +197,7 @@ private:
     }
     for (int a = 0; a < Dimension; ++a)
     {
-      // Far beyond rounding: a bin counts as inside or outside only if each of its points does.
+      // Above rounding: a bin counts as inside or outside only if each of its points does.
       this->Slack[a] = 1e-12 * (1.0 + (this->Above[a] - this->Below[a]) * extent);
     }
   }
@@ -233,8 +235,8 @@ private:
     std::nth_element(band.begin(), last, band.end());
     this->LastSize = *last;
     this->Ties = missing - std::count_if(band.begin(), last, [&](double s) { return s < *last; });
-    // Half way to the first point outside, so that the far faces are as near to points as the
-    // faces at the corner.
+    // The middle between the last point inside and the first outside, so that the distances of
+    // points from the upper faces are like those from the lower ones.
     const double next = *std::min_element(last + 1, band.end());
     this->Size = *last + 0.5 * (next - *last);
     return true;
@@ -288,7 +290,7 @@ private:
   }
 
   // Calls whole(origin, first, last) for ranges of the tile at `origin` that lie in the window of
-  // size `inner`, and part(...) for those that reach into the window of size `outer`.
+  // size `inner`, and part(...) for the others that overlap the window of size `outer`.
   template <class Whole, class Part>
   void Visit(double inner, double outer, Whole&& whole, Part&& part) const
   {
@@ -323,7 +325,7 @@ private:
     {
       const int first = this->BinStart[code << (level * Dimension)];
       const int last = this->BinStart[(code + 1) << (level * Dimension)];
-      this->Pace.Add(last - first);
+      this->Monitor.Add(last - first);
       const Point<Dimension> origin = this->TileOrigin(cell);
       if (inside)
       {
@@ -362,22 +364,22 @@ private:
     return origin;
   }
 
-  Progress& Pace;
+  Progress& Monitor;
   std::int64_t Count;
   Matrix<Dimension> Axes;
   Matrix<Dimension> ToWindow;
   Point<Dimension> Sides;  // of the window of size 1, in tiles
   Point<Dimension> Corner; // in the tile at the origin
-  Point<Dimension> Below;  // how far a unit cube of tiles reaches from its corner along v
-  Point<Dimension> Above;
+  Point<Dimension> Below;  // extent along v of a tile from its corner, <= 0
+  Point<Dimension> Above;  // the same, >= 0
   Point<Dimension> Slack;
   std::vector<double> Tile; // v of the tile's points, from the tile's corner
   int BinStart[BinsPerTile + 1];
   Cell Root;
   int RootLevel;
-  double LastSize = 0.0; // that the last point needs
-  std::int64_t Ties = 0; // points of that very size to take
-  double Size = 0.0;     // of the box
+  double LastSize = 0.0; // the least size that holds the last point
+  std::int64_t Ties = 0; // points of exactly that size to take
+  double Size = 0.0;     // of the window that becomes the unit box
 };
 
 void generateJitteredLine(
@@ -393,7 +395,8 @@ void generateJitteredLine(
 }
 
 // The pattern of the other axes, with an additive recurrence along a thin one. Its step is the
-// golden ratio in 2D and the square root of 2 in 3D: a rod has both.
+// golden ratio in 2D and the square root of 2 in 3D: different ones, as both apply where two axes
+// are thin.
 template <int Dimension>
 void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
   std::uint64_t randomSeed, double* unitPoints, Progress& progress)
@@ -435,8 +438,8 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
   }
   else
   {
-    // As thin as the full pattern may be, to the power of the dimension and in mean spacings:
-    // where one dimension less keeps its points as far apart.
+    // The least thickness of the box for the full pattern, in mean spacings, to the power of the
+    // dimension: there the pattern of one dimension less has the same smallest spacing.
     constexpr double thinnest = Dimension == 2 ? 0.4 : 1.0;
     const int thin =
       static_cast<int>(std::min_element(lengths.begin(), lengths.end()) - lengths.begin());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blue noise: points that keep their distance from one another without order or direction.
+// Blue-noise point sets (paper, Section 5.1): even spacing without order or preferred directions.
 #ifndef RectifiedTransport_BlueNoise_h
 #define RectifiedTransport_BlueNoise_h
 
@@ -16,12 +16,12 @@ class Progress;
 // O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked. Adds about
 // 2 * count to the progress. Throws Cancelled.
 //
-// 2D and 3D: a relaxed toroidal tile is repeated over space, and a window of the box's shape grows
-// from a corner until it holds `count` points. The window is turned against the tile by a fixed
-// angle of badly approximable slope, so that even a thin strip sweeps the whole tile and no period
-// shows. The random seed chooses the corner and one of the tile's 8 or 48 symmetries. A box less
-// than about one point thick takes the pattern of one dimension less, and an additive recurrence
-// across.
+// 2D and 3D: a relaxed toroidal tile is repeated periodically, and the points are those of a window
+// of the box's shape at a corner, of the size that holds `count`. The window is rotated against the
+// tile by a fixed angle of badly approximable slope, so that even a thin strip samples the whole
+// tile and no period is visible. The random seed chooses the corner and one of the tile's 8 or 48
+// symmetries. A box less than about one mean spacing thick gets the pattern of one dimension less,
+// and an additive recurrence across.
 // 1D: one point in each of `count` equal intervals, jittered over half of it: spacings are between
 // 0.5 and 1.5 of the mean.
 template <int Dimension>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The toroidal blue-noise point sets that are repeated over space. Generated and explained by
-// Generators/GenerateBlueNoiseTile.cxx.
+// The toroidal blue-noise point sets that BlueNoise.cxx repeats periodically. The generator and the
+// method are in Generators/GenerateBlueNoiseTile.cxx.
 #ifndef RectifiedTransport_BlueNoiseTile_h
 #define RectifiedTransport_BlueNoiseTile_h
 
@@ -9,8 +9,8 @@
 namespace RectifiedTransport
 {
 
-// Coordinates are in units of 1/65536 of the tile's side, a point's together. Points are in Morton
-// order, axis 0 in the lowest bit: the points of a dyadic cell follow one another.
+// Interleaved coordinates in units of 1/65536 of the tile's side. Points are in Morton order, axis
+// 0 in the lowest bit: the points of a dyadic cube of the tile are contiguous.
 template <int Dimension>
 struct BlueNoiseTile
 {

@@ -73,8 +73,8 @@ AxisOrder<Dimension> shortestFirst(const Point<Dimension>& lengths)
   return order;
 }
 
-// How many of `count` cubes lie along axis order[first] of a box of the axes order[first] and
-// after; a real number.
+// The number, a real one, along axis order[first] of the `count` equal cubes that fill a box of the
+// axes order[first] and after.
 template <int Dimension>
 double cubesAlong(
   const Point<Dimension>& lengths, const AxisOrder<Dimension>& order, int first, double count)
@@ -95,8 +95,8 @@ double cubesAlong(
   }
 }
 
-// Both roundings of every axis in turn, the shortest first; the axes after it make up for its
-// rounding, so that only the last one's is left in the total.
+// Tries both roundings of every axis in turn, the shortest first; the axes after it compensate for
+// its rounding, so that only the last one's is left in the total.
 template <int Dimension>
 class LatticeChoice
 {
@@ -117,7 +117,7 @@ private:
   {
     if (k == Dimension)
     {
-      // A hundredth of the points missing is as bad as cells a tenth too long.
+      // 1 % of the points missing costs as much as cells 10 % too long.
       const double cost = std::abs(1.0 / remaining - 1.0) + 0.1 * stretch;
       if (cost < this->Cost)
       {
@@ -132,7 +132,7 @@ private:
     for (double n : { lower, upper })
     {
       size[this->Order[k]] = static_cast<std::int64_t>(n);
-      // A box less than one cell thick has one layer of cells at no charge.
+      // A box less than one cell thick has one layer of cells at no cost.
       const double ratio = ideal < 1.0 ? 1.0 : std::max(n / ideal, ideal / n);
       this->Try(size, k + 1, remaining / n, stretch + (ratio - 1.0));
     }
@@ -145,8 +145,8 @@ private:
   GridSize<Dimension> Size;
 };
 
-// Slabs across the shortest axis, each as thick as its share of the points; rows in slabs, boxes
-// in rows.
+// Divides the box into slabs across the shortest axis, of thickness in proportion to their numbers
+// of points, the slabs into rows, and the rows into boxes of one point.
 template <int Dimension>
 class JitteredBoxes
 {
@@ -157,11 +157,12 @@ public:
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
     , UnitPoints(unitPoints)
-    , Pace(progress)
+    , Monitor(progress)
   {
   }
 
-  // Points [first, first + count) fill the slab so far: order[k] and the axes after it are whole.
+  // Points [first, first + count) are those of a part of the box that is not yet divided along
+  // order[k] and the axes after it.
   void Fill(int k, std::int64_t first, std::int64_t count) const
   {
     const std::int64_t slabs = this->NumberOfSlabs(k, count);
@@ -183,7 +184,7 @@ public:
       {
         this->Fill(k + 1, first + begin, size);
       }
-      this->Pace.Add(size);
+      this->Monitor.Add(size);
       begin += size;
     }
   }
@@ -204,7 +205,7 @@ private:
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
   double* UnitPoints;
-  Progress& Pace;
+  Progress& Monitor;
 };
 
 template <int Dimension>
@@ -234,7 +235,7 @@ void generateLowDiscrepancy(
   }
 }
 
-// Calls visit(cell) for every cell, axis 0 fastest.
+// Calls visit(cell) for every cell of a grid, axis 0 fastest.
 template <int Dimension, class F>
 void visitCells(
   const GridSize<Dimension>& size, std::int64_t points, const Context& context, F&& visit)

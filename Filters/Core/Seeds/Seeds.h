@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform points to start from. All patterns are reproducible from their arguments alone, to the
-// last bit on every machine. Counts and grid sizes that are negative, and sides that are not
-// positive and finite, throw std::invalid_argument. What makes points runs on the thread that calls
-// it, whatever the executor, and may throw Cancelled.
+// Uniform points, the particles at time 0 (paper, Sections 3.3 and 5.1). All patterns are
+// reproducible from their arguments alone, to the last bit on every machine. Counts and grid sizes
+// that are negative, and sides that are not positive and finite, throw std::invalid_argument. The
+// generators run on the thread that calls them, whatever the executor, and may throw Cancelled.
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
@@ -23,13 +23,13 @@ enum class SeedPattern
   Random          // independent uniform points
 };
 
-// The grid of cells as near to `count` as a box with sides `lengths` allows: at least 1 an axis (no
-// cells for a count of 0), and cells as near to cubes as that permits.
+// A grid of about `count` cells, as near to cubes as that permits, on a box with sides `lengths`:
+// at least 1 an axis (no cells for a count of 0).
 template <int Dimension>
 GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count);
 
-// As many points as there is room for in the unit box [0,1]^Dimension, spread evenly in a box of
-// sides `lengths`, each > 0 and of any unit. Not for Lattice, whose count is latticeSize's.
+// Writes unitPoints.size() points of the unit box [0,1]^Dimension, spread evenly in a box of sides
+// `lengths`, each > 0 and of any unit. Not for Lattice, whose count is latticeSize's.
 template <int Dimension>
 void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context = Context());

@@ -7,7 +7,7 @@ namespace RectifiedTransport
 {
 
 template <int Dimension, class Real>
-void SlabPartition<Dimension, Real>::Look(
+void SlabPartition<Dimension, Real>::FindChunks(
   std::int64_t first, std::int64_t count, const Executor& executor)
 {
   const std::int64_t chunks = (count + splatChunk - 1) / splatChunk;
@@ -27,7 +27,7 @@ void SlabPartition<Dimension, Real>::Look(
 template <int Dimension, class Real>
 double SlabPartition<Dimension, Real>::CutSlabs(std::int64_t wanted)
 {
-  // Differences of the work from plane to plane, at first.
+  // As differences from plane to plane.
   const std::int32_t planes = this->Job->Size[Dimension - 1];
   this->Work.assign(static_cast<std::size_t>(planes) + 1, 0.0);
   for (const Planes& chunk : this->Chunks)

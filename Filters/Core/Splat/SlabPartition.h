@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the chunks of a range of particles are in the grid, and how to cut it into slabs of equal
-// work.
+// The planes of the grid that chunks of particles reach, and a partition of the grid into slabs of
+// about equal work.
 #ifndef RectifiedTransport_SlabPartition_h
 #define RectifiedTransport_SlabPartition_h
 
@@ -32,15 +32,15 @@ public:
   {
   }
 
-  // Looks at the chunks of particles [first, first + count).
-  void Look(std::int64_t first, std::int64_t count, const Executor& executor);
+  // Finds the planes of the chunks of particles [first, first + count).
+  void FindChunks(std::int64_t first, std::int64_t count, const Executor& executor);
 
   std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
   // The planes that a chunk may reach.
   Planes Chunk(std::int64_t chunk) const { return this->Chunks[static_cast<std::size_t>(chunk)]; }
 
-  // Cuts the grid into at most `wanted` slabs, once the chunks have been looked at. Returns how
-  // many of them a chunk reaches in the mean.
+  // Cuts the grid into at most `wanted` slabs, after FindChunks. Returns the mean number of slabs
+  // that a chunk reaches.
   double CutSlabs(std::int64_t wanted);
 
   std::int64_t NumberOfSlabs() const { return static_cast<std::int64_t>(this->Cuts.size()) - 1; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who adds which particles to which cells. Every cell belongs to one task at a time, which goes
-// through the particles in their order: so the sums are those of a plain loop, however the cells
-// are divided among tasks and the particles into slices.
+// The distribution of particles and grid cells to tasks. At any time one task adds to a cell, in
+// the order of the particles: the sums are those of a serial loop, however the cells are divided
+// among tasks and the particles into slices.
 #include "Core/Splat/Splat.h"
 
 #include "Core/Parallel/Progress.h"
@@ -19,15 +19,15 @@ namespace RectifiedTransport
 namespace
 {
 
-// Particles of a slice: long work has more slices than one, sorted particles are dense enough that
-// a tile is worth its way to the cache, and numbers within a slice have 32 bits.
+// Particles of a slice: few enough that long work has several slices, dense enough that loading a
+// tile into the cache pays, and numbered within the slice in 32 bits.
 constexpr double shortestSlice = 1 << 22; // shares of particles in cells
 constexpr double densestSlice = 0.25;     // particles a cell
 constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
 
-// How often chunks may be weighed in the mean, by tasks that each add a part of them: for some more
-// slabs than tasks, and before it is cheaper to sort the particles. (One task alone has nothing of
-// a sort: misses of the cache overlap.)
+// How many slabs a chunk may reach in the mean, as its weights are computed for each: for more
+// slabs than tasks, and before sorting the particles into tiles is cheaper. (A single task gains
+// nothing from a sort: cache misses overlap.)
 constexpr double fewVisits = 1.2;
 constexpr double mostVisits = 8.0;
 constexpr std::int64_t mostSlabs = 4; // a task
@@ -41,7 +41,7 @@ class SplatRun
 public:
   SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
     const SplatOptions& options, double scale, double* cells, Progress& progress)
-    : Pace(progress)
+    : Monitor(progress)
     , Tiles(this->Job)
   {
     this->Job.Particles = particles;
@@ -75,7 +75,7 @@ public:
       std::min(densestSlice * static_cast<double>(stride), static_cast<double>(longestSlice));
     this->ShortestSlice = static_cast<std::int64_t>(
       this->Job.Width > widestSorted ? shortest : std::max(shortest, dense));
-    this->Survey = SlabPartition<Dimension, Real>(this->Job, this->Kernels.Reach);
+    this->Slabs = SlabPartition<Dimension, Real>(this->Job, this->Kernels.Reach);
     this->Tiles.Divide();
   }
 
@@ -83,14 +83,14 @@ public:
   {
     const std::int64_t count = this->Job.Particles.Points.size();
     this->Clear(count > 0 ? 0.1 : 1.0);
-    this->Pace.BeginStage(1.0, count);
+    this->Monitor.BeginStage(1.0, count);
     for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t slice =
-        std::min({ count - begin, this->Pace.NextSlice(this->ShortestSlice), longestSlice });
+        std::min({ count - begin, this->Monitor.NextSlice(this->ShortestSlice), longestSlice });
       this->AddSlice(begin, slice);
       begin += slice;
-      this->Pace.EndSlice(slice);
+      this->Monitor.EndSlice(slice);
     }
     return { this->Outside };
   }
@@ -114,8 +114,8 @@ private:
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
     double* cells = this->Job.Cells;
-    this->Pace.BeginStage(end);
-    this->Pace.For(
+    this->Monitor.BeginStage(end);
+    this->Monitor.For(
       this->NumberOfCells, grain,
       [cells](
         std::int64_t first, std::int64_t last) { std::fill(cells + first, cells + last, 0.0); },
@@ -124,17 +124,17 @@ private:
 
   void AddSlice(std::int64_t first, std::int64_t count)
   {
-    const int tasks = this->Pace.Threads().Concurrency();
+    const int tasks = this->Monitor.Threads().Concurrency();
     if (tasks == 1)
     {
       this->AddInOrder(first, count);
       return;
     }
-    this->Survey.Look(first, count, this->Pace.Threads());
+    this->Slabs.FindChunks(first, count, this->Monitor.Threads());
     double visits = 0.0;
     for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
-      visits = this->Survey.CutSlabs(slabs * tasks);
+      visits = this->Slabs.CutSlabs(slabs * tasks);
       if (visits <= fewVisits)
       {
         break;
@@ -156,20 +156,20 @@ private:
     this->Outside += this->AddRange(first, count, nullptr, 0);
   }
 
-  // Each task adds what falls between two planes, of the chunks that come near.
+  // Each task adds the chunks that reach its slab to the cells of the slab.
   void AddBySlabs(std::int64_t first, std::int64_t count)
   {
-    const std::int64_t slabs = this->Survey.NumberOfSlabs();
+    const std::int64_t slabs = this->Slabs.NumberOfSlabs();
     this->MakeScratch(slabs);
-    this->Pace.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Monitor.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t slab = begin; slab < end; ++slab)
       {
-        const CellBox<Dimension> box = this->Survey.Slab(slab);
+        const CellBox<Dimension> box = this->Slabs.Slab(slab);
         std::int64_t outside = 0;
         for (std::int64_t chunk = 0;
-             chunk < this->Survey.NumberOfChunks() && !this->Pace.IsCancelled(); ++chunk)
+             chunk < this->Slabs.NumberOfChunks() && !this->Monitor.IsCancelled(); ++chunk)
         {
-          const typename SlabPartition<Dimension, Real>::Planes planes = this->Survey.Chunk(chunk);
+          const typename SlabPartition<Dimension, Real>::Planes planes = this->Slabs.Chunk(chunk);
           const std::int32_t low = box.Low[Dimension - 1];
           const std::int32_t high = box.High[Dimension - 1];
           if (planes.Low >= high || planes.High <= low)
@@ -188,19 +188,19 @@ private:
 
   void AddByTiles(std::int64_t first, std::int64_t count)
   {
-    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Pace);
-    if (this->Pace.IsCancelled())
+    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Monitor);
+    if (this->Monitor.IsCancelled())
     {
       return;
     }
     const std::int64_t tiles = this->Tiles.Count();
     const std::int64_t groups = std::min(tiles, groupsOfTiles);
     this->MakeScratch(groups);
-    this->Pace.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Monitor.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t group = begin; group < end; ++group)
       {
         for (std::int64_t tile = group * tiles / groups;
-             tile < (group + 1) * tiles / groups && !this->Pace.ShouldStop(); ++tile)
+             tile < (group + 1) * tiles / groups && !this->Monitor.ShouldStop(); ++tile)
         {
           const CellBox<Dimension> box = this->Tiles.Box(tile);
           this->Kernels.Add(this->Job, first, this->Tiles.Begin(tile), this->Tiles.CountOf(tile),
@@ -210,12 +210,12 @@ private:
     });
   }
 
-  // In steps that the host can wait for, however wide the kernel is.
+  // In steps between polls for cancellation that are short for kernels of any width.
   std::int64_t AddRange(
     std::int64_t first, std::int64_t count, const CellBox<Dimension>* box, std::int64_t task)
   {
     std::int64_t outside = 0;
-    for (std::int64_t begin = 0; begin < count && !this->Pace.ShouldStop(); begin += this->Step)
+    for (std::int64_t begin = 0; begin < count && !this->Monitor.ShouldStop(); begin += this->Step)
     {
       outside += this->Kernels.Add(this->Job, first + begin, nullptr,
         std::min(this->Step, count - begin), box, this->ScratchOf(task));
@@ -232,12 +232,12 @@ private:
 
   SplatJob<Dimension, Real> Job{};
   SplatKernels<Dimension, Real> Kernels;
-  Progress& Pace;
-  SlabPartition<Dimension, Real> Survey;
+  Progress& Monitor;
+  SlabPartition<Dimension, Real> Slabs;
   SplatTiles<Dimension, Real> Tiles;
   std::int64_t NumberOfCells = 0;
   std::int64_t ShortestSlice = 0;
-  std::int64_t Step = 0; // particles between two looks whether to stop
+  std::int64_t Step = 0; // particles between two polls for cancellation
   std::vector<double> AtOffset;
   std::vector<double> Scratch;
   std::int64_t ScratchEach = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles to a grid: every particle spreads its mass over the cells around it by a kernel that is
-// a product of one-dimensional ones.
+// The mass of particles on a grid: every particle distributes its mass over the grid cells around
+// it by a kernel that is a product of one-dimensional ones.
 #ifndef RectifiedTransport_Splat_h
 #define RectifiedTransport_Splat_h
 
@@ -20,22 +20,22 @@ enum class SplatKernel
   CloudInCell,
   NearestCell, // of a point on a face, the upper cell
   TriangularShapedCloud,
-  // Cut at three standard deviations, and its values at the cells' centres multiplied by the linear
-  // function that makes their sum 1 and keeps the centroid.
+  // Truncated at three standard deviations, and its values at the cells' centres multiplied by the
+  // linear function that makes their sum 1 and keeps the centroid.
   Gaussian
 };
 
 enum class SplatBoundary
 {
-  Renormalize, // what a kernel has beyond the border goes to its cells inside, axis by axis
-  Drop         // it is lost
+  Renormalize, // weights of cells beyond the border are distributed to those inside, axis by axis
+  Drop         // they are dropped
 };
 
 struct SplatOptions
 {
   SplatKernel Kernel = SplatKernel::CloudInCell;
-  // The Gaussian's standard deviation in cells, above 0 and at most LargestRadius. Up to a third of
-  // a cell no more than two cells an axis are reached, and the Gaussian is the CloudInCell.
+  // The Gaussian's standard deviation in grid cells, above 0 and at most LargestRadius. Up to a
+  // third of a cell its support has at most two cells an axis, and it is the CloudInCell.
   double Radius = 1.0;
   SplatBoundary Boundary = SplatBoundary::Renormalize;
 
@@ -53,14 +53,14 @@ struct SplatParticles
 
 struct SplatReport
 {
-  // Particles that are outside: Renormalize moves them to the nearest point of the border, Drop
-  // leaves them out.
+  // Particles outside the grid: Renormalize moves them to the nearest point of the border, Drop
+  // omits them.
   std::int64_t Outside = 0;
 };
 
-// Writes `scale` times the mass of every cell, axis 0 fastest, of at most 2^30 cells an axis. The
-// shares of a cell are added in the order of the particles, so that the result is that of a loop
-// over them, to the last bit, whoever runs it. Throws std::bad_alloc and Cancelled.
+// Writes `scale` times the mass of every grid cell, axis 0 fastest, of at most 2^30 cells an axis.
+// The terms of a cell are added in the order of the particles, so that the result is that of a
+// serial loop, to the last bit, for every executor. Throws std::bad_alloc and Cancelled.
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,

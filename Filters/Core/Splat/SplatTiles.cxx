@@ -18,7 +18,7 @@ constexpr int tileShift = Dimension == 1 ? 15
   : Dimension == 2                       ? 7
                                          : 5;
 constexpr std::int64_t mostTiles = std::int64_t{ 1 } << 16;
-constexpr std::int64_t parts = 64; // of the particles, counted and put in their places separately
+constexpr std::int64_t parts = 64; // of the particles, counted and sorted separately
 
 } // namespace
 

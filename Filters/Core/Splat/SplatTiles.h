@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles by the tiles of the grid that they reach, each tile's in their order: many tasks then
-// add particles that are in no order, and each weighs none but its own.
+// Sorts particles by the tiles of the grid that they reach, those of a tile in their order: tasks
+// for the tiles then add particles of no spatial order, and compute the weights of no others.
 #ifndef RectifiedTransport_SplatTiles_h
 #define RectifiedTransport_SplatTiles_h
 
@@ -23,11 +23,11 @@ public:
   {
   }
 
-  // Divides the grid, whose size is known by now.
+  // Divides the grid into tiles, once the job has its size.
   void Divide();
 
-  // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; what is found is
-  // undefined once the host wants to stop. Throws std::bad_alloc.
+  // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; results are
+  // undefined after cancellation. Throws std::bad_alloc.
   std::int64_t Sort(
     FindCells<Dimension, Real> find, std::int64_t first, std::int64_t count, Progress& progress);
 
@@ -38,7 +38,8 @@ public:
   std::int64_t CountOf(std::int64_t tile) const;
 
 private:
-  // The tiles of the cells that a particle reaches, by the first of these along each axis.
+  // Calls visit(tile) for the tiles of the cells that a particle reaches, of which `cells` are the
+  // first along each axis.
   template <class Visit>
   void VisitTiles(const std::int32_t* cells, const Visit& visit) const;
 

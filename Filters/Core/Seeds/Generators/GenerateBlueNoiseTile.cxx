@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Generates BlueNoiseTile2D.cxx and BlueNoiseTile3D.cxx, the toroidal point sets behind
+// Generates BlueNoiseTile2D.cxx and BlueNoiseTile3D.cxx, the toroidal point sets of
 // SeedPattern::BlueNoise. Not part of the build: half a minute in 2D and three in 3D, in the folder
-// Filters/Core:
+// Filters/Core/Seeds:
 //
 //   g++ -O2 -std=c++17 -ffp-contract=off Generators/GenerateBlueNoiseTile.cxx -o generate
 //   ./generate 2 BlueNoiseTile2D.cxx
@@ -9,10 +9,10 @@
 //
 // The result is the same on every machine: only + - * / and sqrt of IEEE doubles are used.
 //
-// Method: points repel each other by a Gaussian of about the mean spacing, which empties the low
-// frequencies of their spectrum and leaves them amorphous; a second stage adds a spring between
-// points nearer than a chosen distance, which lifts the smallest spacings almost to the mean one
-// without ordering the rest. A narrower Gaussian would crystallise instead.
+// Method: points repel each other by a Gaussian of about the mean spacing, which removes the low
+// frequencies of their spectrum and keeps them amorphous; a second stage adds a spring between
+// points nearer than a chosen distance, which raises the smallest spacings almost to the mean one
+// without ordering the rest. With a narrower Gaussian they would crystallise.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -163,7 +163,7 @@ public:
   }
 
 private:
-  // Fast inertial relaxation (Bitzek et al. 2006): the momentum is dropped whenever it climbs.
+  // Fast inertial relaxation (Bitzek et al. 2006): velocities are reset when the energy rises.
   void Minimise(double springLength, const char* stage)
   {
     const double reach = Cut * Set::Sigma;
@@ -278,7 +278,7 @@ private:
     }
   }
 
-  // The shortest way from j to i round the torus; returns its square.
+  // The shortest offset from j to i on the torus; returns its squared length.
   double Offset(int i, int j, VectorType& offset) const
   {
     double squared = 0.0;
@@ -293,7 +293,7 @@ private:
     return squared;
   }
 
-  // Each pair once, in the list of its larger index, by cells of at least half the reach.
+  // Each pair once, in the list of its larger index, by a grid of cells of at least half the reach.
   void FindNeighbours(double reach)
   {
     const int cells = static_cast<int>(2.0 * Set::Side / reach);
@@ -344,7 +344,7 @@ private:
     return result;
   }
 
-  // In Morton order, so that every dyadic cell of the tile holds a contiguous range of points.
+  // In Morton order, so that the points of every dyadic cube of the tile are contiguous.
   std::vector<std::array<std::uint16_t, Dimension>> Quantise() const
   {
     std::vector<std::array<std::uint16_t, Dimension>> points(Set::NumberOfPoints);

@@ -11,7 +11,7 @@ RT_INLINE std::int32_t larger(std::int32_t a, std::int32_t b)
   return a > b ? a : b;
 }
 
-// Vectors of GCC, as loops over a period of coordinates are not recognized as such.
+// Vectors of GCC, as it does not vectorize loops over a period of coordinates.
 template <class Number>
 struct FourOf;
 template <>
@@ -52,8 +52,8 @@ RT_INLINE void store(const Vector& four, Number* to)
   __builtin_memcpy(to, &four, sizeof four);
 }
 
-// Of the coordinates of particles as they are in memory, x y z x y z ..., as many as are whole
-// particles and whole vectors.
+// The least number of interleaved coordinates, x y z x y z ..., that are whole particles and whole
+// vectors.
 constexpr int coordinatePeriod = 12;
 constexpr int vectorsOfPeriod = 3;
 constexpr int blockCoordinates = 3 * splatBlock;
@@ -65,8 +65,8 @@ struct Period
   RT_INLINE Four operator[](int vector) const { return load(this->Of + 4 * vector); }
 };
 
-// What the axes of a job are for the coordinates of a period. Axes beyond the Dimension have size
-// 0.
+// The parameters of a job's axes, repeated for the coordinates of a period. Axes beyond the
+// Dimension have size 0.
 template <int Dimension, class Real>
 struct Axes
 {
@@ -97,23 +97,24 @@ struct Axes
   Period Origin;
   Period Size;
   Period Half;
-  Period Allowed; // from the middle, for a particle not to be outside
-  Period Within;  // from the middle, for a particle not to be moved to the border either
-  Period Inside;  // from the middle, for a particle to be more than one cell away from the border
+  // Largest distances from the middle of the domain of a particle that is
+  Period Allowed; // not outside
+  Period Within;  // not moved to the border either
+  Period Inside;  // more than one cell away from the border
 };
 
-// A block of particles. Coordinate a of particle i is number 3 i + a, as in memory: to move it
-// elsewhere costs more than all that is computed of it.
+// A block of particles. Coordinate a of particle i is number 3 i + a, as in memory: a transposition
+// would cost more than the weights.
 struct Block
 {
   int Count;
   double X[blockCoordinates]; // in index space
   double Mass[splatBlock];
-  double Beyond[splatBlock]; // by how much particles are outside, or no number, if any are
+  double Beyond[splatBlock]; // distances outside, or NaN; set if any are outside
 };
 
 template <int Dimension>
-RT_INLINE void mapTurned(
+RT_INLINE void mapOblique(
   const IndexMap<Dimension>& map, const double* __restrict from, double* __restrict x)
 {
   for (int i = 0; i < splatBlock; ++i)
@@ -127,8 +128,8 @@ RT_INLINE void mapTurned(
   }
 }
 
-// The box of physical space around particles, in index space [least, most] along the Dimension
-// axes, as far as that is in the grid.
+// The bounding box of particles, in index space [least, most] along the Dimension axes, clipped to
+// the grid.
 template <int Dimension, class Real>
 RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* points,
   std::int64_t count, double* least, double* most)
@@ -185,7 +186,7 @@ RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* poin
   }
   for (int a = 0; a < Dimension; ++a)
   {
-    // Not so if the map has overflowed.
+    // False if the map has overflowed.
     const double size = job.Size[a];
     const bool known = least[a] <= most[a];
     least[a] = known && least[a] > 0.0 ? (least[a] < size ? least[a] : size) : 0.0;
@@ -238,7 +239,7 @@ RT_INLINE void readMasses(const SplatJob<Dimension, Real>& job, std::int64_t fir
   }
 }
 
-// Reads the same particles, block.Count of them.
+// Reads masses and points of block.Count particles, as readMasses.
 template <int Dimension, class Real>
 RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes,
   std::int64_t first, const std::uint32_t* index, std::int64_t begin, Block& block)
@@ -256,7 +257,7 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
   }
   if (!axes.AreParallel)
   {
-    mapTurned(job.Particles.ToIndex, from, block.X);
+    mapOblique(job.Particles.ToIndex, from, block.X);
     return;
   }
   for (int begins = 0; begins < blockCoordinates; begins += coordinatePeriod)
@@ -269,16 +270,16 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
   }
 }
 
-// The first of the cells that a particle reaches along axis `a`, where those beyond the border are
-// not kept.
+// The first of the Kept cells inside the grid for a particle that reaches cells from `first` on
+// along axis `a`.
 template <int Dimension, class Real>
 RT_INLINE std::int32_t keptFirst(const SplatJob<Dimension, Real>& job, int a, std::int32_t first)
 {
   return smaller(larger(first, 0), job.Size[a] - job.Kept[a]);
 }
 
-// How many particles of a block are outside, of those whose first cell along the last axis is in a
-// box: every particle is counted once, however many boxes it reaches.
+// The number of particles of a block that are outside, of those whose first cell along the last
+// axis is in a box: so that each is counted once, however many boxes it reaches.
 template <int Dimension, class Real>
 int countOutside(const SplatJob<Dimension, Real>& job, const Block& block,
   const std::int32_t* first, const CellBox<Dimension>& box)
@@ -309,7 +310,7 @@ RT_INLINE bool placeBlock(
       double* at = block.X + begin + 4 * v;
       const Four x = load(at);
       const Four offset = x - axes.Half[v];
-      // No number where the map has overflowed.
+      // NaN where the map has overflowed.
       const Four excess = (offset < 0.0 ? -offset : offset) - axes.Allowed[v];
       const Four outside = excess <= 0.0 ? Four{} : excess;
       store(outside, beyond + begin + 4 * v);
@@ -330,8 +331,8 @@ RT_INLINE bool placeBlock(
   return true;
 }
 
-// Moves weights of the cells from `cell` on to the `kept` ones from the returned one on, which are
-// inside; what was outside is shared among them or lost.
+// Shifts the weights of the cells from `cell` on to the `kept` cells from the returned one on,
+// which are inside; the weights outside are distributed to them or dropped.
 RT_INLINE std::int32_t keepInside(
   std::int32_t cell, int width, int kept, std::int32_t size, bool renormalize, double* weight)
 {

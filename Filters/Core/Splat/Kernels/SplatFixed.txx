@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels of a fixed number of cells an axis. Included by SplatKernels.txx.
+// The B-spline kernels, of a fixed number of cells an axis. Included by SplatKernels.txx.
 
 RT_INLINE FourCells truncated(const Four& x)
 {
   return __builtin_convertvector(x, FourCells);
 }
 
-// One less. Of what is far outside, cells are any number.
+// One less, with wrap-around: cells of particles far outside are any number.
 RT_INLINE FourCells before(const FourCells& cells)
 {
   return (FourCells)((FourOf<std::uint32_t>::Type)cells - 1);
 }
 
-// Of coordinates of [0, size]: the first cell, which may lie beyond the border, and Parts numbers
-// that the Width weights follow from. `Inside`: they are more than one cell away from the border.
+// Weigh computes for coordinates in [0, size] the first cell, which may lie beyond the border, and
+// the Parts numbers from which Spread computes the Width weights. `Inside`: the coordinates are
+// more than one cell away from the border.
 struct CloudInCellWeights
 {
   static constexpr int Width = 2;
@@ -75,7 +76,7 @@ constexpr int atLeastOne(int count)
   return count > 0 ? count : 1;
 }
 
-// The weights of a block, coordinate by coordinate.
+// The first cells and weights of a block, coordinate by coordinate.
 template <class Weights>
 struct WeighedBlock
 {
@@ -93,9 +94,9 @@ struct WeighedBlock
   }
 };
 
-// Weighs a block, given in index space or, if `IsMapped`, in physical space. Returns whether all
-// particles are inside, or if `Inside` more than one cell away from the border; if they are not,
-// what has been written is of no use.
+// Computes the weights of a block, given in index space or, if `IsMapped`, in physical space.
+// Returns whether all particles are inside, or if `Inside` more than one cell away from the border;
+// if not, `weighed` is undefined.
 template <bool Inside, bool IsMapped, int Dimension, class Weights, class Real, class From>
 RT_INLINE bool weighBlock(
   const Axes<Dimension, Real>& axes, const From* __restrict from, WeighedBlock<Weights>& weighed)
@@ -122,7 +123,7 @@ RT_INLINE bool weighBlock(
   return (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
 }
 
-// The box of the cells that the particles of a block reach, where the border is far.
+// The box of the cells that the particles of a block reach, if none is near the border.
 template <int Dimension, class Weights>
 RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
 {
@@ -164,7 +165,7 @@ RT_INLINE std::int64_t rowOffset(const std::int64_t* stride, int j, int k)
     (Dimension > 2 ? k * stride[Dimension - 1] : 0);
 }
 
-// Adds all of particle i.
+// Adds particle i to all cells that it reaches.
 template <int Dimension, class Weights>
 RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass,
   const std::int64_t* stride, double* cells)
@@ -195,7 +196,7 @@ RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass
   }
 }
 
-// Adds what particle i, which may be at the border, has in a box.
+// Adds particle i, which may be at the border, to the cells of a box.
 template <int Dimension, class Weights, class Real>
 void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& weighed, int i,
   double mass, const CellBox<Dimension>& box)
@@ -314,14 +315,14 @@ public:
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {
     constexpr double below = 0.5 * (Weights::Width - 1);
-    constexpr double rounding = 0x1p-10; // more than there is
+    constexpr double rounding = 0x1p-10; // above that of the map
     double least[Dimension];
     double most[Dimension];
     findBounds(job, job.Particles.Points.data() + 3 * first, count, least, most);
     CellBox<Dimension> box;
     for (int a = 0; a < Dimension; ++a)
     {
-      // Below 0 what is truncated is kept inside anyway.
+      // Negative numbers are truncated upwards, but keptFirst raises them to 0 anyway.
       box.Low[a] = keptFirst(job, a, static_cast<std::int32_t>(least[a] - below - rounding));
       box.High[a] =
         keptFirst(job, a, static_cast<std::int32_t>(most[a] - below + rounding)) + job.Kept[a];
@@ -332,26 +333,26 @@ public:
 private:
   RT_INLINE FixedSplat(const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
     : Job(job)
-    , Along(job)
+    , JobAxes(job)
     , Box(boxOrGrid(job, box))
   {
   }
 
-  // Weighs the `count` particles first + begin, ... of a range, or with an index first +
-  // index[begin], .... Returns how many are outside.
+  // Computes the weights of the `count` particles first + begin, ... of a range, or with an index
+  // first + index[begin], .... Returns how many are outside.
   RT_INLINE int Weigh(std::int64_t first, const std::uint32_t* index, std::int64_t begin, int count)
   {
     this->Particles.Count = count;
-    if (index || count < splatBlock || !this->Along.AreParallel)
+    if (index || count < splatBlock || !this->JobAxes.AreParallel)
     {
-      readBlock(this->Job, this->Along, first, index, begin, this->Particles);
+      readBlock(this->Job, this->JobAxes, first, index, begin, this->Particles);
       return this->WeighPlaced();
     }
     const Real* points = this->Job.Particles.Points.data() + 3 * (first + begin);
-    this->IsInside = weighBlock<true, true>(this->Along, points, this->Weighed);
-    if (!this->IsInside && !weighBlock<false, true>(this->Along, points, this->Weighed))
+    this->IsInside = weighBlock<true, true>(this->JobAxes, points, this->Weighed);
+    if (!this->IsInside && !weighBlock<false, true>(this->JobAxes, points, this->Weighed))
     {
-      readBlock(this->Job, this->Along, first, index, begin, this->Particles);
+      readBlock(this->Job, this->JobAxes, first, index, begin, this->Particles);
       return this->WeighPlaced();
     }
     readMasses(this->Job, first, index, begin, count, this->Particles.Mass);
@@ -360,20 +361,20 @@ private:
 
   int WeighPlaced()
   {
-    this->IsInside = weighBlock<true, false>(this->Along, this->Particles.X, this->Weighed);
+    this->IsInside = weighBlock<true, false>(this->JobAxes, this->Particles.X, this->Weighed);
     if (this->IsInside)
     {
       return 0;
     }
-    const bool anyOutside = placeBlock(this->Job, this->Along, this->Particles);
-    weighBlock<false, false>(this->Along, this->Particles.X, this->Weighed);
+    const bool anyOutside = placeBlock(this->Job, this->JobAxes, this->Particles);
+    weighBlock<false, false>(this->JobAxes, this->Particles.X, this->Weighed);
     return anyOutside ? countOutside(this->Job, this->Particles, this->Weighed.First, this->Box)
                       : 0;
   }
 
   RT_INLINE void AddWhole()
   {
-    std::int64_t stride[Dimension]; // copied, as for all that is known cells might be the job's
+    std::int64_t stride[Dimension]; // a copy, as the cells might alias the job
     for (int a = 0; a < Dimension; ++a)
     {
       stride[a] = this->Job.Stride[a];
@@ -408,7 +409,7 @@ private:
   }
 
   const SplatJob<Dimension, Real>& Job;
-  const Axes<Dimension, Real> Along;
+  const Axes<Dimension, Real> JobAxes;
   const CellBox<Dimension> Box;
   Block Particles;
   WeighedBlock<Weights> Weighed;

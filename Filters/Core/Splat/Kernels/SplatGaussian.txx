@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Gaussian, which reaches many cells: one particle is weighed at a time. Included by
-// SplatKernels.txx.
+// The Gaussian, which reaches many cells: weights are computed for one particle at a time. Included
+// by SplatKernels.txx.
 
-// exp(x) from basic operations alone: the library's may differ in the last bit from one processor
-// to the next.
+// exp(x) from basic operations alone: the last bit of the library's may depend on the processor.
 inline double exponential(double x)
 {
   int halvings = 0;
@@ -29,7 +28,7 @@ RT_INLINE std::int32_t ceiling(double x)
   return truncated + (truncated < x ? 1 : 0);
 }
 
-// A coordinate's own cell and the first one that the Gaussian reaches.
+// The grid cell of a coordinate and the first one that the Gaussian reaches.
 struct GaussianPlace
 {
   RT_INLINE GaussianPlace(double x, std::int32_t size, double cut)
@@ -40,7 +39,7 @@ struct GaussianPlace
     this->First = own + this->FirstOffset;
   }
 
-  double Offset; // from the centre of its own cell
+  double Offset; // from the centre of its grid cell
   std::int32_t FirstOffset;
   std::int32_t First;
 };
@@ -148,8 +147,7 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& bl
   }
 }
 
-// Reads block.Count particles and finds their cells. Returns how many are outside, of those that a
-// box has to count.
+// Reads block.Count particles and finds their cells. Returns the countOutside of `box`.
 template <int Dimension, class Real>
 RT_INLINE int findBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimension, Real>& axes,
   std::int64_t first, const std::uint32_t* index, std::int64_t begin, const CellBox<Dimension>& box,
@@ -164,7 +162,7 @@ RT_INLINE int findBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimensi
 template <int Dimension, class Real>
 struct GaussianSplat
 {
-  static constexpr int Width = 0; // by its radius
+  static constexpr int Width = 0; // set by the radius
 
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
     const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* part, double* scratch)
@@ -204,7 +202,7 @@ struct GaussianSplat
   static CellBox<Dimension> Reach(
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {
-    constexpr double rounding = 0x1p-10; // more than there is
+    constexpr double rounding = 0x1p-10; // above that of the map
     double least[Dimension];
     double most[Dimension];
     findBounds(job, job.Particles.Points.data() + 3 * first, count, least, most);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range kernels of a splat, which exist once per instruction set, and the choice among them.
+// The range kernels of a splat, one set for each instruction set, and the choice among them.
 #ifndef RectifiedTransport_SplatKernels_h
 #define RectifiedTransport_SplatKernels_h
 
@@ -11,7 +11,7 @@
 namespace RectifiedTransport
 {
 
-// Particles are placed in blocks of this many.
+// The number of particles in a block.
 constexpr int splatBlock = 64;
 
 // Cells [Low, High) along each axis.
@@ -22,7 +22,7 @@ struct CellBox
   std::int32_t High[Dimension];
 };
 
-// One splat: everything that its ranges share.
+// The input and parameters that all ranges of one splat share.
 template <int Dimension, class Real>
 struct SplatJob
 {
@@ -30,21 +30,21 @@ struct SplatJob
   std::int32_t Size[Dimension];
   std::int64_t Stride[Dimension];
   std::int32_t Width;           // cells an axis that a particle reaches
-  std::int32_t Kept[Dimension]; // of these, as many as there are
+  std::int32_t Kept[Dimension]; // the lesser of Width and Size
   bool Renormalize;
   double Scale;
   double* Cells;
 
-  // The Gaussian alone: where it is cut and 1 / sigma^2, in cells, and exp(-k^2 / 2 sigma^2).
+  // The Gaussian alone: its cutoff and 1 / sigma^2, in cells, and exp(-k^2 / 2 sigma^2).
   double Cut;
   double PerVariance;
   const double* AtOffset;
 };
 
-// Adds what particles [first, first + count), or with an index particles first + index[0], ...,
-// first + index[count - 1], have in the cells of a box (null: all cells), in this order. `scratch`
-// has room for Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of
-// those whose first cell is in the box along the last axis.
+// Adds particles [first, first + count), or with an index particles first + index[0], ..., first +
+// index[count - 1], in this order, to the cells of a box (null: all cells). `scratch` is of Width
+// doubles an axis; only the Gaussian needs it. Returns how many are outside, of those whose first
+// cell is in the box along the last axis.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);
@@ -55,16 +55,16 @@ template <int Dimension, class Real>
 using FindCells = std::int64_t (*)(
   const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells);
 
-// A box of cells that holds all that particles [first, first + count), count > 0, reach.
+// A box of all cells that particles [first, first + count), count > 0, reach.
 template <int Dimension, class Real>
 using BoxOfParticles = CellBox<Dimension> (*)(
   const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count);
 
-// Of one SplatKernel.
+// The kernels of one SplatKernel.
 template <int Dimension, class Real>
 struct SplatKernels
 {
-  std::int32_t Width; // cells an axis; 0 for the Gaussian, which has it from its radius
+  std::int32_t Width; // cells an axis; 0 for the Gaussian, whose radius sets it
   AddParticles<Dimension, Real> Add;
   FindCells<Dimension, Real> Find;
   BoxOfParticles<Dimension, Real> Reach;
@@ -76,7 +76,7 @@ SplatKernels<Dimension, Real> splatKernelsSSE2(SplatKernel kernel);
 template <int Dimension, class Real>
 SplatKernels<Dimension, Real> splatKernelsAVX2(SplatKernel kernel);
 
-// All compute the same bits. AVX512 takes those of AVX2.
+// All compute the same bits. AVX512 uses those of AVX2.
 template <int Dimension, class Real>
 SplatKernels<Dimension, Real> splatKernels(
   SplatKernel kernel, InstructionSet set = instructionSet());
