@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a dimension that is known at run time to one that templates take.
+// From a dimension known at run time to a template argument.
 #ifndef RectifiedTransport_Dispatch_h
 #define RectifiedTransport_Dispatch_h
 
 namespace RectifiedTransport
 {
 
-// Of a function for each number of axes, the one for `dimension`:
+// Selects the instantiation for `dimension`, 1, 2 or 3:
 //
 //   dispatchDimension(dimension, sample<1>, sample<2>, sample<3>)(arguments)
 template <class Function>

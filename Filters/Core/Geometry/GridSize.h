@@ -17,7 +17,7 @@ namespace RectifiedTransport
 template <int Dimension>
 using GridSize = std::array<std::int64_t, Dimension>;
 
-// The place of a point in its cell, of unit sides.
+// The centre of a cell of unit sides, relative to the cell.
 template <int Dimension>
 Point<Dimension> cellCentre()
 {
@@ -26,7 +26,7 @@ Point<Dimension> cellCentre()
   return centre;
 }
 
-// Not an integer: what a user asks for may be more than fits into one.
+// A double: requested sizes may have more cells than an integer holds.
 template <int Dimension>
 double numberOfCells(const GridSize<Dimension>& size)
 {
@@ -38,7 +38,7 @@ double numberOfCells(const GridSize<Dimension>& size)
   return count;
 }
 
-// The digits of such a number.
+// All digits of a count.
 inline std::string describeCount(double count)
 {
   std::ostringstream text;

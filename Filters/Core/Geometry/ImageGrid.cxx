@@ -112,7 +112,7 @@ ImageGrid ImageGrid::WithValues(const std::array<int, 3>& wanted) const
   {
     if (wanted[i] != 0 && wanted[i] != values[i])
     {
-      // Where the new index is 0, in the old one.
+      // The old index at which the new one is 0.
       const double ratio = static_cast<double>(values[i]) / wanted[i];
       const double start = this->PointExtent[2 * i] + (this->OnPoints ? 0.5 * (ratio - 1.0) : 0.0);
       grid.SetAxis(i, start, this->OnPoints ? wanted[i] : wanted[i] + 1);

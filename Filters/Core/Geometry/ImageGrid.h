@@ -17,9 +17,10 @@
 namespace RectifiedTransport
 {
 
-// The values belong to cells. Those of a cell array are the image's cells; those of a point array
-// are dual cells, about the points, which reach half a spacing beyond the bounds. An axis of one
-// point is no axis. Index space has the other axes, in their order: cell i there is [i, i + 1].
+// Values are constant on grid cells. Those of a cell array are the image's vtkCells; those of a
+// point array are dual cells, centred on the points, which extend half a spacing beyond the bounds.
+// An axis of one point is no axis. Index space has the other axes, in their order: grid cell i is
+// [i, i + 1].
 class ImageGrid
 {
 public:
@@ -47,10 +48,10 @@ public:
   // Along the image's axes, 1 where there is no axis.
   std::array<int, 3> NumberOfValues() const;
 
-  // The same image with values elsewhere.
+  // The same image with values on points, or else on cells.
   ImageGrid WithValuesOn(bool points) const;
-  // Another image on the domain that the cells cover, with other numbers of values; 0 for as many
-  // as there are. One value along an axis is for cells only.
+  // Another image on the domain that the grid cells cover, with other numbers of values along its
+  // axes; 0 for the number that it has. One value along an axis is for cells only.
   ImageGrid WithValues(const std::array<int, 3>& values) const;
   // The image that has its points at the centres of this one's cells, and values on points.
   ImageGrid AtCellCentres() const;
@@ -59,18 +60,18 @@ public:
 
   // The number of axes.
   int Dimension() const { return this->AxisCount; }
-  // Not if there is no axis, or if the cells have no measure or no finite place. What follows is
-  // for grids that have.
+  // False if there is no axis, or if the grid cells have no measure or are not at finite places.
+  // The members below require true.
   bool HasCells() const { return this->Valid; }
   std::int64_t NumberOfCells() const;
-  // The length, area or volume of a cell.
+  // The length, area or volume of a grid cell.
   double CellMeasure() const { return this->Measure; }
-  // The physical length of the domain's diagonal, were its axes at right angles.
+  // The physical length of the diagonal of a box with the domain's sides.
   double Diagonal() const { return this->DomainDiagonal; }
   // Whether the axes of a volume are left-handed.
   bool IsMirrored() const;
-  // How far beyond the border a point may lie and not be outside: by more than single precision
-  // may miss it.
+  // The distance beyond the border up to which a point counts as inside: more than the rounding of
+  // single precision.
   double BorderTolerance() const { return 1e-6 * this->Diagonal(); }
 
   template <int D>
@@ -94,8 +95,8 @@ public:
     return lengths;
   }
 
-  // The sum is in vtkImageData's own order, so that a point of the domain is never outside its
-  // bounds by rounding.
+  // Summed in the order of vtkImageData, so that rounding puts no point of the domain outside its
+  // bounds.
   template <int D>
   void ToPhysical(const double* index, double* x) const
   {
@@ -123,7 +124,7 @@ public:
     }
   }
 
-  // ToIndex, and how far a point may be beyond the border or off the line or plane of the image.
+  // ToIndex, with BorderTolerance() beyond the border and off the line or plane of the image.
   template <int D>
   IndexMap<D> ToIndexMap() const
   {
@@ -170,8 +171,8 @@ public:
     return inside;
   }
 
-  // The index of the nearest point of the domain, as above. Returns whether that is where x is, but
-  // for the border's tolerance.
+  // The index of the nearest point of the domain, as above. Returns whether x is within the
+  // border's tolerance of it.
   template <int D>
   bool NearestIndex(const double* x, double* index) const
   {
@@ -184,7 +185,7 @@ public:
   }
 
 private:
-  // Lets an axis have `points` points, the first of them at an index that need not be a whole one.
+  // Gives an axis `points` points, the first of them at an index that need not be an integer.
   void SetAxis(std::size_t axis, double first, int points);
   void FindCells();
 
@@ -204,7 +205,7 @@ private:
   Eigen::Vector3d Corner = Eigen::Vector3d::Zero();
   Eigen::Vector3d CellLength = Eigen::Vector3d::Zero();
   Matrix Inverse = Matrix::Zero(); // physical offset to physical length along each axis
-  Matrix Normal = Matrix::Zero();  // from the axes' number on: unit vectors across the axes
+  Matrix Normal = Matrix::Zero();  // rows from AxisCount on: unit vectors across the axes
   double Measure = 0.0;
   double DomainDiagonal = 0.0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lengths of a domain in units of about its size: their squares are then numbers wherever they are.
+// Lengths in units of about the size of a domain, so that their squares neither overflow nor
+// underflow.
 #ifndef RectifiedTransport_LengthScale_h
 #define RectifiedTransport_LengthScale_h
 
@@ -26,7 +27,7 @@ public:
   double ToUnits(double length) const { return length * this->UnitsALength; }
   double FromUnits(double units) const { return units * this->LengthOfUnit; }
 
-  // The sum of the squares of a vector's components.
+  // The squared length of a vector, in squared units.
   double SquareInUnits(const double* vector) const
   {
     const double v[3] = { this->ToUnits(vector[0]), this->ToUnits(vector[1]),
@@ -34,8 +35,7 @@ public:
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   }
 
-  // The cost that is a mean of such squares. Throws std::overflow_error where it passes the largest
-  // double.
+  // A mean of such squares in physical units. Throws std::overflow_error past the largest double.
   double CostFromUnits(double squares) const
   {
     const double cost = std::ldexp(squares, 2 * this->Exponent);
@@ -49,7 +49,7 @@ public:
   }
 
 private:
-  static constexpr int most = 1000; // 2^most and its inverse are numbers
+  static constexpr int most = 1000; // 2^most and its inverse are normal doubles
 
   int Exponent;
   double UnitsALength;

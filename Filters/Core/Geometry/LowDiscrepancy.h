@@ -9,7 +9,7 @@
 namespace RectifiedTransport
 {
 
-// What coordinate `axis` advances by from one point to the next.
+// The step of coordinate `axis` from one point to the next, in units of 2^-64.
 template <int Dimension>
 std::uint64_t lowDiscrepancyStep(int axis)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points, and sets of them in memory that belongs to someone else.
+// Points, and non-owning views of arrays of them.
 #ifndef RectifiedTransport_Points_h
 #define RectifiedTransport_Points_h
 
@@ -14,8 +14,8 @@ namespace RectifiedTransport
 template <int Dimension>
 using Point = std::array<double, Dimension>;
 
-// A number of points of Dimension coordinates each, a point's together. What takes a span neither
-// owns nor keeps it.
+// `size()` points of Dimension interleaved coordinates. Functions do not keep a span that they
+// take.
 template <int Dimension, class Real = double>
 class PointSpan
 {
@@ -36,7 +36,7 @@ public:
     , Count(static_cast<std::int64_t>(points.size()))
   {
   }
-  // Of points that may be written those that may be read.
+  // From writable to const points.
   template <class Other, class = std::enable_if_t<std::is_convertible_v<Other (*)[], Real (*)[]>>>
   PointSpan(const PointSpan<Dimension, Other>& other)
     : First(other.data())

@@ -17,7 +17,7 @@ inline std::uint64_t mixBits(std::uint64_t z)
   return z ^ (z >> 31);
 }
 
-// Word `counter` of the stream `seed`: any of them without those before it.
+// Word `counter` of the stream `seed`, by random access.
 inline std::uint64_t randomWord(std::uint64_t seed, std::uint64_t counter)
 {
   constexpr std::uint64_t increment = 0x9E3779B97F4A7C15u;

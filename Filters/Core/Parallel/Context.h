@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a computation runs in: the threads of its host, and the host's wishes.
+// The executor of a computation, and callbacks for its progress and cancellation.
 #ifndef RectifiedTransport_Context_h
 #define RectifiedTransport_Context_h
 
@@ -10,14 +10,14 @@
 namespace RectifiedTransport
 {
 
-// Thrown by what was cancelled; its results are then undefined. Not an error, hence no
-// std::exception.
+// Thrown by a computation that was cancelled; its results are then undefined. Not an error, hence
+// no std::exception.
 class Cancelled
 {
 };
 
 // An executor, which has to outlive its use, and two functions, which may be empty and may not
-// throw. By default OpenMP's threads, and nobody to follow or to cancel.
+// throw. By default OpenMP's threads and no functions.
 struct Context
 {
   Context();
@@ -29,9 +29,9 @@ struct Context
     std::function<bool()> isCancelled = {});
 
   const Executor* Threads;
-  // Hears how much is done, in [0,1], on the thread that called the library only.
+  // Called with the progress, in [0,1], on the thread that called the library only.
   std::function<void(double)> Report;
-  // Whether to stop. Asked on any thread, by one at a time.
+  // Returns whether to stop. Called on any thread, by one at a time.
   std::function<bool()> IsCancelled;
 };
 

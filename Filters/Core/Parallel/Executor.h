@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who runs the range kernels: the host decides, the mathematics does not know.
+// The interface by which a host application runs range kernels on its threads, and two executors.
 #ifndef RectifiedTransport_Executor_h
 #define RectifiedTransport_Executor_h
 
@@ -35,8 +35,8 @@ private:
   void (*Call)(void*, std::int64_t, std::int64_t);
 };
 
-// For executors: no exception may leave a thread that the executor runs, or the program ends. The
-// first one is kept; ranges after it need not run.
+// For executors: an exception that leaves a thread of the executor terminates the program. Keeps
+// the first one; ranges after it need not run.
 class KernelFailure
 {
 public:
@@ -49,7 +49,7 @@ public:
       this->First = std::current_exception();
     }
   }
-  // Once all threads are done: throws what was kept.
+  // Call once all threads are done: throws the exception kept.
   void Rethrow() const
   {
     if (this->First)
@@ -63,9 +63,9 @@ private:
   std::exception_ptr First;
 };
 
-// Runs a kernel over [0, count) in ranges that are cut at multiples of `grain` only, so that what
-// a range computes cannot depend on the number of threads. What a kernel throws comes out of For,
-// when no thread runs it any more; some ranges have not run then.
+// Runs a kernel over [0, count) in ranges whose ends are multiples of `grain`, or count, so that
+// what a range computes cannot depend on the number of threads. An exception of a kernel leaves For
+// once no thread runs the kernel any more; some ranges may then not have run.
 class Executor
 {
 public:

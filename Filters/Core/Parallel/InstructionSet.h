@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The instruction sets that kernels are compiled for.
+// The instruction sets that kernels are compiled for, and the choice among them at run time.
 #ifndef RectifiedTransport_InstructionSet_h
 #define RectifiedTransport_InstructionSet_h
 
 namespace RectifiedTransport
 {
 
-// Each has all that those before it have. SSE2 stands for what any processor of the family runs.
+// Each includes those before it. SSE2 stands for the baseline of the processor family.
 enum class InstructionSet
 {
   SSE2,
@@ -16,11 +16,11 @@ enum class InstructionSet
 
 const char* nameOf(InstructionSet set);
 
-// The widest that this processor runs.
+// The widest that this processor supports.
 InstructionSet widestInstructionSet();
 
-// The one to take: that, unless the environment variable RECTIFIEDTRANSPORT_ISA (SSE2, AVX2 or
-// AVX512) asks for a narrower one. It is read once. All kernels compute the same bits.
+// The widest, or the narrower one that the environment variable RECTIFIEDTRANSPORT_ISA (SSE2, AVX2
+// or AVX512) names. It is read once. All kernels compute the same bits.
 InstructionSet instructionSet();
 
 } // namespace RectifiedTransport

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory for tables and results: aligned to cache lines, not initialised, on huge pages where the
-// system has them (a table is walked with large strides, and faulting memory in page by page costs
-// as much as filling it).
+// system has them (tables are read with large strides, and page faults of small pages cost as much
+// as filling the memory).
 #ifndef RectifiedTransport_LargeBuffer_h
 #define RectifiedTransport_LargeBuffer_h
 
@@ -22,7 +22,7 @@
 namespace RectifiedTransport
 {
 
-// Memory that freeLarge gives back; null if there is none.
+// To be freed with freeLarge; null if there is no memory.
 inline void* allocateLarge(std::size_t bytes)
 {
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
@@ -40,8 +40,8 @@ inline void* allocateLarge(std::size_t bytes)
 #ifdef __linux__
   if (memory && alignment == hugePage)
   {
-    // Only advice: where it is not taken, all works as well, but slower. What does not fill a huge
-    // page is left to small ones, or the system would clear memory that nobody uses.
+    // A hint: without huge pages all is slower. The rest that does not fill a huge page stays on
+    // small ones, as the system would clear the unused part of a huge one.
     (void)madvise(memory, bytes / hugePage * hugePage, MADV_HUGEPAGE);
   }
 #endif

@@ -8,7 +8,7 @@ namespace RectifiedTransport
 {
 
 Progress::Progress(Context context)
-  : Host(std::move(context))
+  : Parent(std::move(context))
 {
 }
 
@@ -26,13 +26,13 @@ void Progress::BeginStage(double end, std::int64_t units)
 Context Progress::Stage()
 {
   return Context(
-    *this->Host.Threads, [this](double fraction) { this->Report(fraction); },
-    this->Host.IsCancelled);
+    *this->Parent.Threads, [this](double fraction) { this->Report(fraction); },
+    this->Parent.IsCancelled);
 }
 
 void Progress::For(std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)
 {
-  this->Run(*this->Host.Threads, count, grain, kernel, units);
+  this->Run(*this->Parent.Threads, count, grain, kernel, units);
 }
 
 void Progress::ForInOrder(
@@ -72,7 +72,7 @@ void Progress::EndSlice(std::int64_t units)
   constexpr double sliceSeconds = 0.03;
   this->Done += units;
   this->Report(std::min(static_cast<double>(this->Done) / static_cast<double>(this->Units), 1.0));
-  this->Ask();
+  this->Poll();
   const double seconds = std::chrono::duration<double>(Clock::now() - this->SliceStart).count();
   const double factor = std::min(std::max(sliceSeconds / std::max(seconds, 1e-9), 0.25), 4.0);
   this->SliceUnits = static_cast<std::int64_t>(
@@ -95,10 +95,10 @@ void Progress::Add(std::int64_t units)
 
 bool Progress::ShouldStop()
 {
-  if (this->Host.IsCancelled && !this->Asking.test_and_set(std::memory_order_acquire))
+  if (this->Parent.IsCancelled && !this->IsPolling.test_and_set(std::memory_order_acquire))
   {
-    this->Ask();
-    this->Asking.clear(std::memory_order_release);
+    this->Poll();
+    this->IsPolling.clear(std::memory_order_release);
   }
   return this->IsCancelled();
 }
@@ -111,20 +111,20 @@ void Progress::Check()
   }
 }
 
-// Several loops may be the work of one stage: what was reported is not taken back.
+// Never decreases, though a stage may consist of several loops.
 void Progress::Report(double fractionOfStage)
 {
   this->Reported =
     std::max(this->Reported, this->Begin + (this->End - this->Begin) * fractionOfStage);
-  if (this->Host.Report)
+  if (this->Parent.Report)
   {
-    this->Host.Report(this->Reported);
+    this->Parent.Report(this->Reported);
   }
 }
 
-void Progress::Ask()
+void Progress::Poll()
 {
-  if (this->Host.IsCancelled && this->Host.IsCancelled())
+  if (this->Parent.IsCancelled && this->Parent.IsCancelled())
   {
     this->Stop.store(true, std::memory_order_relaxed);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long work in stages, and in slices that last about as long as a host may wait for progress or an
-// abort. What is computed never depends on how work is sliced.
+// Long work in stages, and in slices of about 30 ms, after each of which progress is reported and
+// cancellation is polled. Results do not depend on how work is sliced.
 #ifndef RectifiedTransport_Progress_h
 #define RectifiedTransport_Progress_h
 
@@ -13,7 +13,7 @@
 namespace RectifiedTransport
 {
 
-// Lives on the thread that called the library.
+// Used on the thread that called the library, but for ShouldStop and IsCancelled.
 class Progress
 {
 public:
@@ -21,17 +21,17 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  const Executor& Threads() const { return *this->Host.Threads; }
+  const Executor& Threads() const { return *this->Parent.Threads; }
 
-  // From here on `units` of work take the progress from where the last stage ends to `end`.
+  // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
   void BeginStage(double end, std::int64_t units = 1);
   double StageEnd() const { return this->End; }
-  // What the work of the current stage runs in that reports in [0,1] by itself. It has to end
-  // before this object does.
+  // The context of a computation that is the work of the current stage and reports in [0,1] by
+  // itself. Must not outlive this object.
   Context Stage();
 
-  // Runs a kernel over [0, count), cut at multiples of `grain`, as the work of the current stage.
-  // The first slice has `units`, which should take a few milliseconds (by default for work that is
+  // Runs a kernel over [0, count), in ranges of `grain`, as the work of the current stage. The
+  // first slice has `units`, which should take a few milliseconds (the default is for work that is
   // bound by memory), and a range for every thread. Throws Cancelled, and what the kernel throws.
   void For(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
@@ -39,18 +39,18 @@ public:
   void ForInOrder(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
 
-  // How many units the caller's next slice may take, at least `smallest`, in multiples of it.
+  // The number of units of the caller's next slice, a multiple of `smallest`.
   std::int64_t NextSlice(std::int64_t smallest);
   // Reports units as done. Throws Cancelled.
   void EndSlice(std::int64_t units);
-  // For small pieces of work, which need not begin slices: now and then the host hears of them.
-  // Throws Cancelled.
+  // Adds units of small pieces of work, without slices: reports every 2^16 units. Throws Cancelled.
   void Add(std::int64_t units);
 
-  // Asks the host. Throws Cancelled.
+  // Polls for cancellation. Throws Cancelled.
   void Check();
 
-  // For range kernels: asks the host now and then, one thread at a time. The slice's end throws.
+  // For range kernels, on any thread: polls for cancellation, one thread at a time. EndSlice
+  // throws.
   bool ShouldStop();
   bool IsCancelled() const { return this->Stop.load(std::memory_order_relaxed); }
 
@@ -61,9 +61,9 @@ private:
   void Run(const Executor& executor, std::int64_t count, std::int64_t grain,
     const RangeKernel& kernel, std::int64_t units);
   void Report(double fractionOfStage);
-  void Ask();
+  void Poll();
 
-  const Context Host;
+  const Context Parent;
   double Reported = 0.0;
   double Begin = 0.0;
   double End = 0.0;
@@ -72,7 +72,7 @@ private:
   std::int64_t SliceUnits = 0;
   std::int64_t Pending = 0; // of Add
   Clock::time_point SliceStart = Clock::now();
-  std::atomic_flag Asking = ATOMIC_FLAG_INIT;
+  std::atomic_flag IsPolling = ATOMIC_FLAG_INIT;
   std::atomic<bool> Stop{ false };
 };
 

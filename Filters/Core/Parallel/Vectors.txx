@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four or eight doubles, one or two node records, in as many registers as the instruction set
-// needs. Wider vector types than the hardware's own are legal, but compilers spill them. Included
-// by FlowKernels.txx.
+// needs. Vector types wider than the hardware's are legal, but compilers spill them. Included by
+// FlowKernels.txx.
 
 #if defined(__AVX512F__)
 constexpr int widestRegister = 8;

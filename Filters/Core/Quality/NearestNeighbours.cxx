@@ -25,8 +25,8 @@ struct TreePoint
   std::int64_t Id;
 };
 
-// The points [First, Last) in their bounding box. A leaf has no child; else the first child is the
-// next box, and Second the other.
+// A node of the tree: the bounding box of the points [First, Last). The first child is the next box
+// in memory, Second is the other, -1 in a leaf.
 struct TreeBox
 {
   double Low[3];
@@ -36,7 +36,7 @@ struct TreeBox
   std::int64_t Second;
 };
 
-// Points between two looks whether to stop.
+// Points between two polls for cancellation.
 constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
 
 class PointTree
@@ -54,10 +54,10 @@ public:
     {
       std::int64_t First;
       std::int64_t Last;
-      std::int64_t Parent; // whose second child it is, -1: none's
+      std::int64_t Parent; // of a second child, else -1
     };
     const std::int64_t count = this->Points.size();
-    // Every halving looks at each point twice.
+    // Every level of the tree reads each point twice.
     std::int64_t passes = 2;
     for (std::int64_t rest = count; rest > leafPoints; rest /= 2)
     {
@@ -164,8 +164,8 @@ private:
     }
   }
 
-  // Sorts the points of a box into two parts along its widest axis, about the median of a sample.
-  // Returns where the second begins, the first point of the box if it stays whole.
+  // Partitions the points of a box along its widest axis, about the median of a sample. Returns
+  // where the second part begins, the first point of the box if it is a leaf.
   std::int64_t Divide(const TreeBox& box, Progress& progress)
   {
     std::int64_t middle = box.First;
@@ -187,7 +187,7 @@ private:
     }
     const auto median = sample.begin() + taken / 2;
     std::nth_element(sample.begin(), median, sample.begin() + taken);
-    // Points on the pivot go up, unless all others are above it too.
+    // Points equal to the pivot are in the upper part, unless all others are above it, too.
     const double pivot = *median;
     const bool lowest = !(pivot > box.Low[axis]);
     const auto isBelow = [=](const TreePoint& point) {

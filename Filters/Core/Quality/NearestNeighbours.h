@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far each point of a set is from the nearest other one.
+// The distance of each point of a set from its nearest neighbour, by a tree of bounding boxes.
 #ifndef RectifiedTransport_NearestNeighbours_h
 #define RectifiedTransport_NearestNeighbours_h
 
@@ -11,9 +11,9 @@
 namespace RectifiedTransport
 {
 
-// Writes the distance of each point from the nearest other one: infinite if there is no other. A
-// tree of boxes, halved along their widest axis, so that clusters cost no more than spread points;
-// O(count log count). Throws std::bad_alloc and Cancelled.
+// Writes the distance of each point from the nearest other one: infinite if there is no other. The
+// boxes are divided about the median along their widest axis, so that clusters cost no more than
+// spread points; O(count log count). Throws std::bad_alloc and Cancelled.
 void nearestDistances(
   ConstPointSpan<3> points, double* distances, const Context& context = Context());
 

@@ -23,13 +23,12 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 constexpr std::int64_t noBlock = -1;
-constexpr double farOutside = 1e150; // sizes of the domain; the square is a number
+constexpr double farOutside = 1e150; // sizes of the domain; its square is finite
 
-// The diameter of the balls of the densest lattice packing in which each point has a cell of this
-// measure, which is the largest distance that points can all keep: a regular row, the hexagonal
-// lattice, the face-centred cubic lattice. (Lagae and Dutre, "A Comparison of Methods for
-// Generating Poisson Disk Distributions", Computer Graphics Forum 27(1), 2008, Section 2.2: twice
-// their r_max.)
+// The largest nearest-neighbour distance of points with one point in each `measure`, that of the
+// densest lattice packing: a regular row, the hexagonal lattice, the face-centred cubic lattice.
+// (Lagae and Dutre, "A Comparison of Methods for Generating Poisson Disk Distributions", Computer
+// Graphics Forum 27(1), 2008, Section 2.2: twice their r_max.)
 template <int Dimension>
 double largestSpacing(double measure)
 {
@@ -53,7 +52,7 @@ public:
     , BlockCounts(numberOfBlocks<Dimension>(this->Size, blockSize))
     , Blocks(static_cast<std::int64_t>(numberOfCells<Dimension>(this->BlockCounts)))
     , Count(particles.Points.size())
-    , Work(context)
+    , Monitor(context)
     , Points(3 * this->Count)
     , Block(this->Count)
     , Spacing(this->Count)
@@ -66,19 +65,19 @@ public:
   {
     this->Quality.Particles = this->Count;
     this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
-    this->Work.BeginStage(0.1);
+    this->Monitor.BeginStage(0.1);
     this->Place();
-    this->Work.BeginStage(0.2);
+    this->Monitor.BeginStage(0.2);
     this->AddMasses();
-    this->Work.BeginStage(0.25);
+    this->Monitor.BeginStage(0.25);
     this->MeasureCost();
     this->CompareBlocks();
-    this->Work.BeginStage(2.0 / 3.0);
+    this->Monitor.BeginStage(2.0 / 3.0);
     nearestDistances(
-      { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
-    this->Work.BeginStage(0.95);
+      { this->Points.data(), this->Count }, this->Spacing.data(), this->Monitor.Stage());
+    this->Monitor.BeginStage(0.95);
     this->RelateSpacings();
-    this->Work.BeginStage(1.0);
+    this->Monitor.BeginStage(1.0);
     this->AverageSpacings();
     return this->Quality;
   }
@@ -88,7 +87,7 @@ private:
   template <class Kernel>
   void InOrder(std::int64_t count, const Kernel& kernel)
   {
-    this->Work.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
+    this->Monitor.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         kernel(i);
@@ -96,7 +95,7 @@ private:
     });
   }
 
-  // The part of a particle in the mass of all.
+  // The mass of a particle relative to that of all.
   double Share(std::int64_t particle) const
   {
     return (this->Particles.Masses ? this->Particles.Masses[particle] : 1.0) / this->ParticleMass;
@@ -107,7 +106,7 @@ private:
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
-    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    this->Monitor.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         const double* x = this->Particles.Points[i];
@@ -176,22 +175,22 @@ private:
     double* found = this->Found.data();
     double* expected = this->Expected.data();
     std::fill_n(found, this->Blocks, 0.0);
-    this->Work.BeginStage(0.3);
+    this->Monitor.BeginStage(0.3);
     this->InOrder(this->Count, [&](std::int64_t i) {
       if (this->Block.data()[i] != noBlock)
       {
         found[this->Block.data()[i]] += this->Share(i);
       }
     });
-    this->Work.BeginStage(0.35);
-    this->Work.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
+    this->Monitor.BeginStage(0.35);
+    this->Monitor.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t block = first; block < last; ++block)
       {
         const auto [low, high] = this->BlockBox(block);
         expected[block] = this->Flow.Share(low, high);
       }
     });
-    this->Work.BeginStage(0.4);
+    this->Monitor.BeginStage(0.4);
     double difference = 0.0;
     double norm = 0.0;
     this->InOrder(this->Blocks, [&](std::int64_t block) {
@@ -222,8 +221,8 @@ private:
     return { low, high };
   }
 
-  // Divides the distance of each nearest neighbour by the largest spacing that the density has room
-  // for there; -1 where there is no such.
+  // Divides the distance of each nearest neighbour by the largest spacing at the density of that
+  // place; -1 where it is not defined.
   void RelateSpacings()
   {
     Point<Dimension> aspect = this->Grid.template Lengths<Dimension>();
@@ -234,7 +233,7 @@ private:
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
-    this->Work.For(
+    this->Monitor.For(
       this->Count, smallGrain,
       [=](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -290,7 +289,7 @@ private:
   const GridSize<Dimension> BlockCounts;
   const std::int64_t Blocks;
   const std::int64_t Count;
-  Progress Work;
+  Progress Monitor;
   LargeBuffer<double> Points; // in units of Scale
   LargeBuffer<std::int64_t> Block;
   LargeBuffer<double> Spacing;

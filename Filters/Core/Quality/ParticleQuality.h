@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well particles follow a density.
+// Measures of how well the distribution of particles matches a density.
 #ifndef RectifiedTransport_ParticleQuality_h
 #define RectifiedTransport_ParticleQuality_h
 
@@ -16,27 +16,27 @@ namespace RectifiedTransport
 struct ParticleSample
 {
   ConstPointSpan<3> Points;
-  const double* Masses = nullptr;       // not negative; null: they weigh the same
+  const double* Masses = nullptr;       // not negative; null: all the same
   ConstPointSpan<3> Displacements = {}; // one a particle, or none at all
 };
 
 struct ParticleQuality
 {
   std::int64_t Particles = 0;
-  double TotalMass = 0.0;        // of the density: value times measure of a cell, summed
+  double TotalMass = 0.0;        // of the density: sum over grid cells of value times measure
   std::int64_t Outside = 0;      // of the domain
-  std::int64_t InEmptyCells = 0; // those of the others that are where there is no mass
+  std::int64_t InEmptyCells = 0; // of the others, in grid cells without mass
   // The relative L2 distance of the particles' density from the given one, both averaged over
-  // blocks of cells.
+  // blocks of grid cells.
   double DensityError = 0.0;
   double TransportCost = 0.0; // mean squared displacement, by mass
-  // Over the particles inside that have mass: the distance from the nearest other particle, in
-  // units of the largest that the density has room for there. 0 if there are none.
+  // Over the particles inside that have mass: the distance from the nearest other particle,
+  // relative to the densest lattice packing at the density there. 0 if there are no such particles.
   double SmallestSpacing = 0.0;
   double MeanSpacing = 0.0;
 };
 
-// Blocks of `blockSize` cells along each axis; the last one may have fewer.
+// Blocks of `blockSize` grid cells along each axis; the last one may have fewer.
 template <int Dimension>
 GridSize<Dimension> numberOfBlocks(const GridSize<Dimension>& cells, std::int64_t blockSize)
 {
@@ -48,8 +48,8 @@ GridSize<Dimension> numberOfBlocks(const GridSize<Dimension>& cells, std::int64_
   return blocks;
 }
 
-// Compares particles with the density of a flow, whose place in space is the grid. Takes about 88
-// bytes a particle and 16 a block meanwhile, and O(particles log particles). Throws
+// Compares particles with the density of a flow, which lies on `grid` in physical space. Takes
+// about 88 bytes a particle and 16 a block meanwhile, and O(particles log particles). Throws
 // std::invalid_argument for a block without cells and masses whose sum is not a positive number,
 // std::overflow_error for a figure past the largest double, std::bad_alloc and Cancelled.
 template <int Dimension>
