@@ -24,7 +24,7 @@ namespace
 {
 const char* const NegativeValuesTexts[] = { "Error", "Clamp" };
 
-// The names of the arrays that there are to choose from.
+// The names of the available arrays.
 std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
 {
   std::string list;
@@ -138,7 +138,7 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
   association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
   if (!isAssociation(association))
   {
-    return nullptr; // VTK would say so too
+    return nullptr; // GetInputAbstractArrayToProcess would report another error
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);

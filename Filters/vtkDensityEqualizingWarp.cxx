@@ -75,7 +75,7 @@ int vtkDensityEqualizingWarp::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-// Where a point goes depends on that point alone: the pieces that are asked for will do.
+// Each point is moved independently of the others: the requested pieces suffice.
 bool vtkDensityEqualizingWarp::NeedsWhole(int port)
 {
   return port == 1;

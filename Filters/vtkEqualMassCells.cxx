@@ -29,14 +29,14 @@ namespace
 {
 using namespace RectifiedTransport;
 
-// The box of a domain, as of a density: with values on its points that of their dual cells.
+// The box of a domain, as of a density: with point data that of the dual cells.
 ImageGrid boxOf(vtkImageData* domain)
 {
   const ImageGrid grid = gridOf(domain, false);
   return hasPointValues(domain) ? grid.WithDualCells() : grid;
 }
 
-// The bounds of sites and somewhat more.
+// The bounds of sites, 10 % longer along each axis.
 ImageGrid boxAround(vtkPointSet* sites)
 {
   constexpr double margin = 0.05; // on each side
@@ -137,7 +137,7 @@ int vtkEqualMassCells::RequestInformation(
   ImageGrid box;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    // Whether values are on points is not always announced, or not so.
+    // The announced association of the values may be missing or wrong.
     this->UpdateInputBeforeData(1, inputVector, outputVector);
     vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
     box = domain && domain->GetNumberOfPoints() > 0
@@ -168,7 +168,7 @@ int vtkEqualMassCells::RequestData(
   const FlowOptions options = this->GetFlowSettings().Options();
   AlgorithmProgress progress(this, this->Threading);
 
-  // All is in the first piece, whatever pieces a consumer asks for.
+  // All data are in piece 0, whatever pieces are requested.
   vtkInformation* labelInformation = outputVector->GetInformationObject(0);
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
@@ -183,7 +183,7 @@ int vtkEqualMassCells::RequestData(
   }
   if (!domain)
   {
-    // Of such points there are no bounds.
+    // Coordinates that are not finite have no bounds.
     visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
   }
   const ImageGrid box = domain ? boxOf(domain) : boxAround(input);
@@ -197,7 +197,7 @@ int vtkEqualMassCells::RequestData(
   }
   const ImageGrid grid = gridWithResolution(box, this->Resolution, "Resolution");
   requireCells(grid);
-  announceGrid(grid, labelInformation); // without a Domain it is not known before the data
+  announceGrid(grid, labelInformation); // without a Domain possibly not known before the data
 
   const EqualMassCells cells{ options, { this->NormExponent, this->CostExponent } };
   const std::int64_t outside = cells.Run(input, grid, this->Internals->Labels, progress,

@@ -27,7 +27,7 @@ VTK_ABI_NAMESPACE_BEGIN
 
 namespace
 {
-// The executive hands on the first input's times alone; the outputs change with those of all.
+// The executive copies the times of the first input only; the outputs depend on those of all.
 void publishTimes(
   vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector)
 {
@@ -66,8 +66,9 @@ void publishTimes(
     }
   }
 }
-// The executive hands on what the first input has, which no output has unless it is said.
-void forgetArrays(vtkInformationVector* outputVector)
+
+// The executive copies the array information of the first input, which holds for no output.
+void removeArrayInformation(vtkInformationVector* outputVector)
 {
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
@@ -91,7 +92,7 @@ bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 }
 
 // The executive leaves the extent of an image and the scalars of its points from the last run.
-void emptyImages(vtkInformationVector* outputVector)
+void clearImages(vtkInformationVector* outputVector)
 {
   for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
   {
@@ -138,12 +139,12 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
       publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
-      forgetArrays(outputVector);
-      return this->Inform(request, inputVector, outputVector);
+      removeArrayInformation(outputVector);
+      return this->ProcessInformation(request, inputVector, outputVector);
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
     {
-      return this->InformOfTime(request, inputVector, outputVector);
+      return this->ProcessTimeDependentInformation(request, inputVector, outputVector);
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_TIME()))
     {
@@ -151,26 +152,26 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
     {
-      this->NoteRequest(request, inputVector, outputVector);
+      this->RecordRequest(request, inputVector, outputVector);
       return this->RequestUpdateExtent(request, inputVector, outputVector);
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
-      emptyImages(outputVector);
-      this->RequireWhole(inputVector);
+      clearImages(outputVector);
+      this->RequireWholeInputs(inputVector);
       const int result = this->RequestData(request, inputVector, outputVector);
-      return RectifiedTransport::withdrawUnmetRequests(outputVector) ? result : 0;
+      return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
     }
     return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
   catch (...)
   {
-    return RectifiedTransport::answerException(this, outputVector);
+    return RectifiedTransport::handleException(this, outputVector);
   }
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::Inform(
+int vtkGuardedAlgorithm::ProcessInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   try
@@ -179,28 +180,28 @@ int vtkGuardedAlgorithm::Inform(
   }
   catch (const RectifiedTransport::Failure&)
   {
-    RectifiedTransport::withdrawExtents(outputVector); // RequestData says it, once
+    RectifiedTransport::announceEmptyExtents(outputVector); // RequestData reports it, once
     return 1;
   }
 }
 
 //------------------------------------------------------------------------------
-// The inputs' times are those that were asked for, which they were not in RequestInformation.
-int vtkGuardedAlgorithm::InformOfTime(
+// The inputs are now at the requested time, which they were not in RequestInformation.
+int vtkGuardedAlgorithm::ProcessTimeDependentInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!this->Updated)
+  if (!this->UpdatedProducer)
   {
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
   const RectifiedTransport::ImageGrid before = RectifiedTransport::announcedGrid(output, true);
-  this->Updated = nullptr;
-  const int result = this->Inform(request, inputVector, outputVector);
+  this->UpdatedProducer = nullptr;
+  const int result = this->ProcessInformation(request, inputVector, outputVector);
   if (result && !(RectifiedTransport::announcedGrid(output, true) == before))
   {
     this->Modified();
-    RectifiedTransport::renewConsumers(output);
+    RectifiedTransport::updateConsumerInformation(output);
   }
   return result;
 }
@@ -209,7 +210,7 @@ int vtkGuardedAlgorithm::InformOfTime(
 int vtkGuardedAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
-  return 1; // the executive makes what the ports' information names
+  return 1; // the executive makes outputs of the ports' DATA_TYPE_NAME
 }
 
 //------------------------------------------------------------------------------
@@ -225,7 +226,7 @@ void vtkGuardedAlgorithm::MakeOutputLike(
   }
   else if (!output)
   {
-    // Without an output the executive would not come to say which input is wrong.
+    // Without an output data object the executive would not reach the check of the inputs' types.
     const auto made = vtkSmartPointer<vtkPolyData>::New();
     outputVector->GetInformationObject(port)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
@@ -256,16 +257,16 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
   {
     return;
   }
-  // In the executive's loop over blocks the producer's output is one of them, on which it must not
-  // run again.
+  // While the executive iterates over blocks the producer's output is replaced by one of them; the
+  // producer must not run then.
   vtkDataObject* data = producer->GetOutputDataObject(outputPort);
-  if (producer == this->Updated && outputPort == this->UpdatedPort && data &&
+  if (producer == this->UpdatedProducer && outputPort == this->UpdatedPort && data &&
     !data->GetDataReleased() && pipeline->GetPipelineMTime() == this->UpdatedTime)
   {
     return;
   }
   producer->Update(outputPort);
-  this->Updated = producer;
+  this->UpdatedProducer = producer;
   this->UpdatedPort = outputPort;
   this->UpdatedTime = pipeline->GetPipelineMTime();
 }
@@ -298,19 +299,19 @@ bool vtkGuardedAlgorithm::NeedsWhole(int)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::NoteRequest(
+void vtkGuardedAlgorithm::RecordRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* output =
     outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
   const int pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
-  if (pieces == 1 && this->IsAtBlock(inputVector))
+  if (pieces == 1 && this->IsIteratingOverBlocks(inputVector))
   {
-    return; // the executive's own, for a block
+    return; // a request of the executive itself, while it iterates over blocks
   }
-  this->AskedPiece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-  this->AskedNumberOfPieces = pieces;
+  this->RequestedPiece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+  this->RequestedNumberOfPieces = pieces;
   this->Composites.assign(static_cast<std::size_t>(this->GetNumberOfInputPorts()), {});
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
@@ -333,7 +334,7 @@ vtkCompositeDataSet* vtkGuardedAlgorithm::CompositeAt(int port, int connection)
 }
 
 //------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::IsAtBlock(vtkInformationVector** inputVector)
+bool vtkGuardedAlgorithm::IsIteratingOverBlocks(vtkInformationVector** inputVector)
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
@@ -350,7 +351,7 @@ bool vtkGuardedAlgorithm::IsAtBlock(vtkInformationVector** inputVector)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::RequireWhole(vtkInformationVector** inputVector)
+void vtkGuardedAlgorithm::RequireWholeInputs(vtkInformationVector** inputVector)
 {
   using RectifiedTransport::RankAgreement;
   std::vector<std::vector<vtkDataObject*>> inputs(
@@ -372,38 +373,38 @@ void vtkGuardedAlgorithm::RequireWhole(vtkInformationVector** inputVector)
       }
     }
   }
-  if (newest == this->Compared)
+  if (newest == this->ComparedTime)
   {
     if (!this->Disagreement.empty())
     {
-      throw RectifiedTransport::Failure(this->Disagreement); // for the other blocks
+      throw RectifiedTransport::Failure(this->Disagreement); // again, at the next block
     }
     return;
   }
   this->Disagreement.clear();
-  this->Agreed.resize(inputs.size());
+  this->EqualFingerprints.resize(inputs.size());
   const bool isShared =
-    RectifiedTransport::sharesWithRanks(this->AskedPiece, this->AskedNumberOfPieces);
+    RectifiedTransport::sharesWithRanks(this->RequestedPiece, this->RequestedNumberOfPieces);
   for (std::size_t port = 0; isShared && port < inputs.size(); ++port)
   {
     const std::string name = "input port " + std::to_string(port);
     const std::uint64_t fingerprint = RectifiedTransport::fingerprintOf(inputs[port]);
-    // What all ranks have agreed to some may not compare again: their inputs' times differ.
-    if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->Agreed[port]))
+    // Equal on all ranks before: others may skip the comparison, as modification times are local.
+    if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->EqualFingerprints[port]))
     {
       continue;
     }
     int rank = 0;
     const RankAgreement agreement =
       RectifiedTransport::compareRanks(this->GetClassName() + name, fingerprint, rank);
-    this->Agreed[port] = agreement == RankAgreement::Same ? fingerprint : 0;
+    this->EqualFingerprints[port] = agreement == RankAgreement::Same ? fingerprint : 0;
     if (agreement == RankAgreement::Differs)
     {
       this->Disagreement = "The data on " + name + " are not the same here and on rank " +
         std::to_string(rank) +
         "; what lies on several ranks must be gathered on the first one, or be whole on each "
         "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
-      this->Compared = newest;
+      this->ComparedTime = newest;
       throw RectifiedTransport::Failure(this->Disagreement);
     }
     if (agreement == RankAgreement::NoAnswer)
@@ -414,15 +415,15 @@ void vtkGuardedAlgorithm::RequireWhole(vtkInformationVector** inputVector)
       return;
     }
   }
-  this->Compared = newest;
+  this->ComparedTime = newest;
 }
 
 //------------------------------------------------------------------------------
 bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int asked = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
-  return outputVector->GetInformationObject(asked)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0;
+  const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
+  return outputVector->GetInformationObject(port)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0;
 }
 
 //------------------------------------------------------------------------------

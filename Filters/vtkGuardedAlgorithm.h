@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGuardedAlgorithm
- * @brief   what all filters of the module share as algorithms
+ * @brief   superclass of all filters of the module
  *
- * Chooses who runs the parallel loops: results are the same to the last bit for every number of
- * threads and every setting of Threading.
+ * Holds the choice of threads for the parallel loops: results are the same to the last bit for
+ * every number of threads and every value of Threading.
  *
- * Passes the executive's requests to virtual methods. What they throw becomes one error of the
- * filter; after an error or an abort all outputs are empty, and images announce no extent.
+ * Passes the executive's requests to virtual methods. An exception that they throw becomes one
+ * error of the filter; after an error or an abort all outputs are empty, and the whole extents of
+ * images are empty, too.
  *
  * @sa vtkDensityAlgorithm vtkEqualMassCells
  */
@@ -46,9 +47,9 @@ public:
 
   ///@{
   /**
-   * Who runs the parallel loops: VTK (vtkSMPTools with the backend in use), OpenMP, or Serial. Auto
-   * (default) is OpenMP where VTK's backend is Sequential, else VTK. It changes the time, never the
-   * result.
+   * What runs the parallel loops: VTK (vtkSMPTools with the backend in use), OpenMP, or Serial.
+   * Auto (default) is OpenMP where VTK's backend is Sequential, else VTK. It changes the time,
+   * never the result.
    */
   vtkSetMacro(Threading, int);
   vtkGetMacro(Threading, int);
@@ -61,7 +62,7 @@ public:
 
   ///@{
   /**
-   * Give an input as a data object, without a pipeline that makes it.
+   * Set a data object as an input, without a pipeline connection.
    */
   void SetInputData(vtkDataObject* input) { this->SetInputData(0, input); }
   void SetInputData(int port, vtkDataObject* input);
@@ -78,68 +79,68 @@ protected:
   ~vtkGuardedAlgorithm() override;
 
   /**
-   * Make the outputs that do not exist yet, of the type that the port's information names.
+   * Make the output data objects. By default the executive makes them, of the types of
+   * FillOutputPortInformation.
    */
   virtual int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
   /**
-   * Make the point set of an output port of the type of an input, where it is not; polydata while
-   * there is none.
+   * Make the output of a port a point set of the type of an input, where it is of another one; a
+   * vtkPolyData while there is no input.
    */
   static void MakeOutputLike(
     vtkInformationVector* input, vtkInformationVector* outputVector, int port);
 
   /**
-   * Publish what is known before the data, beside the times of all inputs. By default nothing. What
-   * the user can put right is left to RequestData to say: the images are then announced as empty.
+   * Set what is known of the outputs before the data; the times of all inputs are set already. By
+   * default nothing. A Failure is reported by RequestData; here whole extents become empty.
    */
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
   /**
-   * Bring what is connected to a port up to date, from RequestInformation: where the extent of an
-   * image follows from points, image filters behind it would otherwise get nothing, or read past
-   * the end of an image that is smaller than announced. Where the points change with time,
-   * RequestInformation is called again for the time that a consumer asks for.
+   * Update the producer of a port from RequestInformation: where the extent of an image follows
+   * from points, image filters downstream would otherwise get no data, or read past the end of an
+   * image that is smaller than announced. Where the points change with time, RequestInformation is
+   * called again for the time that is requested downstream.
    */
   void UpdateInputBeforeData(
     int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
-   * Whether the filter needs all of an input port: whole images, because a transport is global, and
-   * all points. By default yes; if not, the pieces that are asked for are passed on.
+   * Whether the filter needs all data of an input port: whole images, because a transport is
+   * global, and all points. By default yes; if not, the requested pieces are passed upstream.
    */
   virtual bool NeedsWhole(int port);
 
   /**
-   * Choose the time that the inputs are asked for. By default it is the one that a consumer asks
-   * for.
+   * Choose the time to request from the inputs. By default it is the one that is requested
+   * downstream.
    */
   virtual int RequestUpdateTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
   /**
-   * Ask for the whole of the ports that NeedsWhole names. Data that are less all the same, as those
-   * that lie on several ranks, are an error before RequestData.
+   * Request the whole extent, or piece 0 of 1, on the ports where NeedsWhole is true. Inputs that
+   * are partial nevertheless, as data distributed over ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
   /**
-   * Ask for the whole of all that is connected to a port.
+   * Request the whole extent, or piece 0 of 1, of all connections of a port.
    */
   static void RequestWhole(vtkInformationVector* port);
 
   /**
-   * Whether a consumer asks for a piece after the first, which has all that there is. The executive
-   * marks all outputs with the piece that one of them is asked for.
+   * Whether a piece other than 0 is requested: piece 0 holds all data. The executive sets the piece
+   * that is requested of one output port on all of them.
    */
   static bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
 
   /**
-   * Make the outputs. What is thrown here becomes one error and empty outputs, an abort empty
-   * outputs.
+   * Fill the outputs. An exception becomes one error and empty outputs, an abort empty outputs.
    */
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
@@ -147,25 +148,29 @@ protected:
   int Threading;
 
 private:
-  int Inform(vtkInformation* request, vtkInformationVector** inputVector,
+  int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  int InformOfTime(vtkInformation* request, vtkInformationVector** inputVector,
+  int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  void NoteRequest(vtkInformation* request, vtkInformationVector** inputVector,
+  void RecordRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   vtkCompositeDataSet* CompositeAt(int port, int connection); // nullptr where there is none
-  bool IsAtBlock(vtkInformationVector** inputVector);
-  void RequireWhole(vtkInformationVector** inputVector);
+  bool IsIteratingOverBlocks(vtkInformationVector** inputVector);
+  void RequireWholeInputs(vtkInformationVector** inputVector);
 
-  // What is asked for, and the composites on the input ports: while the executive goes through
-  // their blocks it shows one block at a time, of which the whole is asked for.
-  int AskedPiece = 0;
-  int AskedNumberOfPieces = 1;
+  // The requested piece and the composite inputs: while the executive iterates over blocks it
+  // replaces the input by one block at a time, and requests piece 0 of 1.
+  int RequestedPiece = 0;
+  int RequestedNumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites;
-  vtkMTimeType Compared = 0;             // with other ranks: how new the inputs were
-  std::vector<std::uint64_t> Agreed;     // the fingerprints of the ports on which ranks agreed
-  std::string Disagreement;              // what came of it, if not agreement
-  const vtkAlgorithm* Updated = nullptr; // before the data; compared, never used
+
+  // The last comparison of the inputs with those of other ranks.
+  vtkMTimeType ComparedTime = 0;                // the newest modification time of the inputs
+  std::vector<std::uint64_t> EqualFingerprints; // of each port; 0 where ranks differed
+  std::string Disagreement;                     // the error message; empty where ranks agreed
+
+  // The last call of UpdateInputBeforeData.
+  const vtkAlgorithm* UpdatedProducer = nullptr; // compared, never dereferenced
   int UpdatedPort = 0;
   vtkMTimeType UpdatedTime = 0;
 

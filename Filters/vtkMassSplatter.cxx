@@ -162,7 +162,7 @@ int vtkMassSplatter::RequestData(
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
   AlgorithmProgress progress(this, this->Threading);
 
-  // All is in the first piece, whatever pieces a consumer asks for.
+  // All data are in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -178,7 +178,7 @@ int vtkMassSplatter::RequestData(
   vtkDataArray* masses = count > 0 ? this->FindMasses(input) : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
   const std::int64_t outside = splatter.Run(input, masses, reference, progress, output);
-  // Without a Reference it is not known before the data.
+  // Without a Reference the extent may not be known before the data.
   announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));
   if (outside > 0)
   {

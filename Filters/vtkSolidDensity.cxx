@@ -84,7 +84,7 @@ int vtkSolidDensity::RequestData(
   requireSolidGrid(this->Resolution, this->Padding);
   AlgorithmProgress progress(this, this->Threading);
 
-  // All is in the first piece, whatever pieces a consumer asks for.
+  // All data are in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -99,7 +99,7 @@ int vtkSolidDensity::RequestData(
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
     this->GetAssociationSettings().IsOnPoints() };
   solid.Run(input, progress, output);
-  // It may have changed with time.
+  // The extent may change with time.
   announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));
   return 1;
 }

@@ -22,10 +22,10 @@ namespace
 {
 using namespace RectifiedTransport;
 
-// Many more than there are inputs: each takes memory when it is set, before anything is checked.
-constexpr int mostWeights = 1000000;
+// Far above numbers of inputs; bounds the memory that SetWeight allocates.
+constexpr int MaximumNumberOfWeights = 1000000;
 
-// Of as many inputs; they sum to 1. Throws Failure.
+// One weight an input, with the sum 1. Throws Failure.
 std::vector<double> normalizedWeights(const std::vector<double>& list, std::size_t inputs)
 {
   if (list.empty())
@@ -53,7 +53,7 @@ std::vector<double> normalizedWeights(const std::vector<double>& list, std::size
   {
     throw Failure("All Weights are 0; at least one must be above 0");
   }
-  // Those whose sum is 1 stay as they are; by the largest first only where the sum is not finite.
+  // Divided by the largest first only where the sum overflows: weights of sum 1 remain unchanged.
   const bool fits = std::isfinite(std::accumulate(list.begin(), list.end(), 0.0));
   std::vector<double> weights;
   for (const double weight : list)
@@ -88,10 +88,10 @@ vtkTransportBarycenter::~vtkTransportBarycenter() = default;
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetNumberOfWeights(int count)
 {
-  if (count < 0 || count > mostWeights)
+  if (count < 0 || count > MaximumNumberOfWeights)
   {
     vtkErrorMacro(<< "The number of weights is " << count << "; it must be from 0 to "
-                  << mostWeights);
+                  << MaximumNumberOfWeights);
     return;
   }
   if (count != this->GetNumberOfWeights())
@@ -110,10 +110,10 @@ int vtkTransportBarycenter::GetNumberOfWeights()
 //------------------------------------------------------------------------------
 void vtkTransportBarycenter::SetWeight(int index, double weight)
 {
-  if (index < 0 || index >= mostWeights)
+  if (index < 0 || index >= MaximumNumberOfWeights)
   {
     vtkErrorMacro(<< "The index of a weight is " << index << "; it must be from 0 to "
-                  << mostWeights - 1);
+                  << MaximumNumberOfWeights - 1);
     return;
   }
   this->SetNumberOfWeights(std::max(index + 1, this->GetNumberOfWeights()));
@@ -137,7 +137,7 @@ double vtkTransportBarycenter::GetWeight(int index)
 int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  // Else an executive would run the filter once for each block.
+  // Without this the executive would execute the filter once for each block.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
@@ -150,7 +150,7 @@ int vtkTransportBarycenter::RequestData(
   const BlendSettings settings = this->GetBlendSettings();
   AlgorithmProgress progress(this, this->Threading);
 
-  // All is in the first piece, whatever pieces a consumer asks for.
+  // All data are in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;

@@ -39,7 +39,7 @@ struct GivenInput
   int Port;
 };
 
-// The blocks of composite data that are there; other data is a block by itself.
+// The leaves of composite data that are not null; other data are one block.
 void gatherBlocks(vtkDataObject* data, std::vector<vtkDataObject*>& blocks)
 {
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
@@ -136,7 +136,7 @@ int vtkTransportBlend::RequestInformation(
       vtkDataObject* data = vtkDataObject::GetData(input);
       if (vtkCompositeDataSet::SafeDownCast(data))
       {
-        // It says nothing of its blocks, unless they are there already.
+        // Its information has no extents of blocks: they are known if the blocks are there already.
         std::vector<vtkDataObject*> blocks;
         gatherBlocks(data, blocks);
         for (vtkDataObject* block : blocks)

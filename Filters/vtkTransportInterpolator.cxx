@@ -23,12 +23,12 @@ namespace
 using namespace RectifiedTransport;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-// Of what a host lists and shows; a list of them is published before anything is checked.
-constexpr int mostTimeSteps = 1000000;
+// Bounds the list of time steps, which hosts display.
+constexpr int MaximumNumberOfTimeSteps = 1000000;
 
 bool isNumberOfTimeSteps(int count)
 {
-  return count >= 2 && count <= mostTimeSteps;
+  return count >= 2 && count <= MaximumNumberOfTimeSteps;
 }
 } // namespace
 
@@ -63,8 +63,8 @@ void vtkTransportInterpolator::SetTargetData(vtkDataObject* target)
 void vtkTransportInterpolator::SetInputArrayToProcess(
   int idx, int port, int connection, int fieldAssociation, const char* name)
 {
-  // It is looked up in the target itself. What ParaView copies for port 1 begins with input array
-  // 0, and is cut short where that belongs to another port.
+  // The array is looked up in the target's data object, so that its port is 0 here: ParaView
+  // copies the arrays of port 1 from index 0 on, and stops at the first one of another port.
   const bool isTarget = port == 1 || idx == 1;
   this->Superclass::SetInputArrayToProcess(
     isTarget ? 1 : idx, isTarget ? 0 : port, connection, fieldAssociation, name);
@@ -81,12 +81,12 @@ int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info
 int vtkTransportInterpolator::RequestUpdateTime(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  this->KeepTimeFromInputs(inputVector);
+  this->RequestFirstTime(inputVector);
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportInterpolator::KeepTimeFromInputs(vtkInformationVector** inputVector)
+void vtkTransportInterpolator::RequestFirstTime(vtkInformationVector** inputVector)
 {
   if (!this->PublishTime)
   {
@@ -99,7 +99,8 @@ void vtkTransportInterpolator::KeepTimeFromInputs(vtkInformationVector** inputVe
     {
       continue;
     }
-    // Without a request a source that others share would keep the time that they asked for last.
+    // Without a requested time a source with other consumers would keep the time of their last
+    // request.
     if (input->Has(Pipeline::TIME_STEPS()) && input->Length(Pipeline::TIME_STEPS()) > 0)
     {
       input->Set(Pipeline::UPDATE_TIME_STEP(), input->Get(Pipeline::TIME_STEPS(), 0));
@@ -141,7 +142,7 @@ int vtkTransportInterpolator::RequestInformation(
 int vtkTransportInterpolator::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->KeepTimeFromInputs(inputVector);
+  this->RequestFirstTime(inputVector);
   return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
@@ -150,12 +151,12 @@ double vtkTransportInterpolator::FindParameter(
   vtkInformation* request, vtkInformationVector* outputVector)
 {
   const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
-  vtkInformation* asked = outputVector->GetInformationObject(port);
-  if (!this->PublishTime || !asked->Has(Pipeline::UPDATE_TIME_STEP()))
+  vtkInformation* output = outputVector->GetInformationObject(port);
+  if (!this->PublishTime || !output->Has(Pipeline::UPDATE_TIME_STEP()))
   {
     return this->Parameter;
   }
-  const double time = asked->Get(Pipeline::UPDATE_TIME_STEP());
+  const double time = output->Get(Pipeline::UPDATE_TIME_STEP());
   requireThat(!std::isnan(time), "The pipeline's time", time, "a number");
   return std::clamp(time, 0.0, 1.0);
 }
@@ -172,7 +173,7 @@ int vtkTransportInterpolator::RequestData(
   const BlendSettings settings = this->GetBlendSettings();
   AlgorithmProgress progress(this, this->Threading);
 
-  // All is in the first piece, whatever pieces a consumer asks for.
+  // All data are in piece 0, whatever pieces are requested.
   if (!vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     static const char* const names[] = { "Source", "Target" };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportInterpolator
- * @brief   moves the mass of one density to another
+ * @brief   move the mass of one density to another
  *
- * Where a cross-fade would show both densities at once, here each particle goes straight from its
- * place in the first density, `SourcePosition`, to its place in the second, `TargetPosition`, in
- * physical space. Both places come from one point of the unit box, the pivot (Section 3.4 of the
- * paper named in vtkTransportBlend; Section 5.2 shows results).
+ * Unlike a cross-fade, which would show both densities at once, each particle moves on a straight
+ * line in physical space from its position in the first density, `SourcePosition`, to that in the
+ * second, `TargetPosition`. Both come from one point of the unit box, the pivot (Section 3.4 of
+ * the paper named in vtkTransportBlend; Section 5.2 shows results).
  *
  * Inputs: port 0 the source, port 1 the target, both vtkImageData; they may differ in size, spacing
  * and box. The density of the source is input array 0 (SetInputArrayToProcess(0, 0, ...)), that of
@@ -15,12 +15,12 @@
  * components each, physical).
  *
  * A Parameter of 0 gives the source and one of 1 the target, up to what the kernel and the number
- * of particles resolve. The maps are kept: a change of Parameter, or of time, only interpolates
- * and splats.
+ * of particles resolve. Cost and memory: see vtkTransportBlend. The maps are kept: a change of
+ * Parameter, or of time, only interpolates and splats.
  *
- * With PublishTime on the filter is a time source on [0,1] with NumberOfTimeSteps steps: the time
- * that the pipeline asks for takes the place of Parameter. The inputs are then asked for their
- * first time, if they have any, so that they stay the same while it plays.
+ * With PublishTime on the filter is a time source on [0,1] with NumberOfTimeSteps steps: the
+ * requested time replaces Parameter. The first time of the inputs is requested then, if they have
+ * times, so that they do not change with the requested time.
  *
  * Images of different dimensions, planes or direction matrices are an error.
  *
@@ -48,7 +48,7 @@ public:
 
   ///@{
   /**
-   * Connect the target, input port 1.
+   * Set the target (input 1), as the output of another filter or as a data object.
    */
   void SetTargetConnection(vtkAlgorithmOutput* target);
   void SetTargetData(vtkDataObject* target);
@@ -56,16 +56,16 @@ public:
 
   using vtkAlgorithm::SetInputArrayToProcess;
   /**
-   * Choose the array of a density. One on port 1 is the target's, input array 1, also where `idx`
-   * is 0, as ParaView gives it by default.
+   * Choose the array of a density. With port 1 it is that of the target, input array 1, also where
+   * `idx` is 0, which ParaView passes by default.
    */
   void SetInputArrayToProcess(
     int idx, int port, int connection, int fieldAssociation, const char* name) override;
 
   ///@{
   /**
-   * How far the mass has come: 0 (the source) to 1 (the target). Default 0.5. With PublishTime on,
-   * the pipeline's time takes its place.
+   * The interpolation parameter, from 0 (the source) to 1 (the target). Default 0.5. With
+   * PublishTime on the requested time replaces it.
    */
   vtkSetMacro(Parameter, double);
   vtkGetMacro(Parameter, double);
@@ -73,8 +73,8 @@ public:
 
   ///@{
   /**
-   * Publish the time steps of [0,1] and follow the pipeline's time, which is taken from the nearest
-   * end where it is outside. Off by default.
+   * Publish time steps on [0,1] and use the requested time, clamped to [0,1], as Parameter. Off by
+   * default.
    */
   vtkSetMacro(PublishTime, vtkTypeBool);
   vtkGetMacro(PublishTime, vtkTypeBool);
@@ -83,7 +83,8 @@ public:
 
   ///@{
   /**
-   * How many time steps PublishTime publishes, both ends included: 2 to 1000000, default 11.
+   * The number of time steps that PublishTime publishes, both ends included: 2 to 1000000,
+   * default 11.
    */
   vtkSetMacro(NumberOfTimeSteps, int);
   vtkGetMacro(NumberOfTimeSteps, int);
@@ -108,7 +109,7 @@ protected:
   int NumberOfTimeSteps;
 
 private:
-  void KeepTimeFromInputs(vtkInformationVector** inputVector);
+  void RequestFirstTime(vtkInformationVector** inputVector);
   double FindParameter(vtkInformation* request, vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::DensityBlend> Blend;
 

@@ -103,7 +103,7 @@ int vtkTransportMap::RequestData(
     this->Direction == DENSITY_TO_UNIFORM };
   AlgorithmProgress progress(this, this->Threading);
 
-  // All samples are in the first piece, whatever pieces a consumer asks for.
+  // All samples are in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -115,7 +115,7 @@ int vtkTransportMap::RequestData(
   }
   const ImageGrid grid =
     gridWithValues(density->Grid(), this->SampleDimensions, "SampleDimensions");
-  // Which array it is, is not always known before the data.
+  // The association of the density may not be known before the data.
   announceGrid(grid, outputVector->GetInformationObject(0));
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkImageData* output = vtkImageData::GetData(outputVector);

@@ -86,7 +86,7 @@ int vtkTransportQuality::RequestData(
 {
   requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
   AlgorithmProgress progress(this, this->Threading);
-  // The row is in the first piece, whatever pieces a consumer asks for.
+  // The row is in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;

@@ -99,7 +99,7 @@ int vtkTransportSampler::RequestData(
     this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
   AlgorithmProgress progress(this, this->Threading);
 
-  // All particles are in the first piece, whatever pieces a consumer asks for.
+  // All particles are in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;

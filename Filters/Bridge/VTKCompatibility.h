@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place of version guards: what differs among the VTK versions that are supported.
+// All version guards: the differences among the supported versions of VTK.
 #ifndef RectifiedTransport_VTKCompatibility_h
 #define RectifiedTransport_VTKCompatibility_h
 
@@ -9,7 +9,7 @@
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
 #include "vtkABINamespace.h"
 #define RECTIFIEDTRANSPORT_VTK_HAS_CHECK_ABORT
-// Of cell values on images of one or two dimensions, for tests: 9.1 takes other differences.
+// For tests: vtkGradientFilter of 9.1 uses other differences for cell data of 1D and 2D images.
 #define RECTIFIEDTRANSPORT_VTK_HAS_FLAT_GRADIENTS
 #else
 #define VTK_ABI_NAMESPACE_BEGIN

@@ -34,7 +34,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double partOfMean = 0.2; // of the progress that is left when the maps are there
+constexpr double partOfMean = 0.2; // of the progress after the maps
 constexpr double partOfParticles = 0.4;
 
 ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimensions[3])
@@ -57,7 +57,7 @@ std::array<std::int64_t, 3> cellsOf(const ImageGrid& geometry)
 
 void requireMemoryFor(double particles, std::size_t inputs)
 {
-  // Positions for each input and between them, masses and vertices.
+  // Positions for each input and their mean, masses and vertices.
   const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
   std::ostringstream purpose;
   purpose.precision(20);
@@ -65,12 +65,13 @@ void requireMemoryFor(double particles, std::size_t inputs)
   requireMemory(purpose.str(), each * particles);
 }
 
-// An array of values that are not initialised.
+// Makes an array of values that are not initialised, in the memory of the last one where it has no
+// other owner.
 void renew(
   vtkSmartPointer<vtkDoubleArray>& array, const char* name, int components, std::int64_t tuples)
 {
-  const bool isMine = array && array->GetReferenceCount() == 1;
-  if (!isMine || array->GetNumberOfTuples() != tuples)
+  const bool isUnique = array && array->GetReferenceCount() == 1;
+  if (!isUnique || array->GetNumberOfTuples() != tuples)
   {
     array = nullptr;
     array = newArray<vtkDoubleArray>(name, components, tuples);
@@ -97,13 +98,13 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   requireMemoryFor(numberOfValues(geometry) * settings.ParticlesPerCell, inputs.size());
   requireCells(geometry);
   applyGrid(geometry, output.Density);
-  announceGrid(geometry, output.Announced); // which array it is, is not always known before
+  announceGrid(geometry, output.Announced); // the association may not be known before the data
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow };
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
   if (newMaps > 0)
   {
-    this->Means = this->Masses = this->Density = nullptr; // the tables take their place
+    this->Means = this->Masses = this->Density = nullptr; // releases memory for the tables
   }
   constexpr double meanAndSplat = 60.0; // nanoseconds a particle, as measured
   const double maps =
@@ -131,8 +132,8 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   return moved;
 }
 
-// Each input takes the map of its density, wherever that was in the list before; it has none where
-// there was none. Returns how many are to be made.
+// Assigns to each input the kept map of its density, whatever input had it before, or an empty one.
+// Returns how many are empty.
 std::size_t DensityBlend::MatchMaps(
   const std::vector<BlendInput>& inputs, const LinearizedMapSettings& settings, Progress& progress)
 {
@@ -166,7 +167,7 @@ std::size_t DensityBlend::MatchMaps(
 std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end)
 {
-  // They take as much memory as the particles, and a small part of the time to be built.
+  // The tables take as much memory as the particles, and little time to build.
   struct Releaser
   {
     FlowCache& Tables;
@@ -181,7 +182,7 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     {
       continue;
     }
-    // One density may be several inputs.
+    // Several inputs may have the same density.
     const auto made = std::find_if(this->Maps.begin(), this->Maps.begin() + i,
       [&](const LinearizedMap& other) { return other.IsOf(density, settings); });
     if (made != this->Maps.begin() + i)
@@ -253,7 +254,7 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
   {
     if (!inputs[i].PositionName.empty())
     {
-      // One map may serve several inputs: the values are the same, the names are not.
+      // Inputs of one density share the values, under different names.
       vtkNew<vtkDoubleArray> named;
       named->ShallowCopy(this->Maps[i].Positions());
       named->SetName(inputs[i].PositionName.c_str());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Densities of one pivot: the maps to each of them, and the weighted means of the particles that
-// they move, as points and as a density (Sections 3.4, 5.2 and 5.3).
+// Interpolates densities by their maps from one pivot: the weighted means of the particles'
+// positions, as points and as a density (Sections 3.4, 5.2 and 5.3).
 #ifndef RectifiedTransport_DensityBlend_h
 #define RectifiedTransport_DensityBlend_h
 
@@ -36,14 +36,14 @@ enum class MassMode
 struct BlendInput
 {
   std::unique_ptr<DensityImage> Density;
-  std::string Name;         // as messages call it
+  std::string Name;         // in messages
   std::string PositionName; // of the array of the particles' positions; empty for none
   double Weight = 0.0;      // at least 0; all sum to 1
 };
 
 struct BlendSettings
 {
-  int Dimensions[3]; // as commonFrame takes them
+  int Dimensions[3]; // of commonGrid
   int ParticlesPerCell;
   MassMode Mode;
   FlowOptions Flow;
@@ -55,7 +55,7 @@ struct BlendOutput
 {
   explicit BlendOutput(vtkInformationVector* outputs);
 
-  vtkInformation* Announced; // of the density
+  vtkInformation* Announced; // the pipeline information of the density
   vtkImageData* Density;
   vtkPolyData* Particles;
 };
@@ -63,9 +63,9 @@ struct BlendOutput
 class DensityBlend
 {
 public:
-  // Maps of inputs that are not there any more are forgotten. Tables are built in `tables`, and
-  // not kept. Throws Failure, which names the input, and Cancelled. Returns how many particles had
-  // to be moved out of empty cells to come to all densities, 0 where no map was new.
+  // Keeps the maps of these inputs for the next call. Tables are built in `tables` and released.
+  // Throws Failure, which names the input, and Cancelled. Returns how many particles of new maps
+  // were moved out of empty cells of the densities.
   std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
     FlowCache& tables, Progress& progress, const BlendOutput& output);
 
@@ -80,9 +80,9 @@ private:
     double end, vtkPolyData* output);
 
   std::vector<LinearizedMap> Maps;
-  vtkSmartPointer<vtkCellArray> Vertices; // the same for as many particles
-  // Of the last output, written again where nobody else holds them: new memory is cleared by the
-  // system, which takes as long as all else that is done when the maps are there.
+  vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same
+  // The arrays of the last output, reused where they have no other owner: new memory is cleared by
+  // the system, which takes as long as all other work after the maps.
   vtkSmartPointer<vtkDoubleArray> Means;
   vtkSmartPointer<vtkDoubleArray> Masses;
   vtkSmartPointer<vtkDoubleArray> Density;

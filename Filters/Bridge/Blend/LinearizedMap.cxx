@@ -20,7 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// From index space to physical space, which in 3D have their memory in common.
+// From index to physical coordinates, which in 3D share memory.
 template <int D>
 void toPhysical(const ImageGrid& geometry, const double* positions, std::int64_t count,
   Progress& progress, double* physical)
@@ -41,14 +41,14 @@ void toPhysical(const ImageGrid& geometry, const double* positions, std::int64_t
 bool LinearizedMap::IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const
 {
   return this->Kept && this->Settings == settings && this->Content.IsOf(density) &&
-    this->Place == density.Grid();
+    this->Geometry == density.Grid();
 }
 
 bool LinearizedMap::IsOf(
   const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const
 {
   return this->Kept && this->Settings == settings && this->Content == content &&
-    this->Place == grid;
+    this->Geometry == grid;
 }
 
 std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSettings& settings,
@@ -56,11 +56,11 @@ std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSetti
 {
   constexpr double partOfTables = 0.04;
   this->Settings = settings;
-  this->Place = density.Grid();
+  this->Geometry = density.Grid();
   const SharedFlow& flow = tables.Update(
     density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
   this->Mass = flow.TotalMass();
-  const auto move = dispatchDimension(this->Place.Dimension(), &LinearizedMap::Move<1>,
+  const auto move = dispatchDimension(this->Geometry.Dimension(), &LinearizedMap::Move<1>,
     &LinearizedMap::Move<2>, &LinearizedMap::Move<3>);
   const std::int64_t moved = (this->*move)(flow, progress, end);
   this->Content = ContentHash(density, progress);
@@ -101,7 +101,7 @@ std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, dou
         .MovedToMass;
   }
   progress.BeginStage(end);
-  toPhysical<D>(this->Place, positions, each * places, progress, physical->GetPointer(0));
+  toPhysical<D>(this->Geometry, positions, each * places, progress, physical->GetPointer(0));
   this->Kept = physical;
   return moved;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the particles of the pivot, a unit box that holds equally many in each cell of a grid, come
-// to in one density (Section 3.4): kept until the density, the grid or the integration changes.
+// The positions in one density of the particles of the pivot, a unit box with equally many in each
+// cell of a grid (Section 3.4), kept until the density, the grid or the integration changes.
 #ifndef RectifiedTransport_LinearizedMap_h
 #define RectifiedTransport_LinearizedMap_h
 
@@ -19,10 +19,10 @@ namespace RectifiedTransport
 class FlowCache;
 class SharedFlow;
 
-// What maps must share to be one particle's ways to several densities.
+// What maps to several densities must have in common for their particles to correspond.
 struct LinearizedMapSettings
 {
-  std::array<std::int64_t, 3> Grid; // cells along the axes of index space, 1 where there is none
+  std::array<std::int64_t, 3> Grid; // cells along the axes of index space, 1 beyond its dimension
   std::int64_t PerCell;
   FlowOptions Options;
 
@@ -36,20 +36,20 @@ struct LinearizedMapSettings
 class LinearizedMap
 {
 public:
-  // Whether it is plainly that of a density. Else the density's content tells.
+  // Whether it is the map of a density: by modification times alone, or by the density's content.
   bool IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const;
   bool IsOf(
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
-  // Moves the particles to a density of this content; progress then reaches `end`. The tables are
-  // built in `tables`. Throws Failure and Cancelled. Returns how many particles ended in an empty
-  // cell and were put on the nearest mass.
+  // Advects the particles to a density; progress then reaches `end`. The tables are built in
+  // `tables`. Throws Failure and Cancelled. Returns how many particles ended in an empty cell of
+  // the density and were moved to the nearest mass.
   std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
-  // Of the same density, which may come in another image.
+  // Takes the times of another image that holds the same density.
   void Renew(const DensityImage& density) { this->Content.SetTimes(density); }
 
-  // Physical, 3 components; tuples are in the order of PivotLattice. Not to be written to.
+  // Physical, 3 components; tuples in the order of PivotLattice. Read-only.
   vtkDoubleArray* Positions() const { return this->Kept; }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
@@ -59,7 +59,7 @@ private:
   std::int64_t Move(const SharedFlow& flow, Progress& progress, double end);
 
   ContentHash Content;
-  ImageGrid Place; // the content is that of the values alone, the positions are physical
+  ImageGrid Geometry; // not part of the content, but of the physical positions
   LinearizedMapSettings Settings{};
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which density something was made from, to know whether it has changed since.
+// Identifies the density that a result was computed from, to detect changes.
 #ifndef RectifiedTransport_ContentHash_h
 #define RectifiedTransport_ContentHash_h
 
@@ -20,8 +20,8 @@ public:
   {
   }
 
-  // Whether it is plainly of this density: nothing says that it was changed. Else its own hash
-  // tells.
+  // Whether it is of this density by modification times and reading parameters alone. Where false,
+  // contents have to be compared.
   bool IsOf(const DensityImage& density) const
   {
     DensityImage::Content reading = this->Content;
@@ -29,13 +29,13 @@ public:
     return this->Known && this->Times == density.GetTimes() && reading == density.GetReading();
   }
 
-  // Where values are not in memory as they are, equal content tells nothing.
+  // Without a contiguous array there is no hash of the values: times must be equal, too.
   bool operator==(const ContentHash& other) const
   {
     return this->Known && other.Known && this->Content == other.Content &&
       (this->IsComplete() || this->Times == other.Times);
   }
-  // Of the same density, which may come in another image.
+  // Takes the times of another image that holds the same density.
   void SetTimes(const DensityImage& density) { this->Times = density.GetTimes(); }
 
   bool IsComplete() const { return this->Content[0] != 0; }

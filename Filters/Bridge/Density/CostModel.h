@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What work takes, by which progress is shared out among the stages of a run.
+// Estimated times of parts of the work, by which progress is divided among the stages of a run.
 #ifndef RectifiedTransport_CostModel_h
 #define RectifiedTransport_CostModel_h
 
@@ -36,7 +36,7 @@ inline double flow(const FlowOptions& options, int dimension)
 
 } // namespace Cost
 
-// The progress at the ends of stages, in proportion to what they take.
+// The progress at the ends of stages, in proportion to their estimated times.
 template <std::size_t Count>
 std::array<double, Count> stageEnds(const double (&costs)[Count])
 {

@@ -72,8 +72,8 @@ DensityImage::DensityImage(
     throw Failure(message.str());
   }
   requireComponent(this->Name, rules.Component, array->GetNumberOfComponents());
-  this->Place = gridOf(image, onPoints);
-  requireCells(this->Place);
+  this->Geometry = gridOf(image, onPoints);
+  requireCells(this->Geometry);
   this->Reader = makeDensityReader(array, rules);
   this->FindBlanks(image);
 
@@ -81,20 +81,20 @@ DensityImage::DensityImage(
     return object ? static_cast<std::uint64_t>(object->GetMTime()) : std::uint64_t{ 0 };
   };
   this->Sources = { this->Array, image->GetPointGhostArray(), image->GetCellGhostArray() };
-  // The image's own time, not that of all its arrays.
+  // The modification time of the vtkImageData itself: its GetMTime() includes all its arrays.
   this->Changed = { time(this->Sources[0]), time(this->Sources[1]), time(this->Sources[2]),
     static_cast<std::uint64_t>(image->vtkObject::GetMTime()) };
-  const double measure = this->Place.CellMeasure();
+  const double measure = this->Geometry.CellMeasure();
   std::uint64_t measureBits = 0;
   std::memcpy(&measureBits, &measure, sizeof(measure));
-  const GridSize<3> size = this->Place.Size<3>();
+  const GridSize<3> size = this->Geometry.Size<3>();
   const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };
   const auto has = [this](std::size_t source) { return this->Sources[source] ? 1 : 0; };
   this->Reading = { 0, number(this->Array->GetDataType()),
-    number(this->Array->GetNumberOfComponents()), number(this->Place.Dimension()), number(size[0]),
-    number(size[1]), number(size[2]), number(this->Rules.Component + 2),
+    number(this->Array->GetNumberOfComponents()), number(this->Geometry.Dimension()),
+    number(size[0]), number(size[1]), number(size[2]), number(this->Rules.Component + 2),
     number(this->Rules.Invert) + 2 * number(this->Rules.ClampNegative),
-    number(this->Place.IsOnPoints()), number(has(1) + 2 * has(2)), measureBits };
+    number(this->Geometry.IsOnPoints()), number(has(1) + 2 * has(2)), measureBits };
 }
 
 DensityImage::~DensityImage() = default;
@@ -115,7 +115,7 @@ void DensityImage::FindBlanks(vtkImageData* image)
 {
   constexpr const char* what = "input image";
   const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, what);
-  if (this->Place.IsOnPoints())
+  if (this->Geometry.IsOnPoints())
   {
     this->Reader->SetBlanks(points, ghostPoint);
     return;
@@ -143,14 +143,14 @@ void DensityImage::Prepare(Progress& progress)
 
 void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 {
-  const GridSize<3> size = this->Place.Size<3>();
-  const int dimension = this->Place.Dimension();
+  const GridSize<3> size = this->Geometry.Size<3>();
+  const int dimension = this->Geometry.Dimension();
   const std::int64_t cells[3] = { size[0], dimension > 1 ? size[1] : 1,
     dimension > 2 ? size[2] : 1 };
   const std::int64_t rowStep = cells[0] + 1;
   const std::int64_t planeStep = dimension > 1 ? rowStep * (cells[1] + 1) : 0;
   const int corners = 1 << dimension;
-  this->CombinedFlags.resize(static_cast<std::size_t>(this->Place.NumberOfCells()));
+  this->CombinedFlags.resize(static_cast<std::size_t>(this->Geometry.NumberOfCells()));
   unsigned char* combined = this->CombinedFlags.data();
   const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / cells[0]);
   progress.For(cells[1] * cells[2], rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
@@ -177,18 +177,18 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 
 double DensityImage::FindWhite(Progress& progress) const
 {
-  const std::int64_t cells = this->Place.NumberOfCells();
+  const std::int64_t cells = this->Geometry.NumberOfCells();
   std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain),
     -std::numeric_limits<double>::infinity()); // a range may hold several times the grain
   progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
     maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first);
   });
   const double largest = *std::max_element(maxima.begin(), maxima.end());
-  // Without a finite value there is no density either, which the tables will say.
+  // Without a finite value the construction of the tables reports the error.
   return std::isfinite(largest) ? largest : 0.0;
 }
 
-void DensityImage::Explain(const DensitySummary& summary) const
+void DensityImage::ThrowInvalid(const DensitySummary& summary) const
 {
   std::ostringstream message;
   message << "The " << this->Name << " has ";

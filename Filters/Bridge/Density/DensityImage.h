@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array of an image as a density: where its cells lie, what they hold, and what tells it from
-// another one.
+// An array of an image as a density: its grid, its values, and what identifies its content.
 #ifndef RectifiedTransport_DensityImage_h
 #define RectifiedTransport_DensityImage_h
 
@@ -29,54 +28,55 @@ class Progress;
 class DensityImage
 {
 public:
-  // When the array, the ghost arrays and the image itself last changed.
+  // The modification times of the array, the ghost arrays and the image itself.
   using Times = std::array<std::uint64_t, 4>;
-  // All that the tables of a density depend on: the bits of the values and of the ghost arrays, as
-  // a hash, and how they are read. The hash is 0 if the values are not in memory as they are.
+  // All that the tables of a density depend on: a hash of the values and the ghost arrays, and the
+  // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
   using Content = std::array<std::uint64_t, 12>;
 
-  // Throws Failure where the array cannot be a density whatever its values. `array` belongs to the
-  // points or the cells of `image`.
+  // `array` is point or cell data of `image`. Throws Failure for errors that do not depend on its
+  // values.
   DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
   ~DensityImage();
   DensityImage(const DensityImage&) = delete;
   DensityImage& operator=(const DensityImage&) = delete;
 
-  const ImageGrid& Grid() const { return this->Place; }
+  const ImageGrid& Grid() const { return this->Geometry; }
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }
-  // Found once, as the work of the current stage. Throws Cancelled.
+  // Computed once, as the work of the current stage. Throws Cancelled.
   const Content& GetContent(Progress& progress);
 
-  // Finds what single cells cannot tell, such as the largest value. Call it before reading.
+  // Computes what reading needs of all values, such as the largest one. To be called before Source.
   void Prepare(Progress& progress);
   template <int D>
   DensitySource<D> Source() const
   {
-    return { this->Place.Size<D>(), *this->Reader };
+    return { this->Geometry.Size<D>(), *this->Reader };
   }
 
-  // Throws the Failure that says what is wrong with the density, in the user's terms.
-  [[noreturn]] void Explain(const DensitySummary& summary) const;
+  // Throws the Failure for values that are no density.
+  [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
 
 private:
   void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
   double FindWhite(Progress& progress) const;
 
-  ImageGrid Place;
+  ImageGrid Geometry;
   vtkSmartPointer<vtkDataArray> Array;
   const DensityRules Rules;
   const std::string Name;
   std::unique_ptr<DensityReader> Reader;
-  std::array<vtkSmartPointer<vtkDataArray>, 3> Sources; // all that is read; some may be null
+  std::array<vtkSmartPointer<vtkDataArray>, 3> Sources; // the array, the ghost arrays or null
   Times Changed;
   Content Reading;
   Content Hashed{}; // all 0 before GetContent
 
-  const unsigned char* CellFlags = nullptr;    // of an array of the cells
-  const unsigned char* HiddenPoints = nullptr; // beside it
+  // Ghost flags of the cells and of the points, where the density is cell data.
+  const unsigned char* CellFlags = nullptr;
+  const unsigned char* HiddenPoints = nullptr;
   std::vector<unsigned char> CombinedFlags;
 };
 

@@ -48,7 +48,7 @@ double positivePart(double value)
   return value < 0.0 ? 0.0 : value;
 }
 
-// The loops, over tuples that begin(i)[c] indexes.
+// The loops over tuples; begin(i, c) is component c of tuple i.
 template <class Tuples>
 void readTuples(const Tuples& begin, int components, std::int64_t count, const DensityRules& rules,
   double white, double* __restrict values)
@@ -103,7 +103,8 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   }
 }
 
-// Of components [First, End), where the mask does not meet the flags, which may be null.
+// The largest of components [First, End) of the tuples whose flags have no bit of the mask; flags
+// may be null.
 struct MaximumOf
 {
   int First;
@@ -134,7 +135,7 @@ struct MaximumOf
   }
 };
 
-// Arrays of which `Tuples` gives a run of tuples: tuples(first, count)(i, c) is a value.
+// A reader of arrays whose tuples `Tuples` visits in runs, see BlockOfTuples.
 template <class Tuples>
 class TupleReader final : public DensityReader
 {
@@ -171,8 +172,8 @@ private:
   int Components;
 };
 
-// Tuples that lie in one block of memory. Their number of components is a constant where that lets
-// the loops be vectorised.
+// Contiguous tuples. Their number of components is a compile-time constant up to 4, so that the
+// loops are vectorised.
 template <class T>
 class BlockOfTuples
 {
@@ -213,7 +214,7 @@ private:
   int Components;
 };
 
-// Every other layout.
+// Tuples of any other memory layout.
 template <class ArrayT>
 class RangeOfTuples
 {
@@ -272,7 +273,7 @@ void DensityReader::Finish(std::int64_t first, std::int64_t count, double* value
 {
   if (this->Rules.ClampNegative)
   {
-    // Minus infinity stays, to be found.
+    // Minus infinity remains, and is an error.
     constexpr double lowest = std::numeric_limits<double>::lowest();
     for (std::int64_t i = 0; i < count; ++i)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array of any type and layout as the density that the core reads, without a copy.
+// Reads an array of any value type and memory layout as a density of the core, without a copy.
 #ifndef RectifiedTransport_DensityReader_h
 #define RectifiedTransport_DensityReader_h
 
@@ -32,7 +32,7 @@ public:
   {
   }
 
-  // The value of white, for Invert and alpha.
+  // The largest displayed value, for Invert and alpha.
   void SetWhite(double white) { this->White = white; }
   // Cells whose flags have one of the bits of `mask` are read as 0.
   void SetBlanks(const unsigned char* flags, unsigned char mask)
@@ -47,7 +47,7 @@ public:
   virtual double Maximum(std::int64_t first, std::int64_t count) const = 0;
 
 protected:
-  // What rules and blanks make of values that were read.
+  // Applies ClampNegative and the blanking to values that were read.
   void Finish(std::int64_t first, std::int64_t count, double* values) const;
 
   const DensityRules Rules;

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// Not meant to be hard to forge. Four lanes, so that multiplications need not wait for each other.
+// Not cryptographic. Four independent lanes hide the latency of the multiplications.
 std::uint64_t mixBytes(const unsigned char* bytes, std::int64_t count)
 {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
@@ -47,13 +47,13 @@ std::uint64_t mixBytes(const unsigned char* bytes, std::int64_t count)
   return mixed;
 }
 
-// The memory of all values; -1 if they are not in memory as they are. Bits beyond the last value of
-// a bit array count: at worst they tell equal arrays apart.
+// The number of bytes of the values; -1 if they are not contiguous in memory. The unused bits of a
+// bit array count: at worst equal arrays differ.
 std::int64_t bytesOf(vtkDataArray* array)
 {
   constexpr std::int64_t bitsAByte = 8;
   const std::int64_t values = array->GetNumberOfValues();
-  if (array->GetDataType() == VTK_BIT) // whose value has no size
+  if (array->GetDataType() == VTK_BIT) // whose GetDataTypeSize() is 0
   {
     return (values + bitsAByte - 1) / bitsAByte;
   }
@@ -89,7 +89,7 @@ std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& pr
       pieces.push_back({ bytes + begin, std::min(chunk, count - begin) });
     }
   }
-  // All arrays are one stage, so that progress does not begin again with each.
+  // One loop over all arrays, as they are one stage of the progress.
   std::vector<std::uint64_t> parts(pieces.size());
   const auto all = static_cast<std::int64_t>(pieces.size()) * chunk;
   progress.For(all, chunk, [&](std::int64_t first, std::int64_t last) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether data are what they were: by the times that say so, and by their bits where those differ.
+// Detection of unchanged data: by modification times, and by a hash of the values where those
+// differ.
 #ifndef RectifiedTransport_Fingerprint_h
 #define RectifiedTransport_Fingerprint_h
 
@@ -19,29 +20,31 @@ namespace RectifiedTransport
 
 class Progress;
 
-// A number that follows from the bits of the arrays' values, as the work of the current stage; 0 if
-// they are not in memory as they are. Arrays may be null. Throws Cancelled.
+// A hash of the bits of the arrays' values, as the work of the current stage; 0 if one is not
+// contiguous in memory. Arrays may be null. Throws Cancelled.
 std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
-// Of data that are known by a key, such as the times of arrays, and by the time of the data set
-// around them. Who writes into an array often says so to the data set alone; but hosts also make
-// that anew around the same arrays at every run, as ParaView does.
+// Identifies data by a key, such as the modification times of arrays, by the modification time of
+// their data set, and by a fingerprint. Programs that write into an array often call Modified() of
+// the data set only; but hosts as ParaView also make a new data set of the same arrays at every
+// run.
 template <class Key>
 class DataStamp
 {
 public:
-  // Whether they may be the same, in another data set.
+  // Whether the key is equal: the data may be the same, in another data set.
   bool IsLike(const Key& key) const { return this->Known && this->Identity == key; }
 
-  // Whether they plainly are the same. Else Renew tells.
+  // Whether key and time are equal: the data are the same. Where false, Renew compares
+  // fingerprints.
   bool IsOf(const Key& key, std::uint64_t time) const
   {
     return this->IsLike(key) && this->Time == time;
   }
 
-  // Takes the stamp of data whose fingerprint print() gives. Returns whether they are those that
-  // were stamped before, down to their values where only the data set is another. Is of no data
-  // where print() throws.
+  // Stores key, time and the fingerprint that print() returns. Returns whether the data are those
+  // of the previous call: by time, or by fingerprint where only the time differs. Where print()
+  // throws, nothing is stored.
   template <class Print>
   bool Renew(const Key& key, std::uint64_t time, const Print& print)
   {

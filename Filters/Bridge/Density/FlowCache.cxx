@@ -20,8 +20,8 @@ const SharedFlow& FlowCache::Update(DensityImage& density, Progress& progress, d
   const ContentHash hash(density, progress);
   if (!this->Kept || !(this->Hash == hash))
   {
-    this->Hash = ContentHash(); // until the tables are whole
-    this->Kept = SharedFlow::Of(density, hash, std::move(this->Kept), progress, end);
+    this->Hash = ContentHash(); // invalid until the tables are built
+    this->Kept = SharedFlow::FindOrBuild(density, hash, std::move(this->Kept), progress, end);
     this->Time = std::max(this->Time, this->Kept->BuildTime());
   }
   this->Hash = hash;

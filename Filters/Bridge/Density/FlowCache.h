@@ -14,18 +14,18 @@ namespace RectifiedTransport
 class FlowCache
 {
 public:
-  // Whether Update has to look closer, and most likely builds tables.
+  // Whether Update has to compute the content hash, and probably builds tables.
   bool IsOutdated(const DensityImage& density) const
   {
     return !this->Kept || !this->Hash.IsOf(density);
   }
 
-  // The flow of a density, as the work of the stages up to the progress `end`: the tables are built
-  // if the density is another one, down to its values where only its image is another, and nobody
-  // has them. Throws Failure and Cancelled; the next update then builds.
+  // The flow of a density, as the work of the stages up to the progress `end`. Tables are built if
+  // the content of the density differs from that of the last update and no other filter has them.
+  // Throws Failure and Cancelled; the next update then builds.
   const SharedFlow& Update(DensityImage& density, Progress& progress, double end);
 
-  // Gives the tables back; the next update needs new ones.
+  // Releases this filter's reference to the tables.
   void Release() { this->Kept.reset(); }
 
   // Grows with each build; 0 before the first.

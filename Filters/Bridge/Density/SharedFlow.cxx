@@ -21,8 +21,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// What the tables take: a record a node of each level, which has a fixed share of the nodes of the
-// level before.
+// The memory of the tables: one record for each node of each level, where a level has a fixed share
+// of the nodes of the finer one.
 template <int D>
 double tableBytes(const GridSize<D>& size)
 {
@@ -41,46 +41,48 @@ std::string describeTables(const GridSize<D>& size)
   return "the tables of a density of " + describeSize<D>(size) + " cells";
 }
 
-// What is held, by its content. Who holds nothing any more is forgotten at the next entry.
-class Holdings
+// The flows in use by any filter of the process, by the content of their densities. Expired entries
+// are erased at the next insertion.
+class FlowRegistry
 {
 public:
-  static Holdings& Get()
+  static FlowRegistry& Get()
   {
-    static Holdings holdings;
-    return holdings;
+    static FlowRegistry registry;
+    return registry;
   }
 
   std::shared_ptr<const SharedFlow> Find(const ContentHash& content)
   {
-    const std::lock_guard<std::mutex> lock(this->Access);
-    const auto found = this->Held.find(content);
-    return found == this->Held.end() ? nullptr : found->second.lock();
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto found = this->Entries.find(content);
+    return found == this->Entries.end() ? nullptr : found->second.lock();
   }
 
-  void Enter(const ContentHash& content, const std::shared_ptr<const SharedFlow>& flow)
+  void Insert(const ContentHash& content, const std::shared_ptr<const SharedFlow>& flow)
   {
-    const std::lock_guard<std::mutex> lock(this->Access);
-    for (auto entry = this->Held.begin(); entry != this->Held.end();)
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
     {
-      entry = entry->second.expired() ? this->Held.erase(entry) : std::next(entry);
+      entry = entry->second.expired() ? this->Entries.erase(entry) : std::next(entry);
     }
-    this->Held[content] = flow;
+    this->Entries[content] = flow;
   }
 
-  // Whether nobody else holds a flow; nobody finds it any more then.
-  bool Withdraw(const std::shared_ptr<const SharedFlow>& flow)
+  // Erases a flow that has no other owner, so that Find cannot return it. Returns whether it has
+  // none.
+  bool EraseIfUnique(const std::shared_ptr<const SharedFlow>& flow)
   {
-    const std::lock_guard<std::mutex> lock(this->Access);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
     if (flow.use_count() != 1)
     {
       return false;
     }
-    for (auto entry = this->Held.begin(); entry != this->Held.end(); ++entry)
+    for (auto entry = this->Entries.begin(); entry != this->Entries.end(); ++entry)
     {
       if (entry->second.lock() == flow)
       {
-        this->Held.erase(entry);
+        this->Entries.erase(entry);
         break;
       }
     }
@@ -88,24 +90,26 @@ public:
   }
 
 private:
-  std::mutex Access;
-  std::map<ContentHash, std::weak_ptr<const SharedFlow>> Held;
+  std::mutex Mutex;
+  std::map<ContentHash, std::weak_ptr<const SharedFlow>> Entries;
 };
 
 } // namespace
 
-std::shared_ptr<const SharedFlow> SharedFlow::Of(DensityImage& density, const ContentHash& content,
-  std::shared_ptr<const SharedFlow> previous, Progress& progress, double end)
+std::shared_ptr<const SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
+  const ContentHash& content, std::shared_ptr<const SharedFlow> previous, Progress& progress,
+  double end)
 {
-  Holdings& holdings = Holdings::Get();
-  if (auto held = content.IsComplete() ? holdings.Find(content) : nullptr)
+  FlowRegistry& registry = FlowRegistry::Get();
+  if (auto shared = content.IsComplete() ? registry.Find(content) : nullptr)
   {
-    return held;
+    return shared;
   }
   AnyFlow old;
-  if (previous && holdings.Withdraw(previous))
+  if (previous && registry.EraseIfUnique(previous))
   {
-    old = std::move(const_cast<SharedFlow&>(*previous).Kept); // made below, and not const
+    // Not const itself: it was made below.
+    old = std::move(const_cast<SharedFlow&>(*previous).Kept);
   }
   previous.reset();
 
@@ -119,7 +123,7 @@ std::shared_ptr<const SharedFlow> SharedFlow::Of(DensityImage& density, const Co
   ((*made).*build)(density, std::move(old), progress);
   if (content.IsComplete())
   {
-    holdings.Enter(content, made);
+    registry.Insert(content, made);
   }
   return made;
 }
@@ -145,14 +149,14 @@ void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progre
     }
     catch (const InvalidDensity& invalid)
     {
-      density.Explain(invalid.Summary());
+      density.ThrowInvalid(invalid.Summary());
     }
   });
   DensitySummary found;
   found.Total = this->Flow<D>().Total() * density.Grid().CellMeasure();
   if (!(found.Total > 0.0) || std::isinf(found.Total))
   {
-    density.Explain(found);
+    density.ThrowInvalid(found);
   }
   this->Mass = found.Total;
   this->Built.Modified();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow of a density, with its tables, for all who read the same density.
+// The flow of a density with its tables, shared by all filters that read the same density.
 #ifndef RectifiedTransport_SharedFlow_h
 #define RectifiedTransport_SharedFlow_h
 
@@ -28,11 +28,12 @@ public:
   double TotalMass() const { return this->Mass; }
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
-  // The flow of a density that someone holds, else a new one, which is kept for others as long as
-  // anyone holds it; progress then reaches `end`. `previous` is given up before: its memory is
-  // taken for a new one where nobody else holds it. Throws Failure and Cancelled.
-  static std::shared_ptr<const SharedFlow> Of(DensityImage& density, const ContentHash& content,
-    std::shared_ptr<const SharedFlow> previous, Progress& progress, double end);
+  // Returns the flow of a density of this content that another filter owns, else builds one, to be
+  // shared in turn; progress then reaches `end`. Resets `previous` first, and reuses its memory
+  // where it has no other owner. Throws Failure and Cancelled.
+  static std::shared_ptr<const SharedFlow> FindOrBuild(DensityImage& density,
+    const ContentHash& content, std::shared_ptr<const SharedFlow> previous, Progress& progress,
+    double end);
 
 private:
   using AnyFlow =

@@ -24,8 +24,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// The points of a warp: in index space, moved to the border if they are outside, and in physical
-// space. In 3D index space has the memory of the displacements.
+// The points of a warp in index space, clamped to the domain, and in physical space. In 3D the
+// index coordinates share the memory of the displacements.
 template <int D>
 class WarpedPoints
 {
@@ -85,7 +85,7 @@ public:
     });
   }
 
-  // Index space is gone afterwards.
+  // Overwrites the index coordinates in 3D.
   void Write(double blend, vtkPointSet* output)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
@@ -95,15 +95,15 @@ public:
       for (std::int64_t i = first; i < last; ++i)
       {
         double* x = points + i * 3;
-        double way[D];
-        this->Grid.template ToIndex<D>(x, way);
-        this->Grid.template ClampToDomain<D>(way);
+        double move[D];
+        this->Grid.template ToIndex<D>(x, move);
+        this->Grid.template ClampToDomain<D>(move);
         for (int a = 0; a < D; ++a)
         {
-          way[a] = blend * (this->Index[i * D + a] - way[a]);
+          move[a] = blend * (this->Index[i * D + a] - move[a]);
         }
         double* displacement = displacements + i * 3;
-        this->Grid.template VectorToPhysical<D>(way, displacement);
+        this->Grid.template VectorToPhysical<D>(move, displacement);
         for (int r = 0; r < 3; ++r)
         {
           x[r] += displacement[r];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points moved so that a density becomes uniform: the work of vtkDensityEqualizingWarp.
+// Moves points so that a density becomes uniform: the worker of vtkDensityEqualizingWarp.
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
@@ -19,14 +19,14 @@ class DensityImage;
 class FlowCache;
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct DensityEqualizingWarp
 {
   FlowOptions Flow;
   double Blend;
 
-  // Gives an output, which has all else of the input, its points and `Displacement`. Returns how
-  // many points are outside of the domain. Throws Failure and Cancelled.
+  // Sets the points and `Displacement` of an output that has the rest of the input already. Returns
+  // the number of points outside of the domain. Throws Failure and Cancelled.
   std::int64_t Run(DensityImage& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
     vtkPointSet* output) const;
 };

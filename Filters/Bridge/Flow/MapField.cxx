@@ -91,7 +91,7 @@ void MapField<D>::WriteDerivatives(Progress& progress, vtkDataSetAttributes* out
   });
 }
 
-// Sums of fixed chunks make the mean the same for every executor.
+// Sums over fixed chunks, so that the mean does not depend on the executor.
 template <int D>
 double MapField<D>::WriteDisplacement(const RectifiedFlow<D>* flow, Progress& progress)
 {

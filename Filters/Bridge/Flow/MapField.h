@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map at the centres of a lattice of cells, between the core's index space and the arrays of an
-// image.
+// A map sampled at the centres of a lattice: from the core's index space to the arrays of an image.
 #ifndef RectifiedTransport_MapField_h
 #define RectifiedTransport_MapField_h
 
@@ -27,24 +26,24 @@ class Progress;
 template <int Dimension>
 class RectifiedFlow;
 
-// In 3D, positions and displacements share their memory.
+// In 3D positions and displacements share memory.
 template <int D>
 class MapField
 {
 public:
-  // Memory for a lattice on the domain of `geometry`. Throws Failure before anything is allocated
-  // if it is too much for the system; `purpose` completes "not enough memory for".
+  // Allocates memory for a lattice on the domain of `geometry`. Throws Failure before if there is
+  // not enough; `purpose` completes "not enough memory for".
   MapField(const ImageGrid& geometry, const GridSize<D>& lattice, const std::string& purpose);
 
   std::int64_t Count() const { return this->NumberOfSamples; }
 
-  // Where the map takes the samples, in index space.
+  // The mapped samples, in index space.
   PointSpan<D> Positions();
 
-  // Turns positions into Displacement, Divergence and JacobianDeterminant. Positions are gone
-  // afterwards. Returns the mean squared displacement: of the samples, or if `flow` is given
-  // weighted with the mass of its density in their cells. Progress reaches `end`. Throws
-  // Failure and Cancelled.
+  // Computes Displacement, Divergence and JacobianDeterminant; positions are undefined afterwards.
+  // Returns the mean squared displacement of the samples, weighted, if `flow` is given, with the
+  // mass of its density in their lattice cells. Progress reaches `end`. Throws Failure and
+  // Cancelled.
   double Write(
     const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output);
 

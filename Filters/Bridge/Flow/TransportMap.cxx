@@ -26,7 +26,7 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 {
   const GridSize<D> lattice = samples.Size<D>();
   const double count = numberOfCells<D>(lattice);
-  constexpr double backwardInSpace = 150.0; // to find each sample's share of the mass
+  constexpr double backwardInSpace = 150.0; // to compute each sample's share of the mass
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
     (map.Backward && D == 3 ? backwardInSpace : Cost::Write) * count });
   MapField<D> field(density.Grid(), lattice,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map between the uniform measure and a density: the work of vtkTransportMap.
+// The map between the uniform measure and a density: the worker of vtkTransportMap.
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
@@ -20,7 +20,7 @@ class FlowCache;
 class ImageGrid;
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct TransportMap
 {
   FlowOptions Flow;
@@ -29,11 +29,11 @@ struct TransportMap
   struct Report
   {
     std::int64_t Samples;
-    std::int64_t MovedToMass;
+    std::int64_t MovedToMass; // from empty cells of the density
   };
 
-  // Writes the map's fields on a grid of samples on the density's domain, into an image that then
-  // has this grid. Throws Failure and Cancelled.
+  // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
+  // this grid. Throws Failure and Cancelled.
   Report Run(DensityImage& density, const ImageGrid& samples, FlowCache& cache, Progress& progress,
     vtkImageData* output) const;
 };

@@ -28,7 +28,7 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// The moments at which positions are wanted: FlowTime, or all of a path.
+// The times of the output positions: FlowTime, or those of a path's points.
 std::vector<double> timesOf(const TransportSampler& sampler)
 {
   const int steps = sampler.OutputPaths ? sampler.Flow.NumberOfSteps : 0;
@@ -59,9 +59,9 @@ UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
 
 std::string describeParticles(double count, bool paths)
 {
-  constexpr double mostDigits = 1e15;
+  constexpr double maximumExact = 1e15;
   const std::string number =
-    count < mostDigits ? std::to_string(static_cast<std::int64_t>(count)) : "more than 1e15";
+    count < maximumExact ? std::to_string(static_cast<std::int64_t>(count)) : "more than 1e15";
   return (paths ? "the paths of " : "") + number +
     " particles (see NumberOfParticles, SamplesPerCell and Seeds)";
 }
@@ -137,7 +137,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   }
   catch (const std::bad_alloc&)
   {
-    failOutOfMemory(purpose, count * sizeof(std::int64_t)); // to sort them
+    failOutOfMemory(purpose, count * sizeof(std::int64_t)); // of the sort
   }
 
   if (given)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles that follow a density: the work of vtkTransportSampler.
+// Samples a density with particles: the worker of vtkTransportSampler.
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
@@ -21,7 +21,7 @@ class DensityImage;
 class FlowCache;
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct TransportSampler
 {
   FlowOptions Flow;
@@ -32,22 +32,22 @@ struct TransportSampler
   double FlowTime;
   bool OutputPaths;
 
-  // What the user should be warned of.
+  // Numbers for warnings.
   struct Report
   {
     std::int64_t SeedsMoved = 0;     // to the domain's border
-    std::int64_t ParticlesMoved = 0; // to the nearest mass
+    std::int64_t ParticlesMoved = 0; // from empty cells of the density to the nearest mass
   };
 
-  // Whether the seeds are a grid in every cell.
+  // Whether the seeds are a grid in every cell of the density.
   bool UsesGrid() const
   {
     return this->SamplesPerCell > 0 &&
       (this->Pattern == SeedPattern::Lattice || this->Pattern == SeedPattern::Jittered);
   }
 
-  // Writes particles, or their paths, from given seeds or else from those of the pattern. Throws
-  // Failure and Cancelled.
+  // Writes particles, or their paths, from the given seeds, or from those of the pattern where
+  // `seeds` is nullptr. Throws Failure and Cancelled.
   Report Run(DensityImage& density, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
     vtkPolyData* output) const;
 };

@@ -20,11 +20,11 @@ constexpr double rounding = 1e-9;       // of lengths that are meant to be the s
 constexpr double planeTolerance = 1e-6; // of the longest side: single precision
 constexpr const char* property = "Dimensions";
 
-// The part of the domain along an axis. Places are measured from the origin of space along the
-// grid's own directions. Without an axis there, Low is the place of the one point.
+// The interval of the domain along an axis, in coordinates along the grid's own directions. For an
+// axis of one point Low is the coordinate of that point.
 struct Side
 {
-  double Low; // where the first cell begins; the highest end if Spacing is negative
+  double Low; // the lower end of the first cell; the upper one if Spacing is negative
   double Spacing;
   int Cells;
   bool IsAxis;
@@ -34,7 +34,7 @@ using Sides = std::array<Side, 3>;
 
 Sides sidesOf(const ImageGrid& grid)
 {
-  double inverse[9] = {}; // so it stays where there is none
+  double inverse[9] = {}; // remains zero for a singular matrix
   vtkMatrix3x3::Invert(grid.Direction().data(), inverse);
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i)
@@ -51,7 +51,7 @@ Sides sidesOf(const ImageGrid& grid)
   return sides;
 }
 
-// The grid that has these sides in the directions of another, and whose extent begins at 0.
+// The grid of these sides in the directions of another one, with an extent from 0.
 ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
 {
   std::array<int, 6> extent{};
@@ -75,7 +75,7 @@ bool haveSameDirection(const ImageGrid& a, const ImageGrid& b)
   return ((a.Direction() - b.Direction()).cwiseAbs().array() <= rounding).all();
 }
 
-// An axis of one point need not have a direction of its own.
+// False where an axis of one point has no direction of its own.
 bool hasInverse(const ImageGrid& grid)
 {
   constexpr double flat = 1e-12;
@@ -171,13 +171,13 @@ bool isSame(const Sides& a, const Sides& b)
   return true;
 }
 
-// Along one axis: from the lowest to the highest end of all, at the finest spacing.
+// Along one axis: the smallest interval that contains all sides, at the finest spacing.
 struct Union
 {
   double Low;
   double Length;
   double Finest;
-  double Cells; // rounded up; may be more than fits into an integer
+  double Cells; // rounded up; may exceed an integer
   double Sign;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One image for what lies between several.
+// The grid of the output that interpolates several images.
 #ifndef RectifiedTransport_CommonGrid_h
 #define RectifiedTransport_CommonGrid_h
 
@@ -14,14 +14,14 @@ namespace RectifiedTransport
 struct NamedGrid
 {
   ImageGrid Grid;   // not empty
-  std::string Name; // as messages call it
+  std::string Name; // in messages
 };
 
-// The smallest box that holds the domains of all, at the finest spacing along each axis (numbers of
-// cells rounded up, the box grown at its upper end), or with `dimensions` values along an axis
-// where that is not 0. Values are on points or cells as in the first grid, and grids of one
-// geometry have exactly that. Throws Failure for grids of different axes, planes or directions, and
-// for dimensions that are out of range.
+// The smallest box that contains all domains, at the finest spacing along each axis (numbers of
+// cells rounded up, the box extended at its upper end), or with `dimensions` values along an axis
+// where that is not 0. Values are point or cell data as in the first grid. For grids of equal
+// geometry it is exactly that. Throws Failure for grids of different axes, planes or directions,
+// and for dimensions out of range.
 ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3]);
 
 } // namespace RectifiedTransport

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which array of an image is meant where none is named, as by a host that has not seen the data.
+// The array of an image to use where none is named, as in a host that sets no array before the data
+// are read.
 #ifndef RectifiedTransport_DefaultArray_h
 #define RectifiedTransport_DefaultArray_h
 
@@ -14,15 +15,15 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The active scalars of the points, else of the cells, else the only array that there is; nullptr
-// where there is none or a choice. Says whose it is, of vtkDataObject::FieldAssociations.
+// The active scalars of the points, else of the cells, else the only numeric array; nullptr where
+// there are none or several. Sets `association`, of vtkDataObject::FieldAssociations.
 vtkDataArray* defaultArray(vtkDataSet* data, int& association);
 
-// Whether the values of a data set are those of its points: those of the default array, else, where
-// there is a choice, of any array.
+// Whether the default array is point data; where there is no default, whether there are numeric
+// point arrays.
 bool hasPointValues(vtkDataSet* data);
 
-// Whether active scalars are announced before the data, of vtkDataObject::FieldAssociations.
+// Whether the pipeline information has active scalars, of vtkDataObject::FieldAssociations.
 bool announcesScalars(vtkInformation* information, int association);
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid's size as messages say it.
+// The size of a grid as text for messages.
 #ifndef RectifiedTransport_GridText_h
 #define RectifiedTransport_GridText_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grids from images and to them, and grids that properties ask for.
+// Conversion between ImageGrid, vtkImageData and pipeline information, and grids of given sizes.
 #ifndef RectifiedTransport_ImageGrids_h
 #define RectifiedTransport_ImageGrids_h
 
@@ -18,33 +18,34 @@ namespace RectifiedTransport
 
 ImageGrid gridOf(vtkImageData* image, bool onPoints);
 
-// What a pipeline has announced; it has no points where it has announced no extent.
+// The grid of the pipeline information; without points where there is no WHOLE_EXTENT.
 ImageGrid announcedGrid(vtkInformation* information, bool onPoints);
 
-// A box along the coordinate axes, {x0, x1, y0, y1, z0, z1}: one cell, and no axis where the box is
-// flat (a billionth of its longest side is rounding).
+// An axis-aligned box, {x0, x1, y0, y1, z0, z1}, as one cell; sides of less than a billionth of the
+// longest one are no axes.
 ImageGrid gridOfBox(const double (&bounds)[6]);
 
 // Throws Failure for an image that has no axis, or whose cells have no measure.
 void requireCells(const ImageGrid& grid);
 
-// Gives an image a grid. Ask for the memory of what the image will hold before that: from VTK 9.3
-// on an image keeps the coordinates of its planes of points. Throws Failure where there is no
-// memory for them.
+// Sets extent, origin, spacing and direction of an image. Check the memory for its arrays before:
+// from VTK 9.3 on SetExtent allocates the coordinates of the planes of points. Throws Failure where
+// there is no memory for them.
 void applyGrid(const ImageGrid& grid, vtkImageData* image);
+// Sets the same in the pipeline information.
 void announceGrid(const ImageGrid& grid, vtkInformation* information);
-// And that the active scalars will be the array Density, of doubles.
+// Also announces the active scalars, the array Density of doubles.
 void announceDensity(const ImageGrid& grid, vtkInformation* information);
 
-// The grid with other numbers of values on the domain that its cells cover; 0 for as many as there
-// are. Throws Failure, which names `property`.
+// The grid with other numbers of values on the same domain; 0 keeps the number along an axis.
+// Throws Failure, which names `property`.
 ImageGrid gridWithValues(const ImageGrid& grid, const int values[3], const char* property);
 
-// The grid with `resolution` cells along the longest axis of the domain that the cells cover, and
-// as nearly cubic ones as fit along the others. Throws Failure, which names `property`.
+// The grid on the same domain with `resolution` cells along its longest axis, and along the others
+// the numbers that make the cells nearest to cubes. Throws Failure, which names `property`.
 ImageGrid gridWithResolution(const ImageGrid& grid, int resolution, const char* property);
 
-// Not an integer: what a user asks for may be more than fits into one.
+// Not an integer, because it may exceed every integer.
 double numberOfValues(const ImageGrid& grid);
 // "8 x 4", without the axes of one point.
 std::string describeValues(const ImageGrid& grid);

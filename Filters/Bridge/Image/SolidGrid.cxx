@@ -39,7 +39,7 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
     throw Failure(message.str());
   }
   const double width = grown / resolution;
-  // Or neither the image's own coordinates nor the surface's would tell cells apart.
+  // Narrower cells are not resolved by coordinates in double precision.
   constexpr double smallest = 1e-12;
   if (!(width >= std::max(smallest * farthest, std::numeric_limits<double>::min())))
   {
@@ -54,7 +54,7 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
   Eigen::Vector3d corner;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    // What a side has more than whole cells by rounding is no cell.
+    // Rounding errors must not add a cell.
     constexpr double rounding = 1e-9;
     const double length = bounds[2 * a + 1] - bounds[2 * a];
     const double part = (length + 2.0 * padding * longest) / grown;

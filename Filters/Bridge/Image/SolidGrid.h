@@ -10,12 +10,12 @@
 namespace RectifiedTransport
 {
 
-// Throws Failure for what is out of range whatever the surface.
+// Throws Failure for properties out of range, whatever the surface is.
 void requireSolidGrid(int resolution, double padding);
 
 // `resolution` cells along the longest side of the bounds grown by `padding` of the longest side on
-// each side; along the others as many as cover them, about the centre. Throws Failure, which names
-// the property that asks for what is not possible.
+// each side; along the others as many as cover them, centred. Throws Failure, which names the
+// property.
 ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double padding);
 
 } // namespace RectifiedTransport

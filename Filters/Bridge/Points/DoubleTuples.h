@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuples of an array in double precision, one after the other.
+// The tuples of an array, contiguous and in double precision.
 #ifndef RectifiedTransport_DoubleTuples_h
 #define RectifiedTransport_DoubleTuples_h
 
@@ -21,17 +21,16 @@ class CountedPoints;
 class DoubleTuples
 {
 public:
-  // All tuples. Where they are in memory so already, that is the array's, which has to stay; else
-  // the work of the current stage is to copy them. Throws Failure for memory that is not there, and
-  // Cancelled.
+  // All tuples. A vtkDoubleArray is referenced and has to outlive this object; others are copied,
+  // as the work of the current stage. Throws Failure where memory is short, and Cancelled.
   DoubleTuples(vtkDataArray* array, Progress& progress);
-  // Of an array with a tuple for every point, those of the points that count.
+  // The tuples of the points that are no ghosts, of an array with a tuple for every point.
   DoubleTuples(vtkDataArray* array, const CountedPoints& counted, Progress& progress);
 
   const double* data() const { return this->Values; }
 
 private:
-  // Tuple tupleAt(i) for each i from 0 to `count`.
+  // Copies the tuples tupleAt(i), 0 <= i < count.
   template <class TupleAt>
   void Copy(vtkDataArray* array, std::int64_t count, Progress& progress, const TupleAt& tupleAt);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points and cells of an input are ghosts: duplicates of another piece's, or blanked.
+// The ghost points and ghost cells (vtkGhostType) of an input: duplicates of another piece, or
+// blanked.
 #ifndef RectifiedTransport_GhostFlags_h
 #define RectifiedTransport_GhostFlags_h
 
@@ -17,30 +18,30 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The flags of points and cells that do not count.
+// The flags of points and cells without mass.
 constexpr unsigned char ghostPoint =
   vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
 constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
   vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
 
-// The flags of the points or cells (vtkDataObject::POINT or CELL), one for each; nullptr where
-// there are none. Throws Failure for a ghost array of another length; `what` names the input.
+// The values of the ghost array of the points or cells (vtkDataObject::POINT or CELL); nullptr
+// where there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 
-// The points of a set that are no ghosts, numbered anew, in their order.
+// The points of a data set that are no ghosts, numbered from 0 in their order.
 class CountedPoints
 {
 public:
-  // Throws Failure as above, and for memory that is not there.
+  // Throws Failure as above, and where memory is short.
   CountedPoints(vtkDataSet* points, const char* what);
 
   std::int64_t Count() const { return this->Number; }
-  // The number of a point among those that count; -1 for a ghost.
+  // The number of a point, -1 for a ghost.
   std::int64_t NumberOf(std::int64_t point) const
   {
     return this->Numbers.data() ? this->Numbers.data()[point] : point;
   }
-  // The index of one that counts.
+  // The index of the point of a number.
   std::int64_t Point(std::int64_t number) const
   {
     return this->Indices.data() ? this->Indices.data()[number] : number;

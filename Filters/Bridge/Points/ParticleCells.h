@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of particles: each has its own run of consecutive points.
+// The vtkCells of particles: each has its own run of consecutive points.
 #ifndef RectifiedTransport_ParticleCells_h
 #define RectifiedTransport_ParticleCells_h
 

@@ -22,7 +22,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double partOfPoints = 0.8; // of the time to write, the rest is for cells
+constexpr double partOfPoints = 0.8; // of the time to write; the rest is for the vtkCells
 
 double squaredDistance(const LengthScale& scale, const double* a, const double* b)
 {
@@ -88,7 +88,7 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
   return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
-// particle(i) returns a number; sums of fixed chunks make the mean the same for every executor.
+// The mean of particle(i), by sums over fixed chunks, so that it does not depend on the executor.
 template <int D>
 template <class Particle>
 double ParticleSet<D>::MeanOverParticles(Progress& progress, const Particle& particle) const
@@ -126,7 +126,7 @@ void ParticleSet<D>::ToPhysicalSeed(std::int64_t particle, const double* index, 
   this->Geometry.template ToPhysical<D>(index, seed);
 }
 
-// A particle that has not moved is where its seed is, without the rounding by way of index space.
+// A particle that has not moved gets the coordinates of its seed, without rounding by index space.
 template <int D>
 void ParticleSet<D>::ToPhysical(
   const double* index, const double* indexSeed, const double* seed, double* x) const

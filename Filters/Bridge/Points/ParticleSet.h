@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles between the core's index space and a vtkPolyData: memory for seeds and positions, and
-// the pass that makes VTK's arrays of them.
+// Particles from the core's index space to a vtkPolyData: memory for seeds and positions, and their
+// conversion to VTK's arrays.
 #ifndef RectifiedTransport_ParticleSet_h
 #define RectifiedTransport_ParticleSet_h
 
@@ -25,29 +25,29 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Positions of particles, each at one time or along a path of several. What is large is not copied:
-// in 3D, index space and physical space share their memory.
+// Positions of particles, each at one time or at several along a path. In 3D index and physical
+// coordinates share memory.
 template <int D>
 class ParticleSet
 {
 public:
-  // Memory for `count` particles at `times` times each. Throws Failure before anything is allocated
-  // if it is too much for the system, whatever `count` is; `purpose` completes "not enough memory
-  // for". `seedsGiven`: PhysicalSeeds will be written, not computed.
+  // Allocates memory for `count` particles at `times` times each. Throws Failure before if there is
+  // not enough, for every `count`; `purpose` completes "not enough memory for". `seedsGiven`: the
+  // caller writes PhysicalSeeds.
   ParticleSet(const ImageGrid& geometry, const std::string& purpose, double count,
     std::int64_t times, bool seedsGiven);
 
   std::int64_t Count() const { return this->NumberOfParticles; }
 
-  // In index space; the positions of a particle together.
+  // In index space; the positions of a particle are consecutive.
   PointSpan<D> Seeds();
   PointSpan<D> Positions();
   // In physical space.
   PointSpan<3> PhysicalSeeds();
 
-  // Turns positions into points with vertices, SeedId, SeedPosition, Displacement and Mass.
-  // Positions are gone afterwards. Returns the mean squared displacement. Progress reaches
-  // `end`. Throws Failure and Cancelled.
+  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass; positions are
+  // undefined afterwards. Returns the mean squared displacement. Progress reaches `end`. Throws
+  // Failure and Cancelled.
   double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass over the points of an input, in double precision.
+// Loops over the points of an input, in double precision.
 #ifndef RectifiedTransport_PointInput_h
 #define RectifiedTransport_PointInput_h
 
@@ -24,19 +24,19 @@ namespace RectifiedTransport
 {
 
 // The point set of a port, nullptr if there is none. Throws Failure for a block of another type,
-// which no executive refuses.
+// which executives do not check.
 vtkPointSet* pointSetOf(vtkInformationVector* port);
 
-// The bounds of all points of a set, those of no cell too. VTK's own are kept, and do not follow
-// coordinates that are written in place.
+// The bounds of all points of a set, also of those that no vtkCell uses. vtkPointSet::GetBounds
+// caches its result, which is outdated where coordinates were changed without Modified().
 void findBounds(vtkPointSet* points, double bounds[6]);
 
-// Points whose coordinates are not finite, as several threads find them.
+// Counts points whose coordinates are not finite; thread-safe.
 class NotFinitePoints
 {
 public:
   void Add(std::int64_t count, std::int64_t first);
-  // Throws the Failure that says how many there are of the input that `what` names.
+  // Throws a Failure with their number if there are any; `what` names the input.
   void RequireNone(const std::string& what) const;
 
 private:

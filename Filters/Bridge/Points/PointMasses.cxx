@@ -42,7 +42,7 @@ std::string listArrays(vtkPointSet* points)
   return list.empty() ? "no point arrays" : list + " (point)";
 }
 
-// What a range of points has, in the order of their indices.
+// The sums over a range of points, in the order of their indices.
 struct RangeOfMasses
 {
   double Sum = 0.0;
@@ -51,7 +51,7 @@ struct RangeOfMasses
   std::int64_t First = -1;
 };
 
-// Copies values, or 1 each, but nothing of ghosts.
+// Copies values, or 1 each; 0 for ghosts.
 class ReadMasses
 {
 public:

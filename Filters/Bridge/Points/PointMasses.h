@@ -21,11 +21,11 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The array of masses of that name; nullptr for no name, and for "None", which is no array's.
-// Throws Failure if it is missing, not numeric or has several components.
+// The point array of masses of that name; nullptr for an empty name, and for "None" where there is
+// no such array. Throws Failure if it is missing, not numeric or has several components.
 vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
 
-// The array that is an attribute of the points, of vtkDataSetAttributes::AttributeTypes.
+// The active attribute of the points, of vtkDataSetAttributes::AttributeTypes.
 vtkDataArray* findMasses(vtkPointSet* points, int attribute);
 
 class PointMasses
@@ -40,7 +40,7 @@ public:
   // One a point; nullptr for 1 each.
   const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
   double Total() const { return this->Sum; }
-  // The sum of their sizes, without signs.
+  // The sum of the absolute values.
   double TotalSize() const { return this->Sizes; }
 
 private:

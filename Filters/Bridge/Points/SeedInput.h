@@ -16,11 +16,10 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Writes the points of a set in index space, moved to the domain's border where they lie outside,
-// and where they then are in physical space (a point inside keeps its own coordinates to the last
-// bit). Returns how many were moved by more than a millionth of the domain's size, by which single
-// precision may miss the border. Throws Failure for coordinates that are not finite, naming the
-// input as `what`, and Cancelled.
+// Writes the points of a set in index space, clamped to the domain, and in physical space (points
+// inside keep their coordinates to the last bit). Returns how many were moved by more than a
+// millionth of the domain's size, the error of single precision. Throws Failure for coordinates
+// that are not finite, naming the input as `what`, and Cancelled.
 template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
   Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);

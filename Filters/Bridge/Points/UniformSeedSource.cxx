@@ -43,7 +43,6 @@ void requireBounds(const double* bounds, int dimension)
   }
 }
 
-// Fills a box with points, uniformly.
 template <int D>
 void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* output)
 {

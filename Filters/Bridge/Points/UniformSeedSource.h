@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points that are spread uniformly over a box: the work of vtkUniformSeedSource.
+// Points that are uniform in a box: the worker of vtkUniformSeedSource.
 #ifndef RectifiedTransport_UniformSeedSource_h
 #define RectifiedTransport_UniformSeedSource_h
 
@@ -18,7 +18,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct UniformSeedSource
 {
   SeedPattern Pattern;

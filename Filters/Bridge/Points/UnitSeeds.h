@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The seeds that a pattern property asks for, in the unit box.
+// The seeds of a pattern property, in the unit box.
 #ifndef RectifiedTransport_UnitSeeds_h
 #define RectifiedTransport_UnitSeeds_h
 
@@ -17,7 +17,7 @@ template <int D>
 class UnitSeeds
 {
 public:
-  // `count` seeds for a box with sides `lengths`; Lattice: as near to it as a grid comes.
+  // `count` seeds for a box with sides `lengths`; Lattice: the nearest number of a grid.
   UnitSeeds(SeedPattern pattern, const Point<D>& lengths, std::int64_t count, int randomSeed);
   // A grid of seeds for Lattice and Jittered.
   UnitSeeds(SeedPattern pattern, const GridSize<D>& grid, int randomSeed);

@@ -57,7 +57,7 @@ vtkDataArray* findArray(vtkPointSet* particles, const char* name, int components
   return array;
 }
 
-// What is known of the particles that count, in double precision.
+// The points, masses and displacements of the particles that are no ghosts, in double precision.
 class ParticleArrays
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the particles of a point set follow a density: the work of vtkTransportQuality.
+// Compares particles with a density: the worker of vtkTransportQuality.
 #ifndef RectifiedTransport_TransportQuality_h
 #define RectifiedTransport_TransportQuality_h
 
@@ -18,13 +18,13 @@ class CountedPoints;
 class DensityImage;
 class FlowCache;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct TransportQuality
 {
   int BlockSize;
 
-  // Compares the particles that count, of which there must be some, with a density; the cache keeps
-  // its tables. Throws Failure, std::overflow_error and Cancelled.
+  // Compares the particles that are no ghosts, at least one, with a density, whose tables are kept
+  // in the cache. Throws Failure, std::overflow_error and Cancelled.
   ParticleQuality Run(vtkPointSet* particles, const CountedPoints& counted, DensityImage& density,
     FlowCache& cache, Progress& progress) const;
 };

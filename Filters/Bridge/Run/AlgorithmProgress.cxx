@@ -21,7 +21,7 @@ Context contextOf(vtkAlgorithm* algorithm, const Executor& threads)
     [algorithm, thread = std::this_thread::get_id()]() {
       (void)thread;
 #ifdef RECTIFIEDTRANSPORT_VTK_HAS_CHECK_ABORT
-      // CheckAbort looks upstream and marks the outputs, which is for one thread alone.
+      // CheckAbort reads upstream algorithms and writes to the outputs: not thread-safe.
       if (std::this_thread::get_id() == thread)
       {
         return algorithm->CheckAbort() != 0;

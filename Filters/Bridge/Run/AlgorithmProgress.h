@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of one run of a vtkAlgorithm: reported to it, stopped by it, on threads of its
-// choice.
+// The Progress of one execution of a vtkAlgorithm: progress events, abort checks and the executor
+// of its property Threading.
 #ifndef RectifiedTransport_AlgorithmProgress_h
 #define RectifiedTransport_AlgorithmProgress_h
 
@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Lives on the thread that runs the algorithm.
+// To be constructed on the thread that executes the algorithm.
 class AlgorithmProgress final : public Progress
 {
 public:

@@ -22,7 +22,7 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-const int none[6] = { 0, -1, 0, -1, 0, -1 };
+const int emptyExtent[6] = { 0, -1, 0, -1, 0, -1 };
 
 bool isStructured(vtkInformation* output)
 {
@@ -38,20 +38,20 @@ bool isWithin(const int* part, const int* whole)
       part[4] >= whole[4] && part[5] <= whole[5]);
 }
 
-void forgetRequest(vtkInformation* output)
+void clearUpdateExtent(vtkInformation* output)
 {
-  output->Set(Pipeline::UPDATE_EXTENT(), none, 6);
-  output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // it would come back from there
+  output->Set(Pipeline::UPDATE_EXTENT(), emptyExtent, 6);
+  output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // else the executive would restore it
   output->Remove(Pipeline::UPDATE_EXTENT_INITIALIZED());
 }
 
-// Visits the structured outputs of the filters that read an output, and of those behind them.
-// Returns whether these were all.
+// Visits the structured outputs of an output's consumers, and those of their consumers in turn.
+// Returns whether all were reached.
 template <class Visit>
 bool visitConsumers(vtkInformation* output, const Visit& visit)
 {
-  // A filter that was deleted stays among the consumers, but holds the information no longer. Which
-  // one it is cannot be told.
+  // A deleted filter remains in CONSUMERS(), as a dangling pointer, but holds no reference to the
+  // information object any more. Which entry it is cannot be determined.
   const int count = vtkExecutive::CONSUMERS()->Length(output);
   if (output->GetReferenceCount() != count + 1)
   {
@@ -84,16 +84,16 @@ bool emptyOutputs(vtkInformationVector* outputs)
       output->Initialize();
     }
   }
-  return withdrawExtents(outputs);
+  return announceEmptyExtents(outputs);
 }
 
 } // namespace
 
-bool withdrawExtents(vtkInformationVector* outputs)
+bool announceEmptyExtents(vtkInformationVector* outputs)
 {
-  const auto withdraw = [](vtkInformation* output) {
-    output->Set(Pipeline::WHOLE_EXTENT(), none, 6);
-    forgetRequest(output);
+  const auto announceEmpty = [](vtkInformation* output) {
+    output->Set(Pipeline::WHOLE_EXTENT(), emptyExtent, 6);
+    clearUpdateExtent(output);
   };
   bool isComplete = true;
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
@@ -101,20 +101,20 @@ bool withdrawExtents(vtkInformationVector* outputs)
     vtkInformation* output = outputs->GetInformationObject(i);
     if (isStructured(output))
     {
-      withdraw(output);
-      isComplete = visitConsumers(output, withdraw) && isComplete;
+      announceEmpty(output);
+      isComplete = visitConsumers(output, announceEmpty) && isComplete;
     }
     else if (output->Has(Pipeline::UPDATE_EXTENT()))
     {
-      forgetRequest(output); // of a grid that was here before
+      clearUpdateExtent(output); // left from a structured data object of this port
     }
   }
   return isComplete;
 }
 
-bool renewConsumers(vtkInformation* output)
+bool updateConsumerInformation(vtkInformation* output)
 {
-  const bool isComplete = visitConsumers(output, forgetRequest);
+  const bool isComplete = visitConsumers(output, clearUpdateExtent);
   const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
   for (int i = 0; i < count; ++i)
   {
@@ -123,31 +123,32 @@ bool renewConsumers(vtkInformation* output)
     consumer->UpdateInformation();
     for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
     {
-      renewConsumers(outputs->GetInformationObject(j));
+      updateConsumerInformation(outputs->GetInformationObject(j));
     }
   }
   return isComplete;
 }
 
-bool withdrawUnmetRequests(vtkInformationVector* outputs)
+bool clearUnmetRequests(vtkInformationVector* outputs)
 {
   bool isComplete = true;
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
   {
     vtkInformation* output = outputs->GetInformationObject(i);
-    const int* asked = output->Get(Pipeline::UPDATE_EXTENT());
-    if (asked && isStructured(output) &&
-      !isWithin(
-        asked, vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT())))
+    const int* requested = output->Get(Pipeline::UPDATE_EXTENT());
+    if (requested && isStructured(output) &&
+      !isWithin(requested,
+        vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT())))
     {
-      output->Remove(vtkDataObject::ALL_PIECES_EXTENT()); // or the next reader would not come here
-      isComplete = visitConsumers(output, forgetRequest) && isComplete;
+      // Else this filter would not execute for the next consumer.
+      output->Remove(vtkDataObject::ALL_PIECES_EXTENT());
+      isComplete = visitConsumers(output, clearUpdateExtent) && isComplete;
     }
   }
   return isComplete;
 }
 
-int answerException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
+int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
 {
   std::string error;
   try

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between the core, which throws, and the executive, which must not see exceptions.
+// Turns the core's exceptions into errors, and adjusts the pipeline information of outputs that are
+// empty or partial. No exception may reach the executive.
 #ifndef RectifiedTransport_ExceptionBarrier_h
 #define RectifiedTransport_ExceptionBarrier_h
 
@@ -14,22 +15,23 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Ends the answer to a request within a catch (...): an abort leaves empty outputs, anything else
-// becomes one error of the algorithm and empty outputs. Withdraws the extents of images. Returns
-// what the executive is told.
-int answerException(vtkAlgorithm* algorithm, vtkInformationVector* outputs);
+// To be called within catch (...) around the processing of a request: empties the outputs and
+// announces empty extents; any exception but Cancelled becomes one error of the algorithm. Returns
+// the return value of ProcessRequest.
+int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs);
 
-// Announces that structured outputs have no points, after all. Filters that follow would read all
-// of what was announced before, so that they are asked for nothing, too. Returns false where not
-// all of them can be reached: they must then be kept from running, by a failure.
-bool withdrawExtents(vtkInformationVector* outputs);
+// Sets empty whole and update extents on structured outputs, and on those of the filters
+// downstream, which would otherwise read the extent announced before. Returns false where not all
+// of them can be reached: the request must then fail, so that they do not execute.
+bool announceEmptyExtents(vtkInformationVector* outputs);
 
-// The same for this update alone, where an output holds less than was asked for: a later piece.
-bool withdrawUnmetRequests(vtkInformationVector* outputs);
+// Empties the update extents downstream of structured outputs that hold less than the requested
+// extent (pieces after the first), for this update only. Returns as above.
+bool clearUnmetRequests(vtkInformationVector* outputs);
 
-// Has the filters that read a structured output ask again what it announces, within an update.
-// Returns false where not all of them can be reached.
-bool renewConsumers(vtkInformation* output);
+// Calls UpdateInformation of all filters downstream of a structured output whose extent changed
+// within an update. Returns false where not all of them can be reached.
+bool updateConsumerInformation(vtkInformation* output);
 
 } // namespace RectifiedTransport
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run ends early.
+// The exception for errors of input data and properties.
 #ifndef RectifiedTransport_Failure_h
 #define RectifiedTransport_Failure_h
 
@@ -9,12 +9,12 @@
 namespace RectifiedTransport
 {
 
-// Something that the user can put right, said as one clear line.
+// An error that the user can correct; what() is its one-line message.
 class Failure : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
-  // One that concerns one of several things.
+  // For one of several inputs: its name precedes the message.
   Failure(const std::string& name, const Failure& failure)
     : std::runtime_error(name + ": " + failure.what())
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of an input as the type that a filter needs. Executives see to it, but not for the
-// blocks of composite data.
+// An input data object cast to the required type. Executives check the type of an input, but not
+// that of the blocks of a composite one.
 #ifndef RectifiedTransport_InputBlock_h
 #define RectifiedTransport_InputBlock_h
 
@@ -13,8 +13,8 @@
 namespace RectifiedTransport
 {
 
-// nullptr if there are no data. Throws Failure for another type; `what` begins the message, and
-// `rule` completes "it must be ...".
+// nullptr if there is no data object. Throws Failure for another type; `what` begins the message,
+// and `rule` completes "it must be ...".
 template <class DataT>
 DataT* requireBlock(vtkDataObject* data, const char* what, const char* rule)
 {

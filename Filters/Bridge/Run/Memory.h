@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that may not be there: every demand that grows with the input or a property is checked,
-// and a refusal becomes a Failure that says how much was asked for.
+// Checked allocation: every allocation that grows with the input or a property is checked, and a
+// failed one becomes a Failure that names the requested size.
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
@@ -18,11 +18,11 @@ namespace RectifiedTransport
 
 [[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);
 
-// Throws Failure if the system refuses a block of this size. Systems that promise memory before
-// they have it refuse single blocks, not sums of blocks, beyond what the machine holds.
+// Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
+// refuse single blocks that exceed it, not sums of blocks.
 void requireMemory(const std::string& purpose, double bytes);
 
-// Runs a function that may run out of memory.
+// Calls a function; its std::bad_alloc becomes a Failure.
 template <class Function>
 auto withMemory(const std::string& purpose, double bytes, Function&& function)
 {
@@ -36,8 +36,8 @@ auto withMemory(const std::string& purpose, double bytes, Function&& function)
   }
 }
 
-// A VTK array whose values are not initialised. (VTK's own allocation prints and throws on its own
-// account.)
+// A VTK array whose values are not initialised. (A failed allocation by VTK itself prints an error
+// and throws.)
 template <class ArrayT>
 vtkSmartPointer<ArrayT> newArray(const std::string& name, int components, vtkIdType tuples)
 {

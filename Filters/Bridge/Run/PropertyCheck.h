@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties are checked when a filter runs; what is wrong is said in one sentence that names the
-// property, its value and what would be right.
+// Checks of property values, for RequestData; a Failure's message is one sentence that names the
+// property, its value and the valid range.
 #ifndef RectifiedTransport_PropertyCheck_h
 #define RectifiedTransport_PropertyCheck_h
 
@@ -54,7 +54,7 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
   message << property << " is ";
   if constexpr (std::is_floating_point_v<T>)
   {
-    // With more digits where these would make it another number, maybe one that is right.
+    // All digits where 6 round it to another number, possibly one in range.
     std::ostringstream text;
     text << value;
     constexpr int all = std::numeric_limits<T>::max_digits10;

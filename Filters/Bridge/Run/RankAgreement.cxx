@@ -26,13 +26,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int tag = 52717; // of no other messages in ParaView or VTK
 constexpr std::chrono::seconds longestWait{ 10 };
-constexpr std::chrono::seconds patience{ 1 }; // a message of a run that failed here may come first
+constexpr std::chrono::seconds mismatchDelay{ 1 }; // messages of earlier, failed runs may precede
 
-// What is compared, and its fingerprint.
+// A hash of the subject of the comparison, and the fingerprint.
 using Message = std::array<unsigned long, 2>;
 
-// Sends without blocking, and keeps what was received until it is asked for: ranks run the same
-// filters, but not at the same moment, and not all of them where one has failed.
+// Sends without blocking, and stores received messages until they are taken: ranks execute the same
+// filters, but not simultaneously, and not all of them after a failure.
 class MessageQueue
 {
 public:
@@ -55,7 +55,8 @@ public:
     }
   }
 
-  // Takes the first message of a rank that satisfies a condition out of what has come.
+  // Removes the first received message of a rank that satisfies a condition; returns whether there
+  // is one.
   template <class Condition>
   bool Take(int rank, const Condition& condition)
   {
@@ -119,7 +120,7 @@ RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint
     while (rank != own && !queue.Take(rank, isSame))
     {
       const auto waited = Clock::now() - start;
-      if (waited > patience &&
+      if (waited > mismatchDelay &&
         queue.Take(rank, [kind](const Message& message) { return message[0] == kind; }))
       {
         return RankAgreement::Differs;

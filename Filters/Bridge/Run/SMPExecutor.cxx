@@ -32,7 +32,8 @@ std::unique_ptr<Executor> makeExecutor(int threading)
 void SMPExecutor::For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const
 {
   const std::int64_t ranges = (count + grain - 1) / grain;
-  // A few tasks a thread balance the load; one a range would cost more than small ranges do.
+  // A few tasks a thread balance the load; a task for each range has more overhead than small
+  // ranges have work.
   constexpr std::int64_t tasksPerThread = 8;
   const std::int64_t rangesPerTask =
     std::max<std::int64_t>(1, ranges / (tasksPerThread * this->Concurrency()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the core's range kernels on vtkSMPTools, and chooses who runs them.
+// The core's executor on vtkSMPTools, and the choice of executor by the property Threading.
 #ifndef RectifiedTransport_SMPExecutor_h
 #define RectifiedTransport_SMPExecutor_h
 
@@ -29,7 +29,7 @@ enum class Threading
 const char* threadingText(int threading);
 
 std::unique_ptr<Executor> makeExecutor(Threading threading);
-// Throws Failure for what is none of the values.
+// Throws Failure for a value out of range.
 std::unique_ptr<Executor> makeExecutor(int threading);
 
 } // namespace RectifiedTransport

@@ -45,13 +45,13 @@ private:
   std::uint64_t State = 0xcbf29ce484222325;
 };
 
-// Of an array of any length: pieces of a whole differ in what they have where.
-constexpr vtkIdType mostSamples = 4096;
+// Of an array of any length: samples suffice, as pieces of a data set differ nearly everywhere.
+constexpr vtkIdType maximumSamples = 4096;
 
 template <class Visit>
 void visitSamples(vtkIdType count, const Visit& visit)
 {
-  const vtkIdType step = std::max<vtkIdType>(1, count / mostSamples);
+  const vtkIdType step = std::max<vtkIdType>(1, count / maximumSamples);
   for (vtkIdType i = 0; i < count; i += step)
   {
     visit(i);
@@ -87,7 +87,7 @@ void addDataSet(vtkDataSet* data, Mixer& mixer)
   }
 }
 
-// Returns whether there is anything in it.
+// Returns whether it has points.
 bool addData(vtkDataObject* data, Mixer& mixer)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))

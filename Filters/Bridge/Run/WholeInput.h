@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inputs that lie on several ranks, which no filter can work on yet: found before they make a wrong
-// result.
+// Detection of inputs that are distributed over ranks, which the filters do not support: their
+// results would be wrong.
 #ifndef RectifiedTransport_WholeInput_h
 #define RectifiedTransport_WholeInput_h
 
@@ -18,30 +18,30 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Throws Failure for an image that holds less than its pipeline announces. `what` begins the
+// Throws Failure for an image whose extent is less than its WHOLE_EXTENT. `what` begins the
 // message.
 void requireWholeExtent(vtkInformation* input, const std::string& what);
 
-// A number that follows from the sizes, the places and samples of the values of data sets, and of
-// those that composites hold; 0 where there is nothing in them.
+// A hash of the numbers of points and cells, the bounds, and samples of the coordinates and array
+// values of data sets and of the leaves of composite ones; 0 where none has points.
 std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data);
 
-// How the ranks of a host that asks each of its processes for its piece compare their inputs.
+// The result of comparing the inputs of all ranks.
 enum class RankAgreement
 {
   Same,
-  FirstOnly, // others have nothing
-  Differs,   // each has something of its own
-  NoAnswer,  // in ten seconds: not all ranks run the filter
+  FirstOnly, // only rank 0 has data
+  Differs,
+  NoAnswer, // within ten seconds: not all ranks execute the filter
 };
 
-// Whether a consumer that asks for `piece` of `pieces` asks for this rank's share of as many as
-// there are ranks, and there are others.
+// Whether there are several ranks and the requested piece is this rank's, of as many pieces as
+// there are ranks.
 bool sharesWithRanks(int piece, int pieces);
 
-// Compares the fingerprint of a rank's data with those of the others: all must be the same, except
-// that others than the first rank may have nothing. `subject` names the filter and the input.
-// `rank` is then another one. Never waits without end. For sharesWithRanks only.
+// Compares the fingerprint of this rank's data with those of the others: all must be equal, or 0 on
+// all ranks but the first. `subject` names the filter and the input. Sets `rank` to the one that
+// differs or does not answer. Waits at most ten seconds. Only where sharesWithRanks is true.
 RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint, int& rank);
 
 } // namespace RectifiedTransport

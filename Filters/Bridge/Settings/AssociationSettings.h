@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a filter puts the values of the image that it makes, as its property says it: checked and
-// named.
+// The property Association, checked and as text: whether the values of an output image are point or
+// cell data.
 #ifndef RectifiedTransport_AssociationSettings_h
 #define RectifiedTransport_AssociationSettings_h
 
@@ -13,15 +13,15 @@ struct AssociationSettings
   int Association;
 
   const char* Text() const;
-  // Of what is in range.
+  // For a value in range.
   bool IsOnPoints() const { return this->Association == 0; }
-  // Throws Failure for what is out of range.
+  // Throws Failure for a value out of range.
   void Check() const;
 };
 
 } // namespace RectifiedTransport
 
-// What a class needs that has vtkAssociationPropertiesMacro.
+// For the source file of a class that has vtkAssociationPropertiesMacro.
 #define vtkImplementAssociationPropertiesMacro(Class)                                              \
   RectifiedTransport::AssociationSettings Class::GetAssociationSettings()                          \
   {                                                                                                \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a filter integrates the flow, as its properties say it: checked, named and printed.
+// The properties of the integration of the flow, checked, as text and printed.
 #ifndef RectifiedTransport_FlowSettings_h
 #define RectifiedTransport_FlowSettings_h
 
@@ -24,13 +24,13 @@ struct FlowSettings
   const char* TableLookupText() const;
   void Print(std::ostream& os, vtkIndent indent) const;
 
-  // Throws Failure for what is out of range.
+  // Throws Failure for values out of range.
   FlowOptions Options() const;
 };
 
 } // namespace RectifiedTransport
 
-// What a class needs that has vtkFlowPropertiesMacro.
+// For the source file of a class that has vtkFlowPropertiesMacro.
 #define vtkImplementFlowPropertiesMacro(Class)                                                     \
   RectifiedTransport::FlowSettings Class::GetFlowSettings()                                        \
   {                                                                                                \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a filter spreads the mass of particles, as its properties say it: checked, named and printed.
+// The properties of the splat kernel, checked, as text and printed.
 #ifndef RectifiedTransport_SplatSettings_h
 #define RectifiedTransport_SplatSettings_h
 
@@ -21,13 +21,13 @@ struct SplatSettings
   const char* KernelText() const;
   void Print(std::ostream& os, vtkIndent indent) const;
 
-  // With the usual Boundary. Throws Failure for what is out of range.
+  // With the default Boundary. Throws Failure for values out of range.
   SplatOptions Options() const;
 };
 
 } // namespace RectifiedTransport
 
-// What a class needs that has vtkSplatPropertiesMacro.
+// For the source file of a class that has vtkSplatPropertiesMacro.
 #define vtkImplementSplatPropertiesMacro(Class)                                                    \
   RectifiedTransport::SplatSettings Class::GetSplatSettings()                                      \
   {                                                                                                \

@@ -33,7 +33,7 @@ namespace RectifiedTransport
 namespace
 {
 
-// The tables, which are larger than what follows them.
+// Bytes a pixel of the tables, which are the peak.
 constexpr double bytesOfFlow(int dimension)
 {
   return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
@@ -83,7 +83,7 @@ vtkSmartPointer<SiteIdArray> makeLabels(
   return labels;
 }
 
-// Adds the arrays to the sites' data. Returns the cost.
+// Adds the arrays of the sites' cells to the sites' point data. Returns the cost.
 template <int D>
 double addStatistics(const SiteCells<D>& cells, const std::int64_t* labels, const CostNorm& norm,
   Progress& progress, vtkPointData* output)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of equal mass of the sites of a point set: the work of vtkEqualMassCells.
+// Divides a domain among sites into cells of equal mass: the worker of vtkEqualMassCells.
 #ifndef RectifiedTransport_EqualMassCells_h
 #define RectifiedTransport_EqualMassCells_h
 
@@ -22,7 +22,7 @@ namespace RectifiedTransport
 class ImageGrid;
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct EqualMassCells
 {
   FlowOptions Flow;
@@ -35,8 +35,8 @@ struct EqualMassCells
     vtkPolyData* Outlines;
   };
 
-  // Divides the cells of a grid among sites, of which there must be some; the labels of the run
-  // before are kept. Returns how many sites are outside of the domain. Throws Failure,
+  // Assigns the pixels (the cells of a grid) to at least one site; reuses the labels that are kept
+  // where they are valid. Returns how many sites are outside of the domain. Throws Failure,
   // std::overflow_error, std::bad_alloc and Cancelled.
   std::int64_t Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;

@@ -16,7 +16,7 @@ std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
   return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
 }
 
-// Its own time, not that of its points.
+// The modification time of the data set itself: its GetMTime() includes its points.
 std::uint64_t timeOf(vtkPointSet* sites)
 {
   return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());

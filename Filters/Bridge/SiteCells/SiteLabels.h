@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which site each pixel of a domain goes to, kept from run to run.
+// The site of each pixel of a domain, kept between executions.
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
@@ -29,16 +29,17 @@ namespace RectifiedTransport
 using SiteIdArray =
   std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
 
-// The labels of a run, kept for the next one, which may ask for other figures of the same cells.
+// The labels of the last execution, for the next one where only the cost's exponents change.
 class SiteLabels
 {
 public:
-  // Whether these plainly are the labels of such sites on such a grid. Else Update tells.
+  // Whether the labels are of these sites, grid and options by modification times alone. Where
+  // false, Update compares the sites' coordinates.
   bool IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const;
 
-  // The labels of such sites on such a grid: those that are kept, or those that make() makes. The
-  // work of the host's current stage is to look whether the sites are the same. Throws Cancelled,
-  // and what make() throws; then no labels are kept.
+  // Returns the labels of these sites, grid and options: the kept ones if valid, else those that
+  // make() returns. Comparing the sites is the work of the current stage. Throws Cancelled, and
+  // what make() throws; then no labels are kept.
   template <class Make>
   SiteIdArray* Update(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options,
     Progress& progress, const Make& make)
@@ -50,7 +51,7 @@ public:
     const bool sameSites = this->Renew(sites, progress);
     if (!sameSites || !this->IsFor(sites, grid, options))
     {
-      this->Labels = nullptr; // what is outdated need not take memory meanwhile
+      this->Labels = nullptr; // releases memory before make()
       this->Labels = make();
       this->Grid = grid;
       this->Options = options;
@@ -59,7 +60,7 @@ public:
   }
 
 private:
-  // Returns whether the sites are those of the run before.
+  // Returns whether the sites are those of the last call.
   bool Renew(vtkPointSet* sites, Progress& progress);
 
   vtkSmartPointer<SiteIdArray> Labels;

@@ -31,10 +31,10 @@ namespace
 {
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
-// Of work that reads memory at random.
+// Units of a slice of work with random memory access.
 constexpr std::int64_t Slow = std::int64_t{ 1 } << 16;
 
-// What comes of cells of these sizes: a triangle for each point beyond the second.
+// The number of triangles of polygons or strips: one for each point of a vtkCell beyond the second.
 std::int64_t countTriangles(vtkCellArray* cells)
 {
   std::int64_t triangles = 0;
@@ -45,7 +45,7 @@ std::int64_t countTriangles(vtkCellArray* cells)
   return triangles;
 }
 
-// Calls visit(ids) with the values of the connectivity array, as its own type has them.
+// Calls visit(ids) with the values of the connectivity array, in its value type.
 template <class Visit>
 void visitIds(vtkCellArray* cells, const Visit& visit)
 {
@@ -59,7 +59,8 @@ void visitIds(vtkCellArray* cells, const Visit& visit)
   }
 }
 
-// VTK's own range of the ids is kept, and does not follow what is written in place.
+// vtkDataArray::GetRange caches its result, which is outdated where ids were changed without
+// Modified().
 void requireIds(vtkCellArray* cells, std::int64_t points)
 {
   visitIds(cells, [points](const auto& ids) {
@@ -75,8 +76,9 @@ void requireIds(vtkCellArray* cells, std::int64_t points)
   });
 }
 
-// Passes on the progress of a filter of VTK, and the host's wish to stop.
-void runInside(vtkAlgorithm* filter, Progress& progress)
+// Updates a filter of VTK as the work of the current stage: forwards its progress, and aborts it
+// where the host cancels.
+void runAsStage(vtkAlgorithm* filter, Progress& progress)
 {
   const Context stage = progress.Stage();
   vtkNew<vtkCallbackCommand> observer;
@@ -90,7 +92,7 @@ void runInside(vtkAlgorithm* filter, Progress& progress)
     }
   });
   filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  // What it cannot do is seen in its output, and said once.
+  // Its errors are detected in its output, and reported as one Failure.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   filter->AddObserver(vtkCommand::ErrorEvent, quiet);
@@ -107,8 +109,8 @@ vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress)
 {
   const std::int64_t expected = countTriangles(polygons) + countTriangles(strips);
-  // vtkTriangleFilter ends the program when there is no memory for its cells to grow: at the end,
-  // of an offset and three ids each, the old ones and twice as many new ones.
+  // vtkTriangleFilter ends the program where its output cannot grow. The last reallocation holds
+  // the old triangles, of an offset and three ids each, and space for twice as many.
   requireMemory(std::to_string(expected) + " triangles of the input surface",
     static_cast<double>(expected) * 3.0 * 4.0 * sizeof(vtkIdType));
   vtkNew<vtkPolyData> surface;
@@ -119,7 +121,7 @@ vtkSmartPointer<vtkCellArray> triangulate(
   filter->SetInputData(surface);
   filter->PassVertsOff();
   filter->PassLinesOff();
-  runInside(filter, progress);
+  runAsStage(filter, progress);
   vtkCellArray* triangles = filter->GetOutput()->GetPolys();
   const std::int64_t missing = expected - triangles->GetNumberOfCells();
   if (missing != 0)
@@ -132,8 +134,8 @@ vtkSmartPointer<vtkCellArray> triangulate(
   return triangles;
 }
 
-// The polygons without corners at the place of the one before, as at the poles of a sphere of
-// quads; those of fewer than three corners are dropped.
+// The polygons without consecutive corners of equal coordinates, as at the poles of a sphere of
+// quads; those of fewer than three remaining corners are dropped.
 vtkSmartPointer<vtkCellArray> mergeCorners(
   vtkCellArray* polygons, const std::int64_t* firsts, Progress& progress)
 {
@@ -186,7 +188,7 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
       for (const auto id : ids)
       {
         const auto point = static_cast<std::int64_t>(id);
-        if (point >= 0 && point < points) // RequestData says it
+        if (point >= 0 && point < points) // an error in RequestData
         {
           used[static_cast<std::size_t>(point)] = 1;
         }
@@ -225,7 +227,7 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   requireIds(polygons, this->NumberOfPoints);
   requireIds(strips, this->NumberOfPoints);
   stage(0.25);
-  LargeBuffer<std::int64_t> firsts; // of the points of equal coordinates
+  LargeBuffer<std::int64_t> firsts; // for each point the first one of equal coordinates
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t), [&]() {
       firsts = LargeBuffer<std::int64_t>(this->NumberOfPoints);

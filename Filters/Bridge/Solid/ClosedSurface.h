@@ -31,12 +31,13 @@ class ClosedSurface
 public:
   // Merges points of equal coordinates and cuts polygons and strips into triangles, as stages of
   // the run up to the progress `end`; lines and vertices do not count. Throws Failure where the
-  // input has no polygons, coordinates that are not finite, or edges that have not two triangles,
+  // input has no polygons, coordinates that are not finite, or edges of other than two triangles,
   // and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
-  // Gives the points in cells of a grid, and the triangles of each component one orientation, as
-  // stages up to the progress `end`. Throws Failure where there is no orientation, and Cancelled.
+  // Returns the surface in the index coordinates of a grid, the triangles of each component with
+  // one orientation, as stages up to the progress `end`. Throws Failure where a component is not
+  // orientable, and Cancelled.
   TriangleSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:

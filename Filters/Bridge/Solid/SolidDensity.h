@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solid as a density: the work of vtkSolidDensity.
+// The density of a solid: the worker of vtkSolidDensity.
 #ifndef RectifiedTransport_SolidDensity_h
 #define RectifiedTransport_SolidDensity_h
 
@@ -16,7 +16,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct SolidDensity
 {
   int Resolution;
@@ -27,7 +27,8 @@ struct SolidDensity
   // The image around a surface. Throws Failure.
   ImageGrid GridAround(vtkPolyData* surface) const;
 
-  // Writes how much of each cell a closed surface encloses. Throws Failure and Cancelled.
+  // Writes the fraction of each image cell that a closed surface encloses. Throws Failure and
+  // Cancelled.
   void Run(vtkPolyData* surface, Progress& progress, vtkImageData* output) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mass of points of physical space, spread over the cells of an image.
+// Splats the masses of points in physical space onto the cells, or dual cells, of an image.
 #ifndef RectifiedTransport_MassSplat_h
 #define RectifiedTransport_MassSplat_h
 
@@ -20,7 +20,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Where the mass goes, and how.
+// The grid and the options of a splat.
 struct SplatTarget
 {
   const ImageGrid& Geometry;
@@ -28,8 +28,8 @@ struct SplatTarget
   bool DivideByVolume; // densities, else masses
 };
 
-// Throws Failure where the density of a cell that holds all of a mass, of which `what` is the
-// subject of the message, would be no number; `rule` completes "make the masses smaller, ...".
+// Throws Failure where the density of a cell that holds all of `mass` would not be finite; `what`
+// is the subject of the message, `rule` completes "make the masses smaller, ...".
 void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule);
 
@@ -40,12 +40,13 @@ void requireFiniteDensity(
 std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The same of an array of points and one mass for each; without masses they have `massEach`.
+// The same for an array of points and one mass for each; `massEach` where `masses` is nullptr.
 // Points of a type other than double and float are copied.
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The mass of all cells that have been written, as the work of the current stage. Throws Cancelled.
+// The total mass of the cells that splatPoints wrote, as the work of the current stage. Throws
+// Cancelled.
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mass of points as a density: the work of vtkMassSplatter.
+// Splats the mass of points: the worker of vtkMassSplatter.
 #ifndef RectifiedTransport_MassSplatter_h
 #define RectifiedTransport_MassSplatter_h
 
@@ -21,7 +21,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As the properties of that class.
+// The members are the properties of that class.
 struct MassSplatter
 {
   std::array<int, 3> Dimensions; // without a reference
@@ -29,11 +29,11 @@ struct MassSplatter
   bool DivideByVolume;
   SplatOptions Splat;
 
-  // The image around points, without a reference. Throws Failure.
+  // The grid of the output on the points' bounds, without a reference. Throws Failure.
   ImageGrid GridAround(vtkPointSet* points) const;
 
-  // Spreads masses, 1 each where there are none, over the grid of a reference or else around the
-  // points. Returns how many of them are outside of it. Throws Failure and Cancelled.
+  // Splats masses, 1 each where `masses` is nullptr, onto the grid of a reference, or of the
+  // points' bounds. Returns how many points are outside of it. Throws Failure and Cancelled.
   std::int64_t Run(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
     Progress& progress, vtkImageData* output) const;
 
