@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDensityAlgorithm
- * @brief   what all filters that read a density from an image share
+ * @brief   superclass of the filters that read a density from an image
  *
  * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...), where the
  * port is that of the image; without a choice it is the active scalars of the points, else of the
@@ -24,7 +24,7 @@
  * The summed-area tables of a density are built when they are needed, and kept until it changes
  * (its values, ghost arrays, grid or the properties below), at a cost of O(cells) in time and of
  * about 21, 34 and 33 bytes a cell in 1D, 2D and 3D in memory. Filters that read the same values
- * share them; they are given back with the last of these filters.
+ * share them; they are released with the last of these filters.
  *
  * @sa vtkTransportAlgorithm
  */
@@ -65,9 +65,9 @@ public:
   /**
    * Which component of the array is the density: an index from 0, or -1 (default) for luminance.
    * The luminance of 3 or 4 components is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709), that of 1 or 2
-   * the first one. The last of 2 or 4 components is alpha, and the picture lies over white: 255 for
-   * unsigned char, else the largest value of the array. An array of more than 4 components needs an
-   * index.
+   * the first one. The last of 2 or 4 components is alpha, and the picture is composited over
+   * white: 255 for unsigned char, else the largest value of the array. An array of more than 4
+   * components needs an index.
    */
   vtkSetMacro(Component, int);
   vtkGetMacro(Component, int);
@@ -97,7 +97,7 @@ public:
   ///@}
 
   /**
-   * When the density's tables were built: grows with each new build, 0 before the first.
+   * The modification time of the density's tables: increases with each build, 0 before the first.
    */
   vtkMTimeType GetTableBuildTime();
 
@@ -109,31 +109,30 @@ protected:
   ~vtkDensityAlgorithm() override;
 
   /**
-   * The array that ReadDensity reads, and whether it belongs to the points or the cells; nullptr if
-   * there is none.
+   * The array that ReadDensity reads, and its field association; nullptr if there is none.
    */
   vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
 
   /**
-   * Whether the density belongs to the points, as far as the information of an input tells before
-   * the data.
+   * Whether the density is point data, as far as the information object of an input determines it
+   * before the data.
    */
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex = 0);
 
   /**
-   * The density of an image, read as input array `arrayIndex` says; nullptr if the image has no
-   * points. Throws what RequestData may throw.
+   * The density of an image, input array `arrayIndex`; nullptr if the image has no points. Throws
+   * what RequestData may throw.
    */
   std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(
     vtkDataObject* input, int arrayIndex = 0);
 
   /**
-   * The density on the port that the constructor was told, read as input array 0 says; as above.
+   * The density on the constructor's port, input array 0; as above.
    */
   std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkInformationVector** inputVector);
 
   /**
-   * The tables that are kept between runs.
+   * The tables that are kept between executions.
    */
   RectifiedTransport::FlowCache& GetFlowCache();
 

@@ -4,31 +4,31 @@
  * @brief   move points so that a density becomes uniform
  *
  * Moves the points of any vtkPointSet by the map that takes a density to the uniform measure on its
- * domain: where the density is high, space grows, where it is low, it shrinks. A map of a country
- * becomes a cartogram. The map is the rectified flow of Do, Coeurjolly, Memari and Bonneel,
+ * domain: space expands where the density is high, and contracts where it is low. A map of a
+ * country becomes a cartogram. The map is the rectified flow of Do, Coeurjolly, Memari and Bonneel,
  * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
- * doi:10.1145/3731147, followed back in time (Section 4.2). It is the inverse of what
- * vtkTransportSampler does, and as little as that an optimal transport.
+ * doi:10.1145/3731147, backward in time (Section 4.2). It is the inverse of the map of
+ * vtkTransportSampler, and like that not an optimal transport.
  *
  * Input 0 is the vtkPointSet, input 1 the density, a vtkImageData (see vtkDensityAlgorithm), chosen
  * with SetInputArrayToProcess(0, 1, 0, ...). The output is of the type of input 0: the same points
  * and cells in the same order with all their data, the points moved and double, and point data
- * `Displacement` (how far each point was moved, 3 components in physical units, active vectors),
- * which replaces a namesake.
+ * `Displacement` (the new position less the old one, 3 components in physical units, active
+ * vectors), which replaces an array of the same name.
  *
- * What lies across the axes of a density of one or two dimensions is kept: points above the plane
- * of the image move as their feet do. A point beyond the border moves as the border's nearest point
- * (axis by axis) and so keeps its offset from it; one warning counts such points. NaN or infinite
- * coordinates are an error.
- *
- * Regions without mass shrink to nothing: points there fall onto points of others, up to the error
- * of the integrator. Add a small number to the density to keep cells apart.
- *
- * Normals are passed on as they are, although the surface bends.
+ * With a density of one or two dimensions, points off the image's line or plane move as their
+ * projections onto it and keep their offset. A point outside of the domain moves as the nearest
+ * point of the border (axis by axis) and keeps its offset from it; one warning counts such points.
+ * NaN or infinite coordinates are an error.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(points * steps).
  * Memory: 48 bytes a point for the output and while it runs 16 more in 2D, beside the tables (see
  * vtkTransportAlgorithm).
+ *
+ * @warning Regions without mass contract to nothing: their points coincide with points of other
+ * regions, up to the error of the integrator. Add a small number to the density to keep such
+ * regions open.
+ * @warning Normals are passed on unchanged, although the surface is deformed.
  *
  * \code{.cpp}
  * vtkNew<vtkDensityEqualizingWarp> warp;
@@ -58,8 +58,8 @@ public:
 
   ///@{
   /**
-   * How far the points go, in [0,1]: 0 leaves them where they are, 1 (default) is the whole map; in
-   * between they are on the straight line.
+   * The fraction of the displacement that is applied, in [0,1]: 0 leaves the points unchanged, 1
+   * (default) is the whole map.
    */
   vtkSetMacro(Blend, double);
   vtkGetMacro(Blend, double);
@@ -67,14 +67,14 @@ public:
 
   ///@{
   /**
-   * Give the density (input 1) as the output of another filter, or as data.
+   * Set the density (input 1), as the output of another filter or as a data object.
    */
   void SetDensityConnection(vtkAlgorithmOutput* density);
   void SetDensityData(vtkDataObject* density);
   ///@}
 
   /**
-   * The points where they now are, with cells and data.
+   * The moved points, with the vtkCells and attribute data of the input.
    */
   vtkPointSet* GetOutput();
 

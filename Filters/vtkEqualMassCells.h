@@ -3,46 +3,47 @@
  * @class   vtkEqualMassCells
  * @brief   divide a domain among sites into cells of equal mass
  *
- * Every pixel of a domain goes to one of the given sites, each of which gets as much as any other:
- * the pixels are carried to the sites by the rectified flow of Do, Coeurjolly, Memari and Bonneel,
- * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
- * doi:10.1145/3731147 (Section 4.2, Figure 5), from the uniform measure to a density that has one
- * unit of mass in the pixel of each site. Pixels on the borders then change sides until the cells
- * are equal to the pixel. The cells are like those of semi-discrete optimal transport, at a cost
- * that is an upper bound on the optimal one.
+ * Assigns every pixel of a domain to one of the given sites, equally many to each: the pixels,
+ * which are the cells of the image Labels, are mapped to the sites by the rectified flow of Do,
+ * Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on
+ * Graphics 44(4), 2025, doi:10.1145/3731147 (Section 4.2, Figure 5), from the uniform measure to a
+ * density that has one unit of mass in the pixel of each site. Pixels at the borders are then
+ * reassigned until the sites' cells are equal to one pixel. The cells resemble those of
+ * semi-discrete optimal transport, at a cost that is an upper bound on the optimal one.
  *
  * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain, a vtkImageData of which
- * only the box counts: its bounds in its own axes, and where its values (the active scalars, those
- * of points first, else any array of the points) are on points half a spacing more on each side, as
- * of a density. Without it the domain is the bounds of the sites, a tenth longer, about their
- * centre. Sides of no length are no axes:
- * domains are 1D, 2D or 3D. The uniform measure has the density 1, so that masses are lengths,
- * areas or volumes.
+ * only the box is used: its bounds in its own axes, and where its values (the active scalars, of
+ * points first, else any point array) are point data half a spacing more on each side, as of a
+ * density. Without it the domain is the bounds of the sites, a tenth longer, about their centre.
+ * Sides of no length are no axes: domains are 1D, 2D or 3D. The uniform measure has the density 1,
+ * so that masses are lengths, areas or volumes.
  *
  * Outputs:
  * - 0, `Labels`: a vtkImageData of the domain, with the cell array `SiteId` (active scalars): the
- *   index of the site that each pixel goes to;
- * - 1, `Sites`: the sites, of the type of input 0, with their cells and data in their order, and
- * the point arrays `CellMass`, `CellCentroid` (3 components) and `CellCost` (the cell's share of
- * the cost: these add up to it);
- * - 2, `Outlines`: a vtkPolyData of the cells' borders along the sides of pixels, with the cell
- * array `SiteId`: lines in 2D, quads in 3D, vertices in 1D. Each cell has the whole of its border,
- * so that what is between two cells is there twice.
+ *   index of each pixel's site;
+ * - 1, `Sites`: the data set of input 0 with the point arrays `CellMass`, `CellCentroid` (3
+ *   components) and `CellCost` of the sites' cells (the cell's share of the cost: these add up to
+ *   it);
+ * - 2, `Outlines`: a vtkPolyData of the borders of the sites' cells along the sides of pixels, with
+ *   the cell array `SiteId`: lines in 2D, quads in 3D, vertices in 1D. Each site's cell has its
+ *   whole border, so that a border between two of them is there twice.
  *
  * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
  * centres x, an upper bound on W_p^q from the pixels' centres to the sites.
  *
- * Sites in one pixel share the mass of its cell, equally to the last bit; its pixels are cut into
- * as many parts, equal to the pixel. Sites outside of the domain get the cells of the nearest
- * points of its border, and a warning counts them; their cost is from where they are. There must be
- * a pixel for each site. NaN or infinite coordinates, and sites that are all at one point without a
- * domain, are errors.
+ * Sites in one pixel share the mass of one cell, equally to the last bit; the cell's pixels are
+ * divided into as many parts, equal to one pixel. Sites outside of the domain get the cells of the
+ * nearest points of its border, and a warning counts them; their cost is from their own position.
+ * There must be at least as many pixels as sites. NaN or infinite coordinates, and sites that are
+ * all at one point without a domain, are errors.
  *
- * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps become up to 32 times as
- * many at once, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels
- * and while they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at
- * 256^3, 5.5 GB at 512^3. The labels are kept until the sites, the domain or the integration
- * change.
+ * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
+ * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while
+ * they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at 256^3, 5.5
+ * GB at 512^3. The labels are kept until the sites, the domain or the integration change.
+ *
+ * @warning Without a domain the extent of Labels follows from the sites. The producer of the
+ * domain, or else of the sites, is therefore updated in REQUEST_INFORMATION.
  *
  * \code{.cpp}
  * vtkNew<vtkEqualMassCells> cells;
@@ -86,8 +87,8 @@ public:
 
   ///@{
   /**
-   * p of the cost |x - site|_p^q: which norm measures a distance; at least 1, infinity for the
-   * largest component. Default 2. The cells do not depend on it.
+   * p of the cost |x - site|_p^q: the norm; at least 1, infinity for the maximum norm. Default 2.
+   * The sites' cells do not depend on it.
    */
   vtkSetMacro(NormExponent, double);
   vtkGetMacro(NormExponent, double);
@@ -95,8 +96,8 @@ public:
 
   ///@{
   /**
-   * q of the cost |x - site|_p^q: the power of the distance; above 0. Default 2. The cells do not
-   * depend on it.
+   * q of the cost |x - site|_p^q: the power of the distance; above 0. Default 2. The sites' cells
+   * do not depend on it.
    */
   vtkSetMacro(CostExponent, double);
   vtkGetMacro(CostExponent, double);
@@ -109,7 +110,7 @@ public:
 public:
   ///@{
   /**
-   * Give the domain (input 1, optional) as the output of another filter, or as data.
+   * Set the domain (input 1, optional), as the output of another filter or as a data object.
    */
   void SetDomainConnection(vtkAlgorithmOutput* domain);
   void SetDomainData(vtkDataObject* domain);
@@ -117,8 +118,8 @@ public:
 
   ///@{
   /**
-   * The outputs: which site each pixel goes to, the sites with figures of their cells, and the
-   * cells' borders.
+   * The outputs: the site of each pixel, the sites with the statistics of their cells, and the
+   * borders of these cells.
    */
   vtkImageData* GetLabels();
   vtkPointSet* GetSites();

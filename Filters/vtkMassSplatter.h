@@ -3,10 +3,10 @@
  * @class   vtkMassSplatter
  * @brief   spread the mass of points over the cells of an image: a density
  *
- * Every point adds its mass to the cells around it, by a kernel that is a product of one kernel for
- * each axis (Hockney and Eastwood, "Computer Simulation Using Particles", 1988, Section 5-3). What
- * comes out is the inverse of a sampling: the density of the particles of vtkTransportSampler, or
- * of any others.
+ * Every point adds its mass to the image's cells around it, by a kernel that is a product of one
+ * kernel for each axis (Hockney and Eastwood, "Computer Simulation Using Particles", 1988, Section
+ * 5-3). This is the inverse of sampling: the density of the particles of vtkTransportSampler, or of
+ * any others.
  *
  * Input 0 is the points, any vtkPointSet; they weigh by the point array that
  * `SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)` chooses, of one
@@ -18,25 +18,28 @@
  *
  * Output: a vtkImageData with the array `Density` (double, active scalars): mass per length, area
  * or volume, or with `DivideByVolume` off mass; and beside the points' field data `TotalMass`, the
- * mass that the image holds: that of all points, or with `Boundary` Drop what is inside. With a
- * Reference the image has its geometry, and the values are of its cells or of its points, whose
- * domain reaches half a spacing beyond its bounds. Without, the same values belong to the cells, or
- * to points at the cells' centres. Along an axis of one value these have no axis: the values stay
- * per volume of the cells.
+ * mass that the image holds: that of all points, or with `Boundary` Drop the part inside. With a
+ * Reference the image has its geometry, and the values are cell data, or point data, whose domain
+ * extends half a spacing beyond the bounds. Without, the same values are cell data, or point data
+ * at the cells' centres. Such points have no axis where there is one value along it: the values
+ * remain per volume of the cells.
  *
  * The values times the cells' measure sum to the points' mass, and the centroid is theirs, both to
  * rounding; for the centroid NearestCell and kernels that reach past the border are exceptions.
  *
  * Points outside of the domain (by more than a millionth of its diagonal; with a flat image, those
- * off its plane too) are moved to the nearest point of the border, or with `Boundary` Drop left out
- * whole; a warning counts them. No points give an image without mass if there is a Reference, else
- * an empty one. NaN or infinite coordinates and masses, and points that are all in one place
- * without a Reference, are errors.
+ * off its plane too) are moved to the nearest point of the border, or with `Boundary` Drop ignored;
+ * a warning counts them. No points give an image without mass if there is a Reference, else an
+ * empty one. NaN or infinite coordinates and masses, and points that are all in one place without a
+ * Reference, are errors.
  *
  * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell, 8 a point if there are
  * masses; with many threads and points in no order up to 6 more a point, of 16 million at a time.
  * The result is the same to the last bit for every number of threads: the shares of a cell are
  * added in the order of the points.
+ *
+ * @warning Without a Reference the extent follows from the points, whose producer is therefore
+ * updated in REQUEST_INFORMATION.
  *
  * \code{.cpp}
  * vtkNew<vtkMassSplatter> splatter;
@@ -53,7 +56,7 @@
 #define vtkMassSplatter_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the kernel and where values are
+#include "vtkTransportProperties.h" // for the kernel and the association
 
 namespace RectifiedTransport
 {
@@ -84,8 +87,8 @@ public:
 
   ///@{
   /**
-   * How many values the output has along x, y and z without a Reference, at least 1 each. Along an
-   * axis on which the points are flat there is one. Default 128 128 128.
+   * The number of values of the output along x, y and z without a Reference, at least 1 each; one
+   * along an axis on which the points are flat. Default 128 128 128.
    */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
@@ -97,8 +100,8 @@ public:
 public:
   ///@{
   /**
-   * What happens to the part of a kernel that is beyond the border: Renormalize (default) gives it
-   * back to the cells inside, axis by axis; with Drop it is lost.
+   * What happens to the part of a kernel that is beyond the border: Renormalize (default)
+   * distributes it over the cells inside, axis by axis; with Drop it is lost.
    */
   vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);
@@ -109,7 +112,7 @@ public:
 
   ///@{
   /**
-   * Whether the values are densities, or else the masses of the cells. On by default.
+   * Whether the values are densities, or else the masses of the image's cells. On by default.
    */
   vtkSetMacro(DivideByVolume, vtkTypeBool);
   vtkGetMacro(DivideByVolume, vtkTypeBool);
@@ -118,8 +121,8 @@ public:
 
   ///@{
   /**
-   * Give the image whose geometry the output takes (input 1, optional) as the output of another
-   * filter, or as data.
+   * Set the image whose geometry the output gets (input 1, optional), as the output of another
+   * filter or as a data object.
    */
   void SetReferenceConnection(vtkAlgorithmOutput* reference);
   void SetReferenceData(vtkDataObject* reference);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSolidDensity
- * @brief   how much of each cell of an image a closed surface encloses
+ * @brief   the fraction of each cell of an image that a closed surface encloses
  *
  * Input: a vtkPolyData whose polygons and triangle strips are a closed surface; lines and vertices
  * do not count. Output: a vtkImageData of cubic cells with the array `Density` (double, active
- * scalars), the covered fraction of each cell from 0 to 1: a density for the filters of this
- * module, for contours and for volume rendering. The sum of Density times the volume of a cell is
- * the volume of the solid.
+ * scalars), the covered fraction of each cell of the image from 0 to 1: a density for the filters
+ * of this module, for contours and for volume rendering. The sum of Density times the volume of a
+ * cell is the volume of the solid.
  *
  * The image covers the bounds of the polygons and a margin (Padding), with the surface in the
- * middle. It is along the coordinate axes.
+ * middle. Its axes are the coordinate axes.
  *
  * Lines along x, Supersampling^2 through each cell, are cut at the surface. What a line covers of a
  * cell is exact, not sampled. Inside is where the winding number is not zero: components that
@@ -19,8 +19,8 @@
  * whose polygons do not agree gets the orientation that most of its area has.
  *
  * Polygons are cut into triangles and points of equal coordinates merged first; points that are
- * nearly equal are not. Every edge must then be one of exactly two triangles: else an error says
- * how many open edges (of one triangle) and non-manifold edges (of more than two) there are.
+ * nearly equal are not. Every edge must then be one of exactly two triangles: else an error counts
+ * the open edges (of one triangle) and the non-manifold edges (of more than two).
  * Polygons that vtkTriangleFilter cannot cut, coordinates that are not finite, points without
  * polygons and surfaces that are not orientable are errors, too; no points give an empty output.
  *
@@ -28,6 +28,9 @@
  * the points and triangles before that. Memory: 8 bytes a cell; while it runs up to 64 bytes a
  * point, 72 a triangle (81 where polygons do not agree) and 8 more for each layer of cells that a
  * triangle has a part in.
+ *
+ * @warning The extent follows from the surface, whose producer is therefore updated in
+ * REQUEST_INFORMATION.
  *
  * \code{.cpp}
  * vtkNew<vtkSolidDensity> solid;
@@ -43,7 +46,7 @@
 #define vtkSolidDensity_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for where values are
+#include "vtkTransportProperties.h" // for the association
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -66,8 +69,8 @@ public:
 
   ///@{
   /**
-   * The square root of the number of lines through a cell, 1 to 16, because the crossings of a
-   * layer of cells are held in memory. Default 2.
+   * The square root of the number of lines through a cell of the image, 1 to 16, because the
+   * crossings of a layer of cells are held in memory. Default 2.
    */
   vtkSetMacro(Supersampling, int);
   vtkGetMacro(Supersampling, int);
@@ -86,7 +89,7 @@ public:
 
 public:
   /**
-   * The image.
+   * The image with the array Density.
    */
   vtkImageData* GetOutput();
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportAlgorithm
- * @brief   what all filters that move points with the rectified flow of a density share
+ * @brief   superclass of the filters that move points along the rectified flow of a density
  *
  * The flow is that of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
  * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: points that are uniform at
  * time 0 follow the velocity field of its equation 12, which needs the mass and the centroid of the
  * density in a box (equations 10 and 11); both come from summed-area tables (Section 3.3).
  *
- * This class holds how the field is integrated; see vtkTransportProperties.h.
+ * This class holds the properties of the integration; see vtkTransportProperties.h.
  *
  * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */

@@ -4,18 +4,18 @@
  * @brief   the weighted mean of several densities, by transport
  *
  * The (linearized) barycenters of Section 5.3 of the paper named in vtkTransportBlend: every
- * particle of the unit box goes to its place in each density, and is at the weighted mean of these
- * places.
+ * particle of the unit box is mapped to each density, and placed at the weighted mean of these
+ * positions.
  *
  * Inputs: vtkImageData, by repeated connections to port 0 or as the blocks of a composite data set
  * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order; at least one. The one
  * density array (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are
- * those of vtkTransportBlend; their extent is published before the data unless blocks of an input
- * are not there yet.
+ * those of vtkTransportBlend; their extent is announced in REQUEST_INFORMATION, for composite
+ * inputs only once their blocks exist.
  *
- * The maps are kept: a change of the weights only takes means and splats, so that 25 barycenters of
- * 4 densities cost 4 maps and 25 splats. Weights 1, 0, 0 ... give the first density, up to what the
- * kernel and the number of particles resolve.
+ * Cost and memory: see vtkTransportBlend. The maps are kept: a change of the weights only takes
+ * means and splats, so that 25 barycenters of 4 densities cost 4 maps and 25 splats. Weights 1, 0,
+ * 0 ... give the first density, up to what the kernel and the number of particles resolve.
  *
  * @sa vtkTransportBlend vtkTransportInterpolator vtkMassSplatter
  */
@@ -42,7 +42,7 @@ public:
   /**
    * The weights of the inputs, in their order: one for each, none negative, with a sum above 0, by
    * which they are divided. Without any (default) all inputs weigh the same. SetWeight makes the
-   * list as long as it needs to be, with 0 for what has not been given; it has 1000000 at most.
+   * list as long as needed, with 0 for weights that are not set; it has 1000000 at most.
    */
   void SetNumberOfWeights(int count);
   int GetNumberOfWeights();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportBlend
- * @brief   what the filters that lie between several densities share
+ * @brief   superclass of the filters that interpolate several densities
  *
  * Follows Sections 3.4, 5.2 and 5.3 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: particles
@@ -11,14 +11,14 @@
  *
  * The inputs are vtkImageData (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
  * axes of more than one point along the same directions. The outputs are
- * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), on
- * points or cells as in the first input, and field data `TotalMass`;
+ * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), point
+ *   or cell data as in the first input, and field data `TotalMass`;
  * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data
  *   `TotalMass`.
  *
  * The grid of the output does not depend on the weights: it covers the smallest box that holds all
  * domains, at the finest spacing along each axis (numbers of cells are rounded up, and the box
- * grown at its upper end), unless Dimensions says otherwise. Inputs of one geometry have exactly
+ * extended at its upper end), unless Dimensions are set. For inputs of equal geometry it is exactly
  * that.
  *
  * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once; the maps
@@ -27,10 +27,10 @@
  * output, 8 bytes a cell, and while a map is made the tables of one density (see
  * vtkTransportAlgorithm).
  *
- * The outputs are in one piece: of several pieces that are asked for, the first has all of it.
+ * The outputs are in one piece: where several are requested, piece 0 holds all data.
  *
- * @warning The pivot makes this a linearized transport: what lies between resembles the
- * displacement interpolation and the barycenters of optimal transport, but is not them.
+ * @warning The pivot makes this a linearized transport: the results resemble the displacement
+ * interpolation and the barycenters of optimal transport, but are not them.
  *
  * @sa vtkTransportInterpolator vtkTransportBarycenter vtkTransportAlgorithm
  */
@@ -71,9 +71,9 @@ public:
 
   ///@{
   /**
-   * How many values the output has along x, y and z of the image, on the smallest box that holds
-   * all domains; 0 is as many as the finest spacing asks for. At least 0 each; along an axis of one
-   * point 0 or 1; for point data 0 or at least 2 along the others. Default 0 0 0.
+   * The number of values of the output along the image's x, y and z, on the smallest box that holds
+   * all domains; 0: by the finest spacing. At least 0 each; along an axis of one point 0 or 1; for
+   * point data 0 or at least 2 along the others. Default 0 0 0.
    */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
@@ -81,9 +81,9 @@ public:
 
   ///@{
   /**
-   * How many particles there are in each cell of the output's grid, laid over the unit box: at
-   * least 1, default 1. They are the centres of a finer grid where the number is a power of the
-   * dimension (4, 9 ... in 2D, 8, 27 ... in 3D), else a fixed set of low discrepancy.
+   * The number of particles in each cell of the output's grid, scaled to the unit box: at least 1,
+   * default 1. They are the centres of a finer grid where the number is a power of the dimension
+   * (4, 9 ... in 2D, 8, 27 ... in 3D), else a fixed set of low discrepancy.
    */
   vtkSetMacro(ParticlesPerCell, int);
   vtkGetMacro(ParticlesPerCell, int);
@@ -107,12 +107,12 @@ public:
 
 public:
   /**
-   * The image between the densities, port 0.
+   * The interpolated density, output port 0.
    */
   vtkImageData* GetDensity();
 
   /**
-   * The particles, port 1.
+   * The particles, output port 1.
    */
   vtkPolyData* GetParticles();
 
@@ -121,10 +121,10 @@ protected:
   ~vtkTransportBlend() override;
 
   /**
-   * Read the densities of all inputs; the blocks of composite inputs are inputs of their own. They
-   * are called by `names` in messages and, with "Position" after it, in the particles' arrays, or
-   * where that is nullptr by their numbers. Returns no inputs if one of them has no points. Throws
-   * what RequestData may throw.
+   * Read the densities of all inputs; each block of a composite input is an input. `names` are used
+   * in messages and, with "Position" appended, for arrays of the particles; where nullptr, messages
+   * have numbers. Returns no inputs if one of them has no points. Throws what RequestData may
+   * throw.
    */
   std::vector<RectifiedTransport::BlendInput> ReadInputs(
     vtkInformationVector** inputVector, const char* const* names);
@@ -137,14 +137,15 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  int Dimensions[3];
-  int ParticlesPerCell;
-  int MassMode;
 
   /**
    * The properties, checked. Throws what RequestData may throw.
    */
   RectifiedTransport::BlendSettings GetBlendSettings();
+
+  int Dimensions[3];
+  int ParticlesPerCell;
+  int MassMode;
 
 private:
   vtkTransportBlend(const vtkTransportBlend&) = delete;

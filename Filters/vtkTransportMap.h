@@ -10,12 +10,12 @@
  *
  * The input is the density, a vtkImageData (see vtkDensityAlgorithm). The output is a vtkImageData
  * on the same domain with
- * - `Displacement` (active vectors): where the map takes a sample, less the sample; 3 components
- *   in physical units along the physical axes;
+ * - `Displacement` (active vectors): the mapped sample less the sample; 3 components in physical
+ *   units along the physical axes;
  * - `Divergence`: the trace of the gradient of Displacement;
  * - `JacobianDeterminant`: that of the map x + Displacement(x), det(I + gradient). Where the
- * density f is positive and smooth it is mean / f(x + Displacement) forward and f(x) / mean
- * backward;
+ *   density f is positive and smooth it is mean / f(x + Displacement) forward and f(x) / mean
+ *   backward;
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
  *   |Displacement|^2, in physical units), beside the input's own.
  *
@@ -25,24 +25,24 @@
  * of one sample Displacement is taken to be constant. In the corners of the domain the map has no
  * derivative, and the determinant of the corner's sample is off at any resolution.
  *
- * TransportCost is the mean over the measure that the map starts from: over all samples alike
- * forward; backward each one weighs as much as the density's mass in its cell. As this measure's
- * image is the other one (up to the integrator's error and the spacing of the samples), the cost is
- * an upper bound on the squared 2-Wasserstein distance between the density, per unit of mass, and
- * the uniform measure.
+ * TransportCost is the mean over the measure that the map starts from: forward the mean of all
+ * samples, backward weighted with the density's mass in each sample's cell. As the map takes this
+ * measure to the other one (up to the integrator's error and the spacing of the samples), the cost
+ * is an upper bound on the squared 2-Wasserstein distance between the density, per unit of mass,
+ * and the uniform measure.
  *
- * The output has the input's geometry unless SampleDimensions says otherwise. If it has, the
- * input's point and cell data are passed on.
+ * The output has the input's geometry unless SampleDimensions are set. If it has, the input's point
+ * and cell data are passed on.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes and serve both directions
  * and all SampleDimensions, and O(samples * steps) for the flow. Memory: 40 bytes a sample for the
  * output, and while it runs 16 more in 2D, beside the tables (see vtkTransportAlgorithm).
  *
- * The output is in one piece: of several pieces that are asked for, the first has all of it.
+ * The output is in one piece: where several are requested, piece 0 holds all data.
  *
- * @warning A sample of the density where there is none has no inverse. Backward it keeps its place
+ * @warning A sample where the density is 0 has no inverse. Backward it keeps its relative position
  * in the box of its possible destinations until this box has mass, so that the map is not one to
- * one there; where the density is thin it needs more NumberOfSteps than elsewhere.
+ * one there; where the density is low it needs more NumberOfSteps than elsewhere.
  *
  * @sa vtkTransportSampler vtkTransportAlgorithm vtkDensityAlgorithm
  */
@@ -72,7 +72,7 @@ public:
 
   ///@{
   /**
-   * Which way the map goes: UniformToDensity (default) spreads points as the density is spread,
+   * The direction of the map: UniformToDensity (default) takes the uniform measure to the density,
    * DensityToUniform is the inverse map.
    */
   vtkSetMacro(Direction, int);
@@ -84,7 +84,7 @@ public:
 
   ///@{
   /**
-   * How many values the output has along x, y and z of the image, on the same domain; 0 is as many
+   * The number of values of the output along the image's x, y and z, on the same domain; 0: as many
    * as the density. At least 0 each; along an axis of one point 0 or 1; for point data 0 or at
    * least 2 along the others. Default 0 0 0.
    */

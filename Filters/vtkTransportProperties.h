@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file    vtkTransportProperties.h
- * @brief   properties that filters of several base classes have, each declared once
+ * @brief   properties that classes without a common superclass have, each declared once
  *
- * A class that has them names the macro in its declaration, and the macro of the same name that
- * begins with vtkImplement in its source file.
+ * A class with these properties uses the macro in its declaration, and the macro vtkImplement... of
+ * the same name in its source file.
  */
 #ifndef vtkTransportProperties_h
 #define vtkTransportProperties_h
@@ -23,8 +23,8 @@ struct SplatSettings;
  *
  * - Integrator. Multistep (default): a graded Adams-Bashforth-Moulton method of order 3, one
  *   velocity a step. RungeKutta4 (the paper's Algorithm 2, with the correct limit of the velocity
- * at the end) and Euler: uniform steps. Adaptive: steps of each particle's own, chosen by
- * Tolerance.
+ *   at t = 1) and Euler: uniform steps. Adaptive: individual steps of each particle, controlled by
+ *   Tolerance.
  * - NumberOfSteps: that of Multistep, RungeKutta4 and Euler, 1 to 10000. The default, 32, keeps the
  *   mean error of Multistep below a quarter of a cell up to about 1024 cells an axis in 2D and 256
  *   in 3D; at a fixed number the error in cells grows with the grid, so use 48 for 512^3 and 64 for
@@ -90,12 +90,12 @@ protected:                                                                      
   int TableLookup = INTERPOLATED
 
 /**
- * How the mass of a particle is spread over the cells about it (see
+ * How the mass of a particle is spread over the image's cells (or dual cells) around it (see
  * RectifiedTransport::SplatKernel):
  *
  * - Kernel. CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the
- * cell that holds the point (on a face, the upper one). TriangularShapedCloud: quadratically over 3
- *   cells. Gaussian: as a Gaussian of the given Radius.
+ *   cell that contains the point (on a face, the upper one). TriangularShapedCloud: quadratically
+ *   over 3 cells. Gaussian: as a Gaussian of the given Radius.
  * - Radius: the standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel
  *   is cut at 3 of them, and corrected to first order so that it keeps the centroid; up to a third
  *   of a cell it is the CloudInCell. Default 1.
@@ -137,11 +137,11 @@ protected:                                                                      
   double Radius = 1.0
 
 /**
- * Where the values of the image are that a filter makes:
+ * The field association of the values of an output image:
  *
- * - Association. Points (default): on points at the cells' centres (of an image whose geometry the
- *   filter takes: on its points), ready for contours and volume rendering. Cells: on the cells. The
- *   numbers are the same.
+ * - Association. Points (default): point data, on points at the cells' centres (with the geometry
+ *   of a reference image: on its points), ready for contours and volume rendering. Cells: cell
+ *   data. The numbers are the same.
  */
 #define vtkAssociationPropertiesMacro()                                                            \
 public:                                                                                            \

@@ -12,17 +12,17 @@
  * - `Particles`, their number, and `TotalMass`, the density times cell measure, summed;
  * - `Outside`, the number of particles outside of the domain (off the plane or line of a density of
  *   fewer than three dimensions, too), by more than a millionth of its diagonal;
- * - `InEmptyCells`, the number of the others that are in cells without mass (on a face: if all
- * cells at it are);
+ * - `InEmptyCells`, the number of the others that are in cells of the density without mass (on a
+ *   face: where all cells at it are);
  * - `DensityError`, the relative L2 distance between the particles' density and the given one, both
  *   averaged over blocks of BlockSize cells: with p and m a block's shares of the particles' mass
- * and of the density's, and v its measure, sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v). What is
- * outside is missing from its block;
+ *   and of the density's, and v its measure, sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v). Particles
+ *   outside count in the total mass, but in no block;
  * - `TransportCost`, the mean of |Displacement|^2, by weight, in squared physical units, from the
  *   point array `Displacement`; 0 without it;
  * - `SmallestSpacing` and `MeanSpacing`, over the particles in the domain that have mass: the
- *   distance from the nearest other particle, relative to the largest one that the density has room
- *   for there. That is the distance in a regular row (1D), the hexagonal (2D) or face-centred cubic
+ *   distance from the nearest other particle, relative to the largest possible one for the local
+ *   density. That is the distance in a regular row (1D), the hexagonal (2D) or face-centred cubic
  *   lattice (3D) in which each point takes the measure V: V, sqrt(2 V / sqrt(3)), cbrt(sqrt(2) V)
  *   (twice the r_max of Lagae and Dutre, "A Comparison of Methods for Generating Poisson Disk
  *   Distributions", Computer Graphics Forum 27(1), 2008). V is the measure of the smallest cube
@@ -30,14 +30,16 @@
  *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
  *   the domain has a neighbour.
  *
- * An input without points, or of ghosts alone, gives a table without rows, and so does every piece
- * but the first.
+ * An input without points, or of ghosts only, gives a table without rows, and so does every piece
+ * but piece 0.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
  * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables
  * (see vtkTransportAlgorithm). Where there are ghosts or values that are not double, copies of the
  * points, of Mass and of Displacement take 24, 8 and 24 more. The numbers are the same to the last
  * bit for every number of threads.
+ *
+ * @warning With fewer than several particles a block, DensityError measures their noise.
  *
  * \code{.cpp}
  * vtkNew<vtkTransportQuality> quality;
@@ -69,8 +71,8 @@ public:
 
   ///@{
   /**
-   * How many cells of the density a block of DensityError has along each axis, at least 1; the last
-   * block of an axis may have fewer. Default 8.
+   * The number of cells of the density along each axis in a block of DensityError, at least 1; the
+   * last block of an axis may have fewer. Default 8.
    */
   vtkSetMacro(BlockSize, int);
   vtkGetMacro(BlockSize, int);
@@ -78,14 +80,14 @@ public:
 
   ///@{
   /**
-   * Give the density (input 1) as the output of another filter, or as data.
+   * Set the density (input 1), as the output of another filter or as a data object.
    */
   void SetDensityConnection(vtkAlgorithmOutput* density);
   void SetDensityData(vtkDataObject* density);
   ///@}
 
   /**
-   * The row of numbers.
+   * The table of one row.
    */
   vtkTable* GetOutput();
 

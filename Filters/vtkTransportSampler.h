@@ -14,7 +14,7 @@
  * data of the seeds is passed on, to the particles or as cell data to their paths.
  *
  * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
- * - point data `SeedId` (the particle's number), `SeedPosition` (where it started), `Displacement`
+ * - point data `SeedId` (the particle's number), `SeedPosition` (that of its seed), `Displacement`
  *   (position - SeedPosition, active vectors), `Mass` (an equal share of the total mass each);
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
  *   |Displacement|^2, in physical units; where FlowTime is 1 an upper bound on the squared
@@ -27,7 +27,9 @@
  * for the flow. Memory: 104 bytes a particle for the output, and while it runs 32 more in 2D,
  * beside the tables (see vtkTransportAlgorithm).
  *
- * The output is in one piece: of several pieces that are asked for, the first has all particles.
+ * The output is in one piece: where several are requested, piece 0 holds all particles.
+ *
+ * @warning Particles of seeds that are not uniform in the domain do not follow the density.
  *
  * \code{.cpp}
  * vtkNew<vtkPNGReader> reader;
@@ -83,11 +85,11 @@ public:
 
   ///@{
   /**
-   * How the seeds are spread, evenly in physical lengths. BlueNoise (default): even and irregular,
-   * without preferred directions. Lattice: one at the centre of each of a grid of cells as near to
-   * NumberOfParticles as the aspect ratio allows. Jittered: one at random in each of as many boxes
-   * of equal measure. LowDiscrepancy: an additive recurrence. Random: independent. Not used where
-   * seeds are given.
+   * How the seeds are distributed, evenly in physical lengths. BlueNoise (default): even and
+   * irregular, without preferred directions. Lattice: the centres of a grid of equal boxes, whose
+   * number is as near to NumberOfParticles as the aspect ratio allows. Jittered: one at random in
+   * each of as many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random:
+   * independent. Not used where seeds are given.
    */
   vtkSetMacro(SeedPattern, int);
   vtkGetMacro(SeedPattern, int);
@@ -101,8 +103,8 @@ public:
 
   ///@{
   /**
-   * Which of the arrangements of BlueNoise, Jittered, LowDiscrepancy and Random; any integer, the
-   * same one gives the same seeds on every machine. Default 1.
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
+   * the same one gives the same seeds on every machine. Default 1.
    */
   vtkSetMacro(RandomSeed, int);
   vtkGetMacro(RandomSeed, int);
@@ -110,9 +112,8 @@ public:
 
   ///@{
   /**
-   * For Lattice and Jittered, above 0: the seeds lie in a grid of this many on each axis of every
-   * cell of the density, instead of NumberOfParticles. 0 (default): not used. The other patterns
-   * do not use it.
+   * For Lattice and Jittered, above 0: the number of seeds along each axis in every cell of the
+   * density, instead of NumberOfParticles. 0 (default): not used. The other patterns do not use it.
    */
   vtkSetMacro(SamplesPerCell, int);
   vtkGetMacro(SamplesPerCell, int);
@@ -120,7 +121,7 @@ public:
 
   ///@{
   /**
-   * How far the particles flow, in [0,1]: 0 is the seeds, 1 (default) the density.
+   * The time of the flow at the output, in [0,1]: 0 is the seeds, 1 (default) the density.
    */
   vtkSetMacro(FlowTime, double);
   vtkGetMacro(FlowTime, double);
@@ -128,10 +129,10 @@ public:
 
   ///@{
   /**
-   * On: instead of vertices, one polyline a particle from its seed to where it is at FlowTime, with
-   * NumberOfSteps + 1 points at equal intervals of time whatever the integrator's own steps. Point
-   * data: `SeedId`, `Time` and `Mass`, the mass of the particle at each point of its path (the
-   * masses of one point of each path sum to TotalMass). Off by default.
+   * On: instead of vertices, one polyline a particle from its seed to its position at FlowTime,
+   * with NumberOfSteps + 1 points at equal intervals of time, whatever the integrator's steps are.
+   * Point data: `SeedId`, `Time` and `Mass`, the mass of the particle at each point of its path
+   * (the masses of one point of each path sum to TotalMass). Off by default.
    */
   vtkSetMacro(OutputPaths, vtkTypeBool);
   vtkGetMacro(OutputPaths, vtkTypeBool);
@@ -140,7 +141,7 @@ public:
 
   ///@{
   /**
-   * Give the seeds (input 1) as the output of another filter, or as data. nullptr: none.
+   * Set the seeds (input 1), as the output of another filter or as a data object. nullptr: none.
    */
   void SetSeedsConnection(vtkAlgorithmOutput* seeds);
   void SetSeedsData(vtkDataObject* seeds);

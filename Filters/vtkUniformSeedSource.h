@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkUniformSeedSource
- * @brief   points that are spread uniformly over a rectangle or a box
+ * @brief   points that are uniform in a rectangle or a box
  *
- * A source of seeds for vtkTransportSampler and for whatever else wants an even covering. The
- * output is a vtkPolyData with double points and one vertex a point. Cost: O(points); blue noise
- * takes less than 10 ms for 100,000 points.
+ * A source of seeds for vtkTransportSampler, and of uniform samples in general. The output is a
+ * vtkPolyData with double points and one vertex a point. Cost: O(points); blue noise takes less
+ * than 10 ms for 100,000 points. Memory: 40 bytes a point, and while it runs 16 more in 2D.
  *
  * Bounds that are not finite or not in ascending order, a Dimension other than 2 and 3 and a
  * NumberOfPoints below 1 are errors; the output is then empty.
@@ -80,9 +80,9 @@ public:
 
   ///@{
   /**
-   * How the points are spread. BlueNoise (default): even and irregular, without preferred
-   * directions. Lattice: at the centres of a grid of cells. Jittered: one at random in each of as
-   * many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
+   * How the points are distributed. BlueNoise (default): even and irregular, without preferred
+   * directions. Lattice: the centres of a grid of equal boxes. Jittered: one at random in each of
+   * as many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
    */
   vtkSetMacro(Pattern, int);
   vtkGetMacro(Pattern, int);
@@ -96,8 +96,8 @@ public:
 
   ///@{
   /**
-   * Which of the arrangements of BlueNoise, Jittered, LowDiscrepancy and Random; any integer, the
-   * same one gives the same points on every machine. Default 1.
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
+   * the same one gives the same points on every machine. Default 1.
    */
   vtkSetMacro(RandomSeed, int);
   vtkGetMacro(RandomSeed, int);
