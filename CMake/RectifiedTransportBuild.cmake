@@ -14,8 +14,8 @@ vtk_module_scan(
   PROVIDES_MODULES modules
   ENABLE_TESTS "${tests}")
 
-# A function, for its scope: seen from the folder above, the module is a subfolder as VTK expects;
-# seen from the root itself it would be the root that is added to the root.
+# A function, for the scope of CMAKE_SOURCE_DIR: relative to the folder above, the module is a
+# subfolder, as vtk_module_build expects; relative to the root it would be the root itself.
 function (rectified_transport_build_module)
   set(CMAKE_SOURCE_DIR "${PROJECT_SOURCE_DIR}/..")
   vtk_module_build(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The kernels are written in GCC's vector extensions, and built with its flags. Also a script, with
-# the variables given, that fails as the configuration would.
+# The kernels use GCC's vector extensions and flags. Also runs as a script (cmake -P) with these
+# variables set, and fails then as the configuration would.
 if (NOT CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang|IntelLLVM)$" OR
     CMAKE_CXX_COMPILER_FRONTEND_VARIANT STREQUAL "MSVC")
   message(FATAL_ERROR "RectifiedTransport needs GCC or Clang, with GCC's command line, for its "

@@ -14,7 +14,7 @@ install(
   DESTINATION "${cmake_destination}"
   COMPONENT development)
 
-# Shared libraries keep to themselves what they link privately, static ones name it.
+# Private dependencies are in the link interface of static libraries only.
 get_target_property(core_links RectifiedTransportCore INTERFACE_LINK_LIBRARIES)
 set(core_dependencies)
 if (core_links MATCHES "Eigen3::")

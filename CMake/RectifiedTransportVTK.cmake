@@ -12,7 +12,7 @@ option(RectifiedTransport_BUILD_PARAVIEW_PLUGIN
 
 set(vtk_place)
 if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
-  # Without components ParaView's package asks for all that its own client needs, Qt included.
+  # Without components ParaView's package requires all dependencies of its client, Qt included.
   find_package(ParaView REQUIRED COMPONENTS RemotingCore)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()

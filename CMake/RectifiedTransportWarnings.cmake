@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The warnings that hold for hand-written sources; what VTK's wrappers generate is not ours. Further
-# arguments are flags, too. Clang's -Wconversion warns of signs, GCC's does not.
+# The warnings for hand-written sources, not for those that VTK's wrappers generate. Further
+# arguments are flags, too. Clang's -Wconversion includes -Wsign-conversion, GCC's does not.
 function (rectified_transport_warnings target)
   set(flags -Wall -Wextra -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual ${ARGN})
   target_compile_options("${target}" PRIVATE

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The core alone: nothing of VTK or ParaView is looked for, nor built.
+# The core alone: VTK and ParaView are not searched for, and nothing that needs them is built.
 set(refused)
 foreach (option IN ITEMS BUILD_PARAVIEW_PLUGIN WRAP_PYTHON BUILD_EXAMPLES)
   if (RectifiedTransport_${option})

@@ -28,7 +28,7 @@ as_root()
   fi
 }
 
-# logged LOG COMMAND...: what the command says goes to the log; if it fails, the log's end is shown.
+# logged LOG COMMAND...: the command's output goes to the log; if it fails, the log's end is shown.
 logged()
 {
   local log="$1"
@@ -47,8 +47,8 @@ apt_get()
     apt-get -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# What apt says that an installation will fetch and take, and about how many minutes that is: with
-# libraries of ParaView's size 150 MB a minute were fetched and unpacked.
+# Prints the sizes of an installation's download and of its packages, and an estimate of the
+# minutes: with libraries of ParaView's size 150 MB a minute were downloaded and unpacked.
 announce_installation()
 {
   local bytes
@@ -95,7 +95,7 @@ need()
     return
   fi
   say "Installing by apt:$missing"
-  # An interrupted installation leaves packages unpacked that nothing can be installed beside.
+  # Packages that an interrupted installation left unpacked prevent all others from being installed.
   logged "$apt_log" as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a || return 1
   logged "$apt_log" apt_get update -q || return 1
   # shellcheck disable=SC2086
@@ -105,12 +105,12 @@ need()
   link_python_modules
 }
 
-# What both commands build with, and other packages.
+# Installs the packages of the build, and further ones.
 need_to_build()
 {
   need $packages_build "$@"
-  # ParaView with a VTK of its own brings that one's headers; Debian's ParaView 6 is made with
-  # libvtk9, and paraview-dev does not ask for its headers.
+  # paraview-dev contains the headers of a VTK of ParaView's own; Debian's ParaView 6 is built with
+  # libvtk9, and paraview-dev does not depend on libvtk9-dev.
   local files
   if files="$(dpkg -L paraview-dev 2> /dev/null)" && [[ "$files" != */vtk-config.cmake* ]]; then
     need libvtk9-dev
@@ -153,7 +153,7 @@ configure_and_build()
 {
   local folder="$1" steps
   shift
-  # A copied or moved clone brings a cache that names the place it was made for.
+  # The cache of a copied or moved clone names another folder.
   if [ -f "$folder/CMakeCache.txt" ] &&
     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
     find "$folder" -mindepth 1 -maxdepth 1 ! -name '*.log' -exec rm -rf {} +
@@ -161,7 +161,7 @@ configure_and_build()
   rm -f "$folder/configure.log" "$folder/build.log"
   logged "$folder/configure.log" cmake -S "$root" -B "$folder" -G Ninja \
     -DPython3_EXECUTABLE=/usr/bin/python3 "$@" || return 1
-  # In a file of its own: of build.ninja itself a dry run tells no more than that CMake may run again.
+  # A separate file, because a dry run of build.ninja itself only lists that CMake may run again.
   echo 'include build.ninja' > "$folder/count.ninja"
   steps="$(cmake --build "$folder" --target "${target:-all}" -- -f count.ninja -n |
     grep -c '^\[' || true)"
