@@ -5,10 +5,8 @@
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SMPExecutor.h"
-#include "Bridge/Run/WholeInput.h"
+#include "Bridge/Run/WholeInputs.h"
 
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -20,7 +18,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -78,19 +75,6 @@ void removeArrayInformation(vtkInformationVector* outputVector)
   }
 }
 
-bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
-{
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    if (leaves->GetCurrentDataObject() == data)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 // The executive leaves the extent of an image and the scalars of its points from the last run.
 void clearImages(vtkInformationVector* outputVector)
 {
@@ -108,6 +92,7 @@ void clearImages(vtkInformationVector* outputVector)
 //------------------------------------------------------------------------------
 vtkGuardedAlgorithm::vtkGuardedAlgorithm()
   : Threading(THREADING_AUTO)
+  , Whole(new RectifiedTransport::WholeInputs)
 {
 }
 
@@ -152,13 +137,13 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
     {
-      this->RecordRequest(request, inputVector, outputVector);
+      this->Whole->Record(this, request, inputVector, outputVector);
       return this->RequestUpdateExtent(request, inputVector, outputVector);
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
       clearImages(outputVector);
-      this->RequireWholeInputs(inputVector);
+      this->Whole->Require(this, inputVector, this->NeededWhole());
       const int result = this->RequestData(request, inputVector, outputVector);
       return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
     }
@@ -299,123 +284,14 @@ bool vtkGuardedAlgorithm::NeedsWhole(int)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::RecordRequest(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+std::vector<bool> vtkGuardedAlgorithm::NeededWhole()
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* output =
-    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
-  const int pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
-  if (pieces == 1 && this->IsIteratingOverBlocks(inputVector))
-  {
-    return; // a request of the executive itself, while it iterates over blocks
-  }
-  this->RequestedPiece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-  this->RequestedNumberOfPieces = pieces;
-  this->Composites.assign(static_cast<std::size_t>(this->GetNumberOfInputPorts()), {});
+  std::vector<bool> needed;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    auto& composites = this->Composites[static_cast<std::size_t>(port)];
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      composites.emplace_back(vtkCompositeDataSet::GetData(inputVector[port], i));
-    }
+    needed.push_back(this->NeedsWhole(port));
   }
-}
-
-//------------------------------------------------------------------------------
-vtkCompositeDataSet* vtkGuardedAlgorithm::CompositeAt(int port, int connection)
-{
-  const auto p = static_cast<std::size_t>(port);
-  const auto c = static_cast<std::size_t>(connection);
-  return p < this->Composites.size() && c < this->Composites[p].size()
-    ? this->Composites[p][c].Get()
-    : nullptr;
-}
-
-//------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::IsIteratingOverBlocks(vtkInformationVector** inputVector)
-{
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkCompositeDataSet* composite = this->CompositeAt(port, i);
-      if (composite && isLeafOf(composite, vtkDataObject::GetData(inputVector[port], i)))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::RequireWholeInputs(vtkInformationVector** inputVector)
-{
-  using RectifiedTransport::RankAgreement;
-  std::vector<std::vector<vtkDataObject*>> inputs(
-    static_cast<std::size_t>(this->GetNumberOfInputPorts()));
-  vtkMTimeType newest = 0;
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    const int connections =
-      this->NeedsWhole(port) ? inputVector[port]->GetNumberOfInformationObjects() : 0;
-    for (int i = 0; i < connections; ++i)
-    {
-      vtkInformation* input = inputVector[port]->GetInformationObject(i);
-      RectifiedTransport::requireWholeExtent(input, "Input port " + std::to_string(port));
-      vtkDataObject* whole = this->CompositeAt(port, i);
-      if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
-      {
-        newest = std::max({ newest, data->GetMTime(), data->GetUpdateTime() });
-        inputs[static_cast<std::size_t>(port)].push_back(data);
-      }
-    }
-  }
-  if (newest == this->ComparedTime)
-  {
-    if (!this->Disagreement.empty())
-    {
-      throw RectifiedTransport::Failure(this->Disagreement); // again, at the next block
-    }
-    return;
-  }
-  this->Disagreement.clear();
-  this->EqualFingerprints.resize(inputs.size());
-  const bool isShared =
-    RectifiedTransport::sharesWithRanks(this->RequestedPiece, this->RequestedNumberOfPieces);
-  for (std::size_t port = 0; isShared && port < inputs.size(); ++port)
-  {
-    const std::string name = "input port " + std::to_string(port);
-    const std::uint64_t fingerprint = RectifiedTransport::fingerprintOf(inputs[port]);
-    // Equal on all ranks before: others may skip the comparison, as modification times are local.
-    if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->EqualFingerprints[port]))
-    {
-      continue;
-    }
-    int rank = 0;
-    const RankAgreement agreement =
-      RectifiedTransport::compareRanks(this->GetClassName() + name, fingerprint, rank);
-    this->EqualFingerprints[port] = agreement == RankAgreement::Same ? fingerprint : 0;
-    if (agreement == RankAgreement::Differs)
-    {
-      this->Disagreement = "The data on " + name + " are not the same here and on rank " +
-        std::to_string(rank) +
-        "; what lies on several ranks must be gathered on the first one, or be whole on each "
-        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
-      this->ComparedTime = newest;
-      throw RectifiedTransport::Failure(this->Disagreement);
-    }
-    if (agreement == RankAgreement::NoAnswer)
-    {
-      vtkWarningMacro(<< "Rank " << rank << " has not run this filter for ten seconds; whether the "
-                      << "data on " << name << " lie on several ranks, which would make the result "
-                      << "wrong, is not known");
-      return;
-    }
-  }
-  this->ComparedTime = newest;
+  return needed;
 }
 
 //------------------------------------------------------------------------------

@@ -18,14 +18,16 @@
 #include "Bridge/VTKCompatibility.h"
 #include "vtkAlgorithm.h"
 #include "vtkRectifiedTransportModule.h" // for the export macro
-#include "vtkWeakPointer.h"
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
+
+namespace RectifiedTransport
+{
+class WholeInputs;
+}
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkCompositeDataSet;
 class vtkDataObject;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkGuardedAlgorithm : public vtkAlgorithm
@@ -152,22 +154,9 @@ private:
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  void RecordRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector);
-  vtkCompositeDataSet* CompositeAt(int port, int connection); // nullptr where there is none
-  bool IsIteratingOverBlocks(vtkInformationVector** inputVector);
-  void RequireWholeInputs(vtkInformationVector** inputVector);
+  std::vector<bool> NeededWhole(); // of each port
 
-  // The requested piece and the composite inputs: while the executive iterates over blocks it
-  // replaces the input by one block at a time, and requests piece 0 of 1.
-  int RequestedPiece = 0;
-  int RequestedNumberOfPieces = 1;
-  std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites;
-
-  // The last comparison of the inputs with those of other ranks.
-  vtkMTimeType ComparedTime = 0;                // the newest modification time of the inputs
-  std::vector<std::uint64_t> EqualFingerprints; // of each port; 0 where ranks differed
-  std::string Disagreement;                     // the error message; empty where ranks agreed
+  std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
 
   // The last call of UpdateInputBeforeData.
   const vtkAlgorithm* UpdatedProducer = nullptr; // compared, never dereferenced

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detection of inputs that are distributed over ranks, which the filters do not support: their
-// results would be wrong.
-#ifndef RectifiedTransport_WholeInput_h
-#define RectifiedTransport_WholeInput_h
-
-#include "Bridge/VTKCompatibility.h"
+// Comparison of data among the ranks of MPI.
+#ifndef RectifiedTransport_RankAgreement_h
+#define RectifiedTransport_RankAgreement_h
 
 #include <cstdint>
 #include <string>
-#include <vector>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkDataObject;
-class vtkInformation;
-VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-// Throws Failure for an image whose extent is less than its WHOLE_EXTENT. `what` begins the
-// message.
-void requireWholeExtent(vtkInformation* input, const std::string& what);
-
-// A hash of the numbers of points and cells, the bounds, and samples of the coordinates and array
-// values of data sets and of the leaves of composite ones; 0 where none has points.
-std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data);
 
 // The result of comparing the inputs of all ranks.
 enum class RankAgreement

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rejects inputs that are distributed over ranks, which the filters do not support: their results
+// would be wrong.
+#ifndef RectifiedTransport_WholeInputs_h
+#define RectifiedTransport_WholeInputs_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkType.h"
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithm;
+class vtkCompositeDataSet;
+class vtkDataObject;
+class vtkInformation;
+class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Of one filter. Remembers the last comparison with other ranks, so that it is made once for data
+// that do not change.
+class WholeInputs
+{
+public:
+  // Records the requested piece and the composite inputs, in REQUEST_UPDATE_EXTENT: while the
+  // executive iterates over blocks it replaces the input by one block at a time, and requests piece
+  // 0 of 1.
+  void Record(vtkAlgorithm* filter, vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+
+  // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
+  // not the same on all ranks; warns where other ranks do not answer. Only of the ports that are
+  // `needed` whole.
+  void Require(
+    vtkAlgorithm* filter, vtkInformationVector** inputVector, const std::vector<bool>& needed);
+
+private:
+  using Inputs = std::vector<std::vector<vtkDataObject*>>; // of each port
+
+  vtkCompositeDataSet* CompositeAt(std::size_t port, int connection) const; // nullptr for none
+  bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
+  bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
+
+  int Piece = 0;
+  int NumberOfPieces = 1;
+  std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port
+
+  // The last comparison.
+  vtkMTimeType ComparedTime = 0;                // the newest modification time of the inputs
+  std::vector<std::uint64_t> EqualFingerprints; // of each port; 0 where ranks differed
+  std::string Disagreement;                     // the error message; empty where ranks agreed
+};
+
+} // namespace RectifiedTransport
+
+#endif
