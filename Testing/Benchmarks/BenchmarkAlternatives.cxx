@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the core does itself beside what VTK has for it: Documentation/Contributing.md draws the
+// What the core does itself beside what VTK has for it: Documentation/Alternatives.md draws the
 // conclusions. `silence` is the longest time in which a filter neither reports progress nor looks
 // whether it is aborted, in ms.
 #include "BenchmarkInputs.h"
