@@ -4,6 +4,7 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
 
@@ -23,21 +24,6 @@ VTK_ABI_NAMESPACE_BEGIN
 namespace
 {
 const char* const NegativeValuesTexts[] = { "Error", "Clamp" };
-
-// The names of the available arrays.
-std::string listArrays(vtkDataSetAttributes* attributes, const char* owner)
-{
-  std::string list;
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-  {
-    if (vtkDataArray* array = attributes->GetArray(i))
-    {
-      const char* name = array->GetName();
-      list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
-    }
-  }
-  return list.empty() ? std::string("no ") + owner + " arrays" : list + " (" + owner + ")";
-}
 
 bool isAssociation(int association)
 {
@@ -119,8 +105,8 @@ std::unique_ptr<RectifiedTransport::DensityImage> vtkDensityAlgorithm::ReadDensi
       (chosen ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
           : name && *name ? "The input image has no density array '" + std::string(name) + "'"
                           : std::string("The input image has no active scalars for a density")) +
-      "; it has " + listArrays(image->GetPointData(), "point") + " and " +
-      listArrays(image->GetCellData(), "cell"));
+      "; it has " + RectifiedTransport::listArrays(image->GetPointData(), "point") + " and " +
+      RectifiedTransport::listArrays(image->GetCellData(), "cell"));
   }
   RectifiedTransport::DensityRules rules;
   rules.Component = this->Component;

@@ -29,6 +29,7 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
+  this->PassPieces(0); // each point is moved independently of the others
 }
 
 //------------------------------------------------------------------------------
@@ -72,13 +73,6 @@ int vtkDensityEqualizingWarp::RequestDataObject(
 {
   vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
   return 1;
-}
-
-//------------------------------------------------------------------------------
-// Each point is moved independently of the others: the requested pieces suffice.
-bool vtkDensityEqualizingWarp::NeedsWhole(int port)
-{
-  return port == 1;
 }
 
 //------------------------------------------------------------------------------

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
-#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -19,38 +17,12 @@
 #include "vtkPolyData.h"
 
 #include <cmath>
-#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkEqualMassCells);
 vtkImplementFlowPropertiesMacro(vtkEqualMassCells);
 
-namespace
-{
 using namespace RectifiedTransport;
-
-// The box of a domain, as of a density: with point data that of the dual cells.
-ImageGrid boxOf(vtkImageData* domain)
-{
-  const ImageGrid grid = gridOf(domain, false);
-  return hasPointValues(domain) ? grid.WithDualCells() : grid;
-}
-
-// The bounds of sites, 10 % longer along each axis.
-ImageGrid boxAround(vtkPointSet* sites)
-{
-  constexpr double margin = 0.05; // on each side
-  double bounds[6];
-  findBounds(sites, bounds);
-  for (int a = 0; a < 3; ++a)
-  {
-    const double length = bounds[2 * a + 1] - bounds[2 * a];
-    bounds[2 * a] -= margin * length;
-    bounds[2 * a + 1] += margin * length;
-  }
-  return gridOfBox(bounds);
-}
-} // namespace
 
 struct vtkEqualMassCells::vtkInternals
 {
@@ -134,25 +106,33 @@ int vtkEqualMassCells::RequestDataObject(
 int vtkEqualMassCells::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  ImageGrid box;
+  const EqualMassCells cells{ {}, {}, this->Resolution };
+  ImageGrid grid;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
     // The announced association of the values may be missing or wrong.
     this->UpdateInputBeforeData(1, inputVector, outputVector);
     vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
-    box = domain && domain->GetNumberOfPoints() > 0
-      ? boxOf(domain)
-      : announcedGrid(inputVector[1]->GetInformationObject(0), false);
+    if (domain && domain->GetNumberOfPoints() > 0)
+    {
+      grid = cells.GridOn(domain);
+    }
+    else
+    {
+      const ImageGrid box = announcedGrid(inputVector[1]->GetInformationObject(0), false);
+      grid = box.IsEmpty() ? box : gridWithResolution(box, this->Resolution, "Resolution");
+    }
   }
   else
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    box = sites && sites->GetNumberOfPoints() > 1 ? boxAround(sites) : gridOfBox(unit);
+    grid = sites && sites->GetNumberOfPoints() > 1
+      ? cells.GridAround(sites)
+      : gridWithResolution(gridOfBox(unit), this->Resolution, "Resolution");
   }
-  box = box.IsEmpty() ? box : gridWithResolution(box, this->Resolution, "Resolution");
-  announceGrid(box, outputVector->GetInformationObject(0));
+  announceGrid(grid, outputVector->GetInformationObject(0));
   return 1;
 }
 
@@ -165,11 +145,11 @@ int vtkEqualMassCells::RequestData(
   requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
     this->CostExponent, "a number above 0");
   requireResolution("Resolution", this->Resolution);
-  const FlowOptions options = this->GetFlowSettings().Options();
+  const EqualMassCells cells{ this->GetFlowSettings().Options(),
+    { this->NormExponent, this->CostExponent }, this->Resolution };
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.
-  vtkInformation* labelInformation = outputVector->GetInformationObject(0);
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -181,28 +161,11 @@ int vtkEqualMassCells::RequestData(
   {
     return 1;
   }
-  if (!domain)
-  {
-    // Coordinates that are not finite have no bounds.
-    visitPoints(input, "input point set", progress, [](std::int64_t, const double*) {});
-  }
-  const ImageGrid box = domain ? boxOf(domain) : boxAround(input);
-  if (box.Dimension() == 0)
-  {
-    throw Failure(domain
-        ? "The Domain has one point along every axis; it needs at least one axis "
-          "of two points or more"
-        : "The input's sites are all at one point, about which there is no domain; "
-          "connect an image as the Domain");
-  }
-  const ImageGrid grid = gridWithResolution(box, this->Resolution, "Resolution");
-  requireCells(grid);
-  announceGrid(grid, labelInformation); // without a Domain possibly not known before the data
-
-  const EqualMassCells cells{ options, { this->NormExponent, this->CostExponent } };
-  const std::int64_t outside = cells.Run(input, grid, this->Internals->Labels, progress,
-    { vtkImageData::GetData(outputVector, 0), vtkPointSet::GetData(outputVector, 1),
-      vtkPolyData::GetData(outputVector, 2) });
+  vtkImageData* labels = vtkImageData::GetData(outputVector, 0);
+  const std::int64_t outside = cells.Run(input, domain, this->Internals->Labels, progress,
+    { labels, vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) });
+  // Without a Domain the grid may not be known before the data.
+  announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   if (outside > 0)
   {
     vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()

@@ -143,7 +143,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
       clearImages(outputVector);
-      this->Whole->Require(this, inputVector, this->NeededWhole());
+      this->Whole->Require(this, inputVector);
       const int result = this->RequestData(request, inputVector, outputVector);
       return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
     }
@@ -269,7 +269,7 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
 {
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    if (this->NeedsWhole(port))
+    if (this->Whole->IsNeeded(port))
     {
       vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
     }
@@ -278,20 +278,9 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::NeedsWhole(int)
+void vtkGuardedAlgorithm::PassPieces(int port)
 {
-  return true;
-}
-
-//------------------------------------------------------------------------------
-std::vector<bool> vtkGuardedAlgorithm::NeededWhole()
-{
-  std::vector<bool> needed;
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    needed.push_back(this->NeedsWhole(port));
-  }
-  return needed;
+  this->Whole->Except(port);
 }
 
 //------------------------------------------------------------------------------

@@ -20,7 +20,6 @@
 #include "vtkRectifiedTransportModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
-#include <vector> // for std::vector
 
 namespace RectifiedTransport
 {
@@ -111,10 +110,10 @@ protected:
     int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
-   * Whether the filter needs all data of an input port: whole images, because a transport is
-   * global, and all points. By default yes; if not, the requested pieces are passed upstream.
+   * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
+   * filter needs all data: whole images, because a transport is global, and all points.
    */
-  virtual bool NeedsWhole(int port);
+  void PassPieces(int port);
 
   /**
    * Choose the time to request from the inputs. By default it is the one that is requested
@@ -124,8 +123,8 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Request the whole extent, or piece 0 of 1, on the ports where NeedsWhole is true. Inputs that
-   * are partial nevertheless, as data distributed over ranks, are an error before RequestData.
+   * Request the whole extent, or piece 0 of 1, but on the ports of PassPieces. Inputs that are
+   * partial nevertheless, as data distributed over ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -154,8 +153,6 @@ private:
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  std::vector<bool> NeededWhole(); // of each port
-
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
 
   // The last call of UpdateInputBeforeData.

@@ -197,7 +197,7 @@ void vtkMassSplatter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
-  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  this->GetAssociationSettings().Print(os, indent);
   this->GetSplatSettings().Print(os, indent);
   os << indent << "Boundary: " << this->GetBoundaryAsString() << "\n";
   os << indent << "DivideByVolume: " << (this->DivideByVolume ? "On" : "Off") << "\n";

@@ -111,6 +111,6 @@ void vtkSolidDensity::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "Supersampling: " << this->Supersampling << "\n";
   os << indent << "Padding: " << this->Padding << "\n";
-  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  this->GetAssociationSettings().Print(os, indent);
 }
 VTK_ABI_NAMESPACE_END

@@ -8,12 +8,10 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 
-#include "vtkCellData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 
 #include <memory>
 
@@ -99,8 +97,8 @@ int vtkTransportMap::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
-  const TransportMap map{ this->GetFlowSettings().Options(),
-    this->Direction == DENSITY_TO_UNIFORM };
+  const TransportMap map{ this->GetFlowSettings().Options(), this->Direction == DENSITY_TO_UNIFORM,
+    { this->SampleDimensions[0], this->SampleDimensions[1], this->SampleDimensions[2] } };
   AlgorithmProgress progress(this, this->Threading);
 
   // All samples are in piece 0, whatever pieces are requested.
@@ -113,19 +111,11 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const ImageGrid grid =
-    gridWithValues(density->Grid(), this->SampleDimensions, "SampleDimensions");
-  // The association of the density may not be known before the data.
-  announceGrid(grid, outputVector->GetInformationObject(0));
-  vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  if (grid.Extent() == density->Grid().Extent())
-  {
-    output->GetPointData()->PassData(input->GetPointData());
-    output->GetCellData()->PassData(input->GetCellData());
-  }
-  const TransportMap::Report result =
-    map.Run(*density, grid, this->GetFlowCache(), progress, output);
+  const TransportMap::Report result = map.Run(
+    *density, vtkImageData::GetData(inputVector[0], 0), this->GetFlowCache(), progress, output);
+  // The association of the density may not be known before the data.
+  announceGrid(gridOf(output, density->Grid().IsOnPoints()), outputVector->GetInformationObject(0));
   if (result.MovedToMass > 0)
   {
     vtkWarningMacro(<< result.MovedToMass << " of " << result.Samples

@@ -112,7 +112,7 @@ OTHERS = [
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
     # the bridge
     E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] + «0.5»", "0.0"),
-    E(BRIDGE + "Density/Fingerprint.h", "«this->Bits != 0 && this->Bits == previous.Bits»",
+    E(BRIDGE + "SiteCells/DataStamp.h", "«this->Bits != 0 && this->Bits == previous.Bits»",
       "this->Bits == previous.Bits"),
     E(CORE + "SiteCells/SiteCellStatistics.cxx", "statistics.Cost[i] = sum.Cost / «pixels»", "sum.Pixels"),
     S(BRIDGE + "Points/ParticleSet.cxx", "id[p] = i;", "id[p] = p;"),
@@ -132,7 +132,7 @@ OTHERS = [
     S("Filters/vtkTransportBarycenter.cxx",
       "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
       "this->Weights->List.resize(static_cast<std::size_t>(count));"),
-    S("Filters/vtkTransportMap.cxx",
+    S(BRIDGE + "Flow/TransportMap.cxx",
       "output->GetCellData()->PassData(input->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),

@@ -27,7 +27,7 @@ BRIDGE = {
     "Settings": RUN,
     "Density": RUN | {"Image", "Points"},
     "Blend": WORKERS | {"Splat"},
-    **{room: WORKERS for room in ("Flow", "Quality", "SiteCells", "Solid", "Splat")},
+    **{room: WORKERS for room in ("Flow", "Quality", "Seeds", "SiteCells", "Solid", "Splat")},
 }
 
 

@@ -67,7 +67,7 @@ void requireMemoryFor(double particles, std::size_t inputs)
 
 // Makes an array of values that are not initialised, in the memory of the last one where it has no
 // other owner.
-void renew(
+void reuseOrMake(
   vtkSmartPointer<vtkDoubleArray>& array, const char* name, int components, std::int64_t tuples)
 {
   const bool isUnique = array && array->GetReferenceCount() == 1;
@@ -106,10 +106,9 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   {
     this->Means = this->Masses = this->Density = nullptr; // releases memory for the tables
   }
-  constexpr double meanAndSplat = 60.0; // nanoseconds a particle, as measured
   const double maps =
     stageEnds({ static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension()),
-      meanAndSplat })[0];
+      Cost::MeanAndSplat })[0];
   const std::int64_t moved = this->MakeMaps(inputs, pivot, tables, progress, maps);
 
   progress.BeginStage(maps + partOfMean * (1.0 - maps));
@@ -124,7 +123,7 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   addFieldValue(output.Particles, "TotalMass", mass);
 
   progress.BeginStage(1.0);
-  renew(this->Density, "Density", 1, geometry.NumberOfCells());
+  reuseOrMake(this->Density, "Density", 1, geometry.NumberOfCells());
   splatPoints(this->Means->GetPointer(0), count, massEach, target, progress, this->Density);
   output.Density->GetAttributes(geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(this->Density);
@@ -159,7 +158,7 @@ std::size_t DensityBlend::MatchMaps(
       continue;
     }
     this->Maps.back() = *match;
-    this->Maps.back().Renew(density);
+    this->Maps.back().SetTimes(density);
   }
   return missing;
 }
@@ -211,7 +210,7 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
     parts.push_back({ this->Maps[i].Positions()->GetPointer(0), inputs[i].Weight });
   }
   const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
-  renew(this->Means, "Points", 3, count);
+  reuseOrMake(this->Means, "Points", 3, count);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   double* means = this->Means->GetPointer(0);
   progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
@@ -262,7 +261,7 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
     }
   }
   progress.BeginStage(end);
-  renew(this->Masses, "Mass", 1, count);
+  reuseOrMake(this->Masses, "Mass", 1, count);
   double* mass = this->Masses->GetPointer(0);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
   progress.For(count, grain,

@@ -47,7 +47,7 @@ public:
   std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.
-  void Renew(const DensityImage& density) { this->Content.SetTimes(density); }
+  void SetTimes(const DensityImage& density) { this->Content.SetTimes(density); }
 
   // Physical, 3 components; tuples in the order of PivotLattice. Read-only.
   vtkDoubleArray* Positions() const { return this->Kept; }

@@ -17,7 +17,10 @@ namespace Cost
 {
 
 constexpr double Seed = 20.0;
-constexpr double Write = 50.0; // of a particle with its arrays
+constexpr double Write = 50.0;        // of a particle with its arrays
+constexpr double MassShare = 150.0;   // of a sample in 3D, with the sample's other arrays
+constexpr double MeanAndSplat = 60.0; // of a particle of a blend
+constexpr double Comparison = 4000.0; // of a particle with a density
 
 inline double tables(const FlowCache& cache, const DensityImage& density)
 {

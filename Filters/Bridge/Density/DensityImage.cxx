@@ -3,9 +3,9 @@
 #include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/DensityReader.h"
-#include "Bridge/Density/Fingerprint.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Fingerprint.h"
 #include "Core/Parallel/Progress.h"
 
 #include "vtkDataArray.h"

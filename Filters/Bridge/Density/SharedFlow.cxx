@@ -21,20 +21,6 @@ namespace RectifiedTransport
 namespace
 {
 
-// The memory of the tables: one record for each node of each level, where a level has a fixed share
-// of the nodes of the finer one.
-template <int D>
-double tableBytes(const GridSize<D>& size)
-{
-  double nodes = 1.0;
-  for (const std::int64_t cells : size)
-  {
-    nodes *= static_cast<double>(cells + 1);
-  }
-  constexpr double levels = 1.0 / (1.0 - 1.0 / (1 << (D * levelShift)));
-  return nodes * levels * TableView<D>::Record * sizeof(double);
-}
-
 template <int D>
 std::string describeTables(const GridSize<D>& size)
 {
@@ -134,7 +120,7 @@ void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progre
 {
   const DensitySource<D> source = density.Source<D>();
   const GridSize<D> size = source.Size;
-  withMemory(describeTables<D>(size), tableBytes<D>(size), [&]() {
+  withMemory(describeTables<D>(size), RectifiedFlow<D>::MemoryFor(size), [&]() {
     try
     {
       if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))

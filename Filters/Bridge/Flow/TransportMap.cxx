@@ -9,8 +9,10 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Geometry/Dispatch.h"
 
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <string>
 
@@ -26,9 +28,8 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 {
   const GridSize<D> lattice = samples.Size<D>();
   const double count = numberOfCells<D>(lattice);
-  constexpr double backwardInSpace = 150.0; // to compute each sample's share of the mass
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
-    (map.Backward && D == 3 ? backwardInSpace : Cost::Write) * count });
+    (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
   MapField<D> field(density.Grid(), lattice,
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)");
   applyGrid(samples, output);
@@ -48,10 +49,17 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 
 } // namespace
 
-TransportMap::Report TransportMap::Run(DensityImage& density, const ImageGrid& samples,
-  FlowCache& cache, Progress& progress, vtkImageData* output) const
+TransportMap::Report TransportMap::Run(DensityImage& density, vtkImageData* input, FlowCache& cache,
+  Progress& progress, vtkImageData* output) const
 {
-  return dispatchDimension(density.Grid().Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
+  const ImageGrid samples =
+    gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+  if (samples.Extent() == density.Grid().Extent())
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+    output->GetCellData()->PassData(input->GetCellData());
+  }
+  return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
     *this, density, samples, cache, progress, output);
 }
 

@@ -6,6 +6,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 
+#include <array>
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -17,7 +18,6 @@ namespace RectifiedTransport
 
 class DensityImage;
 class FlowCache;
-class ImageGrid;
 class Progress;
 
 // The members are the properties of that class.
@@ -25,6 +25,7 @@ struct TransportMap
 {
   FlowOptions Flow;
   bool Backward;
+  std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 
   struct Report
   {
@@ -33,8 +34,9 @@ struct TransportMap
   };
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
-  // this grid. Throws Failure and Cancelled.
-  Report Run(DensityImage& density, const ImageGrid& samples, FlowCache& cache, Progress& progress,
+  // this grid; where it is that of the density, the image gets the arrays of the input, too. Throws
+  // Failure and Cancelled.
+  Report Run(DensityImage& density, vtkImageData* input, FlowCache& cache, Progress& progress,
     vtkImageData* output) const;
 };
 

@@ -46,14 +46,11 @@ CountedPoints::CountedPoints(vtkDataSet* points, const char* what)
   }
   this->Number -= std::count_if(flags, flags + all, isGhost);
   withMemory("the numbers of the points that are no ghosts",
-    2.0 * sizeof(std::int64_t) * static_cast<double>(all), [&]() {
-      this->Numbers = LargeBuffer<std::int64_t>(all);
-      this->Indices = LargeBuffer<std::int64_t>(this->Number);
-    });
+    sizeof(std::int64_t) * static_cast<double>(this->Number),
+    [&]() { this->Indices = LargeBuffer<std::int64_t>(this->Number); });
   std::int64_t number = 0;
   for (std::int64_t point = 0; point < all; ++point)
   {
-    this->Numbers.data()[point] = isGhost(flags[point]) ? -1 : number;
     if (!isGhost(flags[point]))
     {
       this->Indices.data()[number++] = point;

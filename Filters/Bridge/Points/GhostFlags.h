@@ -36,11 +36,6 @@ public:
   CountedPoints(vtkDataSet* points, const char* what);
 
   std::int64_t Count() const { return this->Number; }
-  // The number of a point, -1 for a ghost.
-  std::int64_t NumberOf(std::int64_t point) const
-  {
-    return this->Numbers.data() ? this->Numbers.data()[point] : point;
-  }
   // The index of the point of a number.
   std::int64_t Point(std::int64_t number) const
   {
@@ -49,8 +44,7 @@ public:
 
 private:
   std::int64_t Number;
-  LargeBuffer<std::int64_t> Numbers; // none if there are no ghosts
-  LargeBuffer<std::int64_t> Indices;
+  LargeBuffer<std::int64_t> Indices; // none if there are no ghosts
 };
 
 } // namespace RectifiedTransport

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As the work of the host's current stage. Throws Failure and Cancelled.
+// As the work of the current stage. Throws Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);
 

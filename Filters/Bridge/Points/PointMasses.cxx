@@ -2,6 +2,7 @@
 #include "Bridge/Points/PointMasses.h"
 
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
@@ -26,21 +27,6 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-
-std::string listArrays(vtkPointSet* points)
-{
-  std::string list;
-  vtkPointData* data = points->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    if (vtkDataArray* array = data->GetArray(i))
-    {
-      const char* name = array->GetName();
-      list += (list.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
-    }
-  }
-  return list.empty() ? "no point arrays" : list + " (point)";
-}
 
 // The sums over a range of points, in the order of their indices.
 struct RangeOfMasses
@@ -124,7 +110,8 @@ vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const 
   vtkDataArray* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {
-    throw Failure(text + " is not numeric; the input has " + listArrays(points));
+    throw Failure(
+      text + " is not numeric; the input has " + listArrays(points->GetPointData(), "point"));
   }
   const int components = array->GetNumberOfComponents();
   if (components != 1)
@@ -149,7 +136,7 @@ vtkDataArray* findMasses(vtkPointSet* points, int attribute)
   {
     const char* kind = vtkDataSetAttributes::GetAttributeTypeAsString(attribute);
     throw Failure("The input's points have no active " + std::string(kind ? kind : "attribute") +
-      " to take the masses from; they have " + listArrays(points));
+      " to take the masses from; they have " + listArrays(points->GetPointData(), "point"));
   }
   const char* name = found->GetName();
   return requireMasses(points, found, "The mass array '" + std::string(name ? name : "") + "'");
@@ -165,7 +152,8 @@ vtkDataArray* findMasses(vtkPointSet* points, const std::string& name)
   }
   if (!found)
   {
-    throw Failure("The input has no mass array '" + name + "'; it has " + listArrays(points));
+    throw Failure("The input has no mass array '" + name + "'; it has " +
+      listArrays(points->GetPointData(), "point"));
   }
   return requireMasses(points, found, "The mass array '" + name + "'");
 }

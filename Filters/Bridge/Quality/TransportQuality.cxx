@@ -172,9 +172,8 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid, 
 ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoints& counted,
   DensityImage& density, FlowCache& cache, Progress& progress) const
 {
-  constexpr double particle = 4000.0;
   constexpr double partOfReading = 0.1;
-  const double all = particle * static_cast<double>(counted.Count());
+  const double all = Cost::Comparison * static_cast<double>(counted.Count());
   const auto ends =
     stageEnds({ Cost::tables(cache, density), partOfReading * all, (1.0 - partOfReading) * all });
   const SharedFlow& flow = cache.Update(density, progress, ends[0]);

@@ -200,11 +200,12 @@ void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
 }
 
 //------------------------------------------------------------------------------
-vtkCompositeDataSet* WholeInputs::CompositeAt(std::size_t port, int connection) const
+vtkCompositeDataSet* WholeInputs::CompositeAt(int port, int connection) const
 {
-  const auto i = static_cast<std::size_t>(connection);
-  return port < this->Composites.size() && i < this->Composites[port].size()
-    ? this->Composites[port][i].Get()
+  const auto p = static_cast<std::size_t>(port);
+  const auto c = static_cast<std::size_t>(connection);
+  return p < this->Composites.size() && c < this->Composites[p].size()
+    ? this->Composites[p][c].Get()
     : nullptr;
 }
 
@@ -216,7 +217,7 @@ bool WholeInputs::IsIteratingOverBlocks(
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkCompositeDataSet* composite = this->CompositeAt(static_cast<std::size_t>(port), i);
+      vtkCompositeDataSet* composite = this->CompositeAt(port, i);
       if (composite && isLeafOf(composite, vtkDataObject::GetData(inputVector[port], i)))
       {
         return true;
@@ -227,14 +228,14 @@ bool WholeInputs::IsIteratingOverBlocks(
 }
 
 //------------------------------------------------------------------------------
-void WholeInputs::Require(
-  vtkAlgorithm* filter, vtkInformationVector** inputVector, const std::vector<bool>& needed)
+void WholeInputs::Require(vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {
-  Inputs inputs(needed.size());
+  Inputs inputs(static_cast<std::size_t>(filter->GetNumberOfInputPorts()));
   vtkMTimeType newest = 0;
-  for (std::size_t port = 0; port < needed.size(); ++port)
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    const int connections = needed[port] ? inputVector[port]->GetNumberOfInformationObjects() : 0;
+    const int connections =
+      this->IsNeeded(port) ? inputVector[port]->GetNumberOfInformationObjects() : 0;
     for (int i = 0; i < connections; ++i)
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
@@ -243,7 +244,7 @@ void WholeInputs::Require(
       if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
       {
         newest = std::max({ newest, data->GetMTime(), data->GetUpdateTime() });
-        inputs[port].push_back(data);
+        inputs[static_cast<std::size_t>(port)].push_back(data);
       }
     }
   }

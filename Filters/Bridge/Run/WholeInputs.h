@@ -10,6 +10,7 @@
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ namespace RectifiedTransport
 class WholeInputs
 {
 public:
+  // Excepts a port; all others are needed whole.
+  void Except(int port) { this->Excepted.insert(port); }
+  bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
+
   // Records the requested piece and the composite inputs, in REQUEST_UPDATE_EXTENT: while the
   // executive iterates over blocks it replaces the input by one block at a time, and requests piece
   // 0 of 1.
@@ -36,18 +41,17 @@ public:
     vtkInformationVector* outputVector);
 
   // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
-  // not the same on all ranks; warns where other ranks do not answer. Only of the ports that are
-  // `needed` whole.
-  void Require(
-    vtkAlgorithm* filter, vtkInformationVector** inputVector, const std::vector<bool>& needed);
+  // not the same on all ranks; warns where other ranks do not answer. Of the needed ports.
+  void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
 private:
   using Inputs = std::vector<std::vector<vtkDataObject*>>; // of each port
 
-  vtkCompositeDataSet* CompositeAt(std::size_t port, int connection) const; // nullptr for none
+  vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
   bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
 
+  std::set<int> Excepted;
   int Piece = 0;
   int NumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port

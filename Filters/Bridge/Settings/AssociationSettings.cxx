@@ -3,6 +3,8 @@
 
 #include "Bridge/Run/PropertyCheck.h"
 
+#include <ostream>
+
 namespace RectifiedTransport
 {
 
@@ -21,6 +23,11 @@ const char* AssociationSettings::Text() const
 void AssociationSettings::Check() const
 {
   requireChoice("Association", this->Association, AssociationTexts);
+}
+
+void AssociationSettings::Print(std::ostream& os, vtkIndent indent) const
+{
+  os << indent << "Association: " << this->Text() << "\n";
 }
 
 } // namespace RectifiedTransport

@@ -4,6 +4,10 @@
 #ifndef RectifiedTransport_AssociationSettings_h
 #define RectifiedTransport_AssociationSettings_h
 
+#include "vtkIndent.h"
+
+#include <iosfwd>
+
 namespace RectifiedTransport
 {
 
@@ -17,6 +21,7 @@ struct AssociationSettings
   bool IsOnPoints() const { return this->Association == 0; }
   // Throws Failure for a value out of range.
   void Check() const;
+  void Print(std::ostream& os, vtkIndent indent) const;
 };
 
 } // namespace RectifiedTransport

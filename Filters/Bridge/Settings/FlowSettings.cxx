@@ -14,7 +14,6 @@ namespace
 
 const char* const IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 const char* const TableLookupTexts[] = { "Interpolated", "Nearest" };
-constexpr int MaximumNumberOfSteps = 10000;
 
 } // namespace
 
@@ -31,7 +30,7 @@ const char* FlowSettings::TableLookupText() const
 FlowOptions FlowSettings::Options() const
 {
   requireChoice("Integrator", this->Integrator, IntegratorTexts);
-  requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= MaximumNumberOfSteps,
+  requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= FlowOptions::MaximumNumberOfSteps,
     "NumberOfSteps", this->NumberOfSteps, "from 1 to 10000");
   requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance", this->Tolerance,
     "a positive number of cells");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/EqualMassCells.h"
 
+#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
@@ -8,6 +9,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCells.h"
@@ -33,10 +35,11 @@ namespace RectifiedTransport
 namespace
 {
 
-// Bytes a pixel of the tables, which are the peak.
-constexpr double bytesOfFlow(int dimension)
+// The tables of the pixels are the peak.
+template <int D>
+double bytesOfLabelling(const ImageGrid& grid)
 {
-  return (dimension == 1 ? 2.5 : 4.0) * sizeof(double);
+  return RectifiedFlow<D>::MemoryFor(grid.Size<D>());
 }
 
 // The input's points in double precision.
@@ -78,7 +81,7 @@ vtkSmartPointer<SiteIdArray> makeLabels(
   const auto pixels = cells.Grid().NumberOfCells();
   auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
   withMemory("labels of " + describeSize<D>(cells.Pixels().Size()) + " pixels",
-    static_cast<double>(pixels) * bytesOfFlow(D),
+    bytesOfLabelling<D>(cells.Grid()),
     [&]() { cells.Label(labels->GetPointer(0), options, progress.Stage()); });
   return labels;
 }
@@ -177,13 +180,54 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
 
 } // namespace
 
-std::int64_t EqualMassCells::Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
+ImageGrid EqualMassCells::GridOn(vtkImageData* domain) const
+{
+  const ImageGrid grid = gridOf(domain, false);
+  const ImageGrid box = hasPointValues(domain) ? grid.WithDualCells() : grid;
+  if (box.Dimension() == 0)
+  {
+    throw Failure("The Domain has one point along every axis; it needs at least one axis of two "
+                  "points or more");
+  }
+  return gridWithResolution(box, this->Resolution, "Resolution");
+}
+
+ImageGrid EqualMassCells::GridAround(vtkPointSet* sites) const
+{
+  constexpr double margin = 0.05; // on each side
+  double bounds[6];
+  findBounds(sites, bounds);
+  for (int a = 0; a < 3; ++a)
+  {
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    bounds[2 * a] -= margin * length;
+    bounds[2 * a + 1] += margin * length;
+  }
+  const ImageGrid box = gridOfBox(bounds);
+  if (box.Dimension() == 0)
+  {
+    throw Failure("The input's sites are all at one point, about which there is no domain; connect "
+                  "an image as the Domain");
+  }
+  return gridWithResolution(box, this->Resolution, "Resolution");
+}
+
+std::int64_t EqualMassCells::Run(vtkPointSet* sites, vtkImageData* domain, SiteLabels& kept,
   Progress& progress, const Outputs& outputs) const
 {
+  if (!domain)
+  {
+    // Coordinates that are not finite have no bounds.
+    visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+  }
+  const ImageGrid grid = domain ? this->GridOn(domain) : this->GridAround(sites);
+  requireCells(grid);
   if (!kept.IsFor(sites, grid, this->Flow))
   {
+    const auto bytes = dispatchDimension(
+      grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
     requireMemory("labels of " + describeValues(grid) + " pixels (see Resolution)",
-      numberOfValues(grid) * (sizeof(std::int64_t) + bytesOfFlow(grid.Dimension())));
+      numberOfValues(grid) * sizeof(std::int64_t) + bytes(grid));
   }
   applyGrid(grid, outputs.Labels);
   outputs.Sites->CopyStructure(sites);

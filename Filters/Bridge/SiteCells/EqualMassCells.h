@@ -27,6 +27,7 @@ struct EqualMassCells
 {
   FlowOptions Flow;
   CostNorm Norm;
+  int Resolution;
 
   struct Outputs
   {
@@ -35,10 +36,15 @@ struct EqualMassCells
     vtkPolyData* Outlines;
   };
 
-  // Assigns the pixels (the cells of a grid) to at least one site; reuses the labels that are kept
-  // where they are valid. Returns how many sites are outside of the domain. Throws Failure,
-  // std::overflow_error, std::bad_alloc and Cancelled.
-  std::int64_t Run(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept, Progress& progress,
+  // The pixels in the box of a domain, which is that of a density, and in the bounds of sites, 10 %
+  // longer along each axis. Throw Failure.
+  ImageGrid GridOn(vtkImageData* domain) const;
+  ImageGrid GridAround(vtkPointSet* sites) const;
+
+  // Assigns the pixels in a domain, or where it is nullptr around the sites, to at least one site;
+  // reuses the labels that are kept where they are valid. Returns how many sites are outside of the
+  // domain. Throws Failure, std::overflow_error, std::bad_alloc and Cancelled.
+  std::int64_t Run(vtkPointSet* sites, vtkImageData* domain, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/SiteLabels.h"
 
+#include "Bridge/Run/Fingerprint.h"
+
 #include "vtkPointSet.h"
 
 #include <utility>
@@ -30,9 +32,9 @@ bool SiteLabels::IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOpti
     this->Stamp.IsOf(keyOf(sites), timeOf(sites));
 }
 
-bool SiteLabels::Renew(vtkPointSet* sites, Progress& progress)
+bool SiteLabels::UpdateStamp(vtkPointSet* sites, Progress& progress)
 {
-  return this->Stamp.Renew(keyOf(sites), timeOf(sites),
+  return this->Stamp.Update(keyOf(sites), timeOf(sites),
     [&]() { return fingerprint({ sites->GetPoints()->GetData() }, progress); });
 }
 

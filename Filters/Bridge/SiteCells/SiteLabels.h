@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
-#include "Bridge/Density/Fingerprint.h"
+#include "Bridge/SiteCells/DataStamp.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -48,7 +48,7 @@ public:
     {
       return this->Labels;
     }
-    const bool sameSites = this->Renew(sites, progress);
+    const bool sameSites = this->UpdateStamp(sites, progress);
     if (!sameSites || !this->IsFor(sites, grid, options))
     {
       this->Labels = nullptr; // releases memory before make()
@@ -61,7 +61,7 @@ public:
 
 private:
   // Returns whether the sites are those of the last call.
-  bool Renew(vtkPointSet* sites, Progress& progress);
+  bool UpdateStamp(vtkPointSet* sites, Progress& progress);
 
   vtkSmartPointer<SiteIdArray> Labels;
   DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;

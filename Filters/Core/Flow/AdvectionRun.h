@@ -28,7 +28,7 @@ constexpr int rangeBlocks = 16;
 
 inline void check(const FlowOptions& options)
 {
-  constexpr int maximumSteps = 10000;
+  constexpr int maximumSteps = FlowOptions::MaximumNumberOfSteps;
   if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
   {
     throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +

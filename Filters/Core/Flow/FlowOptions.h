@@ -24,6 +24,8 @@ enum class TableLookup
 
 struct FlowOptions
 {
+  static constexpr int MaximumNumberOfSteps = 10000;
+
   Integrator Method = Integrator::Multistep;
   int NumberOfSteps = 32; // of the fixed-step methods, 1 to 10000
   // Error of a step in grid cells, Adaptive only, > 0; raised to 2^-40 of the domain's longest

@@ -198,6 +198,20 @@ std::int64_t RectifiedFlow<Dimension>::MemorySize() const
   return this->Data->Tables.MemorySize();
 }
 
+// One record for each node of each level, where a level has a fixed share of the nodes of the finer
+// one.
+template <int Dimension>
+double RectifiedFlow<Dimension>::MemoryFor(const GridSize<Dimension>& size)
+{
+  double nodes = 1.0;
+  for (const std::int64_t cells : size)
+  {
+    nodes *= static_cast<double>(cells + 1);
+  }
+  constexpr double levels = 1.0 / (1.0 - 1.0 / (1 << (Dimension * levelShift)));
+  return nodes * levels * TableView<Dimension>::Record * sizeof(double);
+}
+
 template <int Dimension>
 bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 {

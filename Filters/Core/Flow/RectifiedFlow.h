@@ -49,6 +49,8 @@ public:
   double Total() const;              // sum of the density over the cells
   Point<Dimension> Centroid() const; // of the density
   std::int64_t MemorySize() const;   // bytes that the tables hold
+  // About the bytes of the tables of a density, before they are made.
+  static double MemoryFor(const GridSize<Dimension>& size);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
   // The share of the mass in a box.

@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Detection of unchanged data: by modification times, and by a hash of the values where those
 // differ.
-#ifndef RectifiedTransport_Fingerprint_h
-#define RectifiedTransport_Fingerprint_h
-
-#include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/Progress.h"
+#ifndef RectifiedTransport_DataStamp_h
+#define RectifiedTransport_DataStamp_h
 
 #include <cstdint>
 #include <utility>
-#include <vector>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkDataArray;
-VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-class Progress;
-
-// A hash of the bits of the arrays' values, as the work of the current stage; 0 if one is not
-// contiguous in memory. Arrays may be null. Throws Cancelled.
-std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
 // Identifies data by a key, such as the modification times of arrays, by the modification time of
 // their data set, and by a fingerprint. Programs that write into an array often call Modified() of
@@ -35,7 +21,7 @@ public:
   // Whether the key is equal: the data may be the same, in another data set.
   bool IsLike(const Key& key) const { return this->Known && this->Identity == key; }
 
-  // Whether key and time are equal: the data are the same. Where false, Renew compares
+  // Whether key and time are equal: the data are the same. Where false, Update compares
   // fingerprints.
   bool IsOf(const Key& key, std::uint64_t time) const
   {
@@ -46,7 +32,7 @@ public:
   // of the previous call: by time, or by fingerprint where only the time differs. Where print()
   // throws, nothing is stored.
   template <class Print>
-  bool Renew(const Key& key, std::uint64_t time, const Print& print)
+  bool Update(const Key& key, std::uint64_t time, const Print& print)
   {
     const DataStamp previous = std::exchange(*this, DataStamp());
     this->Bits = print();

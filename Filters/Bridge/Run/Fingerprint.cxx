@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Density/Fingerprint.h"
+#include "Bridge/Run/Fingerprint.h"
 
 #include "Core/Parallel/Progress.h"
 

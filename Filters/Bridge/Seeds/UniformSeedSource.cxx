@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Points/UniformSeedSource.h"
+#include "Bridge/Seeds/UniformSeedSource.h"
 
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Points/UnitSeeds.h"
@@ -98,14 +98,8 @@ void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* o
 void UniformSeedSource::Run(Progress& progress, vtkPolyData* output) const
 {
   requireBounds(this->Bounds.data(), this->Dimension);
-  if (this->Dimension == 2)
-  {
-    fillBox<2>(*this, progress, output);
-  }
-  else
-  {
-    fillBox<3>(*this, progress, output);
-  }
+  const auto fill = this->Dimension == 2 ? fillBox<2> : fillBox<3>; // not 1, as the filter checks
+  fill(*this, progress, output);
 }
 
 } // namespace RectifiedTransport
