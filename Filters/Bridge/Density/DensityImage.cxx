@@ -7,6 +7,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -178,12 +179,11 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 double DensityImage::FindWhite(Progress& progress) const
 {
   const std::int64_t cells = this->Geometry.NumberOfCells();
-  std::vector<double> maxima(static_cast<std::size_t>((cells + grain - 1) / grain),
-    -std::numeric_limits<double>::infinity()); // a range may hold several times the grain
-  progress.For(cells, grain, [&](std::int64_t first, std::int64_t last) {
-    maxima[static_cast<std::size_t>(first / grain)] = this->Reader->Maximum(first, last - first);
-  });
-  const double largest = *std::max_element(maxima.begin(), maxima.end());
+  const double largest = reduceChunks(
+    progress, cells, grain, -std::numeric_limits<double>::infinity(),
+    [this](
+      std::int64_t first, std::int64_t last) { return this->Reader->Maximum(first, last - first); },
+    [](double a, double b) { return std::max(a, b); });
   // Without a finite value the construction of the tables reports the error.
   return std::isfinite(largest) ? largest : 0.0;
 }

@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -15,6 +16,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace RectifiedTransport
 {
@@ -88,30 +90,24 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
   return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
-// The mean of particle(i), by sums over fixed chunks, so that it does not depend on the executor.
+// The mean of particle(i).
 template <int D>
 template <class Particle>
 double ParticleSet<D>::MeanOverParticles(Progress& progress, const Particle& particle) const
 {
   const std::int64_t count = this->NumberOfParticles;
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
-  std::vector<double> sums(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  progress.For(count, chunk, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t begin = first; begin < last; begin += chunk)
-    {
+  const double total = reduceChunks(
+    progress, count, chunk, 0.0,
+    [&particle](std::int64_t first, std::int64_t last) {
       double sum = 0.0;
-      for (std::int64_t i = begin; i < std::min(begin + chunk, last); ++i)
+      for (std::int64_t i = first; i < last; ++i)
       {
         sum += particle(i);
       }
-      sums[static_cast<std::size_t>(begin / chunk)] = sum;
-    }
-  });
-  double total = 0.0;
-  for (const double sum : sums)
-  {
-    total += sum;
-  }
+      return sum;
+    },
+    std::plus<>());
   return total / static_cast<double>(count);
 }
 

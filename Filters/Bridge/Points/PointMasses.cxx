@@ -6,6 +6,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -14,11 +15,9 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -37,6 +36,15 @@ struct RangeOfMasses
   std::int64_t First = -1;
 };
 
+RangeOfMasses joinRanges(RangeOfMasses all, const RangeOfMasses& range)
+{
+  all.Sum += range.Sum;
+  all.Sizes += range.Sizes;
+  all.First = all.NotFinite == 0 ? range.First : all.First;
+  all.NotFinite += range.NotFinite;
+  return all;
+}
+
 // Copies values, or 1 each; 0 for ghosts.
 class ReadMasses
 {
@@ -44,7 +52,6 @@ public:
   ReadMasses(const unsigned char* ghosts, double* masses, std::int64_t count)
     : Ghosts(ghosts)
     , Masses(masses)
-    , Ranges(static_cast<std::size_t>((count + grain - 1) / grain))
     , Count(count)
   {
   }
@@ -52,41 +59,35 @@ public:
   template <class ArrayT>
   void operator()(ArrayT* array, Progress& progress)
   {
-    progress.For(this->Count, grain, [this, array](std::int64_t first, std::int64_t last) {
+    this->ReadAll(progress, [this, array](std::int64_t first, std::int64_t last) {
       const auto values = vtk::DataArrayValueRange<1>(array, first, last);
       auto value = values.begin();
-      this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
+      return this->Read(first, last, [&value]() { return static_cast<double>(*value++); });
     });
   }
 
   void ReadOnes(Progress& progress)
   {
-    progress.For(this->Count, grain, [this](std::int64_t first, std::int64_t last) {
-      this->Read(first, last, []() { return 1.0; });
+    this->ReadAll(progress, [this](std::int64_t first, std::int64_t last) {
+      return this->Read(first, last, []() { return 1.0; });
     });
   }
 
-  RangeOfMasses All() const
-  {
-    RangeOfMasses all;
-    for (const RangeOfMasses& range : this->Ranges)
-    {
-      all.Sum += range.Sum;
-      all.Sizes += range.Sizes;
-      all.First = all.NotFinite == 0 ? range.First : all.First;
-      all.NotFinite += range.NotFinite;
-    }
-    return all;
-  }
+  const RangeOfMasses& All() const { return this->Found; }
 
 private:
-  // Ranges may hold several times the grain.
-  template <class Next>
-  void Read(std::int64_t first, std::int64_t last, const Next& next)
+  template <class ReadRange>
+  void ReadAll(Progress& progress, const ReadRange& read)
   {
+    this->Found = reduceChunks(progress, this->Count, grain, RangeOfMasses{}, read, joinRanges);
+  }
+
+  template <class Next>
+  RangeOfMasses Read(std::int64_t first, std::int64_t last, const Next& next) const
+  {
+    RangeOfMasses range;
     for (std::int64_t i = first; i < last; ++i)
     {
-      RangeOfMasses& range = this->Ranges[static_cast<std::size_t>(i / grain)];
       const double value = next();
       const bool isGhost = this->Ghosts && (this->Ghosts[i] & ghostPoint) != 0;
       if (!isGhost && !std::isfinite(value))
@@ -97,12 +98,13 @@ private:
       range.Sum += this->Masses[i];
       range.Sizes += std::abs(this->Masses[i]);
     }
+    return range;
   }
 
   const unsigned char* Ghosts;
   double* Masses;
-  std::vector<RangeOfMasses> Ranges;
   std::int64_t Count;
+  RangeOfMasses Found;
 };
 
 vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const std::string& text)

@@ -4,13 +4,15 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDoubleArray.h"
 
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <sstream>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -101,18 +103,12 @@ double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& p
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const vtkIdType count = cells->GetNumberOfTuples();
   const double* values = cells->GetPointer(0);
-  std::vector<double> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0.0);
-  progress.For(count, grain, [&sums, values](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      sums[static_cast<std::size_t>(i / grain)] += values[i];
-    }
-  });
-  double sum = 0.0;
-  for (const double part : sums)
-  {
-    sum += part;
-  }
+  const double sum = reduceChunks(
+    progress, count, grain, 0.0,
+    [values](std::int64_t first, std::int64_t last) {
+      return std::accumulate(values + first, values + last, 0.0);
+    },
+    std::plus<>());
   return target.DivideByVolume ? sum * target.Geometry.CellMeasure() : sum;
 }
 

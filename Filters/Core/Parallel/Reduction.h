@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums and other reductions over fixed chunks, so that they have the same bits on any number of
+// threads.
+#ifndef RectifiedTransport_Reduction_h
+#define RectifiedTransport_Reduction_h
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Calls kernel(first, last), which returns a Part, once for each chunk of `grain` of [0, count), on
+// the progress's threads as the work of its current stage, and returns
+// combine(combine(nothing, part), part)... of the parts in the order of the chunks, `nothing` where
+// there are none. Memory: a Part a chunk. Throws std::bad_alloc, Cancelled, and what the kernel
+// throws.
+template <class Part, class Kernel, class Combine>
+Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, const Part& nothing,
+  const Kernel& kernel, const Combine& combine)
+{
+  static_assert(!std::is_same_v<Part, bool>, "threads write to bits of one word");
+  std::vector<Part> parts(static_cast<std::size_t>((count + grain - 1) / grain), nothing);
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    // Ranges may hold several times the grain.
+    for (std::int64_t begin = first; begin < last; begin += grain)
+    {
+      parts[static_cast<std::size_t>(begin / grain)] = kernel(begin, std::min(begin + grain, last));
+    }
+  });
+  Part all = nothing;
+  for (const Part& part : parts)
+  {
+    all = combine(all, part);
+  }
+  return all;
+}
+
+} // namespace RectifiedTransport
+
+#endif
