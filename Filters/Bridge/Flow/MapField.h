@@ -49,11 +49,9 @@ public:
 
 private:
   void WriteDerivatives(Progress& progress, vtkDataSetAttributes* output);
-  double WriteDisplacement(const RectifiedFlow<D>* flow, Progress& progress);
 
   const ImageGrid& Geometry;
   GridSize<D> Lattice;
-  GridSize<D> Size;
   std::int64_t NumberOfSamples;
   vtkSmartPointer<vtkDoubleArray> Displacement;
   LargeBuffer<double> PositionBuffer;

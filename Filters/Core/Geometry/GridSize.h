@@ -38,6 +38,18 @@ double numberOfCells(const GridSize<Dimension>& size)
   return count;
 }
 
+// The sides of a cell of a lattice that fills the box [0, size].
+template <int Dimension>
+Point<Dimension> latticeStep(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size)
+{
+  Point<Dimension> step;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    step[axis] = static_cast<double>(size[axis]) / static_cast<double>(lattice[axis]);
+  }
+  return step;
+}
+
 // All digits of a count.
 inline std::string describeCount(double count)
 {
