@@ -53,7 +53,7 @@ SURVIVED = [
     E(CORE + "Solid/SurfaceOrientation.cxx", "area += this->Orientations.data()[queue[next]] * «this->AreaOf(queue[next])»",
       "1.0"),
     S(BRIDGE + "Blend/DensityBlend.cxx", "array->Modified();", ";"),
-    E(BRIDGE + "Blend/LinearizedMap.cxx", "«moved» +=", "moved = 0"),
+    E(CORE + "Flow/PivotLattice.cxx", "«report.MovedToMass» +=", "report.MovedToMass = 0"),
     E(BRIDGE + "Image/CommonGrid.cxx", "planeTolerance * longest", "1e3 * planeTolerance * longest"),
     E(BRIDGE + "Image/CommonGrid.cxx", "cwiseAbs().array() <= «rounding»", "1e-3"),
     S(BRIDGE + "Points/PointMasses.cxx", "all.First = all.NotFinite == 0 ? range.First : all.First;",

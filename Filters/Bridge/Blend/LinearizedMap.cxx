@@ -73,37 +73,27 @@ std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, dou
   constexpr double partOfConversion = 0.02;
   GridSize<D> grid;
   std::copy_n(this->Settings.Grid.begin(), D, grid.begin());
-  const PivotLattice<D> samples = pivotLattice<D>(grid, this->Settings.PerCell);
-  const auto each = static_cast<std::int64_t>(numberOfCells<D>(samples.Lattice));
-  const auto places = static_cast<std::int64_t>(samples.Places.size());
-  auto physical = newArray<vtkDoubleArray>("Positions", 3, each * places);
+  const PivotLattice<D> pivot = pivotLattice<D>(grid, this->Settings.PerCell);
+  const std::int64_t particles = pivot.NumberOfParticles();
+  auto physical = newArray<vtkDoubleArray>("Positions", 3, particles);
   LargeBuffer<double> buffer;
   double* positions = physical->GetPointer(0);
   if constexpr (D != 3)
   {
-    const std::int64_t numbers = each * places * D;
+    const std::int64_t numbers = particles * D;
     withMemory("the particles", static_cast<double>(numbers) * sizeof(double),
       [&]() { buffer = LargeBuffer<double>(numbers); });
     positions = buffer.data();
   }
 
-  std::int64_t moved = 0;
   const double begin = progress.StageEnd();
-  const double flowing = (1.0 - partOfConversion) * (end - begin);
-  for (std::int64_t place = 0; place < places; ++place)
-  {
-    progress.BeginStage(
-      begin + flowing * static_cast<double>(place + 1) / static_cast<double>(places));
-    moved +=
-      flow.Flow<D>()
-        .ForwardLattice(samples.Lattice, { positions + place * each * D, each },
-          this->Settings.Options, progress.Stage(), samples.Places[static_cast<std::size_t>(place)])
-        .MovedToMass;
-  }
+  progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
+  const FlowReport report = transportPivot<D>(
+    flow.Flow<D>(), pivot, { positions, particles }, this->Settings.Options, progress.Stage());
   progress.BeginStage(end);
-  toPhysical<D>(this->Geometry, positions, each * places, progress, physical->GetPointer(0));
+  toPhysical<D>(this->Geometry, positions, particles, progress, physical->GetPointer(0));
   this->Kept = physical;
-  return moved;
+  return report.MovedToMass;
 }
 
 } // namespace RectifiedTransport

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/PivotLattice.h"
 
+#include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
+
+#include <stdexcept>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -75,8 +80,42 @@ PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64
   return samples;
 }
 
+template <int Dimension>
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
+  const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context)
+{
+  const std::int64_t particles = pivot.NumberOfParticles();
+  if (positions.size() != particles)
+  {
+    throw std::invalid_argument("there is memory for " + std::to_string(positions.size()) +
+      " positions, but the pivot has " + std::to_string(particles) + " particles");
+  }
+  const auto places = static_cast<std::int64_t>(pivot.Places.size());
+  const std::int64_t each = places > 0 ? particles / places : 0;
+  Progress progress(context);
+  FlowReport report;
+  for (std::int64_t place = 0; place < places; ++place)
+  {
+    progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
+    const FlowReport part = flow.ForwardLattice(pivot.Lattice, positions.Part(place * each, each),
+      options, progress.Stage(), pivot.Places[static_cast<std::size_t>(place)]);
+    report.Redone += part.Redone;
+    report.MovedToMass += part.MovedToMass;
+    report.Evaluations += part.Evaluations;
+  }
+  return report;
+}
+
 template PivotLattice<1> pivotLattice<1>(const GridSize<1>&, std::int64_t);
 template PivotLattice<2> pivotLattice<2>(const GridSize<2>&, std::int64_t);
 template PivotLattice<3> pivotLattice<3>(const GridSize<3>&, std::int64_t);
+
+template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, PointSpan<1>,
+  const FlowOptions&, const Context&);
+template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, PointSpan<2>,
+  const FlowOptions&, const Context&);
+template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, PointSpan<3>,
+  const FlowOptions&, const Context&);
 
 } // namespace RectifiedTransport

@@ -4,6 +4,8 @@
 #ifndef RectifiedTransport_PivotLattice_h
 #define RectifiedTransport_PivotLattice_h
 
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
@@ -12,6 +14,9 @@
 namespace RectifiedTransport
 {
 
+template <int Dimension>
+class RectifiedFlow;
+
 // One particle at each place, in [0, 1], in each cell of a lattice. They are numbered place by
 // place, within one over the cells with axis 0 fastest.
 template <int Dimension>
@@ -19,6 +24,12 @@ struct PivotLattice
 {
   GridSize<Dimension> Lattice;
   std::vector<Point<Dimension>> Places;
+
+  std::int64_t NumberOfParticles() const
+  {
+    return static_cast<std::int64_t>(numberOfCells<Dimension>(this->Lattice)) *
+      static_cast<std::int64_t>(this->Places.size());
+  }
 };
 
 // `perCell` particles, at least 1, in each cell of a grid. Where that is a Dimension-th power they
@@ -26,6 +37,13 @@ struct PivotLattice
 // mean at the centre.
 template <int Dimension>
 PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64_t perCell);
+
+// Advects the particles of the pivot, on the box of a density, to the density; the positions are in
+// the order of the particles. Throws std::invalid_argument, std::bad_alloc and Cancelled.
+template <int Dimension>
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
+  const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
+  const FlowOptions& options = {}, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

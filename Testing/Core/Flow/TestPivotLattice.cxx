@@ -3,6 +3,7 @@
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/PivotLattice.h"
 #include "TestFlow.h"
+#include "TestRefusal.h"
 
 #include <gtest/gtest.h>
 
@@ -167,30 +168,28 @@ TEST(PivotLattice, EvenPlaces)
   expectEvenPlaces<3>(0.4);
 }
 
-// A lattice at another place is the flow of its points, in any order.
+// The flow of the pivot is that of its points, in any order.
 template <int Dimension>
 void expectFlowOfPlaces(const TestDensity<Dimension>& density, const GridSize<Dimension>& grid)
 {
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const SerialExecutor serial;
-  const PivotLattice<Dimension> samples = pivotLattice<Dimension>(grid, 3);
-  const Points<Dimension> points = pointsOf<Dimension>(samples, density.Size);
-  const std::int64_t each = cellCount<Dimension>(samples.Lattice);
+  const PivotLattice<Dimension> pivot = pivotLattice<Dimension>(grid, 3);
+  const Points<Dimension> points = pointsOf<Dimension>(pivot, density.Size);
+  ASSERT_EQ(static_cast<std::int64_t>(points.size()), pivot.NumberOfParticles());
   for (const Integrator method : AllIntegrators)
   {
     const FlowOptions options = steps(12, method);
     Points<Dimension> threaded(points.size());
     Points<Dimension> alone(points.size());
-    for (std::size_t place = 0; place < samples.Places.size(); ++place)
-    {
-      const auto first = static_cast<std::int64_t>(place) * each;
-      flow.ForwardLattice(samples.Lattice, PointSpan<Dimension>(threaded).Part(first, each),
-        options, Context(), samples.Places[place]);
-      flow.ForwardLattice(samples.Lattice, PointSpan<Dimension>(alone).Part(first, each), options,
-        serial, samples.Places[place]);
-    }
-    EXPECT_TRUE(sameBits<Dimension>(threaded, runForward(flow, points, options))) << nameOf(method);
+    Points<Dimension> others(points.size());
+    const FlowReport report = transportPivot<Dimension>(flow, pivot, threaded, options);
+    transportPivot<Dimension>(flow, pivot, alone, options, serial);
+    const FlowReport expected = flow.Forward(points, others, options);
+    EXPECT_TRUE(sameBits<Dimension>(threaded, others)) << nameOf(method);
     EXPECT_TRUE(sameBits<Dimension>(alone, threaded)) << nameOf(method);
+    EXPECT_EQ(report.Redone, expected.Redone) << nameOf(method);
+    EXPECT_EQ(report.MovedToMass, expected.MovedToMass) << nameOf(method);
   }
 }
 
@@ -200,6 +199,59 @@ TEST(PivotLattice, FlowIsThatOfThePoints)
   expectFlowOfPlaces<2>(twoGaussians<2>({ 90, 70 }), { 90, 70 });
   expectFlowOfPlaces<2>(discWithHole<2>({ 64, 64 }), { 33, 70 });
   expectFlowOfPlaces<3>(twoGaussians<3>({ 22, 18, 25 }), { 21, 7, 12 });
+}
+
+// What all places report together: in a density of few cells some particles of each are put on
+// mass.
+TEST(PivotLattice, ReportsOfAllPlaces)
+{
+  TestDensity<2> density{ { 40, 40 }, std::vector<double>(1600, 0.0) };
+  density.Values[3 * 40 + 5] = density.Values[33 * 40 + 31] = 1.0;
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const PivotLattice<2> pivot = pivotLattice<2>(density.Size, 3);
+  const std::int64_t each = cellCount<2>(pivot.Lattice);
+  Points<2> positions(static_cast<std::size_t>(3 * each));
+  const FlowOptions few = steps(2, Integrator::Euler);
+  FlowReport sum;
+  for (std::int64_t place = 0; place < 3; ++place)
+  {
+    const FlowReport part =
+      flow.ForwardLattice(pivot.Lattice, PointSpan<2>(positions).Part(place * each, each), few,
+        Context(), pivot.Places[static_cast<std::size_t>(place)]);
+    EXPECT_GT(part.MovedToMass, 0);
+    sum.Redone += part.Redone;
+    sum.MovedToMass += part.MovedToMass;
+    sum.Evaluations += part.Evaluations;
+  }
+  const FlowReport report = transportPivot<2>(flow, pivot, positions, few);
+  EXPECT_EQ(report.Redone, sum.Redone);
+  EXPECT_EQ(report.MovedToMass, sum.MovedToMass);
+  EXPECT_EQ(report.Evaluations, sum.Evaluations);
+}
+
+TEST(PivotLattice, ProgressCancelAndSizes)
+{
+  const RectifiedFlow<2> flow = makeFlow(twoGaussians<2>({ 120, 90 }));
+  const PivotLattice<2> pivot = pivotLattice<2>({ 120, 90 }, 3);
+  Points<2> positions(static_cast<std::size_t>(pivot.NumberOfParticles()));
+  std::vector<double> heard;
+  double limit = 2.0;
+  const SerialExecutor serial;
+  const Context context(
+    serial, [&heard](double done) { heard.push_back(done); },
+    [&]() { return !heard.empty() && heard.back() >= limit; });
+  transportPivot<2>(flow, pivot, positions, {}, context);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_EQ(heard.back(), 1.0);
+  for (const double from : { 0.0, 0.5, 0.9 })
+  {
+    heard.clear();
+    limit = from;
+    EXPECT_THROW(transportPivot<2>(flow, pivot, positions, {}, context), Cancelled) << from;
+  }
+  positions.pop_back();
+  EXPECT_EQ(refusal([&]() { transportPivot<2>(flow, pivot, positions); }),
+    "there is memory for 32399 positions, but the pivot has 32400 particles");
 }
 
 } // namespace
