@@ -4,10 +4,10 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Flow/TransportSampler.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/SeedPatternTexts.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkUniformSeedSource.h"
 
-#include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Seeds/UniformSeedSource.h"
+#include "Bridge/Settings/SeedPatternTexts.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

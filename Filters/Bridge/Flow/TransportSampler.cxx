@@ -5,10 +5,10 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
-#include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
@@ -44,6 +44,7 @@ std::vector<double> timesOf(const TransportSampler& sampler)
 template <int D>
 UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
 {
+  const auto randomSeed = static_cast<std::uint64_t>(sampler.RandomSeed);
   if (sampler.UsesGrid())
   {
     GridSize<D> cells = grid.Size<D>();
@@ -51,10 +52,9 @@ UnitSeeds<D> patternOf(const TransportSampler& sampler, const ImageGrid& grid)
     {
       count *= sampler.SamplesPerCell;
     }
-    return UnitSeeds<D>(sampler.Pattern, cells, sampler.RandomSeed);
+    return UnitSeeds<D>(sampler.Pattern, cells, randomSeed);
   }
-  return UnitSeeds<D>(
-    sampler.Pattern, grid.Lengths<D>(), sampler.NumberOfParticles, sampler.RandomSeed);
+  return UnitSeeds<D>(sampler.Pattern, grid.Lengths<D>(), sampler.NumberOfParticles, randomSeed);
 }
 
 std::string describeParticles(double count, bool paths)

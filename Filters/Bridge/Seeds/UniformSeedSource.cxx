@@ -2,11 +2,11 @@
 #include "Bridge/Seeds/UniformSeedSource.h"
 
 #include "Bridge/Points/ParticleCells.h"
-#include "Bridge/Points/UnitSeeds.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -52,7 +52,8 @@ void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* o
   {
     lengths[a] = bounds[2 * a + 1] - bounds[2 * a];
   }
-  const UnitSeeds<D> seeds(source.Pattern, lengths, source.NumberOfPoints, source.RandomSeed);
+  const UnitSeeds<D> seeds(
+    source.Pattern, lengths, source.NumberOfPoints, static_cast<std::uint64_t>(source.RandomSeed));
   constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
   const std::string purpose = "the points (see NumberOfPoints)";
   requireMemory(purpose, seeds.Count() * bytesPerPoint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The seeds of a pattern property, in the unit box.
+// The seeds of any pattern: how many there will be, so that memory can be provided, then the seeds.
 #ifndef RectifiedTransport_UnitSeeds_h
 #define RectifiedTransport_UnitSeeds_h
 
@@ -10,27 +10,26 @@
 namespace RectifiedTransport
 {
 
-constexpr const char* SeedPatternTexts[] = { "BlueNoise", "Lattice", "Jittered", "LowDiscrepancy",
-  "Random" };
-
-template <int D>
+// Points of the unit box. Throws std::invalid_argument as the functions of Seeds.h do.
+template <int Dimension>
 class UnitSeeds
 {
 public:
   // `count` seeds for a box with sides `lengths`; Lattice: the nearest number of a grid.
-  UnitSeeds(SeedPattern pattern, const Point<D>& lengths, std::int64_t count, int randomSeed);
-  // A grid of seeds for Lattice and Jittered.
-  UnitSeeds(SeedPattern pattern, const GridSize<D>& grid, int randomSeed);
+  UnitSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+    std::uint64_t randomSeed);
+  // A seed in each cell of a grid, for Lattice and Jittered.
+  UnitSeeds(SeedPattern pattern, const GridSize<Dimension>& grid, std::uint64_t randomSeed);
 
   // How many there are. Not an integer, because it may exceed every integer.
   double Count() const { return this->Number; }
   // Makes Count() points. Throws std::bad_alloc and Cancelled.
-  void Generate(PointSpan<D> points, const Context& context) const;
+  void Generate(PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
 
 private:
   SeedPattern Pattern;
-  Point<D> Lengths{};
-  GridSize<D> Grid{};
+  Point<Dimension> Lengths{};
+  GridSize<Dimension> Grid{};
   bool OnGrid;
   std::uint64_t RandomSeed;
   double Number;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each pattern by one class: the count, then the points of the pattern's own function.
+#include "Core/Seeds/UnitSeeds.h"
+#include "TestRefusal.h"
+#include "TestSeeds.h"
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+std::vector<double> generate(const UnitSeeds<Dimension>& seeds)
+{
+  const auto count = static_cast<std::int64_t>(seeds.Count());
+  std::vector<double> points(count * Dimension);
+  seeds.Generate({ points.data(), count });
+  return points;
+}
+
+template <int Dimension>
+void expectPatterns(const Point<Dimension>& lengths, const GridSize<Dimension>& grid)
+{
+  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
+         SeedPattern::LowDiscrepancy, SeedPattern::Random })
+  {
+    const UnitSeeds<Dimension> scattered(pattern, lengths, 1000, 5);
+    EXPECT_EQ(scattered.Count(), 1000.0);
+    EXPECT_EQ(generate(scattered), seeds<Dimension>(pattern, lengths, 1000, 5));
+  }
+  // A lattice has the number of its grid.
+  const GridSize<Dimension> nearest = latticeSize<Dimension>(lengths, 1000);
+  const UnitSeeds<Dimension> lattice(SeedPattern::Lattice, lengths, 1000, 5);
+  EXPECT_EQ(lattice.Count(), numberOfCells<Dimension>(nearest));
+  std::vector<double> expected(static_cast<std::size_t>(lattice.Count()) * Dimension);
+  generateLattice<Dimension>(
+    nearest, { expected.data(), static_cast<std::int64_t>(lattice.Count()) });
+  EXPECT_EQ(generate(lattice), expected);
+
+  const auto cells = static_cast<std::int64_t>(numberOfCells<Dimension>(grid));
+  expected.resize(static_cast<std::size_t>(cells * Dimension));
+  generateLattice<Dimension>(grid, { expected.data(), cells });
+  EXPECT_EQ(generate(UnitSeeds<Dimension>(SeedPattern::Lattice, grid, 5)), expected);
+  generateJitteredLattice<Dimension>(grid, 5, { expected.data(), cells });
+  EXPECT_EQ(generate(UnitSeeds<Dimension>(SeedPattern::Jittered, grid, 5)), expected);
+}
+
+TEST(UnitSeeds, ArePatterns)
+{
+  expectPatterns<1>({ 3.0 }, { 70 });
+  expectPatterns<2>({ 4.0, 3.0 }, { 12, 7 });
+  expectPatterns<3>({ 1.0, 5.0, 2.0 }, { 3, 5, 4 });
+}
+
+TEST(UnitSeeds, CountsPastIntegers)
+{
+  const std::int64_t side = std::int64_t{ 1 } << 40;
+  EXPECT_EQ(UnitSeeds<3>(SeedPattern::Jittered, { side, side, side }, 1).Count(), 0x1p120);
+}
+
+TEST(UnitSeeds, Refused)
+{
+  EXPECT_EQ(refusal([]() {
+    UnitSeeds<2>(SeedPattern::BlueNoise, { 4, 4 }, 1);
+  }),
+    "seeds in each cell of a grid are of the pattern Lattice or Jittered");
+  const UnitSeeds<2> seeds(SeedPattern::Random, { 1.0, 1.0 }, 10, 1);
+  std::vector<Point<2>> points(9);
+  EXPECT_EQ(
+    refusal([&]() { seeds.Generate(points); }), "there is memory for 9 seeds, there must be 10");
+}
+
+} // namespace
+} // namespace RectifiedTransport
