@@ -103,6 +103,7 @@ OTHERS = [
     E(CORE + "SiteCells/BorderMaxFlow.cxx", "this->Capacity(from.Border, «-from.Sign») > 0", "from.Sign"),
     E(CORE + "SiteCells/SiteDensity.cxx", "«*next < first + count»", "*next <= first + count - 2"),
     E(CORE + "Solid/SolidCoverage.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
+    E(CORE + "Solid/ClosedMesh.cxx", "if («a != b && b != c && c != a»)", "true"),
     E(CORE + "Solid/SurfaceEdges.cxx", "«endsOf(triangles, *begin).High == high»",
       "endsOf(triangles, *begin).High >= high"),
     E(CORE + "Tables/BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",

@@ -5,8 +5,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/ImageGrid.h"
-#include "Core/Solid/MergePoints.h"
-#include "Core/Solid/SurfaceOrientation.h"
+#include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkBoundingBox.h"
@@ -22,6 +21,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -137,7 +137,7 @@ vtkSmartPointer<vtkCellArray> triangulate(
 // The polygons without consecutive corners of equal coordinates, as at the poles of a sphere of
 // quads; those of fewer than three remaining corners are dropped.
 vtkSmartPointer<vtkCellArray> mergeCorners(
-  vtkCellArray* polygons, const std::int64_t* firsts, Progress& progress)
+  vtkCellArray* polygons, const ClosedMesh& mesh, Progress& progress)
 {
   const vtkIdType cells = polygons->GetNumberOfCells();
   const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
@@ -155,7 +155,7 @@ vtkSmartPointer<vtkCellArray> mergeCorners(
         vtkIdType kept = 0;
         for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
         {
-          const vtkIdType corner = firsts[corners->GetId(i)];
+          const vtkIdType corner = mesh.FirstOf(corners->GetId(i));
           if (kept == 0 || corner != corners->GetId(kept - 1))
           {
             corners->SetId(kept++, corner);
@@ -209,9 +209,10 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   const double begin = progress.StageEnd();
   const auto stage = [&progress, begin, end](
                        double part) { progress.BeginStage(begin + part * (end - begin)); };
+  LargeBuffer<double> coordinates;
   withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
-    this->Points = LargeBuffer<double>(3 * this->NumberOfPoints);
-    double* copy = this->Points.data();
+    coordinates = LargeBuffer<double>(3 * this->NumberOfPoints);
+    double* copy = coordinates.data();
     stage(0.1);
     visitPoints(input, "input surface", progress,
       [copy](std::int64_t i, const double* x) { std::copy_n(x, 3, copy + 3 * i); });
@@ -227,57 +228,44 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   requireIds(polygons, this->NumberOfPoints);
   requireIds(strips, this->NumberOfPoints);
   stage(0.25);
-  LargeBuffer<std::int64_t> firsts; // for each point the first one of equal coordinates
   withMemory("the table of the surface's " + points,
-    static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t), [&]() {
-      firsts = LargeBuffer<std::int64_t>(this->NumberOfPoints);
-      mergePoints({ this->Points.data(), this->NumberOfPoints }, firsts.data(), progress.Stage());
-    });
+    static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
+    [&]() { this->Mesh.emplace(std::move(coordinates), progress.Stage()); });
   vtkSmartPointer<vtkCellArray> triangles = polygons;
   if (strips->GetNumberOfCells() > 0 || polygons->IsHomogeneous() != 3)
   {
     stage(0.3);
-    triangles = mergeCorners(polygons, firsts.data(), progress);
+    triangles = mergeCorners(polygons, *this->Mesh, progress);
     stage(0.4);
     triangles = triangulate(input->GetPoints(), triangles, strips, progress);
   }
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
       stage(0.6);
-      this->ReadTriangles(triangles, firsts.data(), progress);
-      firsts = {};
+      this->ReadTriangles(triangles, progress);
       stage(1.0);
-      this->Edges = std::make_unique<SurfaceEdges>(this->Surface(), progress.Stage());
+      this->Mesh->CountEdges(progress.Stage());
     });
   this->RequireClosed();
 }
 
-// Triangles with two corners at one point are dropped: their other two sides are then one edge.
-void ClosedSurface::ReadTriangles(
-  vtkCellArray* triangles, const std::int64_t* firsts, Progress& progress)
+void ClosedSurface::ReadTriangles(vtkCellArray* triangles, Progress& progress)
 {
   const std::int64_t count = triangles->GetNumberOfCells();
-  this->Triangles = LargeBuffer<std::int64_t>(3 * count);
+  this->Mesh->Reserve(count);
   visitIds(triangles, [&](const auto& ids) {
     progress.ForInOrder(
       count, Grain,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t side = 3 * first; side < 3 * last; side += 3)
         {
-          std::int64_t corners[3];
-          for (int i = 0; i < 3; ++i)
-          {
-            corners[i] = firsts[static_cast<std::int64_t>(ids[side + i])];
-          }
-          if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
-          {
-            std::copy_n(corners, 3, this->Triangles.data() + 3 * this->Count++);
-          }
+          this->Mesh->Add({ static_cast<std::int64_t>(ids[side]),
+            static_cast<std::int64_t>(ids[side + 1]), static_cast<std::int64_t>(ids[side + 2]) });
         }
       },
       Slow);
   });
-  if (this->Count == 0)
+  if (this->Mesh->Surface().NumberOfTriangles == 0)
   {
     throw Failure("The input surface has " + std::to_string(this->NumberOfPoints) +
       " points and no polygon of three different ones; a solid needs a closed surface");
@@ -286,10 +274,10 @@ void ClosedSurface::ReadTriangles(
 
 void ClosedSurface::RequireClosed() const
 {
-  const std::int64_t open = this->Edges->Open();
-  const std::int64_t nonManifold = this->Edges->NonManifold();
-  if (open > 0 || nonManifold > 0)
+  if (!this->Mesh->IsClosed())
   {
+    const std::int64_t open = this->Mesh->OpenEdges();
+    const std::int64_t nonManifold = this->Mesh->NonManifoldEdges();
     std::ostringstream message;
     message << "The input surface is not closed: it has " << open
             << (open == 1 ? " open edge" : " open edges") << " and " << nonManifold
@@ -299,14 +287,9 @@ void ClosedSurface::RequireClosed() const
   }
 }
 
-TriangleSurface ClosedSurface::Surface() const
-{
-  return { { this->Points.data(), this->NumberOfPoints }, this->Triangles.data(), this->Count };
-}
-
 TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
 {
-  double* points = this->Points.data();
+  double* points = this->Mesh->Points().data();
   const double spacing = grid.Spacing()[0];
   const Eigen::Vector3d corner = grid.Origin();
   progress.BeginStage(0.5 * (progress.StageEnd() + end));
@@ -322,22 +305,16 @@ TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress
     }
   });
   progress.BeginStage(end);
-  if (this->Edges->Reversed() > 0 && !this->Orient(progress))
+  const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
+  const bool oriented = withMemory("the orientation of the surface's triangles",
+    static_cast<double>(triangles) * (sizeof(std::int64_t) + 1),
+    [&]() { return this->Mesh->Orient(progress.Stage()); });
+  if (!oriented)
   {
     throw Failure("The input surface is not orientable: it has one side only, as a Klein bottle; "
                   "a solid needs a surface with an inside");
   }
-  this->Edges.reset();
-  return this->Surface();
-}
-
-bool ClosedSurface::Orient(Progress& progress)
-{
-  return withMemory("the orientation of the surface's triangles",
-    static_cast<double>(this->Count) * (sizeof(std::int64_t) + 1), [&]() {
-      return orientSurface({ this->Points.data(), this->NumberOfPoints }, this->Triangles.data(),
-        this->Count, *this->Edges, progress.Stage());
-    });
+  return this->Mesh->Surface();
 }
 
 } // namespace RectifiedTransport

@@ -4,13 +4,12 @@
 #define RectifiedTransport_ClosedSurface_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Solid/SurfaceEdges.h"
+#include "Core/Solid/ClosedMesh.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
@@ -41,16 +40,11 @@ public:
   TriangleSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:
-  void ReadTriangles(vtkCellArray* triangles, const std::int64_t* firsts, Progress& progress);
+  void ReadTriangles(vtkCellArray* triangles, Progress& progress);
   void RequireClosed() const;
-  bool Orient(Progress& progress);
-  TriangleSurface Surface() const;
 
-  LargeBuffer<double> Points;
-  LargeBuffer<std::int64_t> Triangles;
   std::int64_t NumberOfPoints;
-  std::int64_t Count = 0; // of triangles
-  std::unique_ptr<SurfaceEdges> Edges;
+  std::optional<ClosedMesh> Mesh;
 };
 
 } // namespace RectifiedTransport

@@ -16,7 +16,7 @@ namespace RectifiedTransport
 struct CoverageReport
 {
   // Lines that leave the solid another number of times than they enter it; none if every edge has
-  // two triangles of opposite directions along it.
+  // two triangles of opposite directions along it, as in an oriented ClosedMesh.
   std::int64_t OpenLines = 0;
 };
 
