@@ -7,7 +7,6 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Tables/TableView.h"
 
 #include <cmath>
 #include <map>
