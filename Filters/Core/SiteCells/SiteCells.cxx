@@ -86,9 +86,12 @@ template <int Dimension>
 std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
   const FlowOptions& options, const Context& context)
 {
-  const SiteCells<Dimension> cells(sites, grid);
+  Progress progress(context);
+  progress.BeginStage(0.02);
+  const SiteCells<Dimension> cells(sites, grid, progress.Stage());
   std::vector<std::int64_t> labels(static_cast<std::size_t>(grid.NumberOfCells()));
-  cells.Label(labels.data(), options, context);
+  progress.BeginStage(1.0);
+  cells.Label(labels.data(), options, progress.Stage());
   return labels;
 }
 

@@ -54,7 +54,7 @@ private:
   std::int64_t Outside = 0;
 };
 
-// One-off: the labels alone.
+// One-off: the labels alone. Throws what the constructor and Label throw.
 template <int Dimension>
 std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
   const FlowOptions& options = {}, const Context& context = Context());

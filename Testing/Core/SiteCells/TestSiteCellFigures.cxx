@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -108,6 +109,51 @@ TEST(SiteCellFigures, AnyNumberOfSites)
   const Figures serial = measure<3>(cells, labels, {}, SerialExecutor());
   EXPECT_EQ(figures.Total, serial.Total);
   EXPECT_EQ(figures.Centroid, serial.Centroid);
+}
+
+// Runs on the caller's thread and keeps the length of each loop that it is given.
+class RecordingExecutor final : public Executor
+{
+public:
+  void For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const override
+  {
+    this->Lengths.push_back(count);
+    SerialExecutor().For(count, grain, kernel);
+  }
+  int Concurrency() const override { return 1; }
+
+  mutable std::vector<std::int64_t> Lengths;
+};
+
+// A one-off is the constructor and Label, with the caller's executor and progress in both: the
+// first loop is the constructor's, over the sites.
+TEST(SiteCellFigures, OneOffKeepsTheContext)
+{
+  const auto grid = makeGrid<2>({ 40, 30 }, { 1.0, 1.0, 1.0 });
+  const Points<3> sites = { { 4.0, 3.0, 0.0 }, { 30.0, 20.0, 0.0 }, { 7.0, 25.0, 0.0 } };
+  const RecordingExecutor threads;
+  std::vector<double> heard;
+  const Context context(threads, [&heard](double progress) { heard.push_back(progress); });
+  const Labels labels = labelSiteCells<2>(sites, grid, {}, context);
+  ASSERT_GT(threads.Lengths.size(), 1u);
+  EXPECT_EQ(threads.Lengths.front(), 3);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_LT(heard.front(), 0.1);
+  EXPECT_GT(heard.back(), 0.9);
+
+  Labels expected(1200);
+  SiteCells<2>(sites, grid).Label(expected.data());
+  EXPECT_EQ(labels, expected);
+}
+
+TEST(SiteCellFigures, OneOffIsCancelledWhilePlacing)
+{
+  const auto grid = makeGrid<2>({ 40, 30 }, { 1.0, 1.0, 1.0 });
+  const Points<3> sites = { { 4.0, 3.0, 0.0 }, { 30.0, 20.0, 0.0 } };
+  const RecordingExecutor threads;
+  const Context context(threads, {}, []() { return true; });
+  EXPECT_THROW(labelSiteCells<2>(sites, grid, {}, context), Cancelled);
+  EXPECT_EQ(threads.Lengths, std::vector<std::int64_t>{ 2 });
 }
 
 TEST(SiteCellFigures, WhatIsWrong)
