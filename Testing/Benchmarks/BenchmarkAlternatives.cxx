@@ -205,9 +205,8 @@ void orientOurs(benchmark::State& state)
   const SurfaceEdges edges(surface.Get(), SerialExecutor());
   for (auto _ : state)
   {
-    std::vector<std::int64_t> triangles = surface.Triangles;
-    orientSurface(surface.Get().Points, triangles.data(), surface.Get().NumberOfTriangles, edges,
-      SerialExecutor());
+    std::vector<std::int64_t> triangles(surface.Triangles.size());
+    orientSurface(surface.Get(), edges, triangles.data(), SerialExecutor());
   }
 }
 

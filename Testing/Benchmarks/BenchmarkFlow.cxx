@@ -86,7 +86,7 @@ void sortParticles(benchmark::State& state)
   ParticleOrder<Dimension> order;
   for (auto _ : state)
   {
-    order.Sort(particles.data()->data(), 0, state.range(0), 64);
+    order.Sort(particles, 0, state.range(0), 64);
     benchmark::DoNotOptimize(order.Order());
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

@@ -75,7 +75,7 @@ void sortedOrder(benchmark::State& state)
     ParticleOrder<Dimension> order;
     for (std::int64_t first = 0; first < count; first += chunk)
     {
-      order.Sort(seeds.data()->data(), first, std::min(chunk, count - first), 8);
+      order.Sort(seeds, first, std::min(chunk, count - first), 8);
       benchmark::DoNotOptimize(order.Order());
     }
   }

@@ -124,7 +124,7 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
 
   progress.BeginStage(1.0);
   reuseOrMake(this->Density, "Density", 1, geometry.NumberOfCells());
-  splatPoints(this->Means->GetPointer(0), count, massEach, target, progress, this->Density);
+  splatPoints({ this->Means->GetPointer(0), count }, massEach, target, progress, this->Density);
   output.Density->GetAttributes(geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(this->Density);
   addFieldValue(output.Density, "TotalMass", mass);
@@ -207,15 +207,16 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
   std::vector<WeightedPositions> parts;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
-    parts.push_back({ this->Maps[i].Positions()->GetPointer(0), inputs[i].Weight });
+    vtkDoubleArray* positions = this->Maps[i].Positions();
+    parts.push_back(
+      { { positions->GetPointer(0), positions->GetNumberOfTuples() }, inputs[i].Weight });
   }
   const std::int64_t count = this->Maps.front().Positions()->GetNumberOfTuples();
   reuseOrMake(this->Means, "Points", 3, count);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  double* means = this->Means->GetPointer(0);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    writeWeightedMean(parts, 3 * first, 3 * last, means);
-  });
+  const PointSpan<3> means(this->Means->GetPointer(0), count);
+  progress.For(count, grain,
+    [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
 }
 
 double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const

@@ -22,16 +22,16 @@ namespace
 
 // From index to physical coordinates, which in 3D share memory.
 template <int D>
-void toPhysical(const ImageGrid& geometry, const double* positions, std::int64_t count,
-  Progress& progress, double* physical)
+void toPhysical(
+  const ImageGrid& geometry, ConstPointSpan<D> positions, Progress& progress, PointSpan<3> physical)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+  progress.For(positions.size(), grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       double index[D];
-      std::copy_n(positions + i * D, D, index);
-      geometry.ToPhysical<D>(index, physical + i * 3);
+      std::copy_n(positions[i], D, index);
+      geometry.ToPhysical<D>(index, physical[i]);
     }
   });
 }
@@ -91,7 +91,8 @@ std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, dou
   const FlowReport report = transportPivot<D>(
     flow.Flow<D>(), pivot, { positions, particles }, this->Settings.Options, progress.Stage());
   progress.BeginStage(end);
-  toPhysical<D>(this->Geometry, positions, particles, progress, physical->GetPointer(0));
+  toPhysical<D>(this->Geometry, { positions, particles }, progress,
+    { physical->GetPointer(0), particles });
   this->Kept = physical;
   return report.MovedToMass;
 }

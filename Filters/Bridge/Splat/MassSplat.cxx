@@ -71,10 +71,10 @@ void requireFiniteDensity(
   }
 }
 
-std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
-  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells)
+std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
+  Progress& progress, vtkDoubleArray* cells)
 {
-  return splatAll<double>({ { points, count }, nullptr, massEach }, target, progress, cells);
+  return splatAll<double>({ points, nullptr, massEach }, target, progress, cells);
 }
 
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,

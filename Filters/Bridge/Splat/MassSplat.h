@@ -34,11 +34,11 @@ void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule);
 
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
-// component and a tuple for each, as the work of the current stage. Points have 3 finite
-// coordinates each. Returns how many of them are outside of the domain (see SplatReport). Throws
-// Failure where memory is short, and Cancelled.
-std::int64_t splatPoints(const double* points, std::int64_t count, double massEach,
-  const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
+// component and a tuple for each, as the work of the current stage. Coordinates are finite. Returns
+// how many points are outside of the domain (see SplatReport). Throws Failure where memory is
+// short, and Cancelled.
+std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
+  Progress& progress, vtkDoubleArray* cells);
 
 // The same for an array of points and one mass for each; `massEach` where `masses` is nullptr.
 // Points of a type other than double and float are copied.

@@ -73,11 +73,10 @@ std::int64_t MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses, vtkIma
                          : "so that the sum of their sizes is a double");
 
   const auto density = newArray<vtkDoubleArray>("Density", 1, cells.NumberOfCells());
-  const double* noPoints = nullptr;
   progress.BeginStage(0.95);
   const std::int64_t outside = count > 0
     ? splatPoints(points->GetPoints()->GetData(), given.Values(), 1.0, target, progress, density)
-    : splatPoints(noPoints, 0, 1.0, target, progress, density);
+    : splatPoints(ConstPointSpan<3>(), 1.0, target, progress, density);
   progress.BeginStage(1.0);
   const double total = this->Splat.Boundary == SplatBoundary::Renormalize
     ? given.Total()

@@ -28,13 +28,13 @@ std::uint32_t spreadBits(std::uint32_t value)
 
 template <int Dimension>
 std::int64_t ParticleOrder<Dimension>::Sort(
-  const double* points, std::int64_t first, std::int64_t count, int particlesPerTile)
+  ConstPointSpan<Dimension> points, std::int64_t first, std::int64_t count, int particlesPerTile)
 {
   std::array<double, Dimension> low;
   std::array<double, Dimension> high;
   low.fill(std::numeric_limits<double>::max());
   high.fill(std::numeric_limits<double>::lowest());
-  const double* begin = points + first * Dimension;
+  const double* begin = points[first];
   double check = 0.0;
   for (std::int64_t i = 0; i < count; ++i)
   {

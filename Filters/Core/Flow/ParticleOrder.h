@@ -4,6 +4,8 @@
 #ifndef RectifiedTransport_ParticleOrder_h
 #define RectifiedTransport_ParticleOrder_h
 
+#include "Core/Geometry/Points.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +20,7 @@ public:
   // `particlesPerTile` in each. Returns the index of the first particle whose coordinates are not
   // finite, -1 if there is none.
   std::int64_t Sort(
-    const double* points, std::int64_t first, std::int64_t count, int particlesPerTile);
+    ConstPointSpan<Dimension> points, std::int64_t first, std::int64_t count, int particlesPerTile);
   const std::int64_t* Order() const { return this->Sorted.data(); }
 
 private:

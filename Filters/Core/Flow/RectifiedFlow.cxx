@@ -95,8 +95,7 @@ public:
   std::int64_t Prepare(std::int64_t first)
   {
     const std::int64_t length = std::min(chunkParticles, this->Count() - first);
-    const std::int64_t wrong =
-      this->Sort.Sort(this->Points.data(), first, length, particlesPerTile);
+    const std::int64_t wrong = this->Sort.Sort(this->Points, first, length, particlesPerTile);
     if (wrong >= 0)
     {
       throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");

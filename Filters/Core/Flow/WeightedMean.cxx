@@ -6,19 +6,20 @@
 namespace RectifiedTransport
 {
 
-void writeWeightedMean(
-  const std::vector<WeightedPositions>& parts, std::int64_t first, std::int64_t last, double* mean)
+void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t first,
+  std::int64_t last, PointSpan<3> mean)
 {
-  // Doubles: a block of the sum stays in the L1 cache from part to part.
+  // Coordinates: a block of the sum stays in the L1 cache from part to part.
   constexpr std::int64_t block = 1024;
-  for (std::int64_t begin = first; begin < last; begin += block)
+  const std::int64_t end = 3 * last;
+  for (std::int64_t begin = 3 * first; begin < end; begin += block)
   {
-    const std::int64_t count = std::min(block, last - begin);
-    double* sum = mean + begin;
+    const std::int64_t count = std::min(block, end - begin);
+    double* sum = mean.data() + begin;
     bool isFirst = true;
     for (const WeightedPositions& part : parts)
     {
-      const double* positions = part.Positions + begin;
+      const double* positions = part.Positions.data() + begin;
       const double weight = part.Weight;
       if (weight == 0.0)
       {

@@ -4,6 +4,8 @@
 #ifndef RectifiedTransport_WeightedMean_h
 #define RectifiedTransport_WeightedMean_h
 
+#include "Core/Geometry/Points.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -12,14 +14,14 @@ namespace RectifiedTransport
 
 struct WeightedPositions
 {
-  const double* Positions;
+  ConstPointSpan<3> Positions;
   double Weight;
 };
 
-// Writes coordinates [first, last) of the sum of weight * positions. Parts of weight 0 are not
-// read; a single one of weight 1 is copied to the bit. At least one weight is not 0.
-void writeWeightedMean(
-  const std::vector<WeightedPositions>& parts, std::int64_t first, std::int64_t last, double* mean);
+// Writes points [first, last) of the sum of weight * positions. Parts of weight 0 are not read; a
+// single one of weight 1 is copied to the bit. At least one weight is not 0.
+void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t first,
+  std::int64_t last, PointSpan<3> mean);
 
 } // namespace RectifiedTransport
 

@@ -109,7 +109,7 @@ public:
     this->PrepareTile();
   }
 
-  void Generate(double* unitPoints)
+  void Generate(PointSpan<Dimension> unitPoints)
   {
     // Collects the points between the sizes 1 - margin, which should hold fewer than `count`, and 1
     // + margin, which should hold more, and selects the count-th. The fluctuation of the number of
@@ -242,11 +242,11 @@ private:
     return true;
   }
 
-  void Emit(double* unitPoints)
+  void Emit(PointSpan<Dimension> unitPoints)
   {
     const double scale = 1.0 / this->Size;
     const double* tile = this->Tile.data();
-    double* output = unitPoints;
+    double* output = unitPoints.data();
     const auto write = [&](const Point<Dimension>& origin, int i) {
       for (int a = 0; a < Dimension; ++a)
       {
@@ -382,14 +382,13 @@ private:
   double Size = 0.0;     // of the window that becomes the unit box
 };
 
-void generateJitteredLine(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
+void generateJitteredLine(std::uint64_t randomSeed, PointSpan<1> unitPoints, Progress& progress)
 {
-  const double n = static_cast<double>(count);
-  for (std::int64_t i = 0; i < count; ++i)
+  const double n = static_cast<double>(unitPoints.size());
+  for (std::int64_t i = 0; i < unitPoints.size(); ++i)
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
-    unitPoints[i] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
+    *unitPoints[i] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
     progress.Add(2);
   }
 }
@@ -398,26 +397,28 @@ void generateJitteredLine(
 // golden ratio in 2D and the square root of 2 in 3D: different ones, as both apply where two axes
 // are thin.
 template <int Dimension>
-void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, Progress& progress)
+void generateFlat(const Point<Dimension>& lengths, int thin, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, Progress& progress)
 {
   Point<Dimension - 1> rest;
   for (int a = 0; a < Dimension - 1; ++a)
   {
     rest[a] = lengths[a < thin ? a : a + 1];
   }
-  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, unitPoints, progress);
+  // In the first part of the memory, which is overwritten from its end on.
+  const PointSpan<Dimension - 1> across(unitPoints.data(), unitPoints.size());
+  generateBlueNoise<Dimension - 1>(rest, randomSeed, across, progress);
   constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
   const std::uint64_t shift = randomWord(~randomSeed, Dimension);
-  for (std::int64_t i = count - 1; i >= 0; --i)
+  for (std::int64_t i = unitPoints.size() - 1; i >= 0; --i)
   {
     Point<Dimension> point;
     for (int a = 0; a < Dimension - 1; ++a)
     {
-      point[a < thin ? a : a + 1] = unitPoints[i * (Dimension - 1) + a];
+      point[a < thin ? a : a + 1] = across[i][a];
     }
     point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * step);
-    std::copy(point.begin(), point.end(), unitPoints + i * Dimension);
+    std::copy(point.begin(), point.end(), unitPoints[i]);
     progress.Add(1);
   }
 }
@@ -425,16 +426,17 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
 } // namespace
 
 template <int Dimension>
-void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, Progress& progress)
+void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, Progress& progress)
 {
+  const std::int64_t count = unitPoints.size();
   if (count == 0)
   {
     return;
   }
   if constexpr (Dimension == 1)
   {
-    generateJitteredLine(count, randomSeed, unitPoints, progress);
+    generateJitteredLine(randomSeed, unitPoints, progress);
   }
   else
   {
@@ -450,7 +452,7 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
     }
     if (power < thinnest)
     {
-      generateFlat<Dimension>(lengths, thin, count, randomSeed, unitPoints, progress);
+      generateFlat<Dimension>(lengths, thin, randomSeed, unitPoints, progress);
     }
     else
     {
@@ -459,11 +461,8 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
   }
 }
 
-template void generateBlueNoise<1>(
-  const Point<1>&, std::int64_t, std::uint64_t, double*, Progress&);
-template void generateBlueNoise<2>(
-  const Point<2>&, std::int64_t, std::uint64_t, double*, Progress&);
-template void generateBlueNoise<3>(
-  const Point<3>&, std::int64_t, std::uint64_t, double*, Progress&);
+template void generateBlueNoise<1>(const Point<1>&, std::uint64_t, PointSpan<1>, Progress&);
+template void generateBlueNoise<2>(const Point<2>&, std::uint64_t, PointSpan<2>, Progress&);
+template void generateBlueNoise<3>(const Point<3>&, std::uint64_t, PointSpan<3>, Progress&);
 
 } // namespace RectifiedTransport

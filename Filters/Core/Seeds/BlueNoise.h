@@ -12,9 +12,9 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Exactly `count` points in the unit box, evenly spaced in a box of sides `lengths`; O(count) time,
-// O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked. Adds about
-// 2 * count to the progress. Throws Cancelled.
+// Fills unitPoints with `count` points of the unit box, evenly spaced in a box of sides `lengths`;
+// O(count) time, O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already
+// checked. Adds about 2 * count to the progress. Throws Cancelled.
 //
 // 2D and 3D: a relaxed toroidal tile is repeated periodically, and the points are those of a window
 // of the box's shape at a corner, of the size that holds `count`. The window is rotated against the
@@ -25,8 +25,8 @@ class Progress;
 // 1D: one point in each of `count` equal intervals, jittered over half of it: spacings are between
 // 0.5 and 1.5 of the mean.
 template <int Dimension>
-void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
-  std::uint64_t randomSeed, double* unitPoints, Progress& progress);
+void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, Progress& progress);
 
 } // namespace RectifiedTransport
 

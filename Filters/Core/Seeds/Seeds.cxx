@@ -151,8 +151,8 @@ template <int Dimension>
 class JitteredBoxes
 {
 public:
-  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, double* unitPoints,
-    Progress& progress)
+  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed,
+    PointSpan<Dimension> unitPoints, Progress& progress)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
@@ -178,7 +178,7 @@ public:
         const double jitter =
           unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
         const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
-        this->UnitPoints[i * Dimension + axis] = place / static_cast<double>(count);
+        this->UnitPoints[i][axis] = place / static_cast<double>(count);
       }
       if (k + 1 < Dimension)
       {
@@ -204,32 +204,31 @@ private:
   Point<Dimension> Lengths;
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
-  double* UnitPoints;
+  PointSpan<Dimension> UnitPoints;
   Progress& Monitor;
 };
 
 template <int Dimension>
-void generateRandom(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
+void generateRandom(std::uint64_t randomSeed, PointSpan<Dimension> unitPoints, Progress& progress)
 {
-  for (std::int64_t i = 0; i < count * Dimension; ++i)
+  for (std::int64_t i = 0; i < unitPoints.size() * Dimension; ++i)
   {
-    unitPoints[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
+    unitPoints.data()[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
     progress.Add(1);
   }
 }
 
 template <int Dimension>
 void generateLowDiscrepancy(
-  std::int64_t count, std::uint64_t randomSeed, double* unitPoints, Progress& progress)
+  std::uint64_t randomSeed, PointSpan<Dimension> unitPoints, Progress& progress)
 {
   for (int a = 0; a < Dimension; ++a)
   {
     std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a));
-    for (std::int64_t i = 0; i < count; ++i)
+    for (std::int64_t i = 0; i < unitPoints.size(); ++i)
     {
       fraction += lowDiscrepancyStep<Dimension>(a);
-      unitPoints[i * Dimension + a] = unitReal(fraction);
+      unitPoints[i][a] = unitReal(fraction);
       progress.Add(1);
     }
   }
@@ -291,14 +290,13 @@ void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::ui
   switch (pattern)
   {
     case SeedPattern::BlueNoise:
-      return generateBlueNoise<Dimension>(lengths, count, randomSeed, unitPoints.data(), progress);
+      return generateBlueNoise<Dimension>(lengths, randomSeed, unitPoints, progress);
     case SeedPattern::Jittered:
-      return JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints.data(), progress)
-        .Fill(0, 0, count);
+      return JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints, progress).Fill(0, 0, count);
     case SeedPattern::LowDiscrepancy:
-      return generateLowDiscrepancy<Dimension>(count, randomSeed, unitPoints.data(), progress);
+      return generateLowDiscrepancy<Dimension>(randomSeed, unitPoints, progress);
     case SeedPattern::Random:
-      return generateRandom<Dimension>(count, randomSeed, unitPoints.data(), progress);
+      return generateRandom<Dimension>(randomSeed, unitPoints, progress);
     case SeedPattern::Lattice:
       break;
   }

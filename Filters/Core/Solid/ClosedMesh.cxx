@@ -128,8 +128,7 @@ bool ClosedMesh::Orient(const Context& context)
   if (this->Closed && this->Edges)
   {
     this->Oriented = this->Edges->Reversed() == 0 ||
-      orientSurface(
-        this->Points(), this->Triangles.data(), this->NumberOfTriangles, *this->Edges, context);
+      orientSurface(this->Surface(), *this->Edges, this->Triangles.data(), context);
     this->Edges.reset(); // no longer of these triangles
   }
   return this->Oriented;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -17,15 +16,14 @@ namespace
 class OrientationRun
 {
 public:
-  OrientationRun(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
-    const SurfaceEdges& edges)
-    : Points(points)
-    , Triangles(triangles)
+  OrientationRun(const TriangleSurface& surface, const SurfaceEdges& edges, std::int64_t* oriented)
+    : Surface(surface)
     , Edges(edges)
-    , Orientations(count)
-    , Queue(count)
+    , Oriented(oriented)
+    , Orientations(surface.NumberOfTriangles)
+    , Queue(surface.NumberOfTriangles)
   {
-    std::fill_n(this->Orientations.data(), count, static_cast<signed char>(0));
+    std::fill_n(this->Orientations.data(), surface.NumberOfTriangles, static_cast<signed char>(0));
   }
 
   // False if there is no orientation.
@@ -60,10 +58,10 @@ private:
     const signed char keep = area < 0.0 ? -1 : 1;
     for (std::int64_t i = 0; i < this->QueueEnd; ++i)
     {
-      if (this->Orientations.data()[queue[i]] != keep)
-      {
-        std::swap(this->Triangles[3 * queue[i] + 1], this->Triangles[3 * queue[i] + 2]);
-      }
+      const bool turn = this->Orientations.data()[queue[i]] != keep;
+      const std::int64_t* ids = this->Surface.Triangles + 3 * queue[i];
+      const std::int64_t corners[3] = { ids[0], ids[turn ? 2 : 1], ids[turn ? 1 : 2] };
+      std::copy_n(corners, 3, this->Oriented + 3 * queue[i]);
     }
   }
 
@@ -80,7 +78,7 @@ private:
     {
       const std::int64_t other = this->Edges.Other(side);
       // Sides of consistently oriented triangles begin at different ends of the edge.
-      const bool same = this->Triangles[side] != this->Triangles[other];
+      const bool same = this->Surface.Triangles[side] != this->Surface.Triangles[other];
       const auto wanted = static_cast<signed char>(same ? orientation : -orientation);
       const signed char found = this->Orientations.data()[other / 3];
       if (found == 0)
@@ -96,21 +94,21 @@ private:
 
   double AreaOf(std::int64_t triangle) const
   {
-    const std::int64_t* ids = this->Triangles + 3 * triangle;
+    const std::int64_t* ids = this->Surface.Triangles + 3 * triangle;
     double u[3];
     double v[3];
     for (int i = 0; i < 3; ++i)
     {
-      u[i] = this->Points[ids[1]][i] - this->Points[ids[0]][i];
-      v[i] = this->Points[ids[2]][i] - this->Points[ids[0]][i];
+      u[i] = this->Surface.Points[ids[1]][i] - this->Surface.Points[ids[0]][i];
+      v[i] = this->Surface.Points[ids[2]][i] - this->Surface.Points[ids[0]][i];
     }
     return std::hypot(
       u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
   }
 
-  ConstPointSpan<3> Points;
-  std::int64_t* Triangles;
+  const TriangleSurface& Surface;
   const SurfaceEdges& Edges;
+  std::int64_t* Oriented;
   LargeBuffer<signed char> Orientations; // 0 not reached, 1 as the component's first, -1 opposite
   LargeBuffer<std::int64_t> Queue;       // the triangles of a component
   std::int64_t QueueEnd = 0;
@@ -119,11 +117,11 @@ private:
 
 } // namespace
 
-bool orientSurface(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
-  const SurfaceEdges& edges, const Context& context)
+bool orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
+  std::int64_t* oriented, const Context& context)
 {
   Progress progress(context);
-  return OrientationRun(points, triangles, count, edges).Run(progress);
+  return OrientationRun(surface, edges, oriented).Run(progress);
 }
 
 } // namespace RectifiedTransport

@@ -11,14 +11,15 @@
 namespace RectifiedTransport
 {
 
-// Reorders the corners of triangles, three indices each, whose edges have two sides each. A
-// component, that is triangles joined by edges, gets the orientation of most of its area, even if
-// that is inside out: by the winding number it is the same solid, and within another one a cavity.
+// Writes the triangles of a surface, whose edges have two sides each, to `oriented`, which may be
+// their own memory: each with its corners as given or in the opposite order. A component, that is
+// triangles joined by edges, gets the orientation of most of its area, even if that is inside out:
+// by the winding number it is the same solid, and within another one a cavity.
 //
 // Returns false if the surface is not orientable, as a Klein bottle. Memory: 9 bytes a triangle. On
 // one thread. Throws std::bad_alloc and Cancelled.
-bool orientSurface(ConstPointSpan<3> points, std::int64_t* triangles, std::int64_t count,
-  const SurfaceEdges& edges, const Context& context = Context());
+bool orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
+  std::int64_t* oriented, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

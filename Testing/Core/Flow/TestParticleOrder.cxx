@@ -21,7 +21,7 @@ TEST(ParticleOrder, AscendsOnTheLine)
     ParticleOrder<1> order;
     constexpr int perTile = 8;
     const auto number = static_cast<std::int64_t>(count);
-    ASSERT_EQ(order.Sort(points.data()->data(), 0, number, perTile), -1);
+    ASSERT_EQ(order.Sort(points, 0, number, perTile), -1);
     const double tile = 1000.0 * perTile / static_cast<double>(count);
     double highest = 0.0;
     std::vector<char> seen(count, 0);
@@ -44,7 +44,7 @@ void expectShortWay(const GridSize<Dimension>& size)
   constexpr std::size_t count = 40000;
   const Points<Dimension> points = randomPoints<Dimension>(size, count);
   ParticleOrder<Dimension> order;
-  ASSERT_EQ(order.Sort(points.data()->data(), 0, count, 8), -1);
+  ASSERT_EQ(order.Sort(points, 0, count, 8), -1);
   double way = 0.0;
   for (std::size_t i = 1; i < count; ++i)
   {

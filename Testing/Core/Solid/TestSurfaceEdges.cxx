@@ -116,10 +116,15 @@ TEST(SurfaceEdges, ThreadsAndFans)
   EXPECT_EQ(SurfaceEdges(fans.Surface(), OpenMPExecutor()).Open(), 3);
 }
 
+// In place, as in other memory.
 bool orient(Mesh& mesh)
 {
-  return orientSurface(mesh.Points, mesh.Triangles.data()->data(),
-    static_cast<std::int64_t>(mesh.Triangles.size()), SurfaceEdges(mesh.Surface()));
+  const SurfaceEdges edges(mesh.Surface());
+  auto elsewhere = mesh.Triangles;
+  const bool orientable = orientSurface(mesh.Surface(), edges, elsewhere.data()->data());
+  EXPECT_EQ(orientSurface(mesh.Surface(), edges, mesh.Triangles.data()->data()), orientable);
+  EXPECT_EQ(mesh.Triangles, elsewhere);
+  return orientable;
 }
 
 // Turned triangles come back, each component's as most of its area.
@@ -208,9 +213,8 @@ TEST(ClosedSurface, Cancelled)
     EXPECT_THROW(SurfaceEdges(mesh.Surface(), context), Cancelled);
     EXPECT_GE(reached, from);
     reached = -1.0;
-    EXPECT_THROW(
-      orientSurface(mesh.Points, mesh.Triangles.data()->data(),
-        static_cast<std::int64_t>(mesh.Triangles.size()), SurfaceEdges(mesh.Surface()), context),
+    EXPECT_THROW(orientSurface(mesh.Surface(), SurfaceEdges(mesh.Surface()),
+                   mesh.Triangles.data()->data(), context),
       Cancelled);
     EXPECT_GE(reached, from);
   }
