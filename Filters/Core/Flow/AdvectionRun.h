@@ -41,6 +41,13 @@ inline void check(const FlowOptions& options)
   }
 }
 
+enum class AdvectionKind
+{
+  Forward,
+  Backward,
+  ForwardToCells // of a density of isolated cells
+};
+
 // Relative to the domain's longest side. Below it the estimate of a step's error is rounding alone,
 // and smaller steps gain no accuracy.
 constexpr double finestTolerance = 0x1p-40;
@@ -49,21 +56,25 @@ constexpr double finestTolerance = 0x1p-40;
 // faster and add an error that a larger number of steps does not remove. In 3D they gain less, as
 // the sums on the finest level are simpler.
 template <int Dimension>
-double coarseRatio(const FlowOptions& options, bool toPoints)
+double coarseRatio(const FlowOptions& options, AdvectionKind kind)
 {
   constexpr double never = 1e12;
   constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
   const bool adaptive = options.Method == Integrator::Adaptive;
   const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
-  const bool accurate =
-    toPoints || (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
+  const bool accurate = kind == AdvectionKind::ForwardToCells ||
+    (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
   return exact ? never : accurate ? 64.0 : usual;
 }
 
 // Where only isolated cells have mass, nearly all particles miss them with few steps: the first
 // pass takes the number of steps that they would be redone with.
-inline int firstRefinement(const FlowOptions& options)
+inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
 {
+  if (kind != AdvectionKind::ForwardToCells)
+  {
+    return 0;
+  }
   constexpr int enough = 128;
   int refinement = 0;
   while (options.Method != Integrator::Adaptive && refinement < refinements &&
@@ -332,24 +343,20 @@ template <int Dimension>
 class AdvectionRun
 {
 public:
-  AdvectionRun(const TableView<Dimension>& tables, const std::vector<double>& times,
-    double* positions, bool backward, const FlowOptions& options, const Context& context,
-    bool toPoints = false)
-    : First(toPoints ? firstRefinement(options) : 0)
+  AdvectionRun(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options,
+    const Context& context)
+    : First(firstRefinement(options, kind))
     , Monitor(context)
   {
     check(options);
     this->Job.Tables = tables;
     this->Job.Method = options.Method;
-    this->Job.Backward = backward;
+    this->Job.Backward = kind == AdvectionKind::Backward;
     this->Job.Nearest = options.Lookup == TableLookup::Nearest;
     const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
     this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
     this->Job.Steps = options.NumberOfSteps;
-    this->Job.CoarseRatio = coarseRatio<Dimension>(options, toPoints);
-    this->Job.Output = positions;
-    this->Job.Times = times.empty() ? nullptr : times.data();
-    this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
+    this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
     if (options.Method == Integrator::Multistep)
     {
       this->Weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
@@ -374,11 +381,16 @@ public:
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
   // Advects the particles of a source chunk by chunk: source.Prepare(first) makes the chunk that
-  // begins at particle `first` and returns its length, source.Fill reads particles of it. Throws
-  // Cancelled.
+  // begins at particle `first` and returns its length, source.Fill reads particles of it. Writes
+  // the positions at the ascending times, all of a particle together, or without times at the end.
+  // Throws Cancelled.
   template <class Source>
-  FlowReport Advect(Source&& source)
+  FlowReport Advect(
+    Source&& source, PointSpan<Dimension> positions, const std::vector<double>& times = {})
   {
+    this->Job.Output = positions.data();
+    this->Job.Times = times.empty() ? nullptr : times.data();
+    this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
     constexpr std::size_t enough = 2048; // particles: fills blocks, and takes little time
     const Executor& threads = this->Monitor.Threads();
     this->Monitor.BeginStage(1.0, source.Count());

@@ -236,9 +236,8 @@ FlowReport RectifiedFlow<Dimension>::Forward(ConstPointSpan<Dimension> seeds,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
   checkCount(positions.size(), static_cast<double>(seeds.size()));
-  AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, positions.data(), false, options, context);
-  return run.Advect(SortedPoints<Dimension>(seeds));
+  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  return run.Advect(SortedPoints<Dimension>(seeds), positions);
 }
 
 template <int Dimension>
@@ -249,9 +248,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
   check(times);
   checkCount(
     positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
-  AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), times, positions.data(), false, options, context);
-  return run.Advect(SortedPoints<Dimension>(seeds));
+  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  return run.Advect(SortedPoints<Dimension>(seeds), positions, times);
 }
 
 template <int Dimension>
@@ -259,9 +257,8 @@ FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
   checkCount(positions.size(), static_cast<double>(points.size()));
-  AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, positions.data(), true, options, context);
-  return run.Advect(SortedPoints<Dimension>(points));
+  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
+  return run.Advect(SortedPoints<Dimension>(points), positions);
 }
 
 template <int Dimension>
@@ -270,9 +267,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Point<Dimension>& place) const
 {
   const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
-  AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, positions.data(), false, options, context);
-  return run.Advect(order);
+  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  return run.Advect(order, positions);
 }
 
 template <int Dimension>
@@ -281,9 +277,8 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
 {
   const auto order =
     checkedOrder<Dimension>(lattice, cellCentre<Dimension>(), this->Size(), positions.size());
-  AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, positions.data(), true, options, context);
-  return run.Advect(order);
+  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
+  return run.Advect(order, positions);
 }
 
 template <int Dimension>
@@ -293,7 +288,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
   check<Dimension>(lattice, "a lattice");
   const LatticeOrder<Dimension> order(lattice, this->Data->Size);
   AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), {}, nullptr, false, options, context, true);
+    this->Data->Tables.View(), AdvectionKind::ForwardToCells, options, context);
   return run.AdvectToCells(order, cells);
 }
 

@@ -41,9 +41,9 @@ struct FlowJob
   std::int64_t Steps;
   const StepWeights* Weights;           // of Multistep with `Steps` steps, else null
   double CoarseRatio;                   // least width of a box in cells of the level that is used
-  double* Output;                       // interleaved coordinates
-  const double* Times;                  // dense output, ascending; null for the end point alone
-  std::int64_t TimeCount;               // 1 with the end point alone
+  double* Output = nullptr;             // interleaved coordinates
+  const double* Times = nullptr;        // dense output, ascending; null for the end point alone
+  std::int64_t TimeCount = 1;           // 1 with the end point alone
   bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
   void* ClientData;
 };
