@@ -6,6 +6,8 @@
 
 #include "vtkMatrix3x3.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -32,21 +34,28 @@ struct Side
 
 using Sides = std::array<Side, 3>;
 
+// By columns: the terms are added from left to right, as by vtkMatrix3x3. The order of Eigen's
+// product, and so its rounding, depends on its version and on the instruction set.
+Eigen::Vector3d product(const ImageGrid::Matrix& matrix, const Eigen::Vector3d& v)
+{
+  return matrix.col(0) * v[0] + matrix.col(1) * v[1] + matrix.col(2) * v[2];
+}
+
 Sides sidesOf(const ImageGrid& grid)
 {
-  double inverse[9] = {}; // remains zero for a singular matrix
-  vtkMatrix3x3::Invert(grid.Direction().data(), inverse);
+  // VTK's, as Eigen's inverse rounds otherwise; remains zero for a singular matrix.
+  ImageGrid::Matrix inverse = ImageGrid::Matrix::Zero();
+  vtkMatrix3x3::Invert(grid.Direction().data(), inverse.data());
+  const Eigen::Vector3d origin = product(inverse, grid.Origin());
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const double* row = inverse + 3 * i;
-    const double spacing = grid.Spacing()[static_cast<Eigen::Index>(i)];
+    const auto axis = static_cast<Eigen::Index>(i);
+    const double spacing = grid.Spacing()[axis];
     const int first = grid.Extent()[2 * i];
     const double index = grid.IsAxis(i) && grid.IsOnPoints() ? first - 0.5 : first;
-    const Eigen::Vector3d& origin = grid.Origin();
-    const double low =
-      row[0] * origin[0] + row[1] * origin[1] + row[2] * origin[2] + spacing * index;
-    sides[i] = { low, spacing, grid.NumberOfValues()[i], grid.IsAxis(i) };
+    sides[i] = { origin[axis] + spacing * index, spacing, grid.NumberOfValues()[i],
+      grid.IsAxis(i) };
   }
   return sides;
 }
@@ -57,7 +66,6 @@ ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
   std::array<int, 6> extent{};
   Eigen::Vector3d spacing;
   Eigen::Vector3d place;
-  Eigen::Vector3d origin;
   for (std::size_t i = 0; i < 3; ++i)
   {
     const Side& side = sides[i];
@@ -66,7 +74,7 @@ ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
     extent[2 * i + 1] = !side.IsAxis ? 0 : grid.IsOnPoints() ? side.Cells - 1 : side.Cells;
     place[axis] = side.IsAxis && grid.IsOnPoints() ? side.Low + 0.5 * side.Spacing : side.Low;
   }
-  vtkMatrix3x3::MultiplyPoint(grid.Direction().data(), place.data(), origin.data());
+  const Eigen::Vector3d origin = product(grid.Direction(), place);
   return { extent, origin, spacing, grid.Direction(), grid.IsOnPoints() };
 }
 
@@ -79,7 +87,7 @@ bool haveSameDirection(const ImageGrid& a, const ImageGrid& b)
 bool hasInverse(const ImageGrid& grid)
 {
   constexpr double flat = 1e-12;
-  return std::abs(vtkMatrix3x3::Determinant(grid.Direction().data())) > flat;
+  return std::abs(grid.Direction().determinant()) > flat;
 }
 
 std::string axesOf(const Sides& sides)

@@ -14,10 +14,17 @@ namespace
 
 using Matrix = ImageGrid::Matrix;
 
-// Neither overflows nor underflows.
+// Neither overflows nor underflows. Eigen's stableNorm rounds otherwise.
 double length(const Eigen::Vector3d& v)
 {
   return std::hypot(v[0], v[1], v[2]);
+}
+
+// Added from left to right. The order of Eigen's sum, and so its rounding, depends on its version
+// and on the instruction set.
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // The measure that the first `count` rows span.
@@ -29,14 +36,7 @@ double measure(const Matrix& rows, int count)
     return length(a);
   }
   const Eigen::Vector3d cross = a.cross(Eigen::Vector3d(rows.row(1)));
-  return count == 2
-    ? length(cross)
-    : std::abs(cross[0] * rows(2, 0) + cross[1] * rows(2, 1) + cross[2] * rows(2, 2));
-}
-
-double dot(const Matrix& rows, int a, int b)
-{
-  return rows(a, 0) * rows(b, 0) + rows(a, 1) * rows(b, 1) + rows(a, 2) * rows(b, 2);
+  return count == 2 ? length(cross) : std::abs(dot(cross, rows.row(2)));
 }
 
 // The adjugate over the determinant, which is exact for the identity.
@@ -48,9 +48,7 @@ Matrix inverseOf(const Matrix& matrix)
     const Eigen::Vector3d next = matrix.row((i + 1) % 3);
     adjugate.col(i) = next.cross(Eigen::Vector3d(matrix.row((i + 2) % 3)));
   }
-  const double determinant =
-    matrix(0, 0) * adjugate(0, 0) + matrix(0, 1) * adjugate(1, 0) + matrix(0, 2) * adjugate(2, 0);
-  return adjugate / determinant;
+  return adjugate / dot(matrix.row(0), adjugate.col(0));
 }
 
 } // namespace
@@ -218,7 +216,7 @@ void ImageGrid::FindCells()
   {
     for (int b = 0; b < this->AxisCount; ++b)
     {
-      gram(a, b) = a == b ? 1.0 : dot(axes, a, b);
+      gram(a, b) = a == b ? 1.0 : dot(axes.row(a), axes.row(b));
     }
   }
   const Matrix inverse = inverseOf(gram);

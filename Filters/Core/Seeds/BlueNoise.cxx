@@ -163,6 +163,7 @@ private:
     }
   }
 
+  // Written out: Eigen's product may add in another order, which changes bits.
   double Project(int a, const Point<Dimension>& vector) const
   {
     double sum = 0.0;
