@@ -98,8 +98,9 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   for (std::int64_t place = 0; place < places; ++place)
   {
     progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
-    const FlowReport part = flow.ForwardLattice(pivot.Lattice, positions.Part(place * each, each),
-      options, progress.Stage(), pivot.Places[static_cast<std::size_t>(place)]);
+    const FlowReport part =
+      flow.ForwardLattice(pivot.Lattice, pivot.Places[static_cast<std::size_t>(place)],
+        positions.Part(place * each, each), options, progress.Stage());
     report.Redone += part.Redone;
     report.MovedToMass += part.MovedToMass;
     report.Evaluations += part.Evaluations;

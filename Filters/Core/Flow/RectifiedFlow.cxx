@@ -263,8 +263,15 @@ FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context,
-  const Point<Dimension>& place) const
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
+{
+  return this->ForwardLattice(lattice, cellCentre<Dimension>(), positions, options, context);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
+  const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context) const
 {
   const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
@@ -294,10 +301,14 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
 
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
-  ConstPointSpan<Dimension> seeds, const FlowOptions& options)
+  ConstPointSpan<Dimension> seeds, const FlowOptions& options, const Context& context)
 {
+  Progress progress(context);
+  progress.BeginStage(0.1);
+  const RectifiedFlow<Dimension> flow(density, progress.Stage());
   std::vector<Point<Dimension>> positions(static_cast<std::size_t>(seeds.size()));
-  RectifiedFlow<Dimension>(density).Forward(seeds, positions, options);
+  progress.BeginStage(1.0);
+  flow.Forward(seeds, positions, options, progress.Stage());
   return positions;
 }
 
@@ -305,10 +316,10 @@ template class RectifiedFlow<1>;
 template class RectifiedFlow<2>;
 template class RectifiedFlow<3>;
 template std::vector<Point<1>> transportPoints<1>(
-  const DensitySource<1>&, ConstPointSpan<1>, const FlowOptions&);
+  const DensitySource<1>&, ConstPointSpan<1>, const FlowOptions&, const Context&);
 template std::vector<Point<2>> transportPoints<2>(
-  const DensitySource<2>&, ConstPointSpan<2>, const FlowOptions&);
+  const DensitySource<2>&, ConstPointSpan<2>, const FlowOptions&, const Context&);
 template std::vector<Point<3>> transportPoints<3>(
-  const DensitySource<3>&, ConstPointSpan<3>, const FlowOptions&);
+  const DensitySource<3>&, ConstPointSpan<3>, const FlowOptions&, const Context&);
 
 } // namespace RectifiedTransport

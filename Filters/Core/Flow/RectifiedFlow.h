@@ -80,8 +80,10 @@ public:
   // axis: 1 to 2^30. It needs neither an array of points nor a sort. Forwards also for the points
   // at another `place` in the cells, in [0,1].
   FlowReport ForwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context(),
-    const Point<Dimension>& place = cellCentre<Dimension>()) const;
+    const FlowOptions& options = {}, const Context& context = Context()) const;
+  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, const Point<Dimension>& place,
+    PointSpan<Dimension> positions, const FlowOptions& options = {},
+    const Context& context = Context()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
@@ -99,7 +101,8 @@ private:
 // One-off: builds the tables, transports the points, releases the tables.
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
-  ConstPointSpan<Dimension> seeds, const FlowOptions& options = {});
+  ConstPointSpan<Dimension> seeds, const FlowOptions& options = {},
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -129,6 +129,25 @@ TEST(Context, CancelTheFlow)
   }
 }
 
+// The one-off is the tables and the flow, with the context in both.
+TEST(Context, ProgressAndCancelOfTheOneOff)
+{
+  const Points<3> seeds = randomPoints<3>(volume().Size, 5000);
+  Listener listener;
+  const Points<3> positions =
+    transportPoints<3>(volume().Source(), seeds, steps(16), listener.Context());
+  listener.ExpectMonotone("one-off");
+  EXPECT_TRUE(sameBits<3>(positions, runForward(makeFlow(volume()), seeds, steps(16))));
+  Listener tables;
+  tables.Limit = 0.0;
+  EXPECT_THROW(
+    transportPoints<3>(volume().Source(), seeds, steps(16), tables.Context()), Cancelled);
+  EXPECT_LE(tables.Last, 0.1) << "went on after it was cancelled";
+  Listener flow;
+  flow.Limit = 0.5;
+  EXPECT_THROW(transportPoints<3>(volume().Source(), seeds, steps(16), flow.Context()), Cancelled);
+}
+
 TEST(Context, ProgressAndCancelOfTheSeeds)
 {
   constexpr std::int64_t count = 300000;
