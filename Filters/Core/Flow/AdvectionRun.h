@@ -128,7 +128,7 @@ public:
     : Job(job)
     , First(firstRefinement)
     , Count(counters)
-    , Monitor(progress)
+    , Work(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
@@ -146,7 +146,7 @@ public:
   void Pass(int refinement)
   {
     const int count = std::exchange(this->Number, 0);
-    for (int first = 0; first < count && !this->Monitor.ShouldStop(); first += BlockSize)
+    for (int first = 0; first < count && !this->Work.ShouldStop(); first += BlockSize)
     {
       const int lanes = std::min(BlockSize, count - first);
       bool unresolved[BlockSize] = {};
@@ -177,7 +177,7 @@ public:
     {
       this->Pass(pass);
     }
-    for (int i = 0; i < this->Number && !this->Monitor.ShouldStop(); ++i)
+    for (int i = 0; i < this->Number && !this->Work.ShouldStop(); ++i)
     {
       moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
     }
@@ -193,7 +193,7 @@ private:
   const FlowJob<Dimension>& Job;
   const int First;
   Counters& Count;
-  Progress& Monitor;
+  Progress& Work;
   const AdvectBlock<Dimension> Advect;
   int Number = 0;
   std::int64_t Index[rangeBlocks * BlockSize];
@@ -209,7 +209,7 @@ public:
   UnresolvedAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
     : Job(job)
     , Count(counters)
-    , Monitor(progress)
+    , Work(progress)
     , Advect(flowKernels().Advect<Dimension>())
   {
   }
@@ -228,8 +228,8 @@ public:
       this->Pass(refinement);
     }
     const auto left = static_cast<std::int64_t>(this->Index.size());
-    this->Monitor.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last && !this->Monitor.ShouldStop(); ++i)
+    this->Work.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
       {
         moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
       }
@@ -240,9 +240,9 @@ private:
   void Pass(int refinement)
   {
     const auto count = static_cast<std::int64_t>(this->Index.size());
-    this->Monitor.Threads().For(
+    this->Work.Threads().For(
       count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
-        if (this->Monitor.ShouldStop())
+        if (this->Work.ShouldStop())
         {
           return;
         }
@@ -267,7 +267,7 @@ private:
 
   const FlowJob<Dimension>& Job;
   Counters& Count;
-  Progress& Monitor;
+  Progress& Work;
   const AdvectBlock<Dimension> Advect;
   std::vector<std::int64_t> Index;
   std::vector<double> Seeds;
@@ -346,7 +346,7 @@ public:
   AdvectionRun(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options,
     const Context& context)
     : First(firstRefinement(options, kind))
-    , Monitor(context)
+    , Work(context)
   {
     check(options);
     this->Job.Tables = tables;
@@ -369,7 +369,7 @@ public:
     this->Job.ShouldStop = [](void* clientData) {
       return static_cast<Progress*>(clientData)->ShouldStop();
     };
-    this->Job.ClientData = &this->Monitor;
+    this->Job.ClientData = &this->Work;
     // Fewer particles a range where there are many steps: bounds the time between progress reports.
     constexpr int usualSteps = 64;
     const int steps = options.NumberOfSteps << this->First;
@@ -392,8 +392,8 @@ public:
     this->Job.Times = times.empty() ? nullptr : times.data();
     this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
     constexpr std::size_t enough = 2048; // particles: fills blocks, and takes little time
-    const Executor& threads = this->Monitor.Threads();
-    this->Monitor.BeginStage(1.0, source.Count());
+    const Executor& threads = this->Work.Threads();
+    this->Work.BeginStage(1.0, source.Count());
     std::vector<UnresolvedParticles<Dimension>> unresolved;
     std::size_t left = 0;
     std::int64_t chunkEnd = 0;
@@ -405,11 +405,11 @@ public:
         chunkEnd += source.Prepare(begin);
       }
       const std::int64_t slice =
-        std::min(chunkEnd - begin, this->Monitor.NextSlice(this->Grain * threads.Concurrency()));
+        std::min(chunkEnd - begin, this->Work.NextSlice(this->Grain * threads.Concurrency()));
       const std::size_t before = unresolved.size();
       unresolved.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Monitor);
+        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Work);
         range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
         range.Pass(this->First);
         unresolved[before + static_cast<std::size_t>(first / this->Grain)] = range.Unresolved();
@@ -421,12 +421,12 @@ public:
       begin += slice;
       if (left >= enough || begin == chunkEnd)
       {
-        UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Monitor)
+        UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Work)
           .Run(unresolved, this->First + 1);
         unresolved.clear();
         left = 0;
       }
-      this->Monitor.EndSlice(slice);
+      this->Work.EndSlice(slice);
     }
     return this->Report();
   }
@@ -434,16 +434,16 @@ public:
   // Advects the samples of a lattice and writes the grid cell that each ends in. Throws Cancelled.
   FlowReport AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
-    this->Monitor.BeginStage(1.0);
-    this->Monitor.For(
+    this->Work.BeginStage(1.0);
+    this->Work.For(
       lattice.Count(), this->Grain,
       [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
-        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Monitor);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Work);
         range.Fill(ends, first, length);
         range.Run();
-        if (!this->Monitor.ShouldStop())
+        if (!this->Work.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);
         }
@@ -466,7 +466,7 @@ private:
   FlowJob<Dimension> Job;
   std::vector<StepWeights> Weights;
   Counters Count;
-  Progress Monitor;
+  Progress Work;
   std::int64_t Grain = BlockSize;
 };
 

@@ -52,7 +52,7 @@ public:
     , BlockCounts(numberOfBlocks<Dimension>(this->Size, blockSize))
     , Blocks(static_cast<std::int64_t>(numberOfCells<Dimension>(this->BlockCounts)))
     , Count(particles.Points.size())
-    , Monitor(context)
+    , Work(context)
     , Points(3 * this->Count)
     , Block(this->Count)
     , Spacing(this->Count)
@@ -65,19 +65,19 @@ public:
   {
     this->Quality.Particles = this->Count;
     this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
-    this->Monitor.BeginStage(0.1);
+    this->Work.BeginStage(0.1);
     this->Place();
-    this->Monitor.BeginStage(0.2);
+    this->Work.BeginStage(0.2);
     this->AddMasses();
-    this->Monitor.BeginStage(0.25);
+    this->Work.BeginStage(0.25);
     this->MeasureCost();
     this->CompareBlocks();
-    this->Monitor.BeginStage(2.0 / 3.0);
+    this->Work.BeginStage(2.0 / 3.0);
     nearestDistances(
-      { this->Points.data(), this->Count }, this->Spacing.data(), this->Monitor.Stage());
-    this->Monitor.BeginStage(0.95);
+      { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
+    this->Work.BeginStage(0.95);
     this->RelateSpacings();
-    this->Monitor.BeginStage(1.0);
+    this->Work.BeginStage(1.0);
     this->AverageSpacings();
     return this->Quality;
   }
@@ -87,7 +87,7 @@ private:
   template <class Kernel>
   void InOrder(std::int64_t count, const Kernel& kernel)
   {
-    this->Monitor.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
+    this->Work.ForInOrder(count, grain, [&kernel](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         kernel(i);
@@ -106,7 +106,7 @@ private:
   {
     std::atomic<std::int64_t> outside{ 0 };
     std::atomic<std::int64_t> inEmpty{ 0 };
-    this->Monitor.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
+    this->Work.For(this->Count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         const double* x = this->Particles.Points[i];
@@ -175,22 +175,22 @@ private:
     double* found = this->Found.data();
     double* expected = this->Expected.data();
     std::fill_n(found, this->Blocks, 0.0);
-    this->Monitor.BeginStage(0.3);
+    this->Work.BeginStage(0.3);
     this->InOrder(this->Count, [&](std::int64_t i) {
       if (this->Block.data()[i] != noBlock)
       {
         found[this->Block.data()[i]] += this->Share(i);
       }
     });
-    this->Monitor.BeginStage(0.35);
-    this->Monitor.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
+    this->Work.BeginStage(0.35);
+    this->Work.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
       for (std::int64_t block = first; block < last; ++block)
       {
         const auto [low, high] = this->BlockBox(block);
         expected[block] = this->Flow.Share(low, high);
       }
     });
-    this->Monitor.BeginStage(0.4);
+    this->Work.BeginStage(0.4);
     double difference = 0.0;
     double norm = 0.0;
     this->InOrder(this->Blocks, [&](std::int64_t block) {
@@ -233,7 +233,7 @@ private:
     const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
     double* spacing = this->Spacing.data();
     constexpr std::int64_t smallGrain = 256;
-    this->Monitor.For(
+    this->Work.For(
       this->Count, smallGrain,
       [=](std::int64_t first, std::int64_t last) {
         for (std::int64_t i = first; i < last; ++i)
@@ -289,7 +289,7 @@ private:
   const GridSize<Dimension> BlockCounts;
   const std::int64_t Blocks;
   const std::int64_t Count;
-  Progress Monitor;
+  Progress Work;
   LargeBuffer<double> Points; // in units of Scale
   LargeBuffer<std::int64_t> Block;
   LargeBuffer<double> Spacing;

@@ -84,7 +84,7 @@ class Window
 public:
   Window(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
     Progress& progress)
-    : Monitor(progress)
+    : Work(progress)
     , Count(count)
     , Axes(applySymmetry<Dimension>(windowAxes<Dimension>(), randomWord(randomSeed, Dimension)))
   {
@@ -326,7 +326,7 @@ private:
     {
       const int first = this->BinStart[code << (level * Dimension)];
       const int last = this->BinStart[(code + 1) << (level * Dimension)];
-      this->Monitor.Add(last - first);
+      this->Work.Add(last - first);
       const Point<Dimension> origin = this->TileOrigin(cell);
       if (inside)
       {
@@ -365,7 +365,7 @@ private:
     return origin;
   }
 
-  Progress& Monitor;
+  Progress& Work;
   std::int64_t Count;
   Matrix<Dimension> Axes;
   Matrix<Dimension> ToWindow;

@@ -157,7 +157,7 @@ public:
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
     , UnitPoints(unitPoints)
-    , Monitor(progress)
+    , Work(progress)
   {
   }
 
@@ -184,7 +184,7 @@ public:
       {
         this->Fill(k + 1, first + begin, size);
       }
-      this->Monitor.Add(size);
+      this->Work.Add(size);
       begin += size;
     }
   }
@@ -205,7 +205,7 @@ private:
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
   PointSpan<Dimension> UnitPoints;
-  Progress& Monitor;
+  Progress& Work;
 };
 
 template <int Dimension>

@@ -28,7 +28,7 @@ public:
     : Sites(sites)
     , Size(sites.Size())
     , Owners(owners)
-    , Monitor(progress)
+    , Work(progress)
     , Cells(sites.NumberOfPixels())
     , Excess(static_cast<std::size_t>(this->Cells), 0)
     , Count(static_cast<std::size_t>(this->Cells), 0)
@@ -48,7 +48,7 @@ public:
   // Throws Cancelled.
   void Run()
   {
-    this->Monitor.BeginStage(0.2, this->Rows);
+    this->Work.BeginStage(0.2, this->Rows);
     this->VisitRows([this](std::int64_t row) {
       const std::int64_t* owner = this->Owners + row * this->Size[0];
       for (std::int64_t i = 0; i < this->Size[0]; ++i)
@@ -76,10 +76,10 @@ public:
         least = excess;
         idle = 0;
       }
-      this->Monitor.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      this->Work.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
       this->Moved = 0;
       this->FindBorders();
-      this->Borders.Plan(this->Excess, this->Count, this->Monitor);
+      this->Borders.Plan(this->Excess, this->Count, this->Work);
       this->Move();
       if (this->Moved == 0)
       {
@@ -106,12 +106,12 @@ private:
     const std::int64_t smallest = std::max<std::int64_t>(1, pixels / this->Size[0]);
     for (std::int64_t row = 0; row < this->Rows;)
     {
-      const std::int64_t slice = std::min(this->Rows - row, this->Monitor.NextSlice(smallest));
+      const std::int64_t slice = std::min(this->Rows - row, this->Work.NextSlice(smallest));
       for (const std::int64_t end = row + slice; row < end; ++row)
       {
         visit(row);
       }
-      this->Monitor.EndSlice(slice);
+      this->Work.EndSlice(slice);
     }
   }
 
@@ -268,7 +268,7 @@ private:
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
-      this->Monitor.Check();
+      this->Work.Check();
       if (this->Borders[i].Flow != 0)
       {
         std::sort(candidates.begin() + first[i], candidates.begin() + first[i + 1]);
@@ -290,7 +290,7 @@ private:
         }
       }
       pending.resize(left);
-      this->Monitor.Check();
+      this->Work.Check();
     }
   }
 
@@ -322,7 +322,7 @@ private:
   const SiteDensity<Dimension>& Sites;
   const GridSize<Dimension> Size;
   std::int64_t* Owners;
-  Progress& Monitor;
+  Progress& Work;
   const std::int64_t Cells;
   std::vector<std::int64_t> Excess; // pixels of a site cell less its target
   std::vector<std::int64_t> Count;

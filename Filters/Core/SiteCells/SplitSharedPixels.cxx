@@ -63,7 +63,7 @@ public:
     : Coordinates(coordinates)
     , Spacing(spacing)
     , Labels(labels)
-    , Monitor(progress)
+    , Work(progress)
     , Place(sites.Size())
     , Upper(largestCell)
   {
@@ -79,7 +79,7 @@ public:
       {
         this->Labels[pixels[i]] = *sites;
       }
-      return this->Monitor.Add(pixelCount);
+      return this->Work.Add(pixelCount);
     }
     const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
@@ -120,7 +120,7 @@ private:
       if (this->Visited >= sliceOfPixels)
       {
         this->Visited = 0;
-        this->Monitor.Check();
+        this->Work.Check();
       }
     }
   }
@@ -201,7 +201,7 @@ private:
   ConstPointSpan<Dimension> Coordinates;
   const Point<Dimension> Spacing;
   std::int64_t* Labels;
-  Progress& Monitor;
+  Progress& Work;
   PixelPlace<Dimension> Place;
   std::int64_t Visited = 0; // pixels since the last poll for cancellation
   Numbers Layers;

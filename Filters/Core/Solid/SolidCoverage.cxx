@@ -35,7 +35,7 @@ public:
     , Layers(layers)
     , Squares(supersampling)
     , First(layers + 2)
-    , Monitor(progress)
+    , Work(progress)
   {
   }
 
@@ -44,7 +44,7 @@ public:
   {
     // Counted as differences along the layers: O(1) for a triangle of any height.
     std::fill_n(this->First.data(), this->Layers + 2, Index{ 0 });
-    this->Monitor.BeginStage(0.05, this->Surface.NumberOfTriangles);
+    this->Work.BeginStage(0.05, this->Surface.NumberOfTriangles);
     this->ForTriangles([this](Index, const Range& range) {
       ++this->First.data()[range.First + 1];
       --this->First.data()[range.End + 1];
@@ -61,7 +61,7 @@ public:
     this->Triangles = LargeBuffer<Index>(sum);
     LargeBuffer<Index> next(this->Layers);
     std::copy_n(first, this->Layers, next.data());
-    this->Monitor.BeginStage(0.1, sum);
+    this->Work.BeginStage(0.1, sum);
     this->ForTriangles([this, &next](Index triangle, const Range& range) {
       for (Index k = range.First; k < range.End; ++k)
       {
@@ -107,7 +107,7 @@ private:
       {
         visit(i, range);
       }
-      this->Monitor.Add(1 + range.End - range.First);
+      this->Work.Add(1 + range.End - range.First);
     }
   }
 
@@ -116,7 +116,7 @@ private:
   int Squares;
   LargeBuffer<Index> First;
   LargeBuffer<Index> Triangles;
-  Progress& Monitor;
+  Progress& Work;
 };
 
 // The intersection of a line with the surface.
@@ -175,7 +175,7 @@ public:
     , LinesPerCell(supersampling * supersampling)
     , Lines(cells[1] * supersampling)
     , Coverage(coverage)
-    , Monitor(progress)
+    , Work(progress)
   {
   }
 
@@ -186,10 +186,10 @@ public:
     scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1);
     scratch.Parts.Reserve(this->Cells[0] + 1);
     scratch.Whole.Reserve(this->Cells[0] + 1);
-    for (Index layer = first; layer < last && !this->Monitor.ShouldStop(); ++layer)
+    for (Index layer = first; layer < last && !this->Work.ShouldStop(); ++layer)
     {
       this->FindCrossings(layer, scratch);
-      if (this->Monitor.IsCancelled()) // then crossings may be missing
+      if (this->Work.IsCancelled()) // then crossings may be missing
       {
         return;
       }
@@ -262,7 +262,7 @@ private:
     const double squares = static_cast<double>(this->Squares);
     for (Index at = this->Layers.Begin(layer); at < this->Layers.End(layer); ++at)
     {
-      if ((at & 0xfff) == 0xfff && this->Monitor.ShouldStop())
+      if ((at & 0xfff) == 0xfff && this->Work.ShouldStop())
       {
         return;
       }
@@ -317,7 +317,7 @@ private:
     const Index* first = scratch.First.data();
     for (Index j = 0; j < this->Cells[1]; ++j)
     {
-      if ((j & 0x1f) == 0x1f && this->Monitor.ShouldStop())
+      if ((j & 0x1f) == 0x1f && this->Work.ShouldStop())
       {
         return;
       }
@@ -406,7 +406,7 @@ private:
   int LinesPerCell;
   Index Lines; // of a row
   double* Coverage;
-  Progress& Monitor;
+  Progress& Work;
   std::atomic<Index> NumberOfOpenLines{ 0 };
 };
 

@@ -41,7 +41,7 @@ class SplatRun
 public:
   SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
     const SplatOptions& options, double scale, double* cells, Progress& progress)
-    : Monitor(progress)
+    : Work(progress)
     , Tiles(this->Job)
   {
     this->Job.Particles = particles;
@@ -83,14 +83,14 @@ public:
   {
     const std::int64_t count = this->Job.Particles.Points.size();
     this->Clear(count > 0 ? 0.1 : 1.0);
-    this->Monitor.BeginStage(1.0, count);
+    this->Work.BeginStage(1.0, count);
     for (std::int64_t begin = 0; begin < count;)
     {
       const std::int64_t slice =
-        std::min({ count - begin, this->Monitor.NextSlice(this->ShortestSlice), longestSlice });
+        std::min({ count - begin, this->Work.NextSlice(this->ShortestSlice), longestSlice });
       this->AddSlice(begin, slice);
       begin += slice;
-      this->Monitor.EndSlice(slice);
+      this->Work.EndSlice(slice);
     }
     return { this->Outside };
   }
@@ -114,8 +114,8 @@ private:
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
     double* cells = this->Job.Cells;
-    this->Monitor.BeginStage(end);
-    this->Monitor.For(
+    this->Work.BeginStage(end);
+    this->Work.For(
       this->NumberOfCells, grain,
       [cells](
         std::int64_t first, std::int64_t last) { std::fill(cells + first, cells + last, 0.0); },
@@ -124,13 +124,13 @@ private:
 
   void AddSlice(std::int64_t first, std::int64_t count)
   {
-    const int tasks = this->Monitor.Threads().Concurrency();
+    const int tasks = this->Work.Threads().Concurrency();
     if (tasks == 1)
     {
       this->AddInOrder(first, count);
       return;
     }
-    this->Slabs.FindChunks(first, count, this->Monitor.Threads());
+    this->Slabs.FindChunks(first, count, this->Work.Threads());
     double visits = 0.0;
     for (std::int64_t slabs = mostSlabs; slabs > 0; slabs /= 2)
     {
@@ -161,13 +161,13 @@ private:
   {
     const std::int64_t slabs = this->Slabs.NumberOfSlabs();
     this->MakeScratch(slabs);
-    this->Monitor.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Work.Threads().For(slabs, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t slab = begin; slab < end; ++slab)
       {
         const CellBox<Dimension> box = this->Slabs.Slab(slab);
         std::int64_t outside = 0;
         for (std::int64_t chunk = 0;
-             chunk < this->Slabs.NumberOfChunks() && !this->Monitor.IsCancelled(); ++chunk)
+             chunk < this->Slabs.NumberOfChunks() && !this->Work.IsCancelled(); ++chunk)
         {
           const typename SlabPartition<Dimension, Real>::Planes planes = this->Slabs.Chunk(chunk);
           const std::int32_t low = box.Low[Dimension - 1];
@@ -188,19 +188,19 @@ private:
 
   void AddByTiles(std::int64_t first, std::int64_t count)
   {
-    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Monitor);
-    if (this->Monitor.IsCancelled())
+    this->Outside += this->Tiles.Sort(this->Kernels.Find, first, count, this->Work);
+    if (this->Work.IsCancelled())
     {
       return;
     }
     const std::int64_t tiles = this->Tiles.Count();
     const std::int64_t groups = std::min(tiles, groupsOfTiles);
     this->MakeScratch(groups);
-    this->Monitor.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
+    this->Work.Threads().For(groups, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t group = begin; group < end; ++group)
       {
         for (std::int64_t tile = group * tiles / groups;
-             tile < (group + 1) * tiles / groups && !this->Monitor.ShouldStop(); ++tile)
+             tile < (group + 1) * tiles / groups && !this->Work.ShouldStop(); ++tile)
         {
           const CellBox<Dimension> box = this->Tiles.Box(tile);
           this->Kernels.Add(this->Job, first, this->Tiles.Begin(tile), this->Tiles.CountOf(tile),
@@ -215,7 +215,7 @@ private:
     std::int64_t first, std::int64_t count, const CellBox<Dimension>* box, std::int64_t task)
   {
     std::int64_t outside = 0;
-    for (std::int64_t begin = 0; begin < count && !this->Monitor.ShouldStop(); begin += this->Step)
+    for (std::int64_t begin = 0; begin < count && !this->Work.ShouldStop(); begin += this->Step)
     {
       outside += this->Kernels.Add(this->Job, first + begin, nullptr,
         std::min(this->Step, count - begin), box, this->ScratchOf(task));
@@ -232,7 +232,7 @@ private:
 
   SplatJob<Dimension, Real> Job{};
   SplatKernels<Dimension, Real> Kernels;
-  Progress& Monitor;
+  Progress& Work;
   SlabPartition<Dimension, Real> Slabs;
   SplatTiles<Dimension, Real> Tiles;
   std::int64_t NumberOfCells = 0;

@@ -70,7 +70,7 @@ public:
 
   void Run()
   {
-    Progress& progress = this->Build.Monitor;
+    Progress& progress = this->Build.Work;
     const Executor& threads = progress.Threads();
     while (this->Begin < this->Rows)
     {
@@ -198,7 +198,7 @@ public:
 
   void Run()
   {
-    Progress& progress = this->Build.Monitor;
+    Progress& progress = this->Build.Work;
     const Executor& threads = progress.Threads();
     while (this->Begin < this->Slices)
     {
@@ -367,7 +367,7 @@ void buildTables(const TableBuild<1>& build)
   }
   for (std::int64_t first = 0; first < size; first += segment)
   {
-    build.Monitor.NextSlice(1);
+    build.Work.NextSlice(1);
     const std::int64_t count = std::min(segment, size - first);
     build.Density.Read(first, count, values.data());
     DensitySummary part;
@@ -385,7 +385,7 @@ void buildTables(const TableBuild<1>& build)
     {
       copyToLevel<2>(nodes.data(), first, count, size, level, build.Level(level));
     }
-    build.Monitor.EndSlice(count);
+    build.Work.EndSlice(count);
   }
 }
 

@@ -17,7 +17,7 @@ template <int Dimension>
 struct TableBuild
 {
   const DensityValues& Density;
-  Progress& Monitor;
+  Progress& Work;
   const TableView<Dimension>& Tables;
   double* Nodes; // of all levels
   std::uint64_t* Occupied;
