@@ -26,7 +26,7 @@ namespace
 
 constexpr int BlockSize = 64;
 
-#include "Core/Parallel/Vectors.txx"
+#include "Core/Flow/Kernels/Vectors.txx"
 
 #include "Core/Flow/Kernels/BoxMoments.txx"
 

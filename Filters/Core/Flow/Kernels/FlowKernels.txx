@@ -20,7 +20,7 @@ namespace RectifiedTransport
 namespace
 {
 
-#include "Core/Parallel/Vectors.txx"
+#include "Core/Flow/Kernels/Vectors.txx"
 
 #include "Core/Flow/Kernels/BoxMoments.txx"
 #include "Core/Flow/Kernels/FlowVelocity.txx"
