@@ -228,7 +228,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     return gridWithValues(first, dimensions, property);
   }
 
-  constexpr double most = 1 << 30; // cells an axis, as in the core
+  constexpr double most = MaximumResolution;
   Sides sides = all.front();
   std::array<Union, 3> unions;
   for (std::size_t i = 0; i < 3; ++i)
@@ -243,7 +243,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
       std::ostringstream message;
       message << "The box of all inputs at the finest spacing has " << unions[i].Cells
               << " cells along "
-              << "xyz"[i] << "; give " << property << " of at most 1073741824";
+              << "xyz"[i] << "; give " << property << " of at most " << MaximumResolution;
       throw Failure(message.str());
     }
     const double cells = std::min(unions[i].Cells, most);

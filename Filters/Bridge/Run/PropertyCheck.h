@@ -5,19 +5,18 @@
 #define RectifiedTransport_PropertyCheck_h
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Geometry/GridSize.h"
 
 #include <cstddef>
 #include <cstdlib>
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <type_traits>
 
 namespace RectifiedTransport
 {
-
-// Cells along an axis, as in the core.
-constexpr int MaximumResolution = 1 << 30;
 
 // The text of a value of an enumeration.
 template <std::size_t Count>
@@ -67,8 +66,9 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
 // A number of cells along an axis.
 inline void requireResolution(const char* property, int resolution)
 {
-  requireThat(resolution >= 1 && resolution <= MaximumResolution, property, resolution,
-    "from 1 to 1073741824");
+  const std::string rule = "from 1 to " + std::to_string(MaximumResolution);
+  requireThat(
+    resolution >= 1 && resolution <= MaximumResolution, property, resolution, rule.c_str());
 }
 
 } // namespace RectifiedTransport

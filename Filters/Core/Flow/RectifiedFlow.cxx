@@ -4,6 +4,7 @@
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/ParticleOrder.h"
+#include "Core/Geometry/CountText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/NearestMass.h"
@@ -55,7 +56,7 @@ void check(const GridSize<Dimension>& size, const char* what)
 {
   for (const std::int64_t cells : size)
   {
-    if (cells < 1 || cells > std::int64_t{ 1 } << 30)
+    if (cells < 1 || cells > MaximumResolution)
     {
       throw std::invalid_argument(std::string(what) + " has " + std::to_string(cells) +
         " cells along an axis, it must have from 1 to 2^30");

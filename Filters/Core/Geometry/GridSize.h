@@ -7,11 +7,11 @@
 
 #include <array>
 #include <cstdint>
-#include <sstream>
-#include <string>
 
 namespace RectifiedTransport
 {
+
+constexpr int MaximumResolution = 1 << 30; // cells along an axis
 
 // Cells along each axis.
 template <int Dimension>
@@ -48,16 +48,6 @@ Point<Dimension> latticeStep(const GridSize<Dimension>& lattice, const GridSize<
     step[axis] = static_cast<double>(size[axis]) / static_cast<double>(lattice[axis]);
   }
   return step;
-}
-
-// All digits of a count.
-inline std::string describeCount(double count)
-{
-  std::ostringstream text;
-  constexpr int allDigits = 17;
-  text.precision(allDigits);
-  text << count;
-  return text.str();
 }
 
 } // namespace RectifiedTransport

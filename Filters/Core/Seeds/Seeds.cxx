@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seeds/Seeds.h"
 
+#include "Core/Geometry/CountText.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
