@@ -5,7 +5,7 @@
 #ifndef RectifiedTransport_LatticeOrder_h
 #define RectifiedTransport_LatticeOrder_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_MapDerivatives_h
 #define RectifiedTransport_MapDerivatives_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
 

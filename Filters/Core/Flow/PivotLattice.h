@@ -5,8 +5,9 @@
 #define RectifiedTransport_PivotLattice_h
 
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Parallel/Context.h"
-#include "Core/Tables/Density.h"
 
 #include <cstdint>
 #include <vector>

@@ -20,12 +20,10 @@ public:
   explicit LengthScale(const ImageGrid& grid)
     : Exponent(std::clamp(std::ilogb(grid.Diagonal()), -most, most))
     , UnitsALength(std::ldexp(1.0, -this->Exponent))
-    , LengthOfUnit(std::ldexp(1.0, this->Exponent))
   {
   }
 
   double ToUnits(double length) const { return length * this->UnitsALength; }
-  double FromUnits(double units) const { return units * this->LengthOfUnit; }
 
   // The squared length of a vector, in squared units.
   double SquareInUnits(const double* vector) const
@@ -53,7 +51,6 @@ private:
 
   int Exponent;
   double UnitsALength;
-  double LengthOfUnit;
 };
 
 } // namespace RectifiedTransport

@@ -8,7 +8,6 @@
 #include <exception>
 #include <memory>
 #include <type_traits>
-#include <utility>
 
 namespace RectifiedTransport
 {

@@ -4,9 +4,9 @@
 #ifndef RectifiedTransport_SplatTiles_h
 #define RectifiedTransport_SplatTiles_h
 
-#include "Core/Parallel/Executor.h"
 #include "Core/Splat/Kernels/SplatKernels.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport

@@ -4,7 +4,6 @@
 #include "Core/Geometry/ReproducibleMath.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace RectifiedTransport
 {

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_BoxShare_h
 #define RectifiedTransport_BoxShare_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Tables/TableView.h"
 
 namespace RectifiedTransport

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_NearestMass_h
 #define RectifiedTransport_NearestMass_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Tables/TableView.h"
 
 namespace RectifiedTransport
