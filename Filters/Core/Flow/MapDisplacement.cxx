@@ -3,6 +3,7 @@
 
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Geometry/CountText.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Seeds/UnitSeeds.h"
 
+#include "Core/Geometry/CountText.h"
+
 #include <stdexcept>
 #include <string>
 
