@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which file may include which, as Documentation/Contributing.md states it."""
+import glob
+import os
+import re
+import unittest
+
+from rt_testing import SOURCE, main
+
+CORE = {
+    "Parallel": set(),
+    "Geometry": {"Parallel"},
+    "Tables": {"Parallel", "Geometry"},
+    "Flow": {"Parallel", "Geometry", "Tables"},
+    "SiteCells": {"Parallel", "Geometry", "Tables", "Flow"},
+    "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
+    "Seeds": {"Parallel", "Geometry"},
+    "Splat": {"Parallel", "Geometry"},
+    "Solid": {"Parallel", "Geometry"},
+}
+RUN = {"Run"}
+WORKERS = RUN | {"Image", "Points", "Settings", "Density"}
+BRIDGE = {
+    "Run": set(),
+    "Image": RUN,
+    "Points": RUN,
+    "Settings": RUN,
+    "Density": RUN | {"Image", "Points"},
+    "Blend": WORKERS | {"Splat"},
+    **{folder: WORKERS for folder in ("Flow", "Quality", "Seeds", "SiteCells", "Solid", "Splat")},
+}
+
+
+FILTERS = os.path.join(SOURCE, "Filters")
+
+
+def sources(*pattern):
+    """Pairs of the path from Filters and the text of each source file."""
+    for path in sorted(glob.glob(os.path.join(FILTERS, *pattern), recursive=True)):
+        if path.endswith((".h", ".txx", ".cxx")):
+            with open(path, encoding="utf-8") as file:
+                yield os.path.relpath(path, FILTERS), file.read()
+
+
+class Includes(unittest.TestCase):
+    def check(self, top, allowed):
+        found = 0
+        for path, text in sources(top, "*", "**", "*"):
+            own = path.split(os.sep)[1]
+            for folder in re.findall(r'#include "%s/(\w+)/' % top, text):
+                found += 1
+                with self.subTest(path, includes=folder):
+                    self.assertIn(folder, allowed[own] | {own})
+        self.assertGreater(found, 50)
+
+    def test_core(self):
+        self.check("Core", CORE)
+
+    def test_bridge(self):
+        self.check("Bridge", BRIDGE)
+
+    def test_core_knows_neither_vtk_nor_bridge(self):
+        for path, text in sources("Core", "**", "*"):
+            self.assertNotRegex(text, r'#include [<"](vtk|Bridge/)', path)
+
+    def test_headers_of_filters(self):
+        """Only a filter's own source and its subclasses include its header."""
+        headers = {os.path.basename(path): re.findall(r"class \w+EXPORT (\w+) : public (\w+)", text)
+                   for path, text in sources("vtk*.h")}
+        classes = {header: found[0] for header, found in headers.items() if found}
+        self.assertGreater(len(classes), 10)
+        for path, text in sources("**", "*"):
+            own = os.path.splitext(path)[0]
+            for header in re.findall(r'#include "(?:.*/)?(vtk\w+[.]h)"', text):
+                if header in classes and header != own + ".h":
+                    with self.subTest(path, includes=header):
+                        self.assertEqual(classes[header][0], classes.get(path, ("", ""))[1])
+
+    def test_headers_of_filters_include_no_worker(self):
+        for path, text in sources("vtk*.h"):
+            for included in re.findall(r'#include "((?:Bridge|Core)/.*)"', text):
+                with self.subTest(path):
+                    self.assertEqual(included, "Bridge/VTKCompatibility.h")
+
+    def test_kernels_know_no_eigen(self):
+        kernels = {**dict(sources("Core", "**", "*.txx")),
+                   **dict(sources("Core", "*", "Kernels", "*"))}
+        self.assertIn(os.path.join("Core", "Parallel", "Vectors.txx"), kernels)
+        for path, text in kernels.items():
+            self.assertFalse("Eigen" in text, path)
+
+
+if __name__ == "__main__":
+    main()
