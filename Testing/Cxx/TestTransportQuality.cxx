@@ -307,6 +307,9 @@ void checkErrors(Checks& checks)
   quality->SetBlockSize(2147483647);
   CHECK(checks, measured(quality, "DensityError") == 0.0); // one block
   quality->SetBlockSize(8);
+  quality->SetThreading(4);
+  test.Expect("Threading is 4; it must be 0 (Auto)", __LINE__);
+  quality->SetThreadingToAuto();
   const auto withArray = [&](const char* name, const std::vector<double>& values, int components) {
     auto set = points();
     addArray(set, name, values, components);

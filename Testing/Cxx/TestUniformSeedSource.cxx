@@ -107,6 +107,9 @@ void checkErrors(Checks& checks)
   source->SetPattern(-1);
   test.Expect({ "Pattern is -1", "0 (BlueNoise)" }, __LINE__);
   source->SetPatternToRandom();
+  source->SetThreading(-1);
+  test.Expect("Threading is -1; it must be 0 (Auto)", __LINE__);
+  source->SetThreadingToAuto();
   source->SetBounds(0, 1, 2, 1, 0, 1);
   test.Expect({ "Bounds are 2 to 1 in y", "the second greater" }, __LINE__);
   source->SetBounds(0, 0, 0, 1, 0, 1);
