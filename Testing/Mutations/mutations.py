@@ -72,7 +72,7 @@ SURVIVED = [
 ]
 
 # The same kinds of mistakes in other places: an operator, a bound, an index, a factor, a unit, a line
-# left out, drawn over all rooms of the house.
+# left out, in every folder of Filters.
 OTHERS = [
     # tables and flow
     E(CORE + "Flow/Kernels/FlowKernels.cxx", "p[1] = «(1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta))»",
@@ -130,6 +130,11 @@ OTHERS = [
     S(BRIDGE + "Solid/ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
     E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != none»)\n    {\n      this->Append(",
       "below != none && above != none"),
+    # the tables that filters share
+    E(BRIDGE + "Density/SharedFlow.cxx",
+      "return «found == this->Entries.end()» ? nullptr : found->second.lock();", "true"),
+    E(BRIDGE + "Density/SharedFlow.cxx", "flow.use_count() != 1", "false"),
+    E(BRIDGE + "Density/DensityImage.cxx", "this->Hashed != Content{}", "false"),
     # the filters
     S("Filters/vtkTransportBarycenter.cxx",
       "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
