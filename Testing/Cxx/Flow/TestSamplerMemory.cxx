@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that cannot be had: an error that says how much was asked for, and nothing is lost.
-#include "../MemoryLimit.h"
+#include "../../MemoryLimit.h"
 #include "SamplerTest.h"
 
 #include "vtkUniformSeedSource.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters whose output grows while it is made, with less and less memory: all of it or one error.
-#include "../MemoryLimit.h"
+#include "../../MemoryLimit.h"
 #include "CellsTest.h"
 #include "SolidTest.h"
 

@@ -3,7 +3,7 @@
 // error that both share.
 #include "MapTest.h"
 
-#include "../Core/Oracle.h"
+#include "../../Core/Oracle.h"
 
 namespace
 {
