@@ -18,13 +18,13 @@ namespace Campaign
 namespace
 {
 
-vtkSmartPointer<vtkDataArray> newArray(Dice& dice)
+vtkSmartPointer<vtkDataArray> newArray(RandomSource& random)
 {
-  const int type = dice.Of({ VTK_DOUBLE, VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_FLOAT,
+  const int type = random.Of({ VTK_DOUBLE, VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_FLOAT,
     VTK_UNSIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_CHAR, VTK_SIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT,
     VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG,
     VTK_ID_TYPE, VTK_BIT });
-  if (dice.Chance(0.05))
+  if (random.Chance(0.05))
   {
     if (type == VTK_FLOAT)
     {
@@ -36,30 +36,30 @@ vtkSmartPointer<vtkDataArray> newArray(Dice& dice)
 }
 
 // One value of a kind; `at` is in [0,1).
-double drawValue(Dice& dice, int kind, double at)
+double drawValue(RandomSource& random, int kind, double at)
 {
   switch (kind)
   {
     case 0:
       return 1.0;
     case 1:
-      return static_cast<double>(dice.Whole(0, 100));
+      return static_cast<double>(random.Whole(0, 100));
     case 2:
-      return dice.Unit();
+      return random.Unit();
     case 3: // a bump
       return 1.0 + 100.0 * at * (1.0 - at);
     case 4: // mostly empty
-      return dice.Chance(0.1) ? static_cast<double>(dice.Whole(1, 100)) : 0.0;
+      return random.Chance(0.1) ? static_cast<double>(random.Whole(1, 100)) : 0.0;
     case 5: // steep
-      return dice.Magnitude(-40, 40);
+      return random.Magnitude(-40, 40);
     case 6: // half empty
-      return at < 0.5 ? 0.0 : static_cast<double>(dice.Whole(1, 9));
+      return at < 0.5 ? 0.0 : static_cast<double>(random.Whole(1, 9));
     case 7:
-      return dice.Magnitude(1000, 1010);
+      return random.Magnitude(1000, 1010);
     case 8: // denormal
-      return std::ldexp(dice.Unit(), -1030);
+      return std::ldexp(random.Unit(), -1030);
     default:
-      return dice.Magnitude(-990, -960);
+      return random.Magnitude(-990, -960);
   }
 }
 
@@ -95,65 +95,65 @@ std::string textOf(double value)
   return text.str();
 }
 
-double drawStrange(Dice& dice)
+double drawExceptional(RandomSource& random)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return dice.Of({ std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, -1.0, -1e-300,
+  return random.Of({ std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, -1.0, -1e-300,
     1e308, -1e308, -0.0, 5e-324, 1e160, -1e9 });
 }
 
 vtkSmartPointer<vtkDataArray> drawArray(
-  Dice& dice, vtkIdType tuples, int components, std::string& text)
+  RandomSource& random, vtkIdType tuples, int components, std::string& text)
 {
-  const vtkSmartPointer<vtkDataArray> array = newArray(dice);
+  const vtkSmartPointer<vtkDataArray> array = newArray(random);
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
-  const auto kind = static_cast<int>(dice.Chance(0.85) ? dice.Whole(0, 6) : dice.Whole(4, 9));
-  const bool one = dice.Chance(0.04); // all in one place
-  const vtkIdType place = tuples > 0 ? dice.Whole(0, tuples - 1) : 0;
+  const auto kind = static_cast<int>(random.Chance(0.85) ? random.Whole(0, 6) : random.Whole(4, 9));
+  const bool one = random.Chance(0.04); // all in one place
+  const vtkIdType place = tuples > 0 ? random.Whole(0, tuples - 1) : 0;
   for (vtkIdType i = 0; i < tuples; ++i)
   {
     const double at = static_cast<double>(i) / static_cast<double>(tuples);
     for (int c = 0; c < components; ++c)
     {
-      const double value = drawValue(dice, kind, at);
+      const double value = drawValue(random, kind, at);
       array->SetComponent(i, c, inRangeOf(array, one && i != place ? 0.0 : value));
     }
   }
-  const std::int64_t strange = dice.Chance(0.06) && tuples > 0 ? dice.Whole(1, 3) : 0;
-  for (std::int64_t i = 0; i < strange; ++i)
+  const std::int64_t exceptional = random.Chance(0.06) && tuples > 0 ? random.Whole(1, 3) : 0;
+  for (std::int64_t i = 0; i < exceptional; ++i)
   {
-    const double value = inRangeOf(array, drawStrange(dice));
+    const double value = inRangeOf(array, drawExceptional(random));
     array->SetComponent(
-      dice.Whole(0, tuples - 1), static_cast<int>(dice.Whole(0, components - 1)), value);
+      random.Whole(0, tuples - 1), static_cast<int>(random.Whole(0, components - 1)), value);
   }
-  if (dice.Chance(0.01))
+  if (random.Chance(0.01))
   {
     array->Fill(0.0);
   }
   text = std::string(array->GetClassName()) + " of " + std::to_string(components) + " x " +
     std::to_string(tuples) + ", values of kind " + std::to_string(kind) + (one ? " in one" : "") +
-    (strange > 0 ? " and strange ones" : "");
+    (exceptional > 0 ? " and exceptional ones" : "");
   return array;
 }
 
-void drawGhosts(
-  Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength, Input& input)
+void drawGhosts(RandomSource& random, vtkDataSetAttributes* attributes, vtkIdType tuples,
+  bool anyLength, Input& input)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   // One of the wrong length is none.
-  const vtkIdType marked = dice.Chance(0.1) && anyLength ? tuples / 2 : tuples;
+  const vtkIdType marked = random.Chance(0.1) && anyLength ? tuples / 2 : tuples;
   ghosts->SetNumberOfTuples(marked);
-  const double share = dice.Of({ 0.02, 0.3, 1.0 });
+  const double share = random.Of({ 0.02, 0.3, 1.0 });
   for (vtkIdType i = 0; i < marked; ++i)
   {
-    const auto flags = static_cast<unsigned char>(dice.Of({ 1, 2, 8, 32, 33, 255 }));
-    ghosts->SetValue(i, dice.Chance(share) ? flags : static_cast<unsigned char>(0));
+    const auto flags = static_cast<unsigned char>(random.Of({ 1, 2, 8, 32, 33, 255 }));
+    ghosts->SetValue(i, random.Chance(share) ? flags : static_cast<unsigned char>(0));
   }
   attributes->AddArray(ghosts);
   input.Worsen(State::Odd);
-  input.Say("ghosts");
+  input.Describe("ghosts");
 }
 
 } // namespace Campaign

@@ -36,7 +36,7 @@ void drawBlend(Settings& settings)
 
 // The grid of the output. Images that are not alike may have a large box in common at a fine
 // spacing: they never go without.
-void drawDimensions(Dice& dice, Settings& settings, const Inputs& inputs)
+void drawDimensions(RandomSource& random, Settings& settings, const Inputs& inputs)
 {
   bool alike = true;
   for (const auto& port : inputs)
@@ -48,14 +48,14 @@ void drawDimensions(Dice& dice, Settings& settings, const Inputs& inputs)
   }
   const int* like = vtkImageData::SafeDownCast(inputs[0][0].Data)->GetDimensions();
   int asked[3] = { 0, 0, 0 };
-  const bool any = !alike || dice.Chance(0.4);
+  const bool any = !alike || random.Chance(0.4);
   for (int a = 0; a < 3 && any; ++a)
   {
-    asked[a] = like[a] > 1 ? dice.Of({ 2, 5, 9, 12 }) : 0;
+    asked[a] = like[a] > 1 ? random.Of({ 2, 5, 9, 12 }) : 0;
   }
-  if (dice.Chance(0.03))
+  if (random.Chance(0.03))
   {
-    asked[dice.Whole(0, 2)] = dice.Of({ -1, 1, 2147483647 });
+    asked[random.Whole(0, 2)] = random.Of({ -1, 1, 2147483647 });
   }
   const int x = asked[0];
   const int y = asked[1];
@@ -134,10 +134,10 @@ void drawMorph(Settings& settings)
   settings.Draw<Morph, vtkTypeBool>("PublishTime", &Morph::SetPublishTime, { 0, 1 }, {}, 0.2);
   settings.Draw<Morph, int>(
     "NumberOfTimeSteps", &Morph::SetNumberOfTimeSteps, { 2, 11, 1000 }, { 1, 1000001, -5 }, 0.2);
-  Dice& dice = settings.GetDice();
-  if (dice.Chance(0.15))
+  RandomSource& random = settings.GetRandom();
+  if (random.Chance(0.15))
   {
-    const double time = dice.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity, NaN });
+    const double time = random.Of({ 0.0, 0.3, 1.0, -5.0, 7.0, Infinity, -Infinity, NaN });
     settings.Add("Time", textOf(time), [=](vtkAlgorithm* filter) {
       filter->UpdateInformation(); // the first drops a time that was asked for before
       for (int port = 0; port < 2; ++port)
@@ -149,13 +149,13 @@ void drawMorph(Settings& settings)
   drawBlend(settings);
 }
 
-Inputs feedMorph(Dice& dice, Settings& settings)
+Inputs drawMorphInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(2);
-  inputs[0] = { drawDensityOn(dice, settings, 0) };
-  inputs[1] = { drawPartner(dice, inputs[0][0], settings) };
-  drawChoice(dice, settings, 1, 1, inputs[1][0]);
-  drawDimensions(dice, settings, inputs);
+  inputs[0] = { drawDensityOn(random, settings, 0) };
+  inputs[1] = { drawPartner(random, inputs[0][0], settings) };
+  drawChoice(random, settings, 1, 1, inputs[1][0]);
+  drawDimensions(random, settings, inputs);
   return inputs;
 }
 
@@ -233,27 +233,28 @@ std::vector<double> weightsOf(vtkAlgorithm* filter, std::size_t count)
   return weights;
 }
 
-Inputs feedBarycenter(Dice& dice, Settings& settings)
+Inputs drawBarycenterInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(1);
-  inputs[0] = { drawDensityOn(dice, settings, 0) };
-  const std::int64_t others = dice.Whole(0, 3);
+  inputs[0] = { drawDensityOn(random, settings, 0) };
+  const std::int64_t others = random.Whole(0, 3);
   for (std::int64_t i = 0; i < others; ++i)
   {
-    inputs[0].push_back(drawPartner(dice, inputs[0][0], settings));
+    inputs[0].push_back(drawPartner(random, inputs[0][0], settings));
   }
   std::vector<double> weights;
-  if (dice.Chance(0.6))
+  if (random.Chance(0.6))
   {
-    const std::int64_t count = dice.Chance(0.05) ? dice.Whole(0, 6) : others + 1;
+    const std::int64_t count = random.Chance(0.05) ? random.Whole(0, 6) : others + 1;
     for (std::int64_t i = 0; i < count; ++i)
     {
-      weights.push_back(dice.Chance(0.95) ? dice.Of({ 0.0, 1.0, dice.Unit() }) : drawStrange(dice));
+      weights.push_back(
+        random.Chance(0.95) ? random.Of({ 0.0, 1.0, random.Unit() }) : drawExceptional(random));
     }
   }
   settings.Add("Weights", std::to_string(weights.size()) + " of them",
     [weights](vtkAlgorithm* filter) { setWeights(filter, weights); });
-  if (dice.Chance(0.02))
+  if (random.Chance(0.02))
   {
     settings.Add("Weights", "none, after ones that are refused", [](vtkAlgorithm* filter) {
       auto* barycenter = Barycenter::SafeDownCast(filter);
@@ -262,7 +263,7 @@ Inputs feedBarycenter(Dice& dice, Settings& settings)
       barycenter->SetNumberOfWeights(0);
     });
   }
-  drawDimensions(dice, settings, inputs);
+  drawDimensions(random, settings, inputs);
   return inputs;
 }
 
@@ -285,9 +286,9 @@ void checkBarycenter(vtkAlgorithm* filter, const Inputs& inputs, Findings& findi
 
 void addBlendKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Morph", make<Morph>, drawMorph, feedMorph, expectMorph, checkMorph });
-  kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, feedBarycenter, expectBarycenter,
-    checkBarycenter });
+  kinds.push_back({ "Morph", make<Morph>, drawMorph, drawMorphInputs, expectMorph, checkMorph });
+  kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, drawBarycenterInputs,
+    expectBarycenter, checkBarycenter });
 }
 
 } // namespace Campaign

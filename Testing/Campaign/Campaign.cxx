@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plays cases and prints a line for each: its number, a digest of what came out, the number of
+// Runs cases and prints a line for each: its number, a digest of what came out, the number of
 // findings and the filter. run.py compares the lines of several settings.
 #include "Case.h"
 
@@ -23,7 +23,7 @@ namespace
 
 const char* const usage =
   "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
-  "  --case N   plays one case and tells its story\n";
+  "  --case N   runs one case and prints its steps and findings\n";
 
 struct Arguments
 {
@@ -32,7 +32,7 @@ struct Arguments
   std::uint64_t Seed = 1;
   std::string Backend;
   int Threads = 1;
-  bool Tell = false;
+  bool PrintsLog = false;
 };
 
 bool parse(int argc, char* argv[], Arguments& arguments)
@@ -54,7 +54,7 @@ bool parse(int argc, char* argv[], Arguments& arguments)
     if (name == "--first" || name == "--case")
     {
       arguments.First = number;
-      arguments.Tell = name == "--case";
+      arguments.PrintsLog = name == "--case";
     }
     else if (name == "--count")
     {
@@ -118,20 +118,20 @@ int main(int argc, char* argv[])
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   makeThreads();
   bool failed = false;
-  const std::uint64_t count = arguments.Tell ? 1 : arguments.Count;
+  const std::uint64_t count = arguments.PrintsLog ? 1 : arguments.Count;
   for (std::uint64_t number = arguments.First; number < arguments.First + count; ++number)
   {
     startWatch();
     const std::clock_t start = std::clock();
-    const Campaign::CaseResult result = Campaign::playCase(arguments.Seed, number);
+    const Campaign::CaseResult result = Campaign::runCase(arguments.Seed, number);
     const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     failed = failed || !result.Findings.empty();
     std::printf("%llu %016llx %zu %s %d %d %d %d %.1f\n", static_cast<unsigned long long>(number),
       static_cast<unsigned long long>(result.Digest), result.Findings.size(), result.Filter.c_str(),
       result.Runs, result.Errors, result.Aborts, result.Limits, ms);
-    if (arguments.Tell)
+    if (arguments.PrintsLog)
     {
-      std::printf("%s", result.Story.c_str());
+      std::printf("%s", result.Log.c_str());
     }
     else
     {

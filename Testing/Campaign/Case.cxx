@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Case.h"
 
-#include "Behind.h"
+#include "Downstream.h"
 #include "FilterKind.h"
 #include "Kinds.h"
 #include "Listener.h"
@@ -43,35 +43,35 @@ void connect(vtkAlgorithm* filter, const Inputs& inputs)
   }
 }
 
-class Play
+class CaseRun
 {
 public:
-  Play(std::uint64_t seed, std::uint64_t number)
-    : Luck(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95)
+  CaseRun(std::uint64_t seed, std::uint64_t number)
+    : Random(seed * 0x9e3779b97f4a7c15 + number * 0xd1342543de82ef95)
     , Kind(filterKinds()[static_cast<std::size_t>(
-        this->Luck.Whole(0, static_cast<std::int64_t>(filterKinds().size()) - 1))])
-    , Properties(this->Luck)
+        this->Random.Whole(0, static_cast<std::int64_t>(filterKinds().size()) - 1))])
+    , Properties(this->Random)
   {
     this->Result.Filter = this->Kind.Name;
     this->Kind.DrawSettings(this->Properties);
-    this->Feed();
+    this->MakeInputs();
   }
 
   CaseResult Run()
   {
-    this->Tell(this->Properties.Describe());
-    this->TellInputs();
+    this->Print(this->Properties.Describe());
+    this->PrintInputs();
     this->Filter = this->Kind.New();
-    connect(this->Filter, this->Fed);
+    connect(this->Filter, this->GivenInputs);
     this->Properties.Apply(this->Filter);
-    const std::int64_t runs = this->Luck.Of({ 1, 1, 2, 2, 3, 4 });
+    const std::int64_t runs = this->Random.Of({ 1, 1, 2, 2, 3, 4 });
     for (std::int64_t i = 0; i < runs; ++i)
     {
       if (i > 0)
       {
         this->Change();
       }
-      const bool disturbed = this->Luck.Chance(0.1);
+      const bool disturbed = this->Random.Chance(0.1);
       if (disturbed)
       {
         this->RunDisturbed();
@@ -83,25 +83,25 @@ public:
         this->Same(before, "what a disturbed run leaves is whole");
       }
       // Of inputs that VTK itself turns down, what was there before stays.
-      if (this->ArePlain && (disturbed || (i > 0 && this->Luck.Chance(0.5))))
+      if (this->ArePlain && (disturbed || (i > 0 && this->Random.Chance(0.5))))
       {
         this->CompareFresh();
       }
     }
-    this->RunBehind();
+    this->RunDownstream();
     return this->Result;
   }
 
 private:
-  void Feed()
+  void MakeInputs()
   {
-    this->Fed = this->Kind.DrawInputs(this->Luck, this->Properties);
+    this->GivenInputs = this->Kind.DrawInputs(this->Random, this->Properties);
     this->ArePlain = true;
-    for (auto& port : this->Fed)
+    for (auto& port : this->GivenInputs)
     {
       for (Input& input : port)
       {
-        drawUnusual(this->Luck, input);
+        drawUnusual(this->Random, input);
         this->ArePlain = this->ArePlain && input.IsPlain;
       }
     }
@@ -109,19 +109,19 @@ private:
 
   State Expect() const
   {
-    return this->ArePlain ? this->Kind.Expect(this->Filter, this->Fed) : State::Open;
+    return this->ArePlain ? this->Kind.Expect(this->Filter, this->GivenInputs) : State::Open;
   }
 
-  void Tell(const std::string& text) { this->Result.Story += text + "\n"; }
+  void Print(const std::string& text) { this->Result.Log += text + "\n"; }
 
-  void TellInputs()
+  void PrintInputs()
   {
-    for (std::size_t port = 0; port < this->Fed.size(); ++port)
+    for (std::size_t port = 0; port < this->GivenInputs.size(); ++port)
     {
-      for (const Input& input : this->Fed[port])
+      for (const Input& input : this->GivenInputs[port])
       {
         const char* const states[] = { "sound", "empty", "odd", "faulty", "open" };
-        this->Tell("  port " + std::to_string(port) + " (" +
+        this->Print("  port " + std::to_string(port) + " (" +
           states[static_cast<int>(input.Condition)] + "): " + input.Text);
       }
     }
@@ -134,39 +134,39 @@ private:
     {
       this->Filter->Modified(); // what has failed runs again only if it was changed
     }
-    switch (this->Luck.Whole(0, 4))
+    switch (this->Random.Whole(0, 4))
     {
       case 0:
       {
         const std::size_t before = this->Properties.Count();
         this->Kind.DrawSettings(this->Properties);
-        this->Tell("changed:" + this->Properties.Describe(before));
+        this->Print("changed:" + this->Properties.Describe(before));
         this->Properties.Apply(this->Filter);
         break;
       }
       case 1:
       {
         const std::size_t before = this->Properties.Count();
-        this->Feed();
-        this->Tell("other inputs" + this->Properties.Describe(before));
-        this->TellInputs();
-        connect(this->Filter, this->Fed);
+        this->MakeInputs();
+        this->Print("other inputs" + this->Properties.Describe(before));
+        this->PrintInputs();
+        connect(this->Filter, this->GivenInputs);
         this->Properties.Apply(this->Filter);
         break;
       }
       case 2:
       case 3:
-        this->Tell("written in place");
-        for (auto& port : this->Fed)
+        this->Print("written in place");
+        for (auto& port : this->GivenInputs)
         {
           for (Input& input : port)
           {
-            changeInPlace(this->Luck, input);
+            changeInPlace(this->Random, input);
           }
         }
         break;
       default:
-        this->Tell("run again");
+        this->Print("run again");
         this->Filter->Modified();
     }
   }
@@ -185,15 +185,15 @@ private:
   void RunDisturbed()
   {
     Disturbance disturbance;
-    if (this->Luck.Chance(0.7))
+    if (this->Random.Chance(0.7))
     {
-      disturbance.AbortAt = static_cast<int>(this->Luck.Whole(0, 12));
-      this->Tell("aborted at progress " + std::to_string(disturbance.AbortAt));
+      disturbance.AbortAt = static_cast<int>(this->Random.Whole(0, 12));
+      this->Print("aborted at progress " + std::to_string(disturbance.AbortAt));
     }
     else
     {
-      disturbance.Memory = this->Luck.Whole(0, 1 << 20);
-      this->Tell("limited to " + std::to_string(disturbance.Memory) + " bytes more");
+      disturbance.Memory = this->Random.Whole(0, 1 << 20);
+      this->Print("limited to " + std::to_string(disturbance.Memory) + " bytes more");
     }
     Findings findings;
     this->Filter->Modified();
@@ -219,21 +219,21 @@ private:
     this->Take(findings);
   }
 
-  // Something behind the filter asks it for what it has made already.
-  void RunBehind()
+  // A filter downstream requests what this one has made already.
+  void RunDownstream()
   {
-    if (this->Last.IsEmpty || !this->ArePlain || !this->Luck.Chance(0.3))
+    if (this->Last.IsEmpty || !this->ArePlain || !this->Random.Chance(0.3))
     {
       return;
     }
-    const vtkSmartPointer<vtkAlgorithm> behind = drawBehind(this->Luck, this->Filter);
-    if (!behind)
+    const vtkSmartPointer<vtkAlgorithm> downstream = drawDownstream(this->Random, this->Filter);
+    if (!downstream)
     {
       return;
     }
-    this->Tell(std::string("behind it ") + behind->GetClassName());
+    this->Print(std::string("downstream: ") + downstream->GetClassName());
     Findings findings;
-    const Outcome outcome = update(behind, {}, findings);
+    const Outcome outcome = update(downstream, {}, findings);
     for (const std::string& text : outcome.Others)
     {
       findings.That(false, "something else said: " + text);
@@ -243,29 +243,29 @@ private:
     {
       now = digest(this->Filter->GetOutputDataObject(port), now);
     }
-    findings.That(now == this->Last.Digest, "what is behind changes nothing");
+    findings.That(now == this->Last.Digest, "what is downstream changes nothing");
     this->Take(findings);
     this->Result.Digest = this->Result.Digest * 31 + outcome.Digest;
     if (outcome.Errors.empty())
     {
-      this->AbortBefore(behind, outcome);
+      this->AbortBefore(downstream, outcome);
     }
   }
 
   // An abort leaves nothing to a filter that has read before; afterwards all is as it was.
-  void AbortBefore(vtkAlgorithm* behind, const Outcome& whole)
+  void AbortBefore(vtkAlgorithm* downstream, const Outcome& whole)
   {
     this->Filter->Modified();
     {
-      const Listener aborting(this->Filter, static_cast<int>(this->Luck.Whole(0, 6)));
-      behind->Update();
+      const Listener aborting(this->Filter, static_cast<int>(this->Random.Whole(0, 6)));
+      downstream->Update();
       this->Result.Aborts += aborting.HasAborted ? 1 : 0;
     }
     this->Filter->SetAbortExecute(0);
     this->Filter->Modified();
     Findings findings;
-    const Outcome again = update(behind, {}, findings);
-    findings.That(again.Digest == whole.Digest, "after an abort what is behind is as before");
+    const Outcome again = update(downstream, {}, findings);
+    findings.That(again.Digest == whole.Digest, "after an abort what is downstream is as before");
     this->Take(findings);
   }
 
@@ -273,7 +273,7 @@ private:
   void CompareFresh()
   {
     const vtkSmartPointer<vtkAlgorithm> fresh = this->Kind.New();
-    connect(fresh, this->Fed);
+    connect(fresh, this->GivenInputs);
     this->Properties.Apply(fresh);
     Findings findings;
     const Outcome other = update(fresh, {}, findings);
@@ -288,7 +288,7 @@ private:
     const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {
-      this->Tell("  said: " + text);
+      this->Print("  message: " + text);
     }
     this->Result.Errors += outcome.Errors.empty() ? 0 : 1;
     findings.That(outcome.Errors.size() <= 1 || !this->ArePlain, "at most one error");
@@ -312,7 +312,7 @@ private:
     }
     if (!failed && !outcome.IsEmpty && this->ArePlain)
     {
-      this->Kind.Check(this->Filter, this->Fed, findings);
+      this->Kind.Check(this->Filter, this->GivenInputs, findings);
     }
   }
 
@@ -320,15 +320,15 @@ private:
   {
     for (const std::string& text : findings.All)
     {
-      this->Tell("  WRONG: " + text);
+      this->Print("  WRONG: " + text);
       this->Result.Findings.push_back(text);
     }
   }
 
-  Dice Luck;
+  RandomSource Random;
   const FilterKind& Kind;
   Settings Properties;
-  Inputs Fed;
+  Inputs GivenInputs;
   bool ArePlain = true;
   vtkSmartPointer<vtkAlgorithm> Filter;
   Outcome Last;
@@ -337,9 +337,9 @@ private:
 
 } // namespace
 
-CaseResult playCase(std::uint64_t seed, std::uint64_t number)
+CaseResult runCase(std::uint64_t seed, std::uint64_t number)
 {
-  return Play(seed, number).Run();
+  return CaseRun(seed, number).Run();
 }
 
 } // namespace Campaign

@@ -13,7 +13,7 @@ namespace Campaign
 struct CaseResult
 {
   std::string Filter;
-  std::string Story;        // what was done, a line a step
+  std::string Log;          // what was done, a line a step
   std::uint64_t Digest = 0; // of all that does not depend on threads or instruction sets
   std::vector<std::string> Findings;
   int Runs = 0;
@@ -22,7 +22,7 @@ struct CaseResult
   int Limits = 0; // of memory that ended a run
 };
 
-CaseResult playCase(std::uint64_t seed, std::uint64_t number);
+CaseResult runCase(std::uint64_t seed, std::uint64_t number);
 
 } // namespace Campaign
 

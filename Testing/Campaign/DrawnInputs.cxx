@@ -14,9 +14,9 @@ void drawDensitySettings(Settings& settings)
   settings.Draw<T, int>("NegativeValues", &T::SetNegativeValues, { 0, 1 }, { -1, 2 }, 0.3);
 }
 
-void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& input)
+void drawChoice(RandomSource& random, Settings& settings, int port, int index, Input& input)
 {
-  const bool named = dice.Chance(0.3);
+  const bool named = random.Chance(0.3);
   if (!named)
   {
     settings.Add("Array", "scalars", [=](vtkAlgorithm* filter) {
@@ -25,8 +25,8 @@ void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& inpu
     });
     return;
   }
-  const std::string name = dice.Chance(0.95) ? "Values" : "Nothing";
-  const int association = dice.Chance(0.97) ? 3 : dice.Of({ 0, 1, 2, 7, -1 });
+  const std::string name = random.Chance(0.95) ? "Values" : "Nothing";
+  const int association = random.Chance(0.97) ? 3 : random.Of({ 0, 1, 2, 7, -1 });
   settings.Add("Array", name + " of " + std::to_string(association), [=](vtkAlgorithm* filter) {
     filter->SetInputArrayToProcess(index, port, 0, association, name.c_str());
   });
@@ -40,22 +40,22 @@ void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& inpu
   }
 }
 
-Input drawDensityOn(Dice& dice, Settings& settings, int port, int index)
+Input drawDensityOn(RandomSource& random, Settings& settings, int port, int index)
 {
-  Input input = drawImage(dice, rulesOf(settings));
-  drawChoice(dice, settings, port, index, input);
+  Input input = drawImage(random, rulesOf(settings));
+  drawChoice(random, settings, port, index, input);
   return input;
 }
 
-Input drawPartner(Dice& dice, const Input& first, const Settings& settings)
+Input drawPartner(RandomSource& random, const Input& first, const Settings& settings)
 {
   auto* like = vtkImageData::SafeDownCast(first.Data);
-  if (dice.Chance(0.3))
+  if (random.Chance(0.3))
   {
     ImageRules rules = rulesOf(settings);
-    rules.OrientedLikes = dice.Chance(0.8);
+    rules.OrientedLikes = random.Chance(0.8);
     rules.Dimension = like->GetDataDimension();
-    Input input = drawImage(dice, rules);
+    Input input = drawImage(random, rules);
     input.Worsen(State::Odd);
     return input;
   }
@@ -67,11 +67,11 @@ Input drawPartner(Dice& dice, const Input& first, const Settings& settings)
   input.OnPoints = first.OnPoints;
   std::string text;
   const vtkIdType tuples = input.OnPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
-  input.Values = drawArray(dice, tuples, 1, text);
+  input.Values = drawArray(random, tuples, 1, text);
   input.Values->SetName("Values");
   image->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(input.Values);
-  input.Say("like the first, " + text);
+  input.Describe("like the first, " + text);
   return input;
 }
 

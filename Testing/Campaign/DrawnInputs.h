@@ -44,13 +44,13 @@ inline ImageRules rulesOf(const Settings& settings)
 }
 
 // An image as the density of input array `index` on a port, chosen somehow.
-Input drawDensityOn(Dice& dice, Settings& settings, int port, int index = 0);
+Input drawDensityOn(RandomSource& random, Settings& settings, int port, int index = 0);
 
 // How the density is chosen that another input has, too.
-void drawChoice(Dice& dice, Settings& settings, int port, int index, Input& input);
+void drawChoice(RandomSource& random, Settings& settings, int port, int index, Input& input);
 
 // An image of the geometry of another, of other values, or another image.
-Input drawPartner(Dice& dice, const Input& first, const Settings& settings);
+Input drawPartner(RandomSource& random, const Input& first, const Settings& settings);
 
 } // namespace Campaign
 

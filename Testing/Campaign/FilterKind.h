@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A class of filters: how to make one, set it, feed it, and know a right output.
+// A class of filters: how to make one, its properties and inputs, and what its output has to be.
 #ifndef Campaign_FilterKind_h
 #define Campaign_FilterKind_h
 
@@ -22,7 +22,7 @@ struct FilterKind
   // Small enough to run in milliseconds, whatever the input.
   void (*DrawSettings)(Settings& settings);
   // May add how arrays are chosen.
-  Inputs (*DrawInputs)(Dice& dice, Settings& settings);
+  Inputs (*DrawInputs)(RandomSource& random, Settings& settings);
   // What has to come of these inputs with the settings that the filter has.
   State (*Expect)(vtkAlgorithm* filter, const Inputs& inputs);
   // Looks at an output that is not empty.

@@ -16,22 +16,22 @@ namespace Campaign
 namespace
 {
 
-void drawExtent(Dice& dice, const ImageRules& rules, vtkImageData* image, Input& input)
+void drawExtent(RandomSource& random, const ImageRules& rules, vtkImageData* image, Input& input)
 {
-  const int dimension = rules.Dimension > 0 ? rules.Dimension : dice.Of({ 1, 2, 2, 2, 2, 3, 3 });
+  const int dimension = rules.Dimension > 0 ? rules.Dimension : random.Of({ 1, 2, 2, 2, 2, 3, 3 });
   const int most = dimension == 1 ? rules.LargestAxis * rules.LargestAxis / 4
     : dimension == 2              ? rules.LargestAxis
                                   : 2 + rules.LargestAxis / 4;
   // Which axes are flat: of a plane the one across, of a line the two others.
-  const auto odd = static_cast<std::size_t>(dimension == 3 ? 0 : dice.Of({ 2, 2, 0, 1 }));
+  const auto odd = static_cast<std::size_t>(dimension == 3 ? 0 : random.Of({ 2, 2, 0, 1 }));
   int extent[6];
   for (std::size_t a = 0; a < 3; ++a)
   {
     const bool real = dimension == 3 || (dimension == 2 ? a != odd : a == odd);
-    const auto start = static_cast<int>(dice.Chance(0.6) ? 0
-        : dice.Chance(0.97)                              ? dice.Whole(-20, 20)
-                                                         : dice.Of({ -2000000000, 2000000000 }));
-    const auto points = static_cast<int>(real ? dice.Whole(2, most) : 1);
+    const auto start = static_cast<int>(random.Chance(0.6) ? 0
+        : random.Chance(0.97)                              ? random.Whole(-20, 20)
+                              : random.Of({ -2000000000, 2000000000 }));
+    const auto points = static_cast<int>(real ? random.Whole(2, most) : 1);
     extent[2 * a] = start;
     extent[2 * a + 1] = start + points - 1;
     if (std::abs(start) > 20)
@@ -39,9 +39,9 @@ void drawExtent(Dice& dice, const ImageRules& rules, vtkImageData* image, Input&
       input.Worsen(State::Odd);
     }
   }
-  if (rules.Dimension == 0 && dice.Chance(0.02))
+  if (rules.Dimension == 0 && random.Chance(0.02))
   {
-    const bool point = dice.Chance(0.5);
+    const bool point = random.Chance(0.5);
     for (int a = 0; a < 3; ++a)
     {
       extent[2 * a + 1] = extent[2 * a] - (point || a > 0 ? 0 : 1);
@@ -54,28 +54,28 @@ void drawExtent(Dice& dice, const ImageRules& rules, vtkImageData* image, Input&
   {
     text += " " + std::to_string(end);
   }
-  input.Say(text);
+  input.Describe(text);
 }
 
-double drawSpacing(Dice& dice, Input& input)
+double drawSpacing(RandomSource& random, Input& input)
 {
-  if (dice.Chance(0.9))
+  if (random.Chance(0.9))
   {
-    return dice.Of({ 1.0, 1.0, 0.1, dice.Real(0.2, 3.0) });
+    return random.Of({ 1.0, 1.0, 0.1, random.Real(0.2, 3.0) });
   }
   input.Worsen(State::Odd);
-  if (dice.Chance(0.5))
+  if (random.Chance(0.5))
   {
-    return dice.Of({ -1.0, -dice.Real(0.2, 3.0), 1e-5, 1e6 });
+    return random.Of({ -1.0, -random.Real(0.2, 3.0), 1e-5, 1e6 });
   }
-  return dice.Of({ 1e-103, 1e-160, 1e-300, 5e-324, 1e100, 1e160, 1e300, 0.0,
+  return random.Of({ 1e-103, 1e-160, 1e-300, 5e-324, 1e100, 1e160, 1e300, 0.0,
     std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() });
 }
 
-void drawDirection(Dice& dice, vtkImageData* image, Input& input)
+void drawDirection(RandomSource& random, vtkImageData* image, Input& input)
 {
   // Rational rotations, so that no library's sine decides.
-  const auto matrix = dice.Of<std::array<double, 9>>({
+  const auto matrix = random.Of<std::array<double, 9>>({
     { 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1 },
     { 1, 0, 0, 0, 0.28, -0.96, 0, 0.96, 0.28 },
     { 0, 0, 1, 1, 0, 0, 0, 1, 0 },
@@ -83,64 +83,65 @@ void drawDirection(Dice& dice, vtkImageData* image, Input& input)
     { 2.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3, 2.0 / 3, -1.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3 },
   });
   image->SetDirectionMatrix(matrix.data());
-  if (dice.Chance(0.05))
+  if (random.Chance(0.05))
   {
-    const double singular[9] = { 1, 1, 0, 1, 1, 0, 0, 0, dice.Of({ 0.0, 1.0 }) };
+    const double singular[9] = { 1, 1, 0, 1, 1, 0, 0, 0, random.Of({ 0.0, 1.0 }) };
     image->SetDirectionMatrix(singular);
     input.Worsen(State::Odd);
   }
-  input.Say("direction " + textOf(image->GetDirectionMatrix()->GetElement(0, 0)));
+  input.Describe("direction " + textOf(image->GetDirectionMatrix()->GetElement(0, 0)));
 }
 
-void drawPlace(Dice& dice, const ImageRules& rules, vtkImageData* image, Input& input)
+void drawPlace(RandomSource& random, const ImageRules& rules, vtkImageData* image, Input& input)
 {
-  if (dice.Chance(0.6))
+  if (random.Chance(0.6))
   {
-    const double same = drawSpacing(dice, input);
-    const bool even = dice.Chance(0.5);
-    const double y = even ? same : drawSpacing(dice, input);
-    const double z = even ? same : drawSpacing(dice, input);
+    const double same = drawSpacing(random, input);
+    const bool even = random.Chance(0.5);
+    const double y = even ? same : drawSpacing(random, input);
+    const double z = even ? same : drawSpacing(random, input);
     image->SetSpacing(same, y, z);
-    input.Say("spacing " + textOf(same) + " " + textOf(y) + " " + textOf(z));
+    input.Describe("spacing " + textOf(same) + " " + textOf(y) + " " + textOf(z));
   }
-  if (dice.Chance(0.4))
+  if (random.Chance(0.4))
   {
     double origin[3];
     for (double& x : origin)
     {
-      x = dice.Real(-10.0, 10.0);
-      if (dice.Chance(0.03))
+      x = random.Real(-10.0, 10.0);
+      if (random.Chance(0.03))
       {
-        x = dice.Of({ 1e9, 1e16, -1e300, std::numeric_limits<double>::infinity(),
+        x = random.Of({ 1e9, 1e16, -1e300, std::numeric_limits<double>::infinity(),
           std::numeric_limits<double>::quiet_NaN() });
         input.Worsen(State::Odd);
       }
     }
     image->SetOrigin(origin);
-    input.Say("origin " + textOf(origin[0]) + " " + textOf(origin[1]) + " " + textOf(origin[2]));
+    input.Describe(
+      "origin " + textOf(origin[0]) + " " + textOf(origin[1]) + " " + textOf(origin[2]));
   }
-  if (!rules.OrientedLikes && dice.Chance(0.15))
+  if (!rules.OrientedLikes && random.Chance(0.15))
   {
-    drawDirection(dice, image, input);
+    drawDirection(random, image, input);
   }
 }
 
-void drawDensity(Dice& dice, vtkImageData* image, Input& input)
+void drawDensity(RandomSource& random, vtkImageData* image, Input& input)
 {
-  input.OnPoints = dice.Chance(0.5);
+  input.OnPoints = random.Chance(0.5);
   vtkDataSetAttributes* attributes =
     image->GetAttributes(input.OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
   vtkIdType tuples = input.OnPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
-  if (dice.Chance(0.01) && tuples > 0)
+  if (random.Chance(0.01) && tuples > 0)
   {
-    tuples = dice.Of<vtkIdType>({ 0, tuples - 1, tuples + 1, 2 * tuples });
+    tuples = random.Of<vtkIdType>({ 0, tuples - 1, tuples + 1, 2 * tuples });
     input.Worsen(State::Faulty);
   }
-  const int components = dice.Of({ 1, 1, 1, 1, 1, 1, 2, 3, 4, 5 });
+  const int components = random.Of({ 1, 1, 1, 1, 1, 1, 2, 3, 4, 5 });
   std::string text;
-  const vtkSmartPointer<vtkDataArray> array = drawArray(dice, tuples, components, text);
-  input.Say((input.OnPoints ? "points " : "cells ") + text);
-  if (!dice.Chance(0.02))
+  const vtkSmartPointer<vtkDataArray> array = drawArray(random, tuples, components, text);
+  input.Describe((input.OnPoints ? "points " : "cells ") + text);
+  if (!random.Chance(0.02))
   {
     array->SetName("Values");
   }
@@ -153,11 +154,11 @@ void drawDensity(Dice& dice, vtkImageData* image, Input& input)
 }
 
 // Arrays that nobody asked for, of names that an output may have.
-void drawOthers(Dice& dice, vtkImageData* image)
+void drawOthers(RandomSource& random, vtkImageData* image)
 {
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    if (!dice.Chance(0.15))
+    if (!random.Chance(0.15))
     {
       continue;
     }
@@ -165,11 +166,11 @@ void drawOthers(Dice& dice, vtkImageData* image)
       owner == vtkDataObject::POINT ? image->GetNumberOfPoints() : image->GetNumberOfCells();
     std::string text;
     const vtkSmartPointer<vtkDataArray> array =
-      drawArray(dice, tuples, static_cast<int>(dice.Whole(1, 3)), text);
-    array->SetName(
-      dice.Of({ "Other", "Displacement", "Density", "Mass", "SiteId", "TotalMass", "Divergence" }));
+      drawArray(random, tuples, static_cast<int>(random.Whole(1, 3)), text);
+    array->SetName(random.Of(
+      { "Other", "Displacement", "Density", "Mass", "SiteId", "TotalMass", "Divergence" }));
     image->GetAttributes(owner)->AddArray(array);
-    if (dice.Chance(0.2))
+    if (random.Chance(0.2))
     {
       vtkNew<vtkStringArray> words;
       words->SetName("Words");
@@ -181,22 +182,22 @@ void drawOthers(Dice& dice, vtkImageData* image)
 
 } // namespace
 
-Input drawImage(Dice& dice, const ImageRules& rules)
+Input drawImage(RandomSource& random, const ImageRules& rules)
 {
   Input input;
   const auto image = vtkSmartPointer<vtkImageData>::New();
   input.Data = image;
-  drawExtent(dice, rules, image, input);
-  drawPlace(dice, rules, image, input);
-  drawDensity(dice, image, input);
-  drawOthers(dice, image);
-  if (dice.Chance(0.06))
+  drawExtent(random, rules, image, input);
+  drawPlace(random, rules, image, input);
+  drawDensity(random, image, input);
+  drawOthers(random, image);
+  if (random.Chance(0.06))
   {
-    drawGhosts(dice, image->GetPointData(), image->GetNumberOfPoints(), true, input);
+    drawGhosts(random, image->GetPointData(), image->GetNumberOfPoints(), true, input);
   }
-  if (dice.Chance(0.06))
+  if (random.Chance(0.06))
   {
-    drawGhosts(dice, image->GetCellData(), image->GetNumberOfCells(), true, input);
+    drawGhosts(random, image->GetCellData(), image->GetNumberOfCells(), true, input);
   }
   return input;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data that a case feeds to a filter, with what is known of them.
+// Inputs that a case gives to a filter, with what is known of them.
 #ifndef Campaign_Input_h
 #define Campaign_Input_h
 
-#include "Dice.h"
+#include "RandomSource.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -51,7 +51,7 @@ struct Input
   bool IsPlain = true; // one data set of the right type
 
   void Worsen(State state) { this->Condition = worse(this->Condition, state); }
-  void Say(const std::string& text) { this->Text += (this->Text.empty() ? "" : ", ") + text; }
+  void Describe(const std::string& text) { this->Text += (this->Text.empty() ? "" : ", ") + text; }
 };
 
 struct ImageRules
@@ -62,31 +62,31 @@ struct ImageRules
 };
 
 // An image with an array of some type and some values, on its points or its cells.
-Input drawImage(Dice& dice, const ImageRules& rules = {});
+Input drawImage(RandomSource& random, const ImageRules& rules = {});
 
 // Points in and about the box of an image, which may be nullptr.
-Input drawPoints(Dice& dice, vtkImageData* about, vtkIdType most);
+Input drawPoints(RandomSource& random, vtkImageData* about, vtkIdType most);
 
 // Closed surfaces and others.
-Input drawSurface(Dice& dice);
+Input drawSurface(RandomSource& random);
 
 // An array of `tuples` tuples of any type, which may hold what no density may.
 vtkSmartPointer<vtkDataArray> drawArray(
-  Dice& dice, vtkIdType tuples, int components, std::string& text);
+  RandomSource& random, vtkIdType tuples, int components, std::string& text);
 
 // Marks some of the points or cells; at times by an array of the wrong length, where that is
 // allowed.
-void drawGhosts(
-  Dice& dice, vtkDataSetAttributes* attributes, vtkIdType tuples, bool anyLength, Input& input);
+void drawGhosts(RandomSource& random, vtkDataSetAttributes* attributes, vtkIdType tuples,
+  bool anyLength, Input& input);
 
 // In place of a plain input at times nothing, another type, or a composite data set.
-void drawUnusual(Dice& dice, Input& input);
+void drawUnusual(RandomSource& random, Input& input);
 
 // Writes over some values or points of an input, in place.
-void changeInPlace(Dice& dice, Input& input);
+void changeInPlace(RandomSource& random, Input& input);
 
 // A number that may be none.
-double drawStrange(Dice& dice);
+double drawExceptional(RandomSource& random);
 
 std::string textOf(double value);
 

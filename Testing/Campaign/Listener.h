@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hears a filter during an update: messages and progress; and may abort it.
+// Records the messages and the progress of a filter during an update, and may abort it.
 #ifndef Campaign_Listener_h
 #define Campaign_Listener_h
 
@@ -17,7 +17,7 @@
 namespace Campaign
 {
 
-// Takes in what would be printed.
+// Collects the text that would be printed.
 class SilentWindow : public vtkOutputWindow
 {
 public:
@@ -44,22 +44,22 @@ public:
     , AbortAt(abortAt)
   {
     vtkOutputWindow::SetInstance(this->Window);
-    this->Ear->SetClientData(this);
-    this->Ear->SetCallback([](vtkObject*, unsigned long event, void* self, void* data) {
-      static_cast<Listener*>(self)->Hear(event, data);
+    this->Observer->SetClientData(this);
+    this->Observer->SetCallback([](vtkObject*, unsigned long event, void* self, void* data) {
+      static_cast<Listener*>(self)->Record(event, data);
     });
     for (const unsigned long event :
       { vtkCommand::ErrorEvent, vtkCommand::WarningEvent, vtkCommand::ProgressEvent })
     {
-      filter->AddObserver(event, this->Ear);
+      filter->AddObserver(event, this->Observer);
     }
   }
-  ~Listener() { this->Filter->RemoveObserver(this->Ear); }
+  ~Listener() { this->Filter->RemoveObserver(this->Observer); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  // What was printed, but for what executives say of a failure and of inputs. (What the filter says
-  // goes to its observer.)
+  // What was printed, but for the executives' messages of a failure and of inputs. (The filter's
+  // own messages go to its observer.)
   std::vector<std::string> Others() const
   {
     std::vector<std::string> others;
@@ -77,7 +77,7 @@ public:
 
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
-  std::vector<double> Heard;
+  std::vector<double> Progress;
   bool HasAborted = false;
 
 private:
@@ -86,12 +86,12 @@ private:
     return text.find(part) != std::string::npos;
   }
 
-  void Hear(unsigned long event, void* data)
+  void Record(unsigned long event, void* data)
   {
     if (event == vtkCommand::ProgressEvent)
     {
-      this->Heard.push_back(*static_cast<double*>(data));
-      if (static_cast<int>(this->Heard.size()) - 1 == this->AbortAt)
+      this->Progress.push_back(*static_cast<double*>(data));
+      if (static_cast<int>(this->Progress.size()) - 1 == this->AbortAt)
       {
         this->HasAborted = true;
         this->Filter->SetAbortExecute(1);
@@ -105,7 +105,7 @@ private:
   vtkSmartPointer<vtkAlgorithm> Filter;
   int AbortAt;
   vtkNew<SilentWindow> Window;
-  vtkNew<vtkCallbackCommand> Ear;
+  vtkNew<vtkCallbackCommand> Observer;
 };
 
 } // namespace Campaign

@@ -21,14 +21,14 @@ namespace
 {
 
 // At times the second of two inputs: an image that only lends its geometry.
-vtkImageData* drawGeometry(Dice& dice, Settings& settings, Inputs& inputs)
+vtkImageData* drawGeometry(RandomSource& random, Settings& settings, Inputs& inputs)
 {
   inputs.resize(2);
-  if (!dice.Chance(0.4))
+  if (!random.Chance(0.4))
   {
     return nullptr;
   }
-  inputs[1] = { drawImage(dice, rulesOf(settings)) };
+  inputs[1] = { drawImage(random, rulesOf(settings)) };
   Input& image = inputs[1][0];
   image.Values = nullptr;
   image.Condition = State::Open;
@@ -49,11 +49,11 @@ void drawCells(Settings& settings)
   drawFlowSettings<Cells>(settings);
 }
 
-Inputs feedCells(Dice& dice, Settings& settings)
+Inputs drawCellsInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs;
-  vtkImageData* domain = drawGeometry(dice, settings, inputs);
-  inputs[0] = { drawPoints(dice, domain, dice.Of({ 5, 12, 30 })) };
+  vtkImageData* domain = drawGeometry(random, settings, inputs);
+  inputs[0] = { drawPoints(random, domain, random.Of({ 5, 12, 30 })) };
   inputs[0][0].Values = nullptr;
   return inputs;
 }
@@ -127,15 +127,15 @@ using Splatter = vtkMassSplatter;
 
 void drawSplatter(Settings& settings)
 {
-  Dice& dice = settings.GetDice();
-  const int x = dice.Of({ 1, 2, 8, 20, 30 });
-  const int y = dice.Of({ 1, 2, 8, 20, 30 });
-  const int z = dice.Of({ 1, 1, 2, 8, 12 });
+  RandomSource& random = settings.GetRandom();
+  const int x = random.Of({ 1, 2, 8, 20, 30 });
+  const int y = random.Of({ 1, 2, 8, 20, 30 });
+  const int z = random.Of({ 1, 1, 2, 8, 12 });
   settings.Add("Dimensions", std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
     [=](vtkAlgorithm* filter) { static_cast<Splatter*>(filter)->SetDimensions(x, y, z); });
-  if (dice.Chance(0.03))
+  if (random.Chance(0.03))
   {
-    const int wrong = dice.Of({ 0, -7, std::numeric_limits<int>::min() });
+    const int wrong = random.Of({ 0, -7, std::numeric_limits<int>::min() });
     settings.Add(
       "Dimensions", std::to_string(wrong),
       [=](vtkAlgorithm* filter) { static_cast<Splatter*>(filter)->SetDimensions(wrong, 4, 4); },
@@ -151,14 +151,14 @@ void drawSplatter(Settings& settings)
   drawThreading<Splatter>(settings);
 }
 
-Inputs feedSplatter(Dice& dice, Settings& settings)
+Inputs drawSplatterInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs;
-  vtkImageData* reference = drawGeometry(dice, settings, inputs);
-  inputs[0] = { drawPoints(dice, reference, settings.IsLarge() ? 20000 : 1500) };
+  vtkImageData* reference = drawGeometry(random, settings, inputs);
+  inputs[0] = { drawPoints(random, reference, settings.IsLarge() ? 20000 : 1500) };
   const char* const usual = inputs[0][0].Values ? "Mass" : "";
-  const std::string name = dice.Chance(0.9) ? dice.Of({ "", usual, usual, "None" })
-                                            : dice.Of({ "Mass", "Displacement", "Nothing" });
+  const std::string name = random.Chance(0.9) ? random.Of({ "", usual, usual, "None" })
+                                              : random.Of({ "Mass", "Displacement", "Nothing" });
   settings.Add("Array", name, [name](vtkAlgorithm* filter) {
     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
   });
@@ -206,10 +206,10 @@ void drawSolid(Settings& settings)
   drawThreading<Solid>(settings);
 }
 
-Inputs feedSolid(Dice& dice, Settings&)
+Inputs drawSolidInputs(RandomSource& random, Settings&)
 {
   Inputs inputs(1);
-  inputs[0] = { drawSurface(dice) };
+  inputs[0] = { drawSurface(random) };
   return inputs;
 }
 
@@ -243,20 +243,20 @@ using Source = vtkUniformSeedSource;
 
 void drawSource(Settings& settings)
 {
-  Dice& dice = settings.GetDice();
-  if (dice.Chance(0.6))
+  RandomSource& random = settings.GetRandom();
+  if (random.Chance(0.6))
   {
     double bounds[6];
     bool inRange = true;
     for (int a = 0; a < 3; ++a)
     {
-      bounds[2 * a] = dice.Real(-10.0, 10.0);
-      bounds[2 * a + 1] = bounds[2 * a] + dice.Of({ 1.0, 1e-3, 1e6, dice.Unit() + 0.1 });
+      bounds[2 * a] = random.Real(-10.0, 10.0);
+      bounds[2 * a + 1] = bounds[2 * a] + random.Of({ 1.0, 1e-3, 1e6, random.Unit() + 0.1 });
     }
-    if (dice.Chance(0.1))
+    if (random.Chance(0.1))
     {
-      const auto end = static_cast<std::size_t>(dice.Whole(0, 3));
-      bounds[end] = dice.Of({ NaN, Infinity, -Infinity });
+      const auto end = static_cast<std::size_t>(random.Whole(0, 3));
+      bounds[end] = random.Of({ NaN, Infinity, -Infinity });
       inRange = false;
     }
     std::string text;
@@ -303,12 +303,13 @@ void checkSource(vtkAlgorithm* filter, const Inputs&, Findings& findings)
 
 void addOtherKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Cells", make<Cells>, drawCells, feedCells, expectCells, checkCells });
+  kinds.push_back({ "Cells", make<Cells>, drawCells, drawCellsInputs, expectCells, checkCells });
+  kinds.push_back({ "Splatter", make<Splatter>, drawSplatter, drawSplatterInputs, expectSplatter,
+    checkSplatter });
+  kinds.push_back({ "Solid", make<Solid>, drawSolid, drawSolidInputs, expectSolid, checkSolid });
   kinds.push_back(
-    { "Splatter", make<Splatter>, drawSplatter, feedSplatter, expectSplatter, checkSplatter });
-  kinds.push_back({ "Solid", make<Solid>, drawSolid, feedSolid, expectSolid, checkSolid });
-  kinds.push_back({ "Source", make<Source>, drawSource, [](Dice&, Settings&) { return Inputs(); },
-    [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource });
+    { "Source", make<Source>, drawSource, [](RandomSource&, Settings&) { return Inputs(); },
+      [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource });
 }
 
 } // namespace Campaign

@@ -46,7 +46,7 @@ struct Outcome
   std::uint64_t Digest = 0;
 };
 
-// Updates all outputs of a filter, and hears what it says.
+// Updates all outputs of a filter, and records its messages.
 Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& findings);
 
 // Of geometry, cells, arrays and their values to the last bit.

@@ -19,15 +19,16 @@ namespace Campaign
 namespace
 {
 
-void drawPlaces(Dice& dice, vtkImageData* about, vtkPoints* points, vtkIdType count, Input& input)
+void drawPlaces(
+  RandomSource& random, vtkImageData* about, vtkPoints* points, vtkIdType count, Input& input)
 {
   double bounds[6] = { 0.0, 2.0, 0.0, 1.0, 0.0, 0.5 };
   if (about && about->GetNumberOfPoints() > 0)
   {
     about->GetBounds(bounds);
   }
-  const auto kind = dice.Of({ 0, 0, 0, 0, 1, 2, 3, 4, 5 });
-  const int flat = dice.Chance(0.4) ? 2 : -1;
+  const auto kind = random.Of({ 0, 0, 0, 0, 1, 2, 3, 4, 5 });
+  const int flat = random.Chance(0.4) ? 2 : -1;
   points->SetNumberOfPoints(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -36,17 +37,17 @@ void drawPlaces(Dice& dice, vtkImageData* about, vtkPoints* points, vtkIdType co
     {
       const double low = bounds[2 * a];
       const double length = bounds[2 * a + 1] - low;
-      const double unit = kind == 1 ? 0.4 + 0.01 * dice.Unit()                    // in one place
-        : kind == 2                 ? static_cast<double>(dice.Whole(0, 8)) / 8.0 // on each other
-        : kind == 3                 ? dice.Real(-1.0, 2.0)                        // outside, too
+      const double unit = kind == 1 ? 0.4 + 0.01 * random.Unit()                    // in one place
+        : kind == 2                 ? static_cast<double>(random.Whole(0, 8)) / 8.0 // on each other
+        : kind == 3                 ? random.Real(-1.0, 2.0)                        // outside, too
         : kind == 4                 ? static_cast<double>(i) / static_cast<double>(count) // a line
         : kind == 5                 ? 0.25
-                                    : dice.Unit();
+                                    : random.Unit();
       x[a] = low + length * (a == flat ? 0.5 : unit);
     }
     points->SetPoint(i, x);
   }
-  input.Say(std::to_string(count) + " points of kind " + std::to_string(kind));
+  input.Describe(std::to_string(count) + " points of kind " + std::to_string(kind));
   double first[3];
   bool areInOnePlace = true;
   for (vtkIdType i = 0; i < count; ++i)
@@ -60,18 +61,19 @@ void drawPlaces(Dice& dice, vtkImageData* about, vtkPoints* points, vtkIdType co
   {
     input.Worsen(State::Odd);
   }
-  if (count > 0 && dice.Chance(0.03))
+  if (count > 0 && random.Chance(0.03))
   {
-    points->SetPoint(dice.Whole(0, count - 1), drawStrange(dice), 0.5, drawStrange(dice));
+    points->SetPoint(
+      random.Whole(0, count - 1), drawExceptional(random), 0.5, drawExceptional(random));
     input.Worsen(State::Odd);
-    input.Say("a strange one");
+    input.Describe("an exceptional one");
   }
 }
 
-vtkSmartPointer<vtkPointSet> drawCells(Dice& dice, vtkPoints* points)
+vtkSmartPointer<vtkPointSet> drawCells(RandomSource& random, vtkPoints* points)
 {
   const vtkIdType count = points->GetNumberOfPoints();
-  switch (dice.Whole(0, 3))
+  switch (random.Whole(0, 3))
   {
     case 0:
     {
@@ -95,7 +97,7 @@ vtkSmartPointer<vtkPointSet> drawCells(Dice& dice, vtkPoints* points)
     {
       const auto data = vtkSmartPointer<vtkPolyData>::New();
       data->SetPoints(points);
-      if (dice.Chance(0.5))
+      if (random.Chance(0.5))
       {
         vtkNew<vtkCellArray> vertices;
         for (vtkIdType i = 0; i < count; ++i)
@@ -109,65 +111,65 @@ vtkSmartPointer<vtkPointSet> drawCells(Dice& dice, vtkPoints* points)
   }
 }
 
-void drawPointArrays(Dice& dice, vtkPointSet* data, Input& input)
+void drawPointArrays(RandomSource& random, vtkPointSet* data, Input& input)
 {
   const vtkIdType count = data->GetNumberOfPoints();
   for (const char* name : { "Mass", "Displacement", "Other" })
   {
-    if (!dice.Chance(0.35))
+    if (!random.Chance(0.35))
     {
       continue;
     }
     const bool vector = name[0] == 'D';
     std::string text;
-    const vtkSmartPointer<vtkDataArray> array = drawArray(dice, count, vector ? 3 : 1, text);
+    const vtkSmartPointer<vtkDataArray> array = drawArray(random, count, vector ? 3 : 1, text);
     array->SetName(name);
     data->GetPointData()->AddArray(array);
-    input.Say(std::string(name) + " " + text);
+    input.Describe(std::string(name) + " " + text);
     if (name[0] == 'M')
     {
       input.Values = array;
     }
   }
-  if (dice.Chance(0.06))
+  if (random.Chance(0.06))
   {
     // VTK's own structured grids read past the end of a short one to tell their blanked cells.
-    drawGhosts(dice, data->GetPointData(), count, !data->IsA("vtkStructuredGrid"), input);
+    drawGhosts(random, data->GetPointData(), count, !data->IsA("vtkStructuredGrid"), input);
   }
 }
 
 } // namespace
 
-Input drawPoints(Dice& dice, vtkImageData* about, vtkIdType most)
+Input drawPoints(RandomSource& random, vtkImageData* about, vtkIdType most)
 {
   Input input;
-  const vtkIdType count = dice.Chance(0.03) ? dice.Whole(0, 3) : dice.Whole(2, most);
+  const vtkIdType count = random.Chance(0.03) ? random.Whole(0, 3) : random.Whole(2, most);
   if (count == 0)
   {
     input.Worsen(State::Empty);
   }
   vtkNew<vtkPoints> points;
-  points->SetDataType(dice.Of({ VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_FLOAT, VTK_INT }));
-  drawPlaces(dice, about, points, count, input);
-  const vtkSmartPointer<vtkPointSet> data = drawCells(dice, points);
+  points->SetDataType(random.Of({ VTK_DOUBLE, VTK_DOUBLE, VTK_FLOAT, VTK_FLOAT, VTK_INT }));
+  drawPlaces(random, about, points, count, input);
+  const vtkSmartPointer<vtkPointSet> data = drawCells(random, points);
   if (count < 2 || points->GetDataType() == VTK_INT)
   {
     input.Worsen(count == 0 ? State::Empty : State::Odd);
   }
-  drawPointArrays(dice, data, input);
+  drawPointArrays(random, data, input);
   input.Data = data;
   return input;
 }
 
-void changeInPlace(Dice& dice, Input& input)
+void changeInPlace(RandomSource& random, Input& input)
 {
   auto* set = vtkPointSet::SafeDownCast(input.Data);
   if (set && set->GetNumberOfPoints() > 0)
   {
     double x[3];
-    const vtkIdType from = dice.Whole(0, set->GetNumberOfPoints() - 1);
+    const vtkIdType from = random.Whole(0, set->GetNumberOfPoints() - 1);
     set->GetPoint(from, x);
-    set->GetPoints()->SetPoint(dice.Whole(0, set->GetNumberOfPoints() - 1), x);
+    set->GetPoints()->SetPoint(random.Whole(0, set->GetNumberOfPoints() - 1), x);
     set->GetPoints()->Modified();
     auto* surface = vtkPolyData::SafeDownCast(set);
     if (surface && surface->GetNumberOfPolys() > 0)
@@ -182,10 +184,10 @@ void changeInPlace(Dice& dice, Input& input)
   vtkDataArray* array = input.Values;
   if (array && array->GetNumberOfTuples() > 0)
   {
-    const vtkIdType i = dice.Whole(0, array->GetNumberOfTuples() - 1);
-    array->SetComponent(i, 0, dice.Chance(0.95) ? static_cast<double>(dice.Whole(0, 1)) : -1.0);
+    const vtkIdType i = random.Whole(0, array->GetNumberOfTuples() - 1);
+    array->SetComponent(i, 0, random.Chance(0.95) ? static_cast<double>(random.Whole(0, 1)) : -1.0);
     // Who writes in place may say so of the array or of the data set.
-    if (dice.Chance(0.5))
+    if (random.Chance(0.5))
     {
       array->Modified();
     }

@@ -4,8 +4,8 @@
 #ifndef Campaign_Settings_h
 #define Campaign_Settings_h
 
-#include "Dice.h"
 #include "Input.h"
+#include "RandomSource.h"
 
 #include "vtkAlgorithm.h"
 
@@ -28,27 +28,27 @@ struct Setting
 class Settings
 {
 public:
-  explicit Settings(Dice& dice)
-    : Luck(dice)
-    , Large(dice.Chance(0.04))
+  explicit Settings(RandomSource& random)
+    : Random(random)
+    , Large(random.Chance(0.04))
   {
   }
 
   bool IsLarge() const { return this->Large; }
 
-  Dice& GetDice() { return this->Luck; }
+  RandomSource& GetRandom() { return this->Random; }
 
   // `used` of the properties are set, one in 70 of them to what is not allowed.
   template <class T, class Value>
   void Draw(const char* name, void (T::*set)(Value), std::initializer_list<Value> inside,
     std::initializer_list<Value> outside, double used = 0.5)
   {
-    if (!this->Luck.Chance(used))
+    if (!this->Random.Chance(used))
     {
       return;
     }
-    const bool inRange = outside.size() == 0 || !this->Luck.Chance(0.015);
-    const Value value = this->Luck.Of(inRange ? inside : outside);
+    const bool inRange = outside.size() == 0 || !this->Random.Chance(0.015);
+    const Value value = this->Random.Of(inRange ? inside : outside);
     this->Add(
       name, std::to_string(value),
       [set, value](vtkAlgorithm* filter) { (static_cast<T*>(filter)->*set)(value); }, inRange);
@@ -68,7 +68,7 @@ public:
     }
   }
 
-  // What the last word on each property leaves out of range.
+  // The properties whose last value is out of range.
   std::vector<std::string> OutOfRange() const
   {
     std::vector<std::string> names;
@@ -100,7 +100,7 @@ public:
   std::size_t Count() const { return this->All.size(); }
 
 private:
-  Dice& Luck;
+  RandomSource& Random;
   bool Large;
   std::vector<Setting> All;
 };

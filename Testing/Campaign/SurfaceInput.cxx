@@ -77,25 +77,26 @@ Mesh makeTorus(int around, int across)
   return mesh;
 }
 
-Mesh drawSolid(Dice& dice)
+Mesh drawSolid(RandomSource& random)
 {
-  switch (dice.Whole(0, 2))
+  switch (random.Whole(0, 2))
   {
     case 0:
       return makeBox();
     case 1:
       return makeTetrahedron();
     default:
-      return makeTorus(static_cast<int>(dice.Whole(3, 24)), static_cast<int>(dice.Whole(3, 16)));
+      return makeTorus(
+        static_cast<int>(random.Whole(3, 24)), static_cast<int>(random.Whole(3, 16)));
   }
 }
 
-void place(Dice& dice, Mesh& mesh)
+void place(RandomSource& random, Mesh& mesh)
 {
-  const double size = dice.Chance(0.5) ? 1.0 : dice.Real(0.1, 3.0);
-  const double stretch[3] = { size, size * dice.Of({ 1.0, 0.3, 2.0 }), size };
-  const double shift[3] = { dice.Real(-1, 1), dice.Of({ 0.0, dice.Real(-1, 1) }), 0.0 };
-  const bool turned = dice.Chance(0.5);
+  const double size = random.Chance(0.5) ? 1.0 : random.Real(0.1, 3.0);
+  const double stretch[3] = { size, size * random.Of({ 1.0, 0.3, 2.0 }), size };
+  const double shift[3] = { random.Real(-1, 1), random.Of({ 0.0, random.Real(-1, 1) }), 0.0 };
+  const bool turned = random.Chance(0.5);
   for (auto& x : mesh.Points)
   {
     const double c = turned ? 0.6 : 1.0;
@@ -108,16 +109,16 @@ void place(Dice& dice, Mesh& mesh)
   }
 }
 
-void drawHarm(Dice& dice, Mesh& mesh, Input& input)
+void drawDefect(RandomSource& random, Mesh& mesh, Input& input)
 {
   auto& face = mesh.Faces[static_cast<std::size_t>(
-    dice.Whole(0, static_cast<std::int64_t>(mesh.Faces.size()) - 1))];
+    random.Whole(0, static_cast<std::int64_t>(mesh.Faces.size()) - 1))];
   auto& point = mesh.Points[static_cast<std::size_t>(
-    dice.Whole(0, static_cast<std::int64_t>(mesh.Points.size()) - 1))];
-  const auto harm = dice.Whole(0, 8);
-  input.Say("harm " + std::to_string(harm));
+    random.Whole(0, static_cast<std::int64_t>(mesh.Points.size()) - 1))];
+  const auto defect = random.Whole(0, 8);
+  input.Describe("defect " + std::to_string(defect));
   State state = State::Odd;
-  switch (harm)
+  switch (defect)
   {
     case 0: // a hole
       mesh.Faces.pop_back();
@@ -130,7 +131,7 @@ void drawHarm(Dice& dice, Mesh& mesh, Input& input)
       mesh.Faces.push_back(Corners(face));
       break;
     case 3:
-      point = { drawStrange(dice), point[1], drawStrange(dice) };
+      point = { drawExceptional(random), point[1], drawExceptional(random) };
       break;
     case 4: // flat
       for (auto& x : mesh.Points)
@@ -140,7 +141,7 @@ void drawHarm(Dice& dice, Mesh& mesh, Input& input)
       break;
     case 5: // huge or tiny
     {
-      const double factor = dice.Of({ 1e150, 1e-150, 1e300, 1e-300, 5e-324, 1e12 });
+      const double factor = random.Of({ 1e150, 1e-150, 1e300, 1e-300, 5e-324, 1e12 });
       for (auto& x : mesh.Points)
       {
         x = { x[0] * factor, x[1] * factor, x[2] * factor };
@@ -153,7 +154,7 @@ void drawHarm(Dice& dice, Mesh& mesh, Input& input)
       break;
     case 7: // a face of few or of equal corners
       mesh.Faces.push_back(
-        dice.Chance(0.5) ? Corners{ face[0], face[1] } : Corners{ face[0], face[0], face[1] });
+        random.Chance(0.5) ? Corners{ face[0], face[1] } : Corners{ face[0], face[0], face[1] });
       break;
     default: // points that no face uses, far away
       mesh.Points.push_back({ 1e6, -1e6, 0.0 });
@@ -164,33 +165,33 @@ void drawHarm(Dice& dice, Mesh& mesh, Input& input)
 
 } // namespace
 
-Input drawSurface(Dice& dice)
+Input drawSurface(RandomSource& random)
 {
   Input input;
-  Mesh mesh = drawSolid(dice);
-  place(dice, mesh);
-  if (dice.Chance(0.3))
+  Mesh mesh = drawSolid(random);
+  place(random, mesh);
+  if (random.Chance(0.3))
   {
-    Mesh other = drawSolid(dice);
-    place(dice, other);
+    Mesh other = drawSolid(random);
+    place(random, other);
     mesh.Add(other);
-    input.Say("two solids");
+    input.Describe("two solids");
   }
-  if (dice.Chance(0.2))
+  if (random.Chance(0.2))
   {
     for (Corners& face : mesh.Faces)
     {
       face = Corners(face.rbegin(), face.rend());
     }
   }
-  if (dice.Chance(0.3))
+  if (random.Chance(0.3))
   {
-    drawHarm(dice, mesh, input);
+    drawDefect(random, mesh, input);
   }
   const auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
-  points->SetDataType(dice.Of({ VTK_DOUBLE, VTK_FLOAT }));
-  const bool empty = dice.Chance(0.02);
+  points->SetDataType(random.Of({ VTK_DOUBLE, VTK_FLOAT }));
+  const bool empty = random.Chance(0.02);
   for (const auto& x : mesh.Points)
   {
     if (!empty)
@@ -212,8 +213,8 @@ Input drawSurface(Dice& dice)
   {
     input.Condition = State::Empty;
   }
-  input.Say(std::to_string(mesh.Points.size()) + " points, " + std::to_string(mesh.Faces.size()) +
-    " faces");
+  input.Describe(std::to_string(mesh.Points.size()) + " points, " +
+    std::to_string(mesh.Faces.size()) + " faces");
   input.Data = data;
   return input;
 }

@@ -28,7 +28,7 @@ void drawSampler(Settings& settings)
 {
   settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
     { 1, 2, 10, 100, 500, 500, 1000, 1500 }, {}, 1.0);
-  if (settings.GetDice().Chance(0.03))
+  if (settings.GetRandom().Chance(0.03))
   {
     settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
       { 0, -1, 1000000000000, std::numeric_limits<vtkIdType>::max() }, {}, 1.0);
@@ -52,14 +52,14 @@ void drawSampler(Settings& settings)
   drawDensitySettings(settings);
 }
 
-Inputs feedSampler(Dice& dice, Settings& settings)
+Inputs drawSamplerInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(2);
-  inputs[0] = { drawDensityOn(dice, settings, 0) };
-  if (dice.Chance(0.3))
+  inputs[0] = { drawDensityOn(random, settings, 0) };
+  if (random.Chance(0.3))
   {
     inputs[1] = { drawPoints(
-      dice, vtkImageData::SafeDownCast(inputs[0][0].Data), settings.IsLarge() ? 20000 : 500) };
+      random, vtkImageData::SafeDownCast(inputs[0][0].Data), settings.IsLarge() ? 20000 : 500) };
   }
   return inputs;
 }
@@ -167,12 +167,12 @@ using Map = vtkTransportMap;
 void drawMap(Settings& settings)
 {
   settings.Draw<Map, int>("Direction", &Map::SetDirection, { 0, 1 }, { -1, 2 });
-  Dice& dice = settings.GetDice();
-  if (dice.Chance(0.3))
+  RandomSource& random = settings.GetRandom();
+  if (random.Chance(0.3))
   {
-    const int x = dice.Of({ 0, 0, 0, 2, 9, 30, dice.Of({ 1, -1, 2147483647 }) });
-    const int y = dice.Of({ 0, 0, 0, 2, 9, 30 });
-    const int z = dice.Of({ 0, 0, 0, 0, 2, 9 });
+    const int x = random.Of({ 0, 0, 0, 2, 9, 30, random.Of({ 1, -1, 2147483647 }) });
+    const int y = random.Of({ 0, 0, 0, 2, 9, 30 });
+    const int z = random.Of({ 0, 0, 0, 0, 2, 9 });
     settings.Add("SampleDimensions",
       std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z),
       [=](vtkAlgorithm* filter) { static_cast<Map*>(filter)->SetSampleDimensions(x, y, z); });
@@ -181,10 +181,10 @@ void drawMap(Settings& settings)
   drawDensitySettings(settings);
 }
 
-Inputs feedMap(Dice& dice, Settings& settings)
+Inputs drawMapInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(1);
-  inputs[0] = { drawDensityOn(dice, settings, 0) };
+  inputs[0] = { drawDensityOn(random, settings, 0) };
   return inputs;
 }
 
@@ -251,12 +251,12 @@ void drawWarp(Settings& settings)
   drawDensitySettings(settings);
 }
 
-Inputs feedPointsAndDensity(Dice& dice, Settings& settings)
+Inputs drawPointsAndDensityInputs(RandomSource& random, Settings& settings)
 {
   Inputs inputs(2);
-  inputs[1] = { drawDensityOn(dice, settings, 1) };
+  inputs[1] = { drawDensityOn(random, settings, 1) };
   inputs[0] = { drawPoints(
-    dice, vtkImageData::SafeDownCast(inputs[1][0].Data), settings.IsLarge() ? 20000 : 600) };
+    random, vtkImageData::SafeDownCast(inputs[1][0].Data), settings.IsLarge() ? 20000 : 600) };
   return inputs;
 }
 
@@ -342,11 +342,12 @@ void checkQuality(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
 void addTransportKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back(
-    { "Sampler", make<Sampler>, drawSampler, feedSampler, expectSampler, checkSampler });
-  kinds.push_back({ "Map", make<Map>, drawMap, feedMap, expectMap, checkMap });
-  kinds.push_back({ "Warp", make<Warp>, drawWarp, feedPointsAndDensity, expectWarp, checkWarp });
+    { "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler, checkSampler });
+  kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap });
   kinds.push_back(
-    { "Quality", make<Quality>, drawQuality, feedPointsAndDensity, expectQuality, checkQuality });
+    { "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp });
+  kinds.push_back({ "Quality", make<Quality>, drawQuality, drawPointsAndDensityInputs,
+    expectQuality, checkQuality });
 }
 
 } // namespace Campaign

@@ -12,23 +12,23 @@ namespace Campaign
 namespace
 {
 
-vtkSmartPointer<vtkDataObject> drawComposite(Dice& dice, vtkDataObject* block)
+vtkSmartPointer<vtkDataObject> drawComposite(RandomSource& random, vtkDataObject* block)
 {
-  if (dice.Chance(0.3))
+  if (random.Chance(0.3))
   {
     const auto parts = vtkSmartPointer<vtkPartitionedDataSet>::New();
     parts->SetPartition(0, block);
     return parts;
   }
   const auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  const auto count = static_cast<unsigned int>(dice.Whole(0, 3));
+  const auto count = static_cast<unsigned int>(random.Whole(0, 3));
   for (unsigned int i = 0; i < count; ++i)
   {
-    const bool same = dice.Chance(0.6);
+    const bool same = random.Chance(0.6);
     blocks->SetBlock(i, same ? block : nullptr);
-    if (!same && dice.Chance(0.5))
+    if (!same && random.Chance(0.5))
     {
-      blocks->SetBlock(i, drawImage(dice).Data);
+      blocks->SetBlock(i, drawImage(random).Data);
     }
   }
   return blocks;
@@ -36,16 +36,16 @@ vtkSmartPointer<vtkDataObject> drawComposite(Dice& dice, vtkDataObject* block)
 
 } // namespace
 
-void drawUnusual(Dice& dice, Input& input)
+void drawUnusual(RandomSource& random, Input& input)
 {
-  if (!dice.Chance(0.03))
+  if (!random.Chance(0.03))
   {
     return;
   }
   input.IsPlain = false;
   input.Values = nullptr;
   input.Condition = State::Open;
-  switch (dice.Whole(0, 5))
+  switch (random.Whole(0, 5))
   {
     case 0:
       input.Data = nullptr;
@@ -57,10 +57,10 @@ void drawUnusual(Dice& dice, Input& input)
       input.Data = vtkSmartPointer<vtkRectilinearGrid>::New();
       break;
     default:
-      input.Data = drawComposite(dice, input.Data);
+      input.Data = drawComposite(random, input.Data);
       break;
   }
-  input.Say(input.Data ? input.Data->GetClassName() : "nothing");
+  input.Describe(input.Data ? input.Data->GetClassName() : "nothing");
 }
 
 } // namespace Campaign

@@ -45,10 +45,10 @@ private:
 };
 #endif
 
-void checkProgress(const std::vector<double>& heard, Findings& findings)
+void checkProgress(const std::vector<double>& reported, Findings& findings)
 {
   double last = 0.0;
-  for (const double progress : heard)
+  for (const double progress : reported)
   {
     std::ostringstream text;
     text << "progress " << progress << " after " << last;
@@ -97,7 +97,7 @@ Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& f
   }
   if (outcome.Errors.empty() && !outcome.Aborted)
   {
-    checkProgress(listener.Heard, findings);
+    checkProgress(listener.Progress, findings);
   }
   return outcome;
 }

@@ -5,9 +5,9 @@ backends and instruction sets.
 
 usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] PROGRAM
 
-PROGRAM (Campaign.cxx) plays the cases and looks at each output. This script compares what comes out
-under every setting, to the last bit, and survives what PROGRAM does not: a case that crashes or
-hangs is told, and the next one follows. `PROGRAM --case N --seed S` tells the story of a case.
+PROGRAM (Campaign.cxx) runs the cases and looks at each output. This script compares what comes out
+under every setting, to the last bit, and goes on where PROGRAM does not: a case that crashes or
+hangs is reported, and the next one follows. `PROGRAM --case N --seed S` prints the steps of a case.
 """
 import argparse
 import collections
@@ -38,7 +38,7 @@ class Case:
         self.findings = []
 
 
-def play(program, setting, seed, first, count, limit):
+def run_cases(program, setting, seed, first, count, limit):
     """The cases of a block, and the ends of processes: [(case, text)]."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
@@ -91,11 +91,11 @@ def available(program):
 class Campaign:
     def __init__(self, settings):
         self.settings = settings
-        self.played = 0
+        self.done = 0
         self.wrong = 0
         self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0.0])
 
-    def tell(self, number, text):
+    def report(self, number, text):
         print(f"case {number}: {text}", flush=True)
 
     def judge(self, results):
@@ -104,11 +104,11 @@ class Campaign:
         for setting, (cases, ends) in zip(self.settings, results):
             for number, text in ends:
                 failed.add(number)
-                self.tell(number, f"{setting[0]}: {text}")
+                self.report(number, f"{setting[0]}: {text}")
             for case in cases:
                 for finding in case.findings:
                     failed.add(case.number)
-                    self.tell(case.number, f"{case.filter}, {setting[0]}: {finding}")
+                    self.report(case.number, f"{case.filter}, {setting[0]}: {finding}")
         digests = collections.defaultdict(set)
         for cases, _ in results:
             for case in cases:
@@ -116,7 +116,7 @@ class Campaign:
         for number, found in sorted(digests.items()):
             if len(found) > 1:
                 failed.add(number)
-                self.tell(number, f"{len(found)} results that differ")
+                self.report(number, f"{len(found)} results that differ")
         for case in results[0][0]:
             row = self.by_filter[case.filter]
             row[0] += 1
@@ -150,7 +150,7 @@ def main():
     end = arguments.first + arguments.count
     blocks = [(first, min(BLOCK, end - first)) for first in range(arguments.first, end, BLOCK)]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        jobs = [[pool.submit(play, arguments.program, setting, arguments.seed, first, count,
+        jobs = [[pool.submit(run_cases, arguments.program, setting, arguments.seed, first, count,
                              arguments.limit) for setting in settings] for first, count in blocks]
         for block in jobs:
             campaign.judge([job.result() for job in block])

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random choices that a number decides alone: the same on every machine, compiler and library.
-#ifndef Campaign_Dice_h
-#define Campaign_Dice_h
+#ifndef Campaign_RandomSource_h
+#define Campaign_RandomSource_h
 
 #include <cmath>
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace Campaign
 {
 
-class Dice
+class RandomSource
 {
 public:
-  explicit Dice(std::uint64_t seed)
+  explicit RandomSource(std::uint64_t seed)
     : State(seed)
   {
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind a filter in a pipeline.
-#ifndef Campaign_Behind_h
-#define Campaign_Behind_h
+// Filters downstream of a filter in a pipeline.
+#ifndef Campaign_Downstream_h
+#define Campaign_Downstream_h
 
-#include "Dice.h"
+#include "RandomSource.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkSmartPointer.h"
@@ -12,7 +12,7 @@ namespace Campaign
 {
 
 // A filter of VTK or of ours that takes the first output, connected; nullptr if none does.
-vtkSmartPointer<vtkAlgorithm> drawBehind(Dice& dice, vtkAlgorithm* filter);
+vtkSmartPointer<vtkAlgorithm> drawDownstream(RandomSource& random, vtkAlgorithm* filter);
 
 } // namespace Campaign
 

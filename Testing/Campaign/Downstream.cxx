@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Behind.h"
+#include "Downstream.h"
 
 #include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
@@ -44,12 +44,12 @@ vtkSmartPointer<vtkAlgorithm> makeSet(const Set& set)
   return filter;
 }
 
-vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
+vtkSmartPointer<vtkAlgorithm> drawDownstreamImage(RandomSource& random, vtkImageData* image)
 {
   // VTK's image filters do not look whether there are scalars, or points enough to shrink.
   const bool hasScalars = vtkDoubleArray::SafeDownCast(image->GetPointData()->GetScalars()) &&
     image->GetDimensions()[0] > 2;
-  std::int64_t kind = dice.Whole(hasScalars ? 0 : 2, 4);
+  std::int64_t kind = random.Whole(hasScalars ? 0 : 2, 4);
   // Of tuples the contour filter interpolates the first component alone, and reads past the end of
   // other arrays.
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
@@ -73,9 +73,9 @@ vtkSmartPointer<vtkAlgorithm> drawBehindImage(Dice& dice, vtkImageData* image)
   }
 }
 
-vtkSmartPointer<vtkAlgorithm> drawBehindPoints(Dice& dice)
+vtkSmartPointer<vtkAlgorithm> drawDownstreamPoints(RandomSource& random)
 {
-  switch (dice.Whole(0, 2))
+  switch (random.Whole(0, 2))
   {
     case 0:
       return makeSet<vtkMassSplatter>([](auto* splatter) { splatter->SetDimensions(9, 8, 7); });
@@ -88,7 +88,7 @@ vtkSmartPointer<vtkAlgorithm> drawBehindPoints(Dice& dice)
 
 } // namespace
 
-vtkSmartPointer<vtkAlgorithm> drawBehind(Dice& dice, vtkAlgorithm* filter)
+vtkSmartPointer<vtkAlgorithm> drawDownstream(RandomSource& random, vtkAlgorithm* filter)
 {
   vtkDataObject* output = filter->GetOutputDataObject(0);
   auto* set = vtkDataSet::SafeDownCast(output);
@@ -98,20 +98,20 @@ vtkSmartPointer<vtkAlgorithm> drawBehind(Dice& dice, vtkAlgorithm* filter)
   {
     return nullptr; // VTK's own read past the end of an array that an input had too short
   }
-  vtkSmartPointer<vtkAlgorithm> behind;
+  vtkSmartPointer<vtkAlgorithm> downstream;
   if (auto* image = vtkImageData::SafeDownCast(output))
   {
-    behind = drawBehindImage(dice, image);
+    downstream = drawDownstreamImage(random, image);
   }
   else if (vtkPolyData::SafeDownCast(output))
   {
-    behind = drawBehindPoints(dice);
+    downstream = drawDownstreamPoints(random);
   }
-  if (behind)
+  if (downstream)
   {
-    behind->SetInputConnection(0, filter->GetOutputPort(0));
+    downstream->SetInputConnection(0, filter->GetOutputPort(0));
   }
-  return behind;
+  return downstream;
 }
 
 } // namespace Campaign
