@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cannot be transported, and options that mean nothing: said, never clamped.
+// Densities that cannot be transported, and options out of range: reported, never clamped.
 #include "TestFlow.h"
 #include "TestRefusal.h"
 

@@ -12,7 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// On the line tiles ascend, however many there are: nobody is further back than in the same tile.
+// On the line tiles ascend, however many there are: no particle is further back than in the same
+// tile.
 TEST(ParticleOrder, AscendsOnTheLine)
 {
   for (const std::size_t count : { 1000, 100000, 1000000 })

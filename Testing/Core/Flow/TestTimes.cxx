@@ -123,7 +123,7 @@ TYPED_TEST(Times, AnyChoiceWithHoles)
     });
 }
 
-// Who runs the ranges and who else is there matters no more than in Forward.
+// Neither the executor nor the other particles matter, as in Forward.
 TEST(TimesWithHoles, ExecutorsAndSubsets)
 {
   const TestDensity<2> target = discWithHole<2>({ 150, 97 });

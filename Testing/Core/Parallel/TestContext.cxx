@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host hears of long work, and how it stops it.
+// The progress that long work reports, and its cancellation.
 #include "Core/Seeds/Seeds.h"
 #include "TestFlow.h"
 
@@ -14,10 +14,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// Collects progress, and cancels once it passes `limit`.
+// Records progress, and cancels once it passes `Limit`.
 struct Listener
 {
-  std::vector<double> Heard;
+  std::vector<double> Reported;
   std::atomic<double> Last{ 0.0 };
   double Limit = 2.0;
   std::thread::id Thread = std::this_thread::get_id();
@@ -29,7 +29,7 @@ struct Listener
     return { threads,
       [this](double progress) {
         this->OtherThread = this->OtherThread || std::this_thread::get_id() != this->Thread;
-        this->Heard.push_back(progress);
+        this->Reported.push_back(progress);
         this->Last = progress;
       },
       [this]() { return this->Last >= this->Limit; } };
@@ -37,11 +37,11 @@ struct Listener
 
   void ExpectMonotone(const std::string& what) const
   {
-    ASSERT_FALSE(this->Heard.empty()) << what;
-    EXPECT_TRUE(std::is_sorted(this->Heard.begin(), this->Heard.end())) << what;
-    EXPECT_GE(this->Heard.front(), 0.0) << what;
-    EXPECT_LE(this->Heard.back(), 1.0) << what;
-    EXPECT_GT(this->Heard.back(), 0.9) << what;
+    ASSERT_FALSE(this->Reported.empty()) << what;
+    EXPECT_TRUE(std::is_sorted(this->Reported.begin(), this->Reported.end())) << what;
+    EXPECT_GE(this->Reported.front(), 0.0) << what;
+    EXPECT_LE(this->Reported.back(), 1.0) << what;
+    EXPECT_GT(this->Reported.back(), 0.9) << what;
     EXPECT_FALSE(this->OtherThread) << what << ": called on another thread";
   }
 };
@@ -172,8 +172,8 @@ TEST(Context, ProgressAndCancelOfTheSeeds)
       {
         EXPECT_THROW(generate(), Cancelled) << static_cast<int>(pattern);
       }
-      EXPECT_EQ(listener.Heard.size() > 1, complete) << static_cast<int>(pattern);
-      EXPECT_TRUE(std::is_sorted(listener.Heard.begin(), listener.Heard.end()));
+      EXPECT_EQ(listener.Reported.size() > 1, complete) << static_cast<int>(pattern);
+      EXPECT_TRUE(std::is_sorted(listener.Reported.begin(), listener.Reported.end()));
     }
   }
   Listener listener;
@@ -182,11 +182,11 @@ TEST(Context, ProgressAndCancelOfTheSeeds)
   EXPECT_THROW(generateLattice<3>({ 50, 60, 70 }, points, listener.Context()), Cancelled);
   EXPECT_THROW(
     generateJitteredLattice<3>({ 50, 60, 70 }, 1, points, listener.Context()), Cancelled);
-  EXPECT_EQ(listener.Heard.size(), 2u);
+  EXPECT_EQ(listener.Reported.size(), 2u);
 }
 
-// However many steps a block of particles takes, the host is asked in between. What goes on after
-// the host said stop asks again: it must not be much.
+// However many steps a block of particles takes, IsCancelled is called in between. Work that goes
+// on after it returned true calls it again: it must not be much.
 TEST(Context, CancelManySteps)
 {
   const RectifiedFlow<3> flow = makeFlow(volume());
@@ -198,21 +198,21 @@ TEST(Context, CancelManySteps)
     {
       FlowOptions options = steps(10000, method);
       options.Tolerance = 1e-14;
-      int asked = 0;
+      int queries = 0;
       int limit = std::numeric_limits<int>::max();
       const SerialExecutor serial;
-      const RectifiedTransport::Context context(serial, {}, [&]() { return ++asked > limit; });
+      const RectifiedTransport::Context context(serial, {}, [&]() { return ++queries > limit; });
       const auto run = [&]() {
         return backward ? flow.Backward(seeds, positions, options, context)
                         : flow.Forward(seeds, positions, options, context);
       };
       const FlowReport report = run();
-      EXPECT_LE(report.Evaluations, 64 * 256 * std::int64_t{ asked }) << nameOf(method);
+      EXPECT_LE(report.Evaluations, 64 * 256 * std::int64_t{ queries }) << nameOf(method);
       EXPECT_GT(report.Evaluations, 64 * 4 * 256) << nameOf(method);
-      asked = 0;
+      queries = 0;
       limit = 3;
       EXPECT_THROW(run(), Cancelled) << nameOf(method);
-      EXPECT_LE(asked, limit + 2) << nameOf(method); // the last at the end of the slice
+      EXPECT_LE(queries, limit + 2) << nameOf(method); // the last at the end of the slice
     }
   }
 }

@@ -18,11 +18,11 @@ namespace
 
 const SerialExecutor serial;
 
-// A host that notes what it hears, and says stop after it was asked so often.
-class Host
+// A context that records the progress that is reported, and cancels after a number of queries.
+class RecordingContext
 {
 public:
-  explicit Host(const Executor& threads = serial)
+  explicit RecordingContext(const Executor& threads = serial)
     : Threads(threads)
   {
   }
@@ -31,35 +31,35 @@ public:
   {
     return { this->Threads,
       [this](double fraction) {
-        EXPECT_EQ(std::this_thread::get_id(), this->Thread) << "heard on another thread";
-        this->Heard.push_back(fraction);
+        EXPECT_EQ(std::this_thread::get_id(), this->Thread) << "reported on another thread";
+        this->Reported.push_back(fraction);
       },
       [this]() {
-        EXPECT_FALSE(this->IsAsked.exchange(true)) << "asked by two at a time";
-        const bool stop = ++this->Asked > this->Patience;
-        this->IsAsked = false;
+        EXPECT_FALSE(this->IsQueried.exchange(true)) << "queried by two at a time";
+        const bool stop = ++this->Queries > this->MaximumQueries;
+        this->IsQueried = false;
         return stop;
       } };
   }
 
-  // Since the last time; they ascend from `low` to `high`.
-  void ExpectHeard(double low, double high)
+  // What was reported since the last call ascends from `low` to `high`.
+  void ExpectReported(double low, double high)
   {
-    ASSERT_FALSE(this->Heard.empty());
-    EXPECT_TRUE(std::is_sorted(this->Heard.begin(), this->Heard.end()));
-    EXPECT_GE(this->Heard.front(), low);
-    EXPECT_NEAR(this->Heard.back(), high, 1e-15);
-    this->Heard.clear();
+    ASSERT_FALSE(this->Reported.empty());
+    EXPECT_TRUE(std::is_sorted(this->Reported.begin(), this->Reported.end()));
+    EXPECT_GE(this->Reported.front(), low);
+    EXPECT_NEAR(this->Reported.back(), high, 1e-15);
+    this->Reported.clear();
   }
 
-  std::vector<double> Heard;
-  std::atomic<int> Asked{ 0 };
-  int Patience = 1 << 30;
+  std::vector<double> Reported;
+  std::atomic<int> Queries{ 0 };
+  int MaximumQueries = 1 << 30;
 
 private:
   const Executor& Threads;
   const std::thread::id Thread = std::this_thread::get_id();
-  std::atomic<bool> IsAsked{ false };
+  std::atomic<bool> IsQueried{ false };
 };
 
 constexpr std::int64_t count = 1000;
@@ -77,7 +77,7 @@ TEST(Context, IsOfOpenMPOrOfAnExecutor)
   EXPECT_EQ(&Progress(context).Threads(), &serial);
 }
 
-TEST(Progress, NeedsNoHost)
+TEST(Progress, NeedsNoCallbacks)
 {
   Progress progress(serial);
   progress.BeginStage(1.0, 10);
@@ -93,109 +93,109 @@ TEST(Progress, NeedsNoHost)
 
 TEST(Progress, StagesFollow)
 {
-  Host host;
-  Progress progress(host.Context());
+  RecordingContext recorder;
+  Progress progress(recorder.Context());
   progress.BeginStage(0.25);
   EXPECT_EQ(progress.StageEnd(), 0.25);
   progress.For(count, 1, nothing, 1);
-  EXPECT_GT(host.Heard.size(), 2u);
-  host.ExpectHeard(0.0, 0.25);
+  EXPECT_GT(recorder.Reported.size(), 2u);
+  recorder.ExpectReported(0.0, 0.25);
   progress.BeginStage(0.75, 8);
   EXPECT_EQ(progress.StageEnd(), 0.75);
   progress.EndSlice(2);
-  host.ExpectHeard(0.25, 0.375);
+  recorder.ExpectReported(0.25, 0.375);
   progress.EndSlice(6);
-  host.ExpectHeard(0.375, 0.75);
+  recorder.ExpectReported(0.375, 0.75);
   progress.EndSlice(6); // more than was said
-  host.ExpectHeard(0.75, 0.75);
+  recorder.ExpectReported(0.75, 0.75);
   progress.BeginStage(1.0);
   progress.ForInOrder(count, 1, nothing, 1);
-  host.ExpectHeard(0.75, 1.0);
+  recorder.ExpectReported(0.75, 1.0);
 }
 
 TEST(Progress, StagesNest)
 {
-  Host host;
-  Progress outer(host.Context());
+  RecordingContext recorder;
+  Progress outer(recorder.Context());
   outer.BeginStage(0.5);
   {
     Progress inner(outer.Stage());
     EXPECT_EQ(&inner.Threads(), &serial);
     inner.BeginStage(0.5);
     inner.For(count, 1, nothing, 1);
-    host.ExpectHeard(0.0, 0.25);
+    recorder.ExpectReported(0.0, 0.25);
     inner.BeginStage(1.0);
     Progress innermost(inner.Stage());
     innermost.BeginStage(1.0);
     innermost.For(count, 1, nothing, 1);
-    host.ExpectHeard(0.25, 0.5);
+    recorder.ExpectReported(0.25, 0.5);
   }
   outer.BeginStage(0.75);
   Progress next(outer.Stage());
   next.BeginStage(1.0, 4);
   next.EndSlice(1);
-  host.ExpectHeard(0.5, 0.5625);
+  recorder.ExpectReported(0.5, 0.5625);
   next.EndSlice(3);
-  host.ExpectHeard(0.5625, 0.75);
-  // The host's wish reaches the innermost, and what is outside of it.
-  host.Patience = 0;
+  recorder.ExpectReported(0.5625, 0.75);
+  // All levels see the cancellation.
+  recorder.MaximumQueries = 0;
   EXPECT_THROW(next.Check(), Cancelled);
   EXPECT_THROW(outer.Check(), Cancelled);
 }
 
-// Several loops may be the work of one stage, or begin anew in it.
+// Several loops may be the work of one stage, or repeat it.
 TEST(Progress, IsNeverTakenBack)
 {
-  Host host;
-  Progress progress(host.Context());
+  RecordingContext recorder;
+  Progress progress(recorder.Context());
   progress.BeginStage(0.5);
   progress.For(count, 1, nothing, 1);
-  host.ExpectHeard(0.0, 0.5);
+  recorder.ExpectReported(0.0, 0.5);
   progress.For(count, 1, nothing, 1);
-  EXPECT_EQ(host.Heard.front(), 0.5);
-  host.ExpectHeard(0.5, 0.5);
+  EXPECT_EQ(recorder.Reported.front(), 0.5);
+  recorder.ExpectReported(0.5, 0.5);
   Progress inner(progress.Stage());
   inner.BeginStage(1.0);
   inner.ForInOrder(count, 1, nothing, 1);
-  host.ExpectHeard(0.5, 0.5);
+  recorder.ExpectReported(0.5, 0.5);
 }
 
 TEST(Progress, AddReportsInIntervals)
 {
-  Host host;
-  Progress progress(host.Context());
+  RecordingContext recorder;
+  Progress progress(recorder.Context());
   constexpr std::int64_t total = 1000000;
   progress.BeginStage(1.0, total);
   for (std::int64_t i = 0; i < 1000; ++i)
   {
     progress.Add(1);
   }
-  EXPECT_TRUE(host.Heard.empty());
-  EXPECT_EQ(host.Asked, 0);
+  EXPECT_TRUE(recorder.Reported.empty());
+  EXPECT_EQ(recorder.Queries, 0);
   for (std::int64_t i = 1000; i < total; ++i)
   {
     progress.Add(1);
   }
-  EXPECT_EQ(host.Heard.size(), 15u); // 2^16 at a time
-  EXPECT_EQ(host.Asked, 15);
-  host.ExpectHeard(0.0, 15.0 * 0x1p16 / total);
-  // What a stage has not reported is not the next one's.
+  EXPECT_EQ(recorder.Reported.size(), 15u); // 2^16 at a time
+  EXPECT_EQ(recorder.Queries, 15);
+  recorder.ExpectReported(0.0, 15.0 * 0x1p16 / total);
+  // Work that a stage has not reported does not count in the next one.
   progress.BeginStage(2.0, total);
   progress.Add(0xffff);
-  EXPECT_TRUE(host.Heard.empty());
-  host.Patience = 0;
+  EXPECT_TRUE(recorder.Reported.empty());
+  recorder.MaximumQueries = 0;
   EXPECT_THROW(progress.Add(1), Cancelled);
-  EXPECT_EQ(host.Heard.size(), 1u);
+  EXPECT_EQ(recorder.Reported.size(), 1u);
 }
 
-// All of it once, in ranges cut at multiples of the grain, in slices that hold a range a thread.
+// Every index once, in ranges cut at multiples of the grain, in slices that hold a range a thread.
 TEST(Progress, ForRunsAll)
 {
   for (const int concurrency : { 1, 4 })
   {
     const BackwardExecutor threads(concurrency);
-    Host host(threads);
-    Progress progress(host.Context());
+    RecordingContext recorder(threads);
+    Progress progress(recorder.Context());
     progress.BeginStage(1.0);
     for (const std::int64_t grain : { 1, 7, 100, 5000 })
     {
@@ -216,7 +216,7 @@ TEST(Progress, ForRunsAll)
         EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), count);
       }
     }
-    EXPECT_EQ(host.Heard.back(), 1.0);
+    EXPECT_EQ(recorder.Reported.back(), 1.0);
     bool called = false;
     progress.For(0, 1, [&called](std::int64_t, std::int64_t) { called = true; });
     EXPECT_FALSE(called);
@@ -229,8 +229,8 @@ TEST(Progress, ForThrowsWhatTheKernelThrows)
   for (const Executor* executor :
     { static_cast<const Executor*>(&threads), static_cast<const Executor*>(&serial) })
   {
-    Host host(*executor);
-    Progress progress(host.Context());
+    RecordingContext recorder(*executor);
+    Progress progress(recorder.Context());
     progress.BeginStage(1.0);
     std::atomic<std::int64_t> last{ 0 };
     const auto kernel = [&last](std::int64_t first, std::int64_t end) {
@@ -242,7 +242,7 @@ TEST(Progress, ForThrowsWhatTheKernelThrows)
     };
     EXPECT_THROW(progress.For(count, 10, kernel, 1), std::bad_alloc);
     EXPECT_LE(last, 500);
-    EXPECT_LE(host.Heard.back(), 0.5) << "reported what was not done";
+    EXPECT_LE(recorder.Reported.back(), 0.5) << "reported what was not done";
     EXPECT_THROW(progress.ForInOrder(count, 10, kernel, 1), std::bad_alloc);
     EXPECT_FALSE(progress.IsCancelled());
   }
@@ -253,9 +253,9 @@ TEST(Progress, ForThrowsCancelled)
   const OpenMPExecutor threads;
   for (const bool inOrder : { false, true })
   {
-    Host host(threads);
-    host.Patience = 2;
-    Progress progress(host.Context());
+    RecordingContext recorder(threads);
+    recorder.MaximumQueries = 2;
+    Progress progress(recorder.Context());
     progress.BeginStage(1.0);
     std::atomic<std::int64_t> done{ 0 };
     const auto kernel = [&done](std::int64_t first, std::int64_t last) { done += last - first; };
@@ -267,12 +267,12 @@ TEST(Progress, ForThrowsCancelled)
     {
       EXPECT_THROW(progress.For(1 << 20, 1, kernel, 1), Cancelled);
     }
-    EXPECT_EQ(host.Asked, 3);
-    EXPECT_EQ(host.Heard.size(), 3u);
-    EXPECT_LT(host.Heard.back(), 0.9) << "went on after it was cancelled";
+    EXPECT_EQ(recorder.Queries, 3);
+    EXPECT_EQ(recorder.Reported.size(), 3u);
+    EXPECT_LT(recorder.Reported.back(), 0.9) << "went on after it was cancelled";
     EXPECT_LT(done, 1 << 20);
     EXPECT_TRUE(progress.IsCancelled());
-    // It stays so, whatever is tried then.
+    // It stays cancelled.
     EXPECT_THROW(progress.EndSlice(1), Cancelled);
     EXPECT_THROW(progress.Check(), Cancelled);
   }
@@ -319,24 +319,24 @@ TEST(Progress, SlicesAreMultiplesOfTheSmallest)
 
 TEST(Progress, CheckThrows)
 {
-  Host host;
-  host.Patience = 2;
-  Progress progress(host.Context());
+  RecordingContext recorder;
+  recorder.MaximumQueries = 2;
+  Progress progress(recorder.Context());
   EXPECT_NO_THROW(progress.Check());
   EXPECT_NO_THROW(progress.Check());
   EXPECT_FALSE(progress.IsCancelled());
   EXPECT_THROW(progress.Check(), Cancelled);
   EXPECT_TRUE(progress.IsCancelled());
-  EXPECT_TRUE(host.Heard.empty());
+  EXPECT_TRUE(recorder.Reported.empty());
 }
 
-// Many threads look whether to stop, but the host is asked by one at a time.
-TEST(Progress, ManyThreadsMayAsk)
+// Many threads call ShouldStop, but IsCancelled is called by one at a time.
+TEST(Progress, ManyThreadsMayQuery)
 {
   const OpenMPExecutor executor;
-  Host host(executor);
-  host.Patience = 1000;
-  Progress progress(host.Context());
+  RecordingContext recorder(executor);
+  recorder.MaximumQueries = 1000;
+  Progress progress(recorder.Context());
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i)
   {
@@ -350,8 +350,8 @@ TEST(Progress, ManyThreadsMayAsk)
   {
     thread.join();
   }
-  EXPECT_GT(host.Asked, 1000);
-  EXPECT_LE(host.Asked, 1004); // each of the others once more
+  EXPECT_GT(recorder.Queries, 1000);
+  EXPECT_LE(recorder.Queries, 1004); // each of the others once more
   EXPECT_THROW(progress.EndSlice(1), Cancelled);
 }
 

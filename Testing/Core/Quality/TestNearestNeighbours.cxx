@@ -109,14 +109,14 @@ TEST(NearestNeighbours, ExecutorsAndContext)
   const Points<3> points = randomPoints<3>({ 10, 20, 5 }, 100000);
   EXPECT_EQ(distancesOf(points), distancesOf(points, OpenMPExecutor()));
   std::vector<double> distances(points.size());
-  std::vector<double> heard;
+  std::vector<double> reported;
   const OpenMPExecutor threads;
-  Context context(threads, [&](double fraction) { heard.push_back(fraction); });
+  Context context(threads, [&](double fraction) { reported.push_back(fraction); });
   nearestDistances(points, distances.data(), context);
-  EXPECT_GT(heard.size(), 3u);
-  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_LT(heard.front(), 0.02); // the first halvings of the tree do not keep the host waiting
-  EXPECT_EQ(heard.back(), 1.0);
+  EXPECT_GT(reported.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LT(reported.front(), 0.02); // the first halvings of the tree report, too
+  EXPECT_EQ(reported.back(), 1.0);
   context.IsCancelled = []() { return true; };
   EXPECT_THROW(nearestDistances(points, distances.data(), context), Cancelled);
 }

@@ -350,19 +350,19 @@ TEST(SiteCells, BalanceCanBeCancelled)
   const GridSize<2> size{ 512, 512 };
   const auto sites = pixelsOf<2>(size, randomPoints<2>(size, 50));
   Labels labels(cellCount<2>(size), 0);
-  std::vector<double> heard;
+  std::vector<double> reported;
   const OpenMPExecutor threads;
   Context context(
-    threads, [&](double progress) { heard.push_back(progress); },
-    [&]() { return heard.size() > 2; });
+    threads, [&](double progress) { reported.push_back(progress); },
+    [&]() { return reported.size() > 2; });
   EXPECT_THROW(equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), context), Cancelled);
-  EXPECT_EQ(heard.size(), 3u);
+  EXPECT_EQ(reported.size(), 3u);
 
-  heard.clear();
+  reported.clear();
   context.IsCancelled = []() { return false; };
   equalizeSiteCells<2>(sites, { 1.0, 1.0 }, labels.data(), context);
-  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_LE(heard.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LE(reported.back(), 1.0);
 }
 
 template <int Dimension>
@@ -430,7 +430,7 @@ TEST(SiteCells, ManySitesInOnePixelHaveEqualParts)
   EXPECT_LE(*most, 27);
 }
 
-// Many sites at one point: the host is asked, told, and need not wait long.
+// Many sites at one point: progress is reported, and a cancellation takes effect soon.
 TEST(SiteCells, SharingCanBeCancelled)
 {
   const GridSize<2> size{ 1024, 1024 };
@@ -445,11 +445,11 @@ TEST(SiteCells, SharingCanBeCancelled)
   EXPECT_THROW(share({ threads, {}, [&]() { return ++asked > 60; } }), Cancelled);
   EXPECT_EQ(asked, 61);
 
-  std::vector<double> heard;
-  share({ threads, [&](double progress) { heard.push_back(progress); } });
-  EXPECT_GT(heard.size(), 10u);
-  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_LE(heard.back(), 1.0);
+  std::vector<double> reported;
+  share({ threads, [&](double progress) { reported.push_back(progress); } });
+  EXPECT_GT(reported.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LE(reported.back(), 1.0);
 }
 
 } // namespace

@@ -413,19 +413,19 @@ TEST(SolidCoverage, ProgressAndCancel)
   const Mesh mesh = makeSphere({ 40, 40, 40 }, 35.0, 200);
   const GridSize<3> cells{ 80, 80, 80 };
   std::vector<double> coverage(512000);
-  std::vector<double> heard;
+  std::vector<double> reported;
   double limit = 2.0;
   const OpenMPExecutor threads;
   const Context context(
-    threads, [&heard](double progress) { heard.push_back(progress); },
-    [&]() { return !heard.empty() && heard.back() >= limit; });
+    threads, [&reported](double progress) { reported.push_back(progress); },
+    [&]() { return !reported.empty() && reported.back() >= limit; });
   coverSolid(mesh.Surface(), cells, 4, coverage.data(), context);
-  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_GE(heard.front(), 0.0);
-  EXPECT_EQ(heard.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_GE(reported.front(), 0.0);
+  EXPECT_EQ(reported.back(), 1.0);
   for (const double from : { 0.0, 0.06, 0.2, 0.5 })
   {
-    heard.clear();
+    reported.clear();
     limit = from;
     EXPECT_THROW(coverSolid(mesh.Surface(), cells, 4, coverage.data(), context), Cancelled) << from;
   }

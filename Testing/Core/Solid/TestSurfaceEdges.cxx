@@ -195,7 +195,7 @@ TEST(SurfaceOrientation, KleinBottle)
   EXPECT_FALSE(orient(mesh));
 }
 
-// Each step hears the host before it is done, and stops.
+// Each step queries IsCancelled before it is done, and stops.
 TEST(ClosedSurface, Cancelled)
 {
   Mesh mesh = makeSphere({ 0, 0, 0 }, 1.0, 300);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles to a grid: mass and centroid, weights against their definitions, the border, the map.
+// Particles to a grid: mass and centroid, weights against their definitions, the border, the
+// transform to index space.
 #include "TestSplat.h"
 #include "TestDensities.h"
 #include "TestDimensions.h"
@@ -260,7 +261,7 @@ TEST(SplatOutside, MovedOrLeftOut)
   EXPECT_EQ(splat(cloud.Particles(), size, splatOptions(SplatKernel::NearestCell)).Cells[5], 1.0);
 }
 
-// Coordinates so large that the map overflows are outside, and no worse.
+// Coordinates whose index overflows are outside.
 TEST(SplatOutside, Overflow)
 {
   const GridSize<3> size{ 5, 4, 3 };
@@ -286,8 +287,8 @@ TEST(SplatOutside, Overflow)
   }
 }
 
-// A turned and scaled grid sees turned and scaled particles as before.
-TEST(SplatMap, TurnedGrid)
+// A rotated and scaled grid with particles rotated and scaled alike gives the same result.
+TEST(SplatToIndex, RotatedGrid)
 {
   const GridSize<3> size{ 16, 14, 12 };
   const Cloud<3> cloud = randomCloud<3>(size, 2000, 0.0, false);

@@ -158,27 +158,27 @@ TEST(SplatContext, ProgressAndCancel)
   const GridSize<3> size{ 90, 90, 90 };
   const Cloud<3> cloud = randomCloud<3>(size, 400000, 0.0, false);
   std::vector<double> cells(90 * 90 * 90);
-  std::vector<double> heard;
+  std::vector<double> reported;
   std::function<bool()> isCancelled;
   const SplatOptions options = splatOptions(SplatKernel::Gaussian);
   const auto run = [&](const Executor& executor) {
     const Context context(
-      executor, [&heard](double progress) { heard.push_back(progress); }, isCancelled);
+      executor, [&reported](double progress) { reported.push_back(progress); }, isCancelled);
     splatMass<3, double>(cloud.Particles(), size, options, 1.0, cells.data(), context);
   };
   run(SerialExecutor());
-  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_GT(heard.size(), 3u);
-  EXPECT_NEAR(heard.back(), 1.0, 1e-12);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_GT(reported.size(), 3u);
+  EXPECT_NEAR(reported.back(), 1.0, 1e-12);
 
   for (const int concurrency : { 1, 2 })
   {
     std::atomic<int> asked{ 0 };
     isCancelled = [&asked]() { return ++asked > 4; };
-    heard.clear();
+    reported.clear();
     EXPECT_THROW(run(BackwardExecutor(concurrency)), Cancelled);
     EXPECT_LT(asked, 40);
-    EXPECT_TRUE(heard.empty() || heard.back() < 0.9) << "went on after it was cancelled";
+    EXPECT_TRUE(reported.empty() || reported.back() < 0.9) << "went on after it was cancelled";
   }
 }
 

@@ -50,7 +50,7 @@ double sum(const std::vector<double>& values)
 }
 
 // Sites in the middles of equal parts of the domain: by symmetry the cells are these parts.
-TEST(SiteCellFigures, Quarters)
+TEST(SiteCellStatistics, Quarters)
 {
   const auto grid = makeGrid<2>({ 8, 4 }, { 0.5, 2.0, 1.0 }, { 10.0, -4.0, 3.0 });
   const Points<3> sites = { { 11.0, -2.0, 3.0 }, { 13.0, -2.0, 3.0 }, { 11.0, 2.0, 3.0 },
@@ -81,7 +81,7 @@ TEST(SiteCellFigures, Quarters)
   EXPECT_NEAR(measure<2>(cells, labels, { largest, 1.0 }).Total, 1.0, 1e-14);
 }
 
-TEST(SiteCellFigures, AnyNumberOfSites)
+TEST(SiteCellStatistics, AnyNumberOfSites)
 {
   const GridSize<3> size = { 20, 16, 12 };
   const auto grid = makeGrid<3>(size, { 0.5, 0.75, 1.0 });
@@ -127,7 +127,7 @@ public:
 
 // A one-off is the constructor and Label, with the caller's executor and progress in both: the
 // first loop is the constructor's, over the sites.
-TEST(SiteCellFigures, OneOffKeepsTheContext)
+TEST(SiteCellStatistics, OneOffKeepsTheContext)
 {
   const auto grid = makeGrid<2>({ 40, 30 }, { 1.0, 1.0, 1.0 });
   const Points<3> sites = { { 4.0, 3.0, 0.0 }, { 30.0, 20.0, 0.0 }, { 7.0, 25.0, 0.0 } };
@@ -146,7 +146,7 @@ TEST(SiteCellFigures, OneOffKeepsTheContext)
   EXPECT_EQ(labels, expected);
 }
 
-TEST(SiteCellFigures, OneOffIsCancelledWhilePlacing)
+TEST(SiteCellStatistics, OneOffIsCancelledWhilePlacing)
 {
   const auto grid = makeGrid<2>({ 40, 30 }, { 1.0, 1.0, 1.0 });
   const Points<3> sites = { { 4.0, 3.0, 0.0 }, { 30.0, 20.0, 0.0 } };
@@ -156,7 +156,7 @@ TEST(SiteCellFigures, OneOffIsCancelledWhilePlacing)
   EXPECT_EQ(threads.Lengths, std::vector<std::int64_t>{ 2 });
 }
 
-TEST(SiteCellFigures, WhatIsWrong)
+TEST(SiteCellStatistics, WhatIsWrong)
 {
   const auto grid = makeGrid<1>({ 2 }, { 1e200, 1.0, 1.0 });
   EXPECT_THROW(SiteCells<1>(Points<3>{ { 0.0 }, { 1.0 }, { 2.0 } }, grid), std::invalid_argument);
