@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every test of a VTK class needs: checks, and an ear for what algorithms say.
+// What every test of a VTK class needs: checks, and the errors and warnings of algorithms.
 #ifndef Checks_h
 #define Checks_h
 
@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-// Counts and reports what does not hold, and goes on.
+// Counts and prints the conditions that do not hold, and goes on.
 class Checks
 {
 public:
@@ -47,7 +47,7 @@ private:
   int Failures = 0;
 };
 
-// Makes all checks of a test; what its main function returns.
+// Runs all checks of a test. Returns the exit code of its main function.
 inline int runChecks(std::initializer_list<void (*)(Checks&)> all)
 {
   Checks checks;
@@ -58,10 +58,10 @@ inline int runChecks(std::initializer_list<void (*)(Checks&)> all)
   return checks.Result();
 }
 
-// Changes by their names.
+// Changes and their names.
 using Changes = std::initializer_list<std::pair<const char*, std::function<void()>>>;
 
-// After each of the changes something happens, or it does not.
+// Checks that happens() is `expected` after each of the changes.
 inline void expectAfterEach(
   Checks& checks, const std::function<bool()>& happens, bool expected, Changes changes, int line)
 {
@@ -81,30 +81,30 @@ inline bool contains(const std::string& text, const std::string& part)
   return text.find(part) != std::string::npos;
 }
 
-// Hears the errors and warnings of an algorithm, which are then not printed, and keeps the
-// executive quiet.
+// Collects the errors and warnings of an algorithm. Neither they nor the errors of its executive
+// are printed.
 class Messages
 {
 public:
   explicit Messages(vtkAlgorithm* algorithm)
     : Algorithm(algorithm)
   {
-    this->Ear->SetClientData(this);
-    this->Ear->SetCallback([](vtkObject*, unsigned long event, void* self, void* text) {
+    this->Observer->SetClientData(this);
+    this->Observer->SetCallback([](vtkObject*, unsigned long event, void* self, void* text) {
       auto* messages = static_cast<Messages*>(self);
       (event == vtkCommand::ErrorEvent ? messages->Errors : messages->Warnings)
         .push_back(static_cast<const char*>(text));
     });
-    algorithm->AddObserver(vtkCommand::ErrorEvent, this->Ear);
-    algorithm->AddObserver(vtkCommand::WarningEvent, this->Ear);
-    this->Deaf->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Deaf);
+    algorithm->AddObserver(vtkCommand::ErrorEvent, this->Observer);
+    algorithm->AddObserver(vtkCommand::WarningEvent, this->Observer);
+    this->ExecutiveObserver->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->ExecutiveObserver);
   }
 
   ~Messages()
   {
-    this->Algorithm->RemoveObserver(this->Ear);
-    this->Algorithm->GetExecutive()->RemoveObserver(this->Deaf);
+    this->Algorithm->RemoveObserver(this->Observer);
+    this->Algorithm->GetExecutive()->RemoveObserver(this->ExecutiveObserver);
   }
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
@@ -115,7 +115,7 @@ public:
     this->Warnings.clear();
   }
 
-  // Whether one error was heard, which holds the part.
+  // Whether there is one error, which contains the part.
   bool IsOneError(const std::string& part) const
   {
     return this->Errors.size() == 1 && contains(this->Errors[0], part);
@@ -126,11 +126,11 @@ public:
 
 private:
   vtkSmartPointer<vtkAlgorithm> Algorithm;
-  vtkNew<vtkCallbackCommand> Ear;
-  vtkNew<vtkCallbackCommand> Deaf;
+  vtkNew<vtkCallbackCommand> Observer;
+  vtkNew<vtkCallbackCommand> ExecutiveObserver;
 };
 
-// Whether there are no points, cells and rows, and no arrays of them.
+// Whether a data object has no points, cells and rows, and no arrays of them.
 inline bool isEmpty(vtkDataObject* data)
 {
   bool empty = data != nullptr;
@@ -143,7 +143,7 @@ inline bool isEmpty(vtkDataObject* data)
   return empty;
 }
 
-// All outputs.
+// Whether all outputs are.
 inline bool isEmpty(vtkAlgorithm* algorithm)
 {
   bool empty = true;
@@ -154,7 +154,7 @@ inline bool isEmpty(vtkAlgorithm* algorithm)
   return empty;
 }
 
-// All is in the first piece of what is asked for.
+// Checks that of two requested pieces the first has everything.
 inline void expectOnePiece(Checks& checks, vtkAlgorithm* algorithm, int line)
 {
   algorithm->UpdatePiece(1, 2, 0);
@@ -163,14 +163,14 @@ inline void expectOnePiece(Checks& checks, vtkAlgorithm* algorithm, int line)
   checks.That(!isEmpty(algorithm), "a first piece", line);
 }
 
-// Updates an algorithm: what is wrong is said in one error, and its outputs then hold nothing.
+// Updates an algorithm and checks that it reports one error and has empty outputs.
 class ErrorTest
 {
 public:
   ErrorTest(Checks& checks, vtkAlgorithm* algorithm)
     : Check(checks)
     , Algorithm(algorithm)
-    , Hear(algorithm)
+    , Reported(algorithm)
   {
   }
 
@@ -178,11 +178,11 @@ public:
   void Expect(std::initializer_list<std::string> parts, int line)
   {
     this->Update();
-    const std::string said = this->Hear.Errors.empty() ? "no error" : this->Hear.Errors[0];
-    this->Check.That(this->Hear.Errors.size() == 1, "one error", line, said);
+    const std::string found = this->Reported.Errors.empty() ? "no error" : this->Reported.Errors[0];
+    this->Check.That(this->Reported.Errors.size() == 1, "one error", line, found);
     for (const std::string& part : parts)
     {
-      this->Check.That(contains(said, part), part.c_str(), line, said);
+      this->Check.That(contains(found, part), part.c_str(), line, found);
     }
     this->Check.That(isEmpty(this->Algorithm), "empty output", line);
     for (int port = 0; port < this->Algorithm->GetNumberOfOutputPorts(); ++port)
@@ -197,20 +197,20 @@ public:
   void ExpectNone(int line)
   {
     this->Update();
-    this->Check.That(this->Hear.Errors.empty(), "no error", line,
-      this->Hear.Errors.empty() ? "" : this->Hear.Errors[0]);
+    this->Check.That(this->Reported.Errors.empty(), "no error", line,
+      this->Reported.Errors.empty() ? "" : this->Reported.Errors[0]);
   }
 
 private:
   void Update()
   {
-    this->Hear.Clear();
+    this->Reported.Clear();
     this->Algorithm->Update();
   }
 
   Checks& Check;
   vtkAlgorithm* Algorithm;
-  Messages Hear;
+  Messages Reported;
 };
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef InformationTest_h
 #define InformationTest_h
 
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"

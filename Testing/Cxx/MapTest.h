@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of vtkTransportMap share beside SamplerTest.h.
+// What the tests of vtkTransportMap share beside TestData.h.
 #ifndef MapTest_h
 #define MapTest_h
 
-#include "SamplerTest.h"
+#include "TestData.h"
 #include "vtkCell.h"
 #include "vtkMatrix3x3.h"
 #include "vtkTransportMap.h"

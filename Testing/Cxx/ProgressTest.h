@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Listens to the progress of an algorithm, and aborts it from a chosen one on, at once or from
-// another thread some time later: in the middle of what it then does.
+// Records the progress of an algorithm, and aborts it from a given value on, at once or from
+// another thread some time later: in the middle of its work.
 #ifndef ProgressTest_h
 #define ProgressTest_h
 
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,42 +20,42 @@ public:
   explicit ProgressTest(vtkAlgorithm* algorithm)
     : Algorithm(algorithm)
   {
-    this->Ear->SetClientData(this);
-    this->Ear->SetCallback([](vtkObject*, unsigned long, void* self, void* data) {
-      static_cast<ProgressTest*>(self)->Hear(*static_cast<double*>(data));
+    this->Observer->SetClientData(this);
+    this->Observer->SetCallback([](vtkObject*, unsigned long, void* self, void* data) {
+      static_cast<ProgressTest*>(self)->Record(*static_cast<double*>(data));
     });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Ear);
+    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Observer);
   }
   ~ProgressTest()
   {
     this->Wait();
-    this->Algorithm->RemoveObserver(this->Ear);
+    this->Algorithm->RemoveObserver(this->Observer);
   }
   ProgressTest(const ProgressTest&) = delete;
   ProgressTest& operator=(const ProgressTest&) = delete;
 
-  // Until a late abort is done.
+  // Until a delayed abort has been set.
   void Wait()
   {
-    if (this->Later.joinable())
+    if (this->DelayedAbort.joinable())
     {
-      this->Later.join();
+      this->DelayedAbort.join();
     }
   }
 
-  // So many calls at least, from 0 up to 1.
+  // At least so many values, ascending from 0 to 1.
   void ExpectRising(
-    Checks& checks, std::size_t calls, int line, const std::string& what = "heard") const
+    Checks& checks, std::size_t calls, int line, const std::string& what = "progress") const
   {
     std::ostringstream detail;
     detail << what << ":";
-    for (const double heard : this->Heard)
+    for (const double value : this->Recorded)
     {
-      detail << " " << heard;
+      detail << " " << value;
     }
-    const auto first = this->Heard.begin();
-    const auto last = this->Heard.end();
-    checks.That(this->Heard.size() >= calls, "often", line, detail.str());
+    const auto first = this->Recorded.begin();
+    const auto last = this->Recorded.end();
+    checks.That(this->Recorded.size() >= calls, "often", line, detail.str());
     checks.That(std::is_sorted(first, last), "rising", line, detail.str());
     checks.That(
       first != last && *first >= 0.0 && *(last - 1) == 1.0, "from 0 to 1", line, detail.str());
@@ -63,20 +63,20 @@ public:
 
   double AbortFrom = 2.0;
   std::chrono::milliseconds Delay{ 0 };
-  std::vector<double> Heard;
-  std::size_t HeardAfter = 0; // the abort
+  std::vector<double> Recorded;
+  std::size_t NumberAfterAbort = 0;
   Clock::time_point AbortTime;
 
 private:
-  void Hear(double progress)
+  void Record(double progress)
   {
-    this->Heard.push_back(progress);
+    this->Recorded.push_back(progress);
     if (this->Algorithm->GetAbortExecute())
     {
-      ++this->HeardAfter;
+      ++this->NumberAfterAbort;
       return;
     }
-    if (progress < this->AbortFrom || this->Later.joinable())
+    if (progress < this->AbortFrom || this->DelayedAbort.joinable())
     {
       return;
     }
@@ -85,7 +85,7 @@ private:
       this->Abort();
       return;
     }
-    this->Later = std::thread([this]() {
+    this->DelayedAbort = std::thread([this]() {
       std::this_thread::sleep_for(this->Delay);
       this->Abort();
     });
@@ -97,14 +97,14 @@ private:
   }
 
   vtkAlgorithm* Algorithm;
-  vtkNew<vtkCallbackCommand> Ear;
-  std::thread Later;
+  vtkNew<vtkCallbackCommand> Observer;
+  std::thread DelayedAbort;
 };
 
-// An abort once the progress passes `from`, or `delay` milliseconds later: nothing is left, and no
-// work goes on; that would be heard of more often than at the end of a slice and of the run. How
-// long it takes to the end is said, but decides nothing: other processes may hold this one up.
-// `outdate` makes the next update run.
+// An abort once the progress passes `from`, or `delay` milliseconds later: the outputs are empty,
+// and the work ends: progress is reported at most at the end of a slice and of the run. The time
+// until then is printed, but not checked: other processes may delay this one. `outdate`
+// makes the next update run.
 template <class Outdate>
 void checkAbort(Checks& checks, vtkAlgorithm* algorithm, double from, const Outdate& outdate,
   int line, int delay = 0)
@@ -116,9 +116,9 @@ void checkAbort(Checks& checks, vtkAlgorithm* algorithm, double from, const Outd
   algorithm->Update();
   const auto end = ProgressTest::Clock::now();
   test.Wait();
-  checks.That(!test.Heard.empty() && algorithm->GetAbortExecute() != 0, "aborted", line);
+  checks.That(!test.Recorded.empty() && algorithm->GetAbortExecute() != 0, "aborted", line);
   checks.That(isEmpty(algorithm), "empty output", line);
-  checks.That(test.HeardAfter <= 2, "soon over", line, std::to_string(test.HeardAfter));
+  checks.That(test.NumberAfterAbort <= 2, "soon over", line, std::to_string(test.NumberAfterAbort));
   algorithm->SetAbortExecute(0);
   const std::chrono::duration<double, std::milli> wait = end - test.AbortTime;
   std::cout << "line " << line << ": the abort took " << wait.count() << " ms\n";

@@ -3,7 +3,7 @@
 #ifndef SolidTest_h
 #define SolidTest_h
 
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"

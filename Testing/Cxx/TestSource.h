@@ -19,7 +19,7 @@ class TestSource : public Algorithm
 public:
   static TestSource* New() { VTK_STANDARD_NEW_BODY(TestSource); }
 
-  // What is said before the data, and the data, of the output's information.
+  // What is published before the data, and the data, by the output's information.
   std::function<void(vtkInformation*)> Publish;
   std::function<vtkSmartPointer<vtkDataObject>(vtkInformation*)> Make;
 

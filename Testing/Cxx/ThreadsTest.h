@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a filter gives the same bits whoever runs its loops, with whatever number of threads.
+// Whether a filter gives the same bits with every executor and number of threads.
 #ifndef ThreadsTest_h
 #define ThreadsTest_h
 

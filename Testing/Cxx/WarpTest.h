@@ -3,7 +3,7 @@
 #ifndef WarpTest_h
 #define WarpTest_h
 
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkDensityEqualizingWarp.h"
 

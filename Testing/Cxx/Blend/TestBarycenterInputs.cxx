@@ -81,20 +81,20 @@ void checkComposite(Checks& checks)
   CHECK_NEAR(checks, largestDifference(runDensity(barycenter), expected), 0.0, 1e-11);
 
   // Nothing at all is no error.
-  Messages hear(barycenter);
+  Messages messages(barycenter);
   vtkNew<vtkMultiBlockDataSet> empty;
   empty->SetNumberOfBlocks(2);
   barycenter->SetInputDataObject(empty);
   barycenter->Update();
-  CHECK(checks, hear.Errors.empty() && isEmpty(barycenter));
+  CHECK(checks, messages.Errors.empty() && isEmpty(barycenter));
   vtkNew<vtkImageData> nothing;
   barycenter->SetInputDataObject(nothing);
   barycenter->Update();
-  CHECK(checks, hear.Errors.empty() && isEmpty(barycenter));
+  CHECK(checks, messages.Errors.empty() && isEmpty(barycenter));
   barycenter->SetInputDataObject(in.A);
   barycenter->AddInputDataObject(nothing);
   barycenter->Update();
-  CHECK(checks, hear.Errors.empty() && isEmpty(barycenter));
+  CHECK(checks, messages.Errors.empty() && isEmpty(barycenter));
 }
 
 // What the blocks of a composite input are is not known before the data; filters downstream must
@@ -107,7 +107,7 @@ void checkDownstream(Checks& checks)
   producer->SetOutput(blocks);
   vtkNew<vtkTransportBarycenter> barycenter;
   barycenter->SetInputConnection(producer->GetOutputPort());
-  Messages hear(barycenter);
+  Messages messages(barycenter);
   vtkNew<vtkContourFilter> contour;
   contour->SetInputConnection(barycenter->GetOutputPort());
   contour->SetValue(0, 1.0);
@@ -128,7 +128,7 @@ void checkDownstream(Checks& checks)
   contour->Update();
   CHECK(checks, densityValues(barycenter).size() == 40u * 30);
   CHECK(checks, contour->GetOutput()->GetBounds()[1] > 24.0);
-  CHECK(checks, hear.Errors.empty());
+  CHECK(checks, messages.Errors.empty());
 }
 
 void checkErrors(Checks& checks)
@@ -175,7 +175,7 @@ void checkErrors(Checks& checks)
   barycenter->SetMassMode(7);
   ErrorTest(checks, barycenter).Expect("MassMode is 7; it must be 0 (Linear)", __LINE__);
 
-  // A block that is no image does not go unsaid.
+  // A block that is no image is an error.
   vtkNew<vtkPolyData> points;
   auto blocks = makeBlocks({ in.A, points });
   barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
@@ -185,9 +185,9 @@ void checkErrors(Checks& checks)
       __LINE__);
   blocks->SetBlock(1, in.B);
   blocks->Modified();
-  Messages hear(barycenter);
+  Messages messages(barycenter);
   CHECK(checks, runDensity(barycenter) == runDensity(makeBarycenter({ in.A, in.B })));
-  CHECK(checks, hear.Errors.empty());
+  CHECK(checks, messages.Errors.empty());
 }
 
 } // namespace

@@ -119,7 +119,7 @@ void checkMass(Checks& checks)
 void checkList(Checks& checks)
 {
   vtkNew<vtkTransportBarycenter> barycenter;
-  Messages hear(barycenter);
+  Messages messages(barycenter);
   CHECK(checks, barycenter->GetNumberOfWeights() == 0 && barycenter->GetWeight(0) == 0.0);
   barycenter->SetWeight(2, 4.0);
   CHECK(checks, barycenter->GetNumberOfWeights() == 3);
@@ -134,24 +134,24 @@ void checkList(Checks& checks)
   barycenter->SetNumberOfWeights(2);
   CHECK(checks, barycenter->GetMTime() > time && barycenter->GetNumberOfWeights() == 2);
   CHECK(checks, barycenter->GetWeight(2) == 0.0 && barycenter->GetWeight(-1) == 0.0);
-  CHECK(checks, hear.Errors.empty());
+  CHECK(checks, messages.Errors.empty());
   barycenter->SetWeight(-1, 2.0);
-  CHECK(checks, hear.IsOneError("weight is -1; it must be from 0 to 999999"));
+  CHECK(checks, messages.IsOneError("weight is -1; it must be from 0 to 999999"));
   barycenter->SetNumberOfWeights(-4);
   CHECK(checks,
-    hear.Errors.size() == 2 &&
-      contains(hear.Errors[1], "weights is -4; it must be from 0 to 1000000"));
+    messages.Errors.size() == 2 &&
+      contains(messages.Errors[1], "weights is -4; it must be from 0 to 1000000"));
   // As many as an int counts, and past it.
   constexpr int most = std::numeric_limits<int>::max();
   for (const int index : { most, most - 1, 1000000 })
   {
-    hear.Clear();
+    messages.Clear();
     barycenter->SetWeight(index, 1.0);
-    CHECK(checks, hear.IsOneError("weight is " + std::to_string(index)));
+    CHECK(checks, messages.IsOneError("weight is " + std::to_string(index)));
   }
-  hear.Clear();
+  messages.Clear();
   barycenter->SetNumberOfWeights(most);
-  CHECK(checks, hear.IsOneError("weights is 2147483647"));
+  CHECK(checks, messages.IsOneError("weights is 2147483647"));
   CHECK(checks, barycenter->GetNumberOfWeights() == 2);
   barycenter->SetWeight(999999, 0.5);
   CHECK(checks, barycenter->GetNumberOfWeights() == 1000000);

@@ -59,7 +59,7 @@ public:
     this->Connect();
   }
 
-  // As a host that hands on shallow copies does at every update.
+  // As ParaView, which passes on shallow copies at every update.
   void Renew()
   {
     this->Source = anew(this->Source);
@@ -181,7 +181,7 @@ void checkInputs(Checks& checks)
   test.Swap();
   EXPECT_MAPS(test, false, false);
 
-  // Written into without a word to the array.
+  // Written into, without Modified() of the array.
   test.Source->GetCellData()->GetScalars()->SetComponent(9, 0, 11.0);
   test.Source->Modified();
   EXPECT_MAPS(test, true, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong is said in one line that says of which input, the outputs are then empty, and the
+// What is wrong is reported in one error that names the input; the outputs are then empty, and the
 // next run may succeed.
 #include "BlendTest.h"
 
@@ -48,7 +48,7 @@ void checkProperties(Checks& checks)
   test.Expect("NumberOfTimeSteps is 1; it must be from 2 to 1000000", __LINE__);
   morph->PublishTimeOn();
   test.Expect("NumberOfTimeSteps is 1; it must be from 2 to 1000000", __LINE__);
-  // It is a list that is published before anything is said.
+  // It is published as a list before the error.
   morph->SetNumberOfTimeSteps(std::numeric_limits<int>::max());
   test.Expect("NumberOfTimeSteps is 2147483647; it must be from 2 to 1000000", __LINE__);
   morph->SetNumberOfTimeSteps(1000000);
@@ -280,19 +280,20 @@ void checkWarning(Checks& checks)
   auto lines = makeDensity(
     { 40, 40, 1 }, false, [](vtkIdType i) { return i % 40 == 7 || i / 40 == 30 ? 1.0 : 0.0; });
   auto morph = makeMorph(lines, makeDensity({ 40, 40, 1 }, false, bumpy));
-  Messages hear(morph);
+  Messages messages(morph);
   morph->SetIntegratorToEuler();
   morph->SetNumberOfSteps(1);
   morph->Update();
-  CHECK(checks, hear.Errors.empty() && hear.Warnings.size() == 1);
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 1);
   CHECK(checks,
-    !hear.Warnings.empty() &&
-      contains(hear.Warnings[0], " particles in empty cells moved to the nearest cell with mass"));
+    !messages.Warnings.empty() &&
+      contains(
+        messages.Warnings[0], " particles in empty cells moved to the nearest cell with mass"));
   // They have been moved once.
-  hear.Clear();
+  messages.Clear();
   morph->SetParameter(0.75);
   morph->Update();
-  CHECK(checks, hear.Warnings.empty());
+  CHECK(checks, messages.Warnings.empty());
 }
 
 } // namespace

@@ -201,7 +201,7 @@ void checkUpstream(Checks& checks)
   checkInformation(checks, morph, __LINE__);
   CHECK(checks, densityValues(morph).size() == 30u * 8 * 7);
 
-  // An image filter downstream believes what is published.
+  // An image filter downstream relies on what is published.
   vtkNew<vtkImageShrink3D> shrink;
   morph->SetInputConnection(source->GetOutputPort());
   morph->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "RTData");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays of vtkTransportInterpolator that are written anew in the same memory: who looks at them
-// again is told, by their time and by their range, and who holds them keeps what they were.
+// Arrays of vtkTransportInterpolator that are written anew in the same memory: their modification
+// time and range change, and arrays that others hold keep their values.
 #include "BlendTest.h"
 
 #include "vtkInformation.h"
@@ -15,7 +15,7 @@ struct Known
   std::array<double, 2> Range{};
 };
 
-// What an array says of itself, and what the values of its first component are.
+// Checks the time and the ranges that an array reports against its values.
 void checkRange(Checks& checks, vtkDataArray* array, Known& known, int line)
 {
   Values values;

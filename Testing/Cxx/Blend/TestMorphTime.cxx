@@ -177,7 +177,7 @@ void checkInputs(Checks& checks, bool hasSteps)
   CHECK(checks, source->Runs == 1 && source->Asked == 4.0);
   CHECK(checks, target->Runs == 1 && target->Asked == 0.5);
 
-  // Who shares the source has moved it on; the morph has it back at its first time.
+  // Another consumer has updated the source at another time; the morph's request is for its first.
   source->UpdateTimeStep(9.0);
   CHECK(checks, source->Asked == 9.0);
   densityAt(morph, 0.2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that are written in place, as by who holds a pointer to them, and said to the image alone:
-// every one of them counts at the next update, whatever its type and place in memory.
-#include "SamplerTest.h"
+// Values that are written in place, through a pointer, with Modified() of the image only: every one
+// of them counts at the next update, whatever its type and place in memory.
+#include "TestData.h"
 
 #include "vtkFloatArray.h"
 #include "vtkSOADataArrayTemplate.h"
@@ -45,7 +45,7 @@ void checkWrites(Checks& checks, int nx, int ny, vtkIdType step)
   }
 }
 
-// Written and told so, but with what was there.
+// Modified() without a new value.
 void checkNothingNew(Checks& checks)
 {
   auto image = makeImage(12, 9, 1, true, bumpy);

@@ -140,7 +140,7 @@ void checkQuality(Checks& checks)
   expectError(
     checks, quality, "'Displacement' of the particles has the value nan at index 7", __LINE__);
 
-  // Ghosts alone are nothing.
+  // All points are ghosts.
   messages.Clear();
   for (Particle& particle : more)
   {

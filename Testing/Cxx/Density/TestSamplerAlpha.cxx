@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours with alpha, the last of two or four components, over white: that is 255 for bytes
 // whatever their values are, and for every other type the largest value of the array.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"

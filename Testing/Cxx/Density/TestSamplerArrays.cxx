@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How arrays become densities: numeric types, memory layouts, components, colour, alpha, inversion.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkBitArray.h"
 #include "vtkCharArray.h"

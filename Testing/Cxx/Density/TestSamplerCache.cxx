@@ -44,7 +44,7 @@ int TestSamplerCache(int, char*[])
   // An error of another property.
   s->SetFlowTime(7.0);
   {
-    Messages quiet(s);
+    Messages messages(s);
     CHECK(checks, !build());
   }
   s->SetFlowTime(1.0);
@@ -60,7 +60,7 @@ int TestSamplerCache(int, char*[])
   values->Modified();
   CHECK(checks, build());
   values->SetValue(4, 50.0);
-  image->Modified(); // says so to the image alone
+  image->Modified(); // the image, not the array
   CHECK(checks, build());
   image->Modified(); // but none of its values is new
   CHECK(checks, !build());
@@ -84,7 +84,7 @@ int TestSamplerCache(int, char*[])
   ghosts->Modified();
   CHECK(checks, build());
   ghosts->SetValue(1, vtkDataSetAttributes::HIDDENCELL);
-  image->Modified(); // says so to the image alone
+  image->Modified(); // the image, not the array
   {
     const ProgressTest progress(s);
     CHECK(checks, build());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ghost cells and points that are duplicate or hidden carry no mass, whatever their values are.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkUnsignedCharArray.h"
@@ -30,7 +30,7 @@ vtkUnsignedCharArray* mark(
   return ghosts;
 }
 
-// A density that is worthless where it is blank.
+// A density with invalid values where it is blank.
 double hostile(vtkIdType i, bool blank)
 {
   const double worst[] = { std::numeric_limits<double>::quiet_NaN(), -7.0,
@@ -87,7 +87,7 @@ void checkPoints(Checks& checks)
   checkSame(checks, marked, expected, false, __LINE__);
 }
 
-// vtkImageData itself says which cells a hidden point blanks.
+// The cells that a hidden point blanks are those of vtkImageData.
 void checkCellsOfHiddenPoints(Checks& checks, int ny, int nz)
 {
   const auto flag = [](vtkIdType i) {
@@ -107,7 +107,7 @@ void checkCellsOfHiddenPoints(Checks& checks, int ny, int nz)
   checkSame(checks, marked, expected, false, __LINE__);
 }
 
-// vtkImageData itself says which flags of a cell blank it: at the border of a level of refinement,
+// The flags that blank a cell are those of vtkImageData: at the border of a level of refinement,
 // and at the outside of the whole, cells have their mass.
 void checkEveryFlag(Checks& checks)
 {
@@ -123,8 +123,8 @@ void checkEveryFlag(Checks& checks)
   }
 }
 
-// Ghosts that are edited in place count at the next update, also where the ghost array alone is
-// told that it has changed.
+// Ghosts that are edited in place count at the next update, also where only the ghost
+// array is modified.
 void checkEditedInPlace(Checks& checks, bool cells, bool ofCells, unsigned char flag, int line)
 {
   auto image = makeImage(14, 9, 1, cells, bumpy);

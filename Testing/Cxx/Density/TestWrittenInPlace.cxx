@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who writes into an array may say so to the data set alone: nothing that was made of the values
-// before stays, in our caches or in VTK's.
+// Values written into an array with Modified() of the data set only: nothing computed from the
+// values before remains, in the filters' caches or in VTK's.
 #include "CellsTest.h"
 #include "SolidTest.h"
 #include "SplatTest.h"
@@ -12,7 +12,7 @@
 namespace
 {
 
-// New values in the array of a density, of which the image alone hears.
+// New values in the array of a density, with Modified() of the image only.
 template <class ArrayT>
 void checkDensity(Checks& checks, int line)
 {
@@ -28,7 +28,7 @@ void checkDensity(Checks& checks, int line)
     values->SetComponent(i, 0, i % 3 == 1 ? 1 : 0);
   }
   image->Modified();
-  checks.That(values->GetMTime() == time, "the array does not say so", line);
+  checks.That(values->GetMTime() == time, "the array is not modified", line);
   const std::vector<double> after = sampleCoordinates(sampler);
   checks.That(after != before && after == samplePoints(image, 100), "new particles", line);
 
@@ -39,7 +39,7 @@ void checkDensity(Checks& checks, int line)
   checks.That((sampler->GetTableBuildTime() == built) == isInMemory, "no new tables", line);
 }
 
-// As vtkPoints, but of the data set alone.
+// With Modified() of the data set only, not of its points.
 void writePoint(vtkPointSet* set, vtkIdType point, const std::vector<double>& x)
 {
   auto* coordinates = vtkDoubleArray::SafeDownCast(set->GetPoints()->GetData());
@@ -70,7 +70,7 @@ void checkSites(Checks& checks)
     fresh->SetResolution(30);
     CHECK(checks, runCells(fresh) == after);
   }
-  // Nothing written, or a data set that a host has made anew around the same points.
+  // Nothing written, or a new data set with the same points, as ParaView makes one at every update.
   vtkDataArray* labels = cells->GetLabels()->GetCellData()->GetArray("SiteId");
   sites->Modified();
   cells->Update();

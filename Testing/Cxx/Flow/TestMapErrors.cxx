@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong is said in one line, the output is then empty, and the next run may succeed.
+// What is wrong is reported in one error; the output is then empty, and the next run may succeed.
 #include "MapTest.h"
 
 #include <limits>
@@ -104,17 +104,17 @@ void checkInput(Checks& checks)
 void checkWarning(Checks& checks)
 {
   vtkNew<vtkTransportMap> map;
-  Messages hear(map);
+  Messages messages(map);
   map->SetInputData(makeImage(
     40, 40, 1, false, [](vtkIdType i) { return i % 40 == 7 || i / 40 == 30 ? 1.0 : 0.0; }));
   map->SetIntegratorToEuler();
   map->SetNumberOfSteps(1);
   map->Update();
-  CHECK(checks, hear.Errors.empty());
-  CHECK(checks, hear.Warnings.size() == 1);
+  CHECK(checks, messages.Errors.empty());
+  CHECK(checks, messages.Warnings.size() == 1);
   CHECK(checks,
-    !hear.Warnings.empty() &&
-      contains(hear.Warnings[0], " of 1600 samples in empty cells moved to the nearest cell"));
+    !messages.Warnings.empty() &&
+      contains(messages.Warnings[0], " of 1600 samples in empty cells moved to the nearest cell"));
 }
 
 } // namespace

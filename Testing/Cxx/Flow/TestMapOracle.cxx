@@ -8,7 +8,7 @@
 namespace
 {
 
-// Mean distance in cells from the oracle's displacement, which knows nothing of images.
+// Mean distance in cells from the oracle's displacement, which is independent of images.
 double meanError(vtkTransportMap* map, const RectifiedTransport::Oracle<2>& oracle, int nx, int ny,
   const double spacing[3])
 {

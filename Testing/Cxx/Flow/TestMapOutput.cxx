@@ -84,7 +84,7 @@ void checkInputData(Checks& checks)
   image->GetFieldData()->AddArray(words);
   vtkNew<vtkTransportMap> map;
   map->SetInputData(image);
-  for (const int samples : { 0, 8, 5 }) // as the input, said so, changed
+  for (const int samples : { 0, 8, 5 }) // as the input by default, explicitly, other
   {
     map->SetSampleDimensions(samples, 0, 0);
     map->Update();

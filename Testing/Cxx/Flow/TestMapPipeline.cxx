@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How vtkTransportMap lives in a pipeline: what it publishes and keeps, pieces, progress, abort,
+// vtkTransportMap in a pipeline: what it publishes and keeps, pieces, progress, abort,
 // threads.
 #include "BlocksTest.h"
 #include "InformationTest.h"
@@ -88,7 +88,7 @@ void checkInformation(Checks& checks)
   CHECK(checks, unknown->GetOutput()->GetMTime() == made);
   checkInformation(checks, unknown, __LINE__);
 
-  // An image filter downstream believes what is published.
+  // An image filter downstream relies on what is published.
   vtkNew<vtkImageShrink3D> shrink;
   shrink->SetInputConnection(map->GetOutputPort());
   shrink->SetInputArrayToProcess(
@@ -130,7 +130,7 @@ void checkComposite(Checks& checks)
     CHECK(checks, fields && imageValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
   }
 
-  // A block that is no image does not go unsaid.
+  // A block that is no image is an error.
   Messages messages(map);
   vtkNew<vtkPolyData> points;
   blocks->SetBlock(2, points);

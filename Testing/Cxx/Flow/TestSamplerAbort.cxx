@@ -16,9 +16,9 @@ void checkProgress(Checks& checks, vtkTransportSampler* sampler)
   sampler->Update();
   test.ExpectRising(checks, 11, __LINE__);
   double step = 0.0;
-  for (std::size_t i = 1; i < test.Heard.size(); ++i)
+  for (std::size_t i = 1; i < test.Recorded.size(); ++i)
   {
-    step = std::max(step, test.Heard[i] - test.Heard[i - 1]);
+    step = std::max(step, test.Recorded[i] - test.Recorded[i - 1]);
   }
   CHECK_NEAR(checks, step, 0.0, 0.5);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong is said in one line that names the array or property, the value and what would be
-// right; the output is then empty, and the next run may succeed.
-#include "SamplerTest.h"
+// What is wrong is reported in one error that names the array or property, the value and what would
+// be right; the output is then empty, and the next run may succeed.
+#include "TestData.h"
 
 #include "vtkFloatArray.h"
 #include "vtkStringArray.h"

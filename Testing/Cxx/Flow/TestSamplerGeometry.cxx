@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where particles lie: planes, one dimension, extents, spacings, directions, points and cells.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkMath.h"
 #include "vtkMatrix3x3.h"

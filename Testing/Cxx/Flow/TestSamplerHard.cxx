@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Densities at the edge: extreme aspects and values, Diracs, holes.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that cannot be had: an error that says how much was asked for, and nothing is lost.
 #include "../../MemoryLimit.h"
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkUniformSeedSource.h"
 #include "vtkUnsignedCharArray.h"

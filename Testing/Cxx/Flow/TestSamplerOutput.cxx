@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sampler's output: counts, arrays, types, mass and cost, one vertex a particle.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
@@ -134,7 +134,7 @@ void checkRandomSeed(Checks& checks)
   }
 }
 
-// The input's field data stays; an array of the same name as ours is replaced.
+// The input's field data stays; an array of the same name as one of the output is replaced.
 void checkFieldData(Checks& checks)
 {
   auto image = makeImage(9, 9, 1, true, bumpy);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FlowTime, and the paths of particles.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkCellArray.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sampler asks of the pipeline, and how it lives in one.
+// What the sampler requests of its inputs, publishes and keeps in a pipeline.
 #include "BlocksTest.h"
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Seeds that are given on port 1.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
@@ -80,14 +80,14 @@ void checkOutside(Checks& checks)
     seedPositions(sampler) ==
       std::vector<double>({ 1, 1, 0, 0, 1, 0, 1, 3, 0, 2, 2, 0, 4, 3, 0, 4, 3, 0 }));
 
-  // One that misses the border by its last bit is on it, without a word.
+  // One that misses the border by its last bit is on it, without a warning.
   messages.Clear();
   sampler->SetSeedsData(makePoints({ std::nextafter(4.0, 5.0), 1, 0, 2, -1e-300, 0 }));
   sampler->Update();
   CHECK(checks, messages.Warnings.empty());
   CHECK(checks, seedPositions(sampler) == std::vector<double>({ 4, 1, 0, 2, 0, 0 }));
 
-  // Single precision misses a border, without a word.
+  // Single precision misses a border, without a warning.
   image->SetOrigin(0.1, 0.7, 0.3);
   image->SetSpacing(0.1, 0.1, 1.0);
   double bounds[6];

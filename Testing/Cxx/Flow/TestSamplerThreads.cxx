@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same bits whoever runs the loops, with whatever number of threads.
-#include "SamplerTest.h"
+// The same bits with every executor and number of threads.
+#include "TestData.h"
 #include "ThreadsTest.h"
 
 namespace

@@ -145,7 +145,7 @@ void checkBlocks(Checks& checks)
   CHECK(checks, outputBlock<vtkUnstructuredGrid>(warp, 1) != nullptr);
   CHECK(checks, messages.Errors.empty());
 
-  // A block without points of its own does not go unsaid, and the others are moved.
+  // A block without points of its own is an error, and the others are moved.
   blocks->SetBlock(1, flatDensity());
   source->Modified();
   warp->Update();
@@ -273,27 +273,27 @@ void checkErrors(Checks& checks)
   CHECK(checks, warp->GetOutput()->GetNumberOfPoints() == 2);
 }
 
-// An input of another type: the executive says what would be right.
+// An input of another type: the executive's error names the right one.
 void checkTypesOfInputs(Checks& checks)
 {
   for (const int port : { 0, 1 })
   {
     vtkNew<vtkDensityEqualizingWarp> warp;
-    std::string said;
-    vtkNew<vtkCallbackCommand> ear;
-    ear->SetClientData(&said);
-    ear->SetCallback([](vtkObject*, unsigned long, void* all, void* text) {
+    std::string errors;
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetClientData(&errors);
+    observer->SetCallback([](vtkObject*, unsigned long, void* all, void* text) {
       *static_cast<std::string*>(all) += static_cast<const char*>(text);
     });
-    warp->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ear);
+    warp->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, observer);
     const vtkSmartPointer<vtkDataObject> points = makePoints({ 3, 2, 0 });
     const vtkSmartPointer<vtkDataObject> image = flatDensity();
     warp->SetInputData(port == 0 ? image : points);
     warp->SetDensityData(port == 0 ? image : points);
     warp->Update();
-    CHECK(checks, contains(said, "input port index " + std::to_string(port)));
+    CHECK(checks, contains(errors, "input port index " + std::to_string(port)));
     CHECK(
-      checks, contains(said, port == 0 ? "vtkPointSet is required" : "vtkImageData is required"));
+      checks, contains(errors, port == 0 ? "vtkPointSet is required" : "vtkImageData is required"));
     warp->SetInputData(points);
     warp->SetDensityData(image);
     warp->Update();

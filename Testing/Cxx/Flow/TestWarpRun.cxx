@@ -26,7 +26,7 @@ void checkThreads(Checks& checks)
     auto image = makeImage(41, 37, depth, true, bumpy);
     const double bounds[6] = { -2, 42, 0, 36, 0, depth - 1.0 };
     vtkNew<vtkDensityEqualizingWarp> warp;
-    Messages quiet(warp);
+    Messages messages(warp);
     warp->SetInputData(makePoints(randomCoordinates(bounds, 20000)));
     warp->SetDensityData(image);
     const auto run = [&](int threading) {

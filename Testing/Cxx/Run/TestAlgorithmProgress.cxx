@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the loops of a filter run: on all threads from the first slice on, and what a kernel throws
-// comes out, whoever runs it.
-#include "SamplerTest.h"
+// comes out, with every executor.
+#include "TestData.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/SMPExecutor.h"
@@ -16,7 +16,7 @@ namespace
 
 using namespace RectifiedTransport;
 
-// Runs ranges one by one, and says that four could run at one time.
+// Runs ranges one by one, with a concurrency of four.
 class CountingExecutor final : public Executor
 {
 public:

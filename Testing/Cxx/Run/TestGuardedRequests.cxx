@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory that runs out while an algorithm answers any request: one error, and no exception in the
 // executive.
-#include "SamplerTest.h"
+#include "TestData.h"
 
 #include "vtkGuardedAlgorithm.h"
 #include "vtkImageShiftScale.h"
@@ -73,17 +73,17 @@ int TestGuardedRequests(int, char*[])
     vtkNew<Exhausted> source;
     Messages messages(source);
     source->Throws = request;
-    vtkNew<vtkImageShiftScale> behind;
-    behind->SetInputConnection(source->GetOutputPort());
-    behind->Update();
+    vtkNew<vtkImageShiftScale> downstream;
+    downstream->SetInputConnection(source->GetOutputPort());
+    downstream->Update();
     CHECK(checks, !messages.Errors.empty() && contains(messages.Errors[0], "Not enough memory"));
-    // What the first request is without is not there at all.
-    vtkImageData* read = behind->GetOutput();
+    // Where the first request failed there is no output.
+    vtkImageData* read = downstream->GetOutput();
     CHECK(checks, !read || read->GetNumberOfPoints() == 0);
     source->Throws = 0;
     source->Modified();
-    behind->Update();
-    CHECK(checks, behind->GetOutput()->GetNumberOfPoints() == 16);
+    downstream->Update();
+    CHECK(checks, downstream->GetOutput()->GetNumberOfPoints() == 16);
   }
   return checks.Result();
 }

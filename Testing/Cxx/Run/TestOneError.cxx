@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong is said once, whichever request meets it first.
+// What is wrong is reported once, whichever request finds it first.
 #include "BlendTest.h"
 #include "CellsTest.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PrintSelf names every property and its value; enumerations have texts; every setter is heard.
-#include "SamplerTest.h"
+// PrintSelf names every property and its value; enumerations have texts; every setter shows in
+// them.
+#include "TestData.h"
 
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"

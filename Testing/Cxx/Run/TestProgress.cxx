@@ -141,7 +141,7 @@ void checkLarge(Checks& checks)
   sampler->SetInputData(image);
   sampler->SetSeedPatternToRandom();
   sampler->SetNumberOfParticles(600000);
-  Messages quiet(sampler);
+  Messages messages(sampler);
   expectRising(checks, sampler, "many particles", __LINE__);
   vtkNew<vtkPolyData> points;
   points->ShallowCopy(sampler->GetOutput());
@@ -161,7 +161,7 @@ void checkLarge(Checks& checks)
   expectRising(checks, splatter, "large splat", __LINE__);
   auto morph = makeMorph(image, makeImage(801, 751, 1, true, otherDensity(800, 750)));
   inFewSteps(morph);
-  Messages quieter(morph);
+  Messages morphMessages(morph);
   expectRising(checks, morph, "many particles", __LINE__);
   morph->SetParameter(0.25);
   expectRising(checks, morph, "another parameter", __LINE__);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What vtkEqualMassCells gives: labels of all pixels in equal numbers, figures that follow from
-// them, closed outlines, and all that the sites brought along.
+// them, closed outlines, and the data of the sites.
 #include "CellsTest.h"
 
 #include "vtkCellArray.h"

@@ -72,7 +72,7 @@ void checkPipeline(Checks& checks)
   CHECK(checks, solid->GetOutput()->GetFieldData()->GetArray("Own") == own);
 }
 
-// Image filters behind it have nothing to do where there is no surface, and no shape of one.
+// Image filters downstream have nothing to do where there is no surface, and no shape of one.
 void checkNoSurface(Checks& checks)
 {
   vtkNew<vtkSolidDensity> solid;

@@ -52,7 +52,7 @@ void checkInformation(Checks& checks)
   CHECK(checks, splatter->GetOutput()->GetNumberOfCells() == 4);
 }
 
-// Image filters behind it see its own array, not those of the image that its points come from.
+// Image filters downstream see its own array, not those of the image that its points come from.
 void checkAnnouncedArray(Checks& checks)
 {
   vtkNew<vtkImageData> image;

@@ -135,7 +135,7 @@ void checkSheared(Checks& checks)
 
 } // namespace
 
-int TestFramesAlike(int, char*[])
+int TestCommonGrid(int, char*[])
 {
   return runChecks({ checkPlanes, checkDirections, checkSpacings, checkSheared });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the VTK classes share beside checks: small images and points, and the values of
 // outputs.
-#ifndef SamplerTest_h
-#define SamplerTest_h
+#ifndef TestData_h
+#define TestData_h
 
 #include "Checks.h"
 
@@ -88,7 +88,7 @@ inline void changeDensity(vtkDataObject* data)
   array->Modified();
 }
 
-// Lets a filter make its tables anew from the same values: those of others take their place.
+// Lets a filter build its tables anew from the same values, by building others in between.
 inline void forgetTables(vtkAlgorithm* filter, vtkDataObject* data)
 {
   vtkDataArray* array = densityOf(data);
@@ -99,7 +99,7 @@ inline void forgetTables(vtkAlgorithm* filter, vtkDataObject* data)
   array->Modified();
 }
 
-// Updates a filter; whether that built tables.
+// Updates a filter. Returns whether that built tables.
 inline bool builds(vtkDensityAlgorithm* filter)
 {
   const vtkMTimeType before = filter->GetTableBuildTime();
@@ -107,7 +107,7 @@ inline bool builds(vtkDensityAlgorithm* filter)
   return filter->GetTableBuildTime() > before;
 }
 
-// What is said of the settings that all flows have.
+// The errors of the settings that all flows have.
 template <class Filter>
 void expectFlowErrors(ErrorTest& test, Filter* filter, int line)
 {
