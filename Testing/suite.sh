@@ -38,7 +38,7 @@ make_system()
   fi
   say "Making a bare $suite in $folder"
   echo "This fetches 50 MB and takes 1 min; with what is installed and built in it, it will need" \
-    "up to 6 GB. What debootstrap says is in $log"
+    "up to 6 GB. The output of debootstrap is in $log"
   rm -rf "$folder" "$log"
   mkdir -p "$folder"
   logged "$log" debootstrap --variant=minbase "$suite" "$folder" "$(mirror)"
@@ -91,7 +91,7 @@ inside()
   env -i "${environment[@]}" chroot "$folder" "$@"
 }
 
-# run_command LOG COMMAND...: what it says, also in a log; a line for the summary.
+# run_command LOG COMMAND...: its output, also in a log; a line for the summary.
 run_command()
 {
   local command_log="$1" start=$SECONDS result=passed

@@ -12,7 +12,7 @@ from vtkmodules.vtkImagingCore import vtkImageShiftScale
 
 
 class Growing(VTKPythonAlgorithmBase):
-    """A sphere that is as high as the time says."""
+    """A sphere whose height is the time."""
 
     def __init__(self):
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
@@ -87,9 +87,9 @@ class Announced(unittest.TestCase):
         self.timed(splat)
 
     def expect(self, filter_, text):
-        heard = Listener(filter_)
+        reported = Listener(filter_)
         filter_.Update()
-        self.assertTrue(heard.errors and text in heard.errors[0], heard.errors)
+        self.assertTrue(reported.errors and text in reported.errors[0], reported.errors)
         self.assertEqual(filter_.GetOutputDataObject(0).GetNumberOfPoints(), 0)
 
     def test_less_than_announced(self):
@@ -116,10 +116,10 @@ class Announced(unittest.TestCase):
         cells = rt.vtkEqualMassCells()
         cells.SetInputData(points_in(density_image((4, 3))))
         cells.SetDomainData(blocks)
-        heard = Listener(cells)
+        reported = Listener(cells)
         cells.Update()
         self.assertIn("The Domain has a block of type vtkPolyData; it must be a vtkImageData",
-                      heard.errors[0])
+                      reported.errors[0])
 
 
 if __name__ == "__main__":

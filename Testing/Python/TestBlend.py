@@ -138,9 +138,9 @@ class Morph(Blend):
         morph.DensityArray, morph.TargetArray = ["CELLS", "A"], ["POINTS", "A"]
         np.testing.assert_array_equal(run(morph), morph_of(*alone))
         morph.TargetArray = ["CELLS", "Missing"]
-        heard = Listener(morph.GetClientSideObject())
+        reported = Listener(morph.GetClientSideObject())
         self.assertEqual(output_of(morph).GetNumberOfPoints(), 0)
-        self.assertIn("Target: The input image has no density array 'Missing'", heard.errors[0])
+        self.assertIn("Target: The input image has no density array 'Missing'", reported.errors[0])
 
     def test_arrays_of_data_not_seen_yet(self):
         photograph = os.path.join(SOURCE, "Testing", "Data", "ascent.png")
@@ -186,7 +186,7 @@ class Morph(Blend):
             self.assertFalse(accepted.IsInDomains())
 
     def test_play(self):
-        """The play button morphs, on kept maps."""
+        """Playing the animation morphs, with kept maps."""
         morph = self.morph(PublishTime=1, NumberOfTimeSteps=5)
         morph.UpdatePipelineInformation()
         self.assertEqual(list(morph.TimestepValues), [0, 0.25, 0.5, 0.75, 1])
@@ -211,7 +211,7 @@ class Morph(Blend):
         self.assertFalse(morph.TimestepValues)
 
     def test_times_stay_away_from_the_inputs(self):
-        """A series of images stays at its first while the morph plays."""
+        """A series of images stays at its first while the morph is animated."""
         paths = []
         for i, image in enumerate(self.images[:3]):
             paths.append(os.path.join(OUTPUT, "blend%d.vti" % i))
@@ -262,9 +262,9 @@ class Barycenter(Blend):
         run(barycenter)
         when = built(barycenter)
         barycenter.Input = [self.sources[2], self.sources[0]]
-        heard = Listener(barycenter.GetClientSideObject())
+        reported = Listener(barycenter.GetClientSideObject())
         self.assertEqual(output_of(barycenter).GetNumberOfPoints(), 0)
-        self.assertIn("The number of Weights is 3 and that of inputs 2", heard.errors[0])
+        self.assertIn("The number of Weights is 3 and that of inputs 2", reported.errors[0])
         barycenter.Weights = [3, 1]
         np.testing.assert_array_equal(run(barycenter),
                                       barycenter_of([self.images[2], self.images[0]], (3, 1)))
@@ -295,7 +295,7 @@ class Barycenter(Blend):
         np.testing.assert_array_equal(run(both), barycenter_of(self.images))
 
     def test_downstream_of_blocks(self):
-        """A filter behind it is updated alone, after the weights have changed."""
+        """A filter downstream is updated alone, after the weights have changed."""
         grouped = simple.GroupDatasets(Input=self.sources[:2])
         barycenter = simple.DensityBarycenter(Input=grouped)
         points = simple.CellDatatoPointData(Input=barycenter)

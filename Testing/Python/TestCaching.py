@@ -158,7 +158,7 @@ class OtherFilters(unittest.TestCase):
         rebuilt, after = run()
         self.assertGreater(rebuilt, built)
         self.assertEqual(after, before)
-        # Who says that the values changed where they did not, pays for a look at them.
+        # Modified() without a change costs a comparison of the values.
         array.Modified()
         self.assertEqual(run(), (rebuilt, before))
         array.SetValue(7, 100)

@@ -30,7 +30,7 @@ def macro_comment(macros, name):
 
 def header_comment(class_name, name):
     """The comment above a property's setter in the header of a class or of its superclasses, or what
-    vtkTransportProperties.h says of it above a macro that the class has."""
+    vtkTransportProperties.h states of it above a macro that the class has."""
     with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
         header = file.read()
     pattern = r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s,"

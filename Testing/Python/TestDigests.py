@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bits that the filters compute: digests of the outputs of some sixty runs, which take every
-filter, dimension and family of options.
+"""The bits that the filters compute: digests of the outputs of 97 runs, which take every filter,
+dimension and family of options.
 
 usage: python3 TestDigests.py [--record | --against FILE]
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Filters behind an image of ours that failed, was aborted or is a later piece: they would read all
-that was announced, so that they must be asked for nothing. A crash is a failure here."""
+"""Filters downstream of an image that failed, was aborted or is a later piece: they would read all
+that was announced, so that nothing may be requested of them. A crash is a failure here."""
 import functools
 import unittest
 
@@ -71,8 +71,8 @@ def each_producer(test):
 
 
 class Downstream(unittest.TestCase):
-    def behind(self, producer):
-        """Each kind of reader, and each behind an image filter."""
+    def readers_of(self, producer):
+        """Each kind of reader, and each downstream of an image filter."""
         return [chain(producer, *between, kind()) for kind in READERS
                 for between in ((), (vtkImageShiftScale(),))]
 
@@ -86,13 +86,13 @@ class Downstream(unittest.TestCase):
     @each_producer
     def test_failures(self, make, producer, turn, wrong, right):
         turn(wrong)
-        heard = Listener(producer)
-        readers = self.behind(producer)
+        reported = Listener(producer)
+        readers = self.readers_of(producer)
         for _ in range(2):
             for reader in readers:
                 reader.Update()
                 self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-        self.assertEqual(len(heard.errors), 2, heard.errors)  # one, and the executive's
+        self.assertEqual(len(reported.errors), 2, reported.errors)  # one, and the executive's
         self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
         turn(right)
         if make is cells:
@@ -110,8 +110,8 @@ class Downstream(unittest.TestCase):
     @each_producer
     def test_aborts(self, make, producer, turn, wrong, right):
         turn(right)
-        heard = Listener(producer)
-        readers = self.behind(producer)
+        reported = Listener(producer)
+        readers = self.readers_of(producer)
         for reader in readers:
             tag = producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
             producer.Modified()
@@ -120,7 +120,7 @@ class Downstream(unittest.TestCase):
             self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
             producer.RemoveObserver(tag)
             producer.SetAbortExecute(0)
-        self.assertEqual(heard.errors, [])
+        self.assertEqual(reported.errors, [])
         producer.Modified()
         if make is not cells:
             self.check(readers[:1], False)
@@ -128,7 +128,7 @@ class Downstream(unittest.TestCase):
     @each_producer
     def test_later_pieces(self, make, producer, turn, wrong, right):
         turn(right)
-        for reader in self.behind(producer):
+        for reader in self.readers_of(producer):
             reader.UpdatePiece(1, 2, 0)
             self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
             self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
@@ -137,7 +137,7 @@ class Downstream(unittest.TestCase):
     def test_deleted_readers(self, make, producer, turn, wrong, right):
         """VTK does not forget them."""
         turn(wrong)
-        reader = self.behind(producer)[0]
+        reader = self.readers_of(producer)[0]
         reader.Update()
         reader.Update()
         self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)

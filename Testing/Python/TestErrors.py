@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user of pvpython reads when the input is wrong: one line that says what, and no output."""
+"""The errors that a user of pvpython reads when the input is wrong: one line each, and no output."""
 import unittest
 
 import numpy as np
@@ -11,12 +11,12 @@ simple = load_plugin()
 class Errors(unittest.TestCase):
     def check(self, sampler, *parts):
         """The filter's first error holds all the parts, in one line; the output is empty."""
-        heard = Listener(sampler.GetClientSideObject())
+        reported = Listener(sampler.GetClientSideObject())
         result = output_of(sampler)
         self.assertEqual(result.GetClassName(), "vtkPolyData")
         self.assertEqual(result.GetNumberOfPoints(), 0)
-        self.assertTrue(heard.errors)
-        message = heard.errors[0].strip().splitlines()[-1]
+        self.assertTrue(reported.errors)
+        message = reported.errors[0].strip().splitlines()[-1]
         for part in parts:
             self.assertIn(part, message)
 
@@ -57,21 +57,21 @@ class Errors(unittest.TestCase):
         source = simple.TrivialProducer()
         source.GetClientSideObject().SetOutput(vtkImageData())
         sampler = simple.SampleDensity(Input=source)
-        heard = Listener(sampler.GetClientSideObject())
+        reported = Listener(sampler.GetClientSideObject())
         self.assertEqual(output_of(sampler).GetNumberOfPoints(), 0)
-        self.assertEqual(heard.errors, [])
+        self.assertEqual(reported.errors, [])
 
     def test_seeds_outside_warn(self):
         seeds = simple.UniformSeeds(NumberOfPoints=100, Bounds=[-6, 6, 0, 20, 0, 1])
         image = density_image((12, 10))
         sampler = simple.SampleDensity(Input=producer(simple, image), Seeds=seeds)
-        heard = Listener(sampler.GetClientSideObject())
+        reported = Listener(sampler.GetClientSideObject())
         result = output_of(sampler)
         outside = int((np.array([seeds.GetClientSideObject().GetOutput().GetPoint(i)[0]
                                  for i in range(100)]) < 0).sum())
         self.assertEqual(result.GetNumberOfPoints(), 100)
-        self.assertEqual(len(heard.warnings), 1)
-        self.assertIn(str(outside), heard.warnings[0])
+        self.assertEqual(len(reported.warnings), 1)
+        self.assertIn(str(outside), reported.warnings[0])
 
     def test_warp(self):
         values = np.array([1, -1, 1, 1, 1, 1, 1, 1.0])
@@ -104,59 +104,59 @@ class Errors(unittest.TestCase):
                 (simple.DensityBarycenter(Input=[good, good], Weights=[0, 0]),
                  "All Weights are 0")):
             with self.subTest(message=message):
-                heard = Listener(proxy.GetClientSideObject())
+                reported = Listener(proxy.GetClientSideObject())
                 self.assertEqual(output_of(proxy).GetNumberOfPoints(), 0)
                 particles = proxy.GetClientSideObject().GetOutputDataObject(1)
                 self.assertEqual(particles.GetNumberOfPoints(), 0)
-                self.assertIn(message, heard.errors[0])
+                self.assertIn(message, reported.errors[0])
 
     def test_quality(self):
         image = producer(simple, density_image())
         quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=0)
-        heard = Listener(quality.GetClientSideObject())
+        reported = Listener(quality.GetClientSideObject())
         self.assertEqual(output_of(quality).GetNumberOfRows(), 0)
-        self.assertIn("BlockSize is 0; it must be at least 1", heard.errors[0])
+        self.assertIn("BlockSize is 0; it must be at least 1", reported.errors[0])
         quality.BlockSize = 3
         self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
 
     def test_solid(self):
         solid = simple.SolidDensity(Input=simple.Plane(XResolution=3))
-        heard = Listener(solid.GetClientSideObject())
+        reported = Listener(solid.GetClientSideObject())
         self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
-        self.assertIn("8 open edges and 0 non-manifold edges", heard.errors[0])
+        self.assertIn("8 open edges and 0 non-manifold edges", reported.errors[0])
         solid.Input = simple.Box()  # its sides have points of their own, which are merged
         self.assertEqual(output_of(solid).GetDimensions(), (64, 64, 64))
         solid.Supersampling = 17
         self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
-        self.assertIn("Supersampling is 17; it must be from 1 to 16", heard.errors[-2])
+        self.assertIn("Supersampling is 17; it must be from 1 to 16", reported.errors[-2])
 
     def test_splat(self):
         splat = simple.SplatMass(Input=simple.Plane(), Radius=0)
-        heard = Listener(splat.GetClientSideObject())
+        reported = Listener(splat.GetClientSideObject())
         self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
-        self.assertIn("Radius is 0; it must be above 0 and at most 10000 cells", heard.errors[0])
+        self.assertIn("Radius is 0; it must be above 0 and at most 10000 cells", reported.errors[0])
         splat.Radius = 1
         splat.MassArray = ["POINTS", "Weight"]
-        heard = Listener(splat.GetClientSideObject())
+        reported = Listener(splat.GetClientSideObject())
         self.assertEqual(output_of(splat).GetNumberOfPoints(), 0)
-        self.assertIn("no mass array 'Weight'", heard.errors[0])
+        self.assertIn("no mass array 'Weight'", reported.errors[0])
         splat.MassArray = ["POINTS", "None"]
         self.assertEqual(output_of(splat).GetNumberOfPoints(), 128 * 128)
 
     def test_splat_outside_warns(self):
         splat = simple.SplatMass(Input=simple.Plane(),
                                  Reference=producer(simple, density_image()))
-        heard = Listener(splat.GetClientSideObject())
+        reported = Listener(splat.GetClientSideObject())
         self.assertEqual(output_of(splat).GetNumberOfPoints(), 13 * 11)
-        self.assertIn("2 of 4 points are outside", heard.warnings[0])
+        self.assertIn("2 of 4 points are outside", reported.warnings[0])
 
     def test_warp_outside_warns(self):
         warp = simple.DensityEqualizingWarp(Input=simple.Plane(Point1=[0.5, -0.5, 1]),
                                             Density=producer(simple, density_image()))
-        heard = Listener(warp.GetClientSideObject())
+        reported = Listener(warp.GetClientSideObject())
         self.assertEqual(output_of(warp).GetNumberOfPoints(), 4)
-        self.assertEqual(len(heard.warnings), 1)
-        self.assertIn("3 of 4 points outside", heard.warnings[0])
+        self.assertEqual(len(reported.warnings), 1)
+        self.assertIn("3 of 4 points outside", reported.warnings[0])
 
 
 if __name__ == "__main__":

@@ -73,9 +73,9 @@ def blurred(pixels, block=4):
     return pixels[:height, :width].reshape(shape).mean(axis=(1, 3))
 
 
-def tables(said):
+def tables(printed):
     """The tables that an example prints: rows of cells, under their headings."""
-    blocks = re.findall(r"^(?:  .*\n)+", said, re.MULTILINE)
+    blocks = re.findall(r"^(?:  .*\n)+", printed, re.MULTILINE)
     return [[re.split("  +", line.strip()) for line in block.splitlines()[1:]] for block in blocks]
 
 
@@ -86,16 +86,16 @@ def first(cell):
 
 class Examples(unittest.TestCase):
     def ran(self, example, *arguments):
-        """What an example says that runs."""
-        said, code = run(example, *arguments)
-        self.assertEqual(code, 0, said)
-        return said
+        """The output of an example that runs."""
+        printed, code = run(example, *arguments)
+        self.assertEqual(code, 0, printed)
+        return printed
 
     def refused(self, example, *arguments):
-        """What an example says that refuses its arguments."""
-        said, code = run(example, *arguments)
+        """The output of an example that refuses its arguments."""
+        printed, code = run(example, *arguments)
         self.assertNotEqual(code, 0)
-        return said
+        return printed
 
     def check_falls(self, numbers):
         """Numbers become less from one to the next."""
@@ -155,17 +155,17 @@ class Examples(unittest.TestCase):
 
     def test_no_such_file(self):
         for example in set(SMALL) - OWN:
-            said = self.refused(example, *["nowhere.png"] * SHAPES.get(example, 1))
-            self.assertIn("nowhere.png", said)
+            printed = self.refused(example, *["nowhere.png"] * SHAPES.get(example, 1))
+            self.assertIn("nowhere.png", printed)
 
     def test_not_an_image(self):
         for name, what in (("broken.vti", "ParaView has no reader for"), ("broken.png", "no image")):
             path = os.path.join(OUTPUT, name)
             with open(path, "w") as file:
                 file.write("<VTKFile>")
-            said = self.refused("SampleVolume", path)
-            self.assertIn(path, said)
-            self.assertIn(what, said)
+            printed = self.refused("SampleVolume", path)
+            self.assertIn(path, printed)
+            self.assertIn(what, printed)
 
     def test_cartogram(self):
         self.ran("Cartogram")
@@ -176,17 +176,17 @@ class Examples(unittest.TestCase):
         self.check_picture("particles-brain-t1.png")
 
     def test_not_a_picture(self):
-        said = self.refused("Figure7Steps", os.path.join(DATA, "brain-t1.vti"))
-        self.assertIn("90 x 108 x 90 values; it must be a picture", said)
+        printed = self.refused("Figure7Steps", os.path.join(DATA, "brain-t1.vti"))
+        self.assertIn("90 x 108 x 90 values; it must be a picture", printed)
 
     def test_not_a_number(self):
         for example, option in ("Figure2Paths", "--cells"), ("Figure8Samples", "--sizes"):
-            said = self.refused(example, option, "0")
-            self.assertIn("argument %s: 0 is not a whole number of at least" % option, said)
+            printed = self.refused(example, option, "0")
+            self.assertIn("argument %s: 0 is not a whole number of at least" % option, printed)
 
     def test_figure_2(self):
-        said = self.ran("Figure2Paths")
-        errors, curve = tables(said)
+        printed = self.ran("Figure2Paths")
+        errors, curve = tables(printed)
         mean = {row[0]: row[1] for row in errors}
         self.check_falls(mean["Multistep, N = %d" % n] for n in (8, 16, 32, 64, 128))
         self.assertLess(first(mean["Multistep, N = 32"]), 0.05)
@@ -195,8 +195,8 @@ class Examples(unittest.TestCase):
         self.check_picture("figure2-paths.png")
 
     def test_figure_4(self):
-        said = self.ran("Figure4Lookup")
-        lookup, steps = tables(said)
+        printed = self.ran("Figure4Lookup")
+        lookup, steps = tables(printed)
         coarse, fine, _ = lookup
         self.assertGreater(first(coarse[1]), 90)
         self.assertTrue(0 < first(fine[1]) < 90, fine)
@@ -213,8 +213,8 @@ class Examples(unittest.TestCase):
         self.assertTrue(0 < black[:, 118:210].mean() < 0.9)
 
     def test_figure_5(self):
-        said = self.ran("Figure5Cells")
-        masses, costs = tables(said)
+        printed = self.ran("Figure5Cells")
+        masses, costs = tables(printed)
         for row in masses[:-1]:
             self.assertEqual(row[1:3], ["256 to 256", "0"])
         for column in (1, 2, 3, 4):  # the corners are far from the disc
@@ -222,8 +222,8 @@ class Examples(unittest.TestCase):
         self.check_picture("figure5-cells.png")
 
     def test_figure_6(self):
-        said = self.ran("Figure6Map")
-        errors, maps = tables(said)
+        printed = self.ran("Figure6Map")
+        errors, maps = tables(printed)
         found = {(row[0], row[1]): row[2:] for row in errors}
         for row in maps[:-1]:
             for column in range(3):
@@ -235,8 +235,8 @@ class Examples(unittest.TestCase):
         self.check_picture("figure6-map.png")
 
     def test_figure_7(self):
-        said = self.ran("Figure7Steps")
-        rows = tables(said)[0]
+        printed = self.ran("Figure7Steps")
+        rows = tables(printed)[0]
         for column in 1, 2, 3:
             self.check_falls(row[column] for row in rows[:3])
             self.assertTrue(all(row[column].endswith("/ 0") for row in rows[:3]), rows)
@@ -247,8 +247,8 @@ class Examples(unittest.TestCase):
         self.assertTrue(50 < drawn.mean() < 205)
 
     def test_figure_8(self):
-        said = self.ran("Figure8Samples")
-        rows, whole = tables(said)
+        printed = self.ran("Figure8Samples")
+        rows, whole = tables(printed)
         self.check_falls(row[5] for row in rows[:2])
         for row in rows[:4]:
             self.assertTrue(0.7 < first(row[6]) < 0.9, row)
@@ -258,8 +258,8 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_morph_2d(self):
-        said = self.ran("Morph2D")
-        times = tables(said)[0]
+        printed = self.ran("Morph2D")
+        times = tables(printed)[0]
         self.assertEqual([row[0] for row in times],
                          ["bunny to camel+dinosaur", "knot to coupling", "bull to rings"])
         self.check_picture("morph-2d.png")
@@ -275,11 +275,11 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_morph_3d(self):
-        said = self.ran("Morph3D")
+        printed = self.ran("Morph3D")
         steps = ["two maps, step t = 0", "its surface", "step t = 0.50", "its surface",
                  "step t = 1.00", "its surface"]
         self.assertEqual(
-            [self.stages(times) for times in tables(said)],
+            [self.stages(times) for times in tables(printed)],
             [["solid of spot", "solid of " + other, *steps] for other in ("bunny", "eight")])
         self.check_picture("morph-3d.png")
 
@@ -305,27 +305,27 @@ class Examples(unittest.TestCase):
             path = os.path.join(OUTPUT, name)
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-            said = self.refused("Morph3D", path, "spot")
-            self.assertIn(path + " holds no ", said)
-        said = self.refused("Barycenters3D", "spot", "brain", "knot")
-        self.assertIn("the shapes with names are armadillo, bear", said)
+            printed = self.refused("Morph3D", path, "spot")
+            self.assertIn(path + " holds no ", printed)
+        printed = self.refused("Barycenters3D", "spot", "brain", "knot")
+        self.assertIn("the shapes with names are armadillo, bear", printed)
 
     @need_meshes
     def test_an_open_surface(self):
-        """The filter's words come through, and no picture is left."""
+        """The filter's error is printed, and no picture is left."""
         drawn = os.path.join(OUTPUT, "morph-3d.png")
         if os.path.exists(drawn):
             os.remove(drawn)
         mesh = os.path.join(SOURCE, "build-meshes", "lion-head.off")
-        said = self.refused("Morph3D", mesh, "spot")
-        self.assertIn("The input surface is not closed: it has ", said)
-        self.assertIn("every edge must be one of exactly two triangles", said)
+        printed = self.refused("Morph3D", mesh, "spot")
+        self.assertIn("The input surface is not closed: it has ", printed)
+        self.assertIn("every edge must be one of exactly two triangles", printed)
         self.assertFalse(os.path.exists(drawn))
 
     def test_number_of_shapes(self):
         for example, number in SHAPES.items():
-            said = self.refused(example, "spot")
-            self.assertIn("1 shapes are given; it must be", said)
+            printed = self.refused(example, "spot")
+            self.assertIn("1 shapes are given; it must be", printed)
 
     @need_meshes
     def test_morph_animation(self):
@@ -348,8 +348,8 @@ class Examples(unittest.TestCase):
 
     @need_meshes
     def test_barycenters_3d(self):
-        said = self.ran("Barycenters3D")
-        self.assertEqual(self.stages(tables(said)[0]),
+        printed = self.ran("Barycenters3D")
+        self.assertEqual(self.stages(tables(printed)[0]),
                          ["three solids", "three maps, the first barycenter and surface",
                           "another barycenter and surface"])
         self.check_picture("barycenters-3d.png")

@@ -52,10 +52,10 @@ class Gui(unittest.TestCase):
             file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
         save = (("menubar/menu_File", "activate", "actionFileSaveServerState"),
                 ("FileSaveServerStateDialog", "filesSelected", state))
-        said = play(self.home, [*steps, *save], os.environ["RT_PLUGIN"],
-                    os.path.join(OUTPUT, picture), ["--script=" + script])
-        self.assertRegex(said, r"Success =\s+true")
-        self.assertNotIn("ERR|", said)
+        log = play(self.home, [*steps, *save], os.environ["RT_PLUGIN"],
+                   os.path.join(OUTPUT, picture), ["--script=" + script])
+        self.assertRegex(log, r"Success =\s+true")
+        self.assertNotIn("ERR|", log)
         return ElementTree.parse(state).getroot()
 
     def test_first_stippling(self):

@@ -80,11 +80,11 @@ class Map(unittest.TestCase):
 
     def test_error(self):
         transport = self.map(SampleDimensions=[4, 4, 4])
-        heard = Listener(transport.GetClientSideObject())
+        reported = Listener(transport.GetClientSideObject())
         result = output_of(transport)
         self.assertEqual(result.GetClassName(), "vtkImageData")
         self.assertEqual(result.GetNumberOfPoints(), 0)
-        self.assertIn("SampleDimensions is 4 4 4; it must be 0 or 1 along z", heard.errors[0])
+        self.assertIn("SampleDimensions is 4 4 4; it must be 0 or 1 along z", reported.errors[0])
         transport.SampleDimensions = [4, 4, 1]
         self.assertEqual(output_of(transport).GetNumberOfCells(), 16)
 

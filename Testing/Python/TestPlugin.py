@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in ParaView: where its filters are found, and what the panel says of them."""
+"""The plugin in ParaView: where its filters are found, and their texts in the panel."""
 import os
 import unittest
 

@@ -7,9 +7,9 @@ import unittest
 from typing import NamedTuple
 
 from rt_proxies import instance, page_rows, proxies
-from rt_testing import Listener, density_image, feed, main, points_in, size_of
+from rt_testing import Listener, connect_inputs, density_image, main, points_in, size_of
 
-# What a text on bounds or a choice of several numbers says is not a range of one number.
+# A text on bounds or on a choice of several numbers states no range of one number.
 WITHOUT = {"Bounds"}
 
 
@@ -56,19 +56,19 @@ def beside(value, whole, towards):
 
 
 def run(proxy, prop, value):
-    """A filter with small inputs and one property set; what it says, and its first output."""
+    """A filter with small inputs and one property set; its messages, and its first output."""
     filter_ = instance(proxy)
-    feed(filter_)
+    connect_inputs(filter_)
     if hasattr(filter_, "SetDomainData"):  # a pixel holds one site
         image = density_image((4, 3))
         filter_.SetInputData(points_in(image, 1))
         filter_.SetDomainData(image)
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(100)
-    heard = Listener(filter_)
+    reported = Listener(filter_)
     getattr(filter_, prop.command)(*[value] * len(prop.default.split()))
     filter_.Update()
-    return heard, filter_.GetOutputDataObject(0)
+    return reported, filter_.GetOutputDataObject(0)
 
 
 class Ranges(unittest.TestCase):
@@ -86,14 +86,14 @@ class Ranges(unittest.TestCase):
     def test_panel_text_and_domain(self):
         for case, _, prop in self.each_range():
             with case:
-                said = panel_range(prop)
-                self.assertIsNotNone(said, prop.documentation)
+                stated = panel_range(prop)
+                self.assertIsNotNone(stated, prop.documentation)
                 shown = domain(prop)
                 self.assertIsNotNone(shown, "a domain")
                 self.assertEqual(shown.tag[:3], prop.element.tag[:3])
                 self.assertEqual((float(shown.get("min", -math.inf)),
                                   float(shown.get("max", math.inf))),
-                                 (said.lowest, said.highest), prop.documentation)
+                                 (stated.lowest, stated.highest), prop.documentation)
 
     def test_panel_text_and_page(self):
         for case, proxy, prop in self.each_range():
@@ -110,14 +110,14 @@ class Ranges(unittest.TestCase):
                     self.assertLessEqual(value, allowed.highest)
 
     def assert_taken(self, proxy, prop, value):
-        heard, output = run(proxy, prop, value)
-        self.assertEqual(heard.errors, [], "%s = %r" % (prop.name, value))
+        reported, output = run(proxy, prop, value)
+        self.assertEqual(reported.errors, [], "%s = %r" % (prop.name, value))
         self.assertGreater(size_of(output), 0)
 
     def assert_refused(self, proxy, prop, value):
-        heard, output = run(proxy, prop, value)
-        self.assertTrue(heard.errors, "%s = %r" % (prop.name, value))
-        self.assertIn(prop.name + " is ", heard.errors[0])
+        reported, output = run(proxy, prop, value)
+        self.assertTrue(reported.errors, "%s = %r" % (prop.name, value))
+        self.assertIn(prop.name + " is ", reported.errors[0])
         self.assertEqual(size_of(output), 0)
 
     def test_filter(self):

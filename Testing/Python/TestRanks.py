@@ -20,14 +20,14 @@ class Ranks(unittest.TestCase):
         run = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", PVBATCH, *options,
              SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=140)
-        said = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
+        gave = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
         expected = {}
         for filter_ in ("splat", "cells", "seeds", "quality", "reference", "domain", "block"):
             for kind in ("whole", "gathered"):
                 expected["%s %s" % (filter_, kind)] = "some"
             expected["%s shared" % filter_] = "none error"
         expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid")})
-        self.assertEqual(said, expected, run.stdout + run.stderr[-3000:])
+        self.assertEqual(gave, expected, run.stdout + run.stderr[-3000:])
         self.assertNotIn("for ten seconds", run.stdout + run.stderr)
         self.assertEqual(run.returncode, 0)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A real client on a real server of one process: an image filter that fails says so and
-gives nothing; the client goes on. Nothing may hang."""
+"""A real client on a real server of one process: an image filter that fails reports it
+and has an empty output; the client goes on. Nothing may hang."""
 import os
 import re
 import signal
@@ -31,7 +31,7 @@ def read(path):
 
 
 class Server(unittest.TestCase):
-    def talk(self):
+    def run_client(self):
         """What the client prints, and what the server."""
         port = free_port()
         with tempfile.NamedTemporaryFile() as log:
@@ -50,20 +50,20 @@ class Server(unittest.TestCase):
                 except ProcessLookupError:
                     pass
                 server.wait()
-            said = read(log.name)
+            log_text = read(log.name)
         self.assertEqual(client.returncode, 0, client.stdout[-3000:])
-        return client.stdout, said
+        return client.stdout, log_text
 
     def test_failures(self):
-        printed, said = self.talk()
+        printed, log_text = self.run_client()
         names = ("splat", "solid", "cells", "map", "morph", "barycenter", "sampler")
         shown = dict(re.findall(r"CHECK (\w+) (\[.*\])", printed))
         self.assertEqual(shown, dict.fromkeys(
-            names, str([False, True, False, False, True, False])), printed + said[-3000:])
+            names, str([False, True, False, False, True, False])), printed + log_text[-3000:])
         for text in ("Radius is 0", "Supersampling is 99", "NormExponent is 0", "Parameter is 2",
                      "ParticlesPerCell is 0", "NumberOfSteps is 0"):
-            self.assertIn(text, said)
-        self.assertNotIn("outside the whole extent", said)
+            self.assertIn(text, log_text)
+        self.assertNotIn("outside the whole extent", log_text)
 
 
 if __name__ == "__main__":

@@ -53,9 +53,9 @@ class Splat(unittest.TestCase):
             splat = simple.SplatMass(Input=producer(simple, cloud(masses=masses)),
                                      Dimensions=[4, 4, 4])
             self.assertEqual(splat.MassArray[1], "None")
-            heard = Listener(splat.GetClientSideObject())
+            reported = Listener(splat.GetClientSideObject())
             self.assertAlmostEqual(total(splat), 400, delta=1e-9)
-            self.assertEqual(heard.errors, [])
+            self.assertEqual(reported.errors, [])
 
     def test_mass_arrays_to_choose_have_one_component(self):
         splat = simple.SplatMass(Input=producer(simple, cloud()))
@@ -102,14 +102,14 @@ class Splat(unittest.TestCase):
         blocks = simple.GroupDatasets(Input=spheres)
         for proxy in (simple.SplatMass(Input=blocks, Dimensions=[4, 4, 4]),
                       simple.SolidDensity(Input=blocks, Resolution=8)):
-            heard = Listener(proxy.GetClientSideObject())
+            reported = Listener(proxy.GetClientSideObject())
             ends = []
             for radius in (0.5, 1):
                 spheres[0].Radius = radius
                 proxy.UpdatePipeline()
                 ends.append(proxy.GetDataInformation().GetBounds()[4])
             self.assertAlmostEqual(ends[1] / ends[0], 2, delta=1e-6)
-            self.assertEqual(heard.errors, [])
+            self.assertEqual(reported.errors, [])
             spheres[0].Radius = 0.5
 
     def test_dimension(self):

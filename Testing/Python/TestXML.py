@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the XML says of inputs, outputs, choices, hints and of when a property is shown is what the
-public names promise and what the classes do."""
+"""Inputs, outputs, choices, hints and the visibility of properties in the XML agree with the public
+names and with the classes."""
 import unittest
 
 from rt_proxies import instance, proxies
-from rt_testing import density_image, digest, feed, main
+from rt_testing import connect_inputs, density_image, digest, main
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
 # The public names, which no version changes: class, inputs by port, outputs if there are several.
@@ -49,12 +49,13 @@ DEPENDENT = {
     "Component": ({"DensityArray"}, (-1, 0)),
 }
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
-BEHIND = [("View", {"type": "None", "port": "1"}), ("RepresentationType", {**POINTS, "port": "1"})]
+SECOND_OUTPUT = [("View", {"type": "None", "port": "1"}),
+                 ("RepresentationType", {**POINTS, "port": "1"})]
 SHOWN = {  # how an output is shown at first, where it is not as ParaView shows all
     "Sample Density": [("RepresentationType", POINTS)],
     "Uniform Seeds": [("RepresentationType", POINTS)],
-    "Morph Densities": BEHIND,
-    "Density Barycenter": BEHIND,
+    "Morph Densities": SECOND_OUTPUT,
+    "Density Barycenter": SECOND_OUTPUT,
     "Equal-Mass Cells": [("RepresentationType",
                           {"view": "RenderView", "type": "Surface", "port": "0"})],
     "Transport Quality": [("View", {"type": "SpreadSheetView"})],
@@ -82,7 +83,7 @@ def is_shown(decorator, value):
 def result(proxy, values):
     """All that comes out with some properties set."""
     filter_ = instance(proxy)
-    feed(filter_)
+    connect_inputs(filter_)
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(30)
     if hasattr(filter_, "SetNumberOfPoints"):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What TestRanks.py runs on each rank: pipelines whose data lie on both ranks, on one, or whole on
-each. The first rank prints what the filters gave, all what they said."""
+each. The first rank prints what the filters gave, all their errors."""
 from paraview import simple
 from rt_testing import Listener, load_plugin
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -28,11 +28,11 @@ def image():
 
 
 def run(name, proxy):
-    heard = Listener(proxy.GetClientSideObject()).errors
+    errors = Listener(proxy.GetClientSideObject()).errors
     proxy.UpdatePipeline()
     data = proxy.GetDataInformation()
     count = max(data.GetNumberOfPoints(), data.GetNumberOfRows())
-    different = any("not the same here and on rank" in error for error in heard)
+    different = any("not the same here and on rank" in error for error in errors)
     if rank == 0:
         print("GAVE", name, ("some" if count else "none") + (" error" if different else ""), flush=True)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests share: small inputs, what a filter says, hashes of its output, the plugin."""
+"""What the tests share: small inputs, a filter's messages, hashes of its output, the plugin."""
 import hashlib
 import os
 import sys
@@ -68,7 +68,7 @@ def closed_surface():
     return source.GetOutput()
 
 
-def feed(algorithm):
+def connect_inputs(algorithm):
     """Gives small data to the inputs that an algorithm requires."""
     for port in range(algorithm.GetNumberOfInputPorts()):
         information = algorithm.GetInputPortInformation(port)

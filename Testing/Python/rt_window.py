@@ -59,7 +59,7 @@ def write_settings(home, size=None):
 
 def play(home, steps, plugin, picture, options=(), import_options=()):
     """Starts ParaView, plays the steps, keeps a picture of the screen and ends ParaView. Returns
-    what it said: "Success = true" if it could play all. `plugin` is the plugin's file, or None if
+    its output: "Success = true" if it could play all. `plugin` is the plugin's file, or None if
     ParaView finds it."""
     recording, log_path = (os.path.join(home, name) for name in ("play.xml", "log"))
     write_events(recording, steps)
@@ -74,12 +74,12 @@ def play(home, steps, plugin, picture, options=(), import_options=()):
         for _ in range(120):
             time.sleep(1)
             with open(log_path, encoding="utf-8", errors="replace") as log:
-                said = log.read()
-            if "is finished" in said or window.poll() is not None:
+                text = log.read()
+            if "is finished" in text or window.poll() is not None:
                 break
         time.sleep(2)  # the window draws what the last event changed
         subprocess.run(["import", "-window", "root", *import_options, picture], check=True)
     finally:
         window.kill()
         window.wait()
-    return said
+    return text

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What TestServer.py runs as the client of a server: image filters that fail, before they were ever
-shown and after, with filters behind them, and are put right again."""
+shown and after, with filters downstream, and are corrected."""
 import os
 import sys
 
@@ -18,7 +18,7 @@ def points_shown(proxy):
 
 
 def check(name, proxy, prop, wrong, right):
-    """From the start wrong, then right, then wrong again with a filter behind it."""
+    """From the start wrong, then right, then wrong again with a filter downstream."""
     setattr(proxy, prop, wrong)
     simple.Show(proxy, view)
     counts = [points_shown(proxy)]
@@ -26,12 +26,12 @@ def check(name, proxy, prop, wrong, right):
     counts.append(points_shown(proxy))
     setattr(proxy, prop, wrong)
     counts.append(points_shown(proxy))
-    behind = simple.Contour(Input=proxy)
-    simple.Show(behind, view)
-    counts.append(points_shown(behind))
+    downstream = simple.Contour(Input=proxy)
+    simple.Show(downstream, view)
+    counts.append(points_shown(downstream))
     setattr(proxy, prop, right)
     counts.append(points_shown(proxy))
-    simple.Delete(behind)
+    simple.Delete(downstream)
     setattr(proxy, prop, wrong)
     counts.append(points_shown(proxy))
     simple.Hide(proxy, view)
