@@ -20,7 +20,6 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Blend/DensityBlend.h"
-#include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/CommonGrid.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
-#include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Density/DensityReader.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"

@@ -21,8 +21,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 template <int Dimension>
 class RectifiedFlow;
 

@@ -14,8 +14,6 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
-#include <string>
-
 namespace RectifiedTransport
 {
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_GridText_h
 #define RectifiedTransport_GridText_h
 
-#include "Core/Tables/Density.h"
+#include "Core/Geometry/GridSize.h"
 
 #include <string>
 

@@ -16,8 +16,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 // As the work of the current stage. Throws Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);

@@ -23,8 +23,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 // Positions of particles, each at one time or at several along a path. In 3D index and physical
 // coordinates share memory.
 template <int D>

@@ -19,8 +19,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 // The point array of masses of that name; nullptr for an empty name, and for "None" where there is
 // no such array. Throws Failure if it is missing, not numeric or has several components.
 vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);

@@ -14,8 +14,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 // Writes the points of a set in index space, clamped to the domain, and in physical space (points
 // inside keep their coordinates to the last bit). Returns how many were moved by more than a
 // millionth of the domain's size, the error of single precision. Throws Failure for coordinates

@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -48,11 +49,9 @@ std::int64_t splatAll(const MassPoints<Real>& input, const SplatTarget& target, 
   vtkDoubleArray* array)
 {
   double* cells = array->GetPointer(0);
-  const int dimension = target.Geometry.Dimension();
-  const SplatReport report = dimension == 1 ? splatInto<1>(input, target, progress, cells)
-    : dimension == 2                        ? splatInto<2>(input, target, progress, cells)
-                                            : splatInto<3>(input, target, progress, cells);
-  return report.Outside;
+  const auto splat = dispatchDimension(
+    target.Geometry.Dimension(), splatInto<1, Real>, splatInto<2, Real>, splatInto<3, Real>);
+  return splat(input, target, progress, cells).Outside;
 }
 
 } // namespace

@@ -18,8 +18,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Progress;
-
 // The grid and the options of a splat.
 struct SplatTarget
 {
