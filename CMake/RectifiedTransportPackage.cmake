@@ -18,7 +18,7 @@ install(
 get_target_property(core_links RectifiedTransportCore INTERFACE_LINK_LIBRARIES)
 set(core_dependencies)
 if (core_links MATCHES "Eigen3::")
-  string(APPEND core_dependencies "find_dependency(Eigen3 3.3 NO_MODULE)\n")
+  string(APPEND core_dependencies "find_dependency(Eigen3 NO_MODULE)\n")
 endif ()
 if (core_links MATCHES "OpenMP::")
   string(APPEND core_dependencies "find_dependency(OpenMP COMPONENTS CXX)\n")
