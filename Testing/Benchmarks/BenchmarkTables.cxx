@@ -5,6 +5,8 @@
 #include "FreshMemory.h"
 #include "PaperTransport.h"
 
+#include <cstddef>
+
 namespace RectifiedTransport
 {
 namespace
@@ -38,14 +40,18 @@ void fresh(benchmark::State& state)
   }
 }
 
-// In memory that earlier builds have left. The allocator needs a few until a free block fits.
+// In memory that earlier builds have left. The allocator needs some until a free block fits, how
+// many depends on what ran before.
 template <void (*Build)(std::int64_t)>
 void reused(benchmark::State& state)
 {
   const ReusedMemory memory;
   const OpenMPThreads threads(1);
-  for (int i = 0; i < 3; ++i)
+  constexpr int most = 100;
+  std::size_t before = 0;
+  for (int i = 0; i < most && (i < 3 || memory.Size() != before); ++i)
   {
+    before = memory.Size();
     Build(state.range(0));
   }
   for (auto _ : state)

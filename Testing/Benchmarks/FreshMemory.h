@@ -5,6 +5,8 @@
 #ifndef RectifiedTransport_FreshMemory_h
 #define RectifiedTransport_FreshMemory_h
 
+#include <cstddef>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -40,6 +42,16 @@ public:
   }
   ReusedMemory(const ReusedMemory&) = delete;
   ReusedMemory& operator=(const ReusedMemory&) = delete;
+
+  // What was taken from the system so far, in bytes; 0 if that is not known.
+  std::size_t Size() const
+  {
+#ifdef __GLIBC__
+    return mallinfo2().arena;
+#else
+    return 0;
+#endif
+  }
 };
 
 } // namespace RectifiedTransport
