@@ -77,7 +77,7 @@ public:
   template <int D>
   GridSize<D> Size() const
   {
-    GridSize<D> size;
+    GridSize<D> size{};
     std::copy_n(this->Cells.begin(), D, size.begin());
     return size;
   }
