@@ -8,8 +8,8 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/NearestNeighbours.h"
 #include "Core/Seeds/Seeds.h"
-#include "Core/Solid/MergePoints.h"
-#include "Core/Solid/SurfaceOrientation.h"
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceOrientation.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCleanPolyData.h>

@@ -10,13 +10,17 @@ from rt_testing import SOURCE, main
 CORE = {
     "Parallel": set(),
     "Geometry": {"Parallel"},
+    "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Geometry", "Tables"},
     "SiteCells": {"Parallel", "Geometry", "Tables", "Flow"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "Seeds": {"Parallel", "Geometry"},
     "Splat": {"Parallel", "Geometry"},
-    "Solid": {"Parallel", "Geometry"},
+    "Solid": {"Parallel", "Geometry", "Mesh"},
+    "Parameterization": {"Parallel", "Geometry", "Mesh", "Tables", "Flow"},
+    "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
+                        "Parameterization"},
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density"}

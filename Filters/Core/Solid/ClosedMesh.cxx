@@ -2,9 +2,9 @@
 #include "Core/Solid/ClosedMesh.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Solid/MergePoints.h"
-#include "Core/Solid/SurfaceEdges.h"
-#include "Core/Solid/SurfaceOrientation.h"
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Mesh/SurfaceOrientation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,7 +128,7 @@ bool ClosedMesh::Orient(const Context& context)
   if (this->Closed && this->Edges)
   {
     this->Oriented = this->Edges->Reversed() == 0 ||
-      orientSurface(this->Surface(), *this->Edges, this->Triangles.data(), context);
+      orientSurface(this->Surface(), *this->Edges, this->Triangles.data(), context).IsOrientable;
     this->Edges.reset(); // no longer of these triangles
   }
   return this->Oriented;

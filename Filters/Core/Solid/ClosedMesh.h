@@ -9,7 +9,7 @@
 
 #include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Solid/TriangleSurface.h"
+#include "Core/Mesh/TriangleSurface.h"
 
 #include <array>
 #include <cstdint>

@@ -6,7 +6,7 @@
 
 #include "Core/Geometry/GridSize.h"
 #include "Core/Parallel/Context.h"
-#include "Core/Solid/TriangleSurface.h"
+#include "Core/Mesh/TriangleSurface.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What makes a closed surface of polygons: equal points, edges of two triangles, one orientation.
-#include "Core/Solid/MergePoints.h"
-#include "Core/Solid/SurfaceOrientation.h"
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceOrientation.h"
 #include "SolidSurfaces.h"
 
 #include <gtest/gtest.h>
@@ -121,8 +121,10 @@ bool orient(Mesh& mesh)
 {
   const SurfaceEdges edges(mesh.Surface());
   auto elsewhere = mesh.Triangles;
-  const bool orientable = orientSurface(mesh.Surface(), edges, elsewhere.data()->data());
-  EXPECT_EQ(orientSurface(mesh.Surface(), edges, mesh.Triangles.data()->data()), orientable);
+  const bool orientable =
+    orientSurface(mesh.Surface(), edges, elsewhere.data()->data()).IsOrientable;
+  EXPECT_EQ(
+    orientSurface(mesh.Surface(), edges, mesh.Triangles.data()->data()).IsOrientable, orientable);
   EXPECT_EQ(mesh.Triangles, elsewhere);
   return orientable;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Solid/SurfaceEdges.h"
+#include "Core/Mesh/SurfaceEdges.h"
 
 #include "Core/Parallel/Progress.h"
 
@@ -101,6 +101,10 @@ void SurfaceEdges::Pair(const std::int64_t* triangles, std::int64_t* begin, std:
     if (begin - edge != 2)
     {
       ++(begin - edge == 1 ? this->NumberOpen : this->NumberNonManifold);
+      for (; edge < begin; ++edge)
+      {
+        this->Others.data()[*edge] = -1;
+      }
       continue;
     }
     this->Others.data()[edge[0]] = edge[1];

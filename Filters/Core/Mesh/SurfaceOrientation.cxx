@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Solid/SurfaceOrientation.h"
+#include "Core/Mesh/SurfaceOrientation.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
@@ -26,8 +26,7 @@ public:
     std::fill_n(this->Orientations.data(), surface.NumberOfTriangles, static_cast<signed char>(0));
   }
 
-  // False if there is no orientation.
-  bool Run(Progress& progress)
+  SurfaceOrientation Run(Progress& progress)
   {
     const std::int64_t count = this->Orientations.size();
     progress.BeginStage(1.0, count);
@@ -35,10 +34,11 @@ public:
     {
       if (this->Orientations.data()[start] == 0)
       {
+        ++this->Found.Components;
         this->OrientComponent(start, progress);
       }
     }
-    return this->Orientable;
+    return this->Found;
   }
 
 private:
@@ -77,6 +77,10 @@ private:
     for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
     {
       const std::int64_t other = this->Edges.Other(side);
+      if (other < 0)
+      {
+        continue;
+      }
       // Sides of consistently oriented triangles begin at different ends of the edge.
       const bool same = this->Surface.Triangles[side] != this->Surface.Triangles[other];
       const auto wanted = static_cast<signed char>(same ? orientation : -orientation);
@@ -87,7 +91,7 @@ private:
       }
       else if (found != wanted)
       {
-        this->Orientable = false;
+        this->Found.IsOrientable = false;
       }
     }
   }
@@ -112,12 +116,12 @@ private:
   LargeBuffer<signed char> Orientations; // 0 not reached, 1 as the component's first, -1 opposite
   LargeBuffer<std::int64_t> Queue;       // the triangles of a component
   std::int64_t QueueEnd = 0;
-  bool Orientable = true;
+  SurfaceOrientation Found{ true, 0 };
 };
 
 } // namespace
 
-bool orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
+SurfaceOrientation orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
   std::int64_t* oriented, const Context& context)
 {
   Progress progress(context);

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_SurfaceEdges_h
 #define RectifiedTransport_SurfaceEdges_h
 
+#include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Solid/TriangleSurface.h"
 
 #include <atomic>
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
   std::int64_t NonManifold() const { return this->NumberNonManifold; }
   std::int64_t Reversed() const { return this->NumberReversed; }
 
-  // The other side of a side's edge, if that is neither open nor non-manifold.
+  // The other side of a side's edge; -1 where that is open or non-manifold.
   std::int64_t Other(std::int64_t side) const { return this->Others.data()[side]; }
 
 private:

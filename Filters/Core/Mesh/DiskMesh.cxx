@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/DiskMesh.h"
+
+#include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Parallel/Progress.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::size_t fewestBoundaryPoints = 4; // one for each corner of the square
+
+std::string counted(std::int64_t count, const char* one, const char* many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// The predicate of a sentence whose subject is the surface.
+std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
+{
+  const std::string id = std::to_string(first);
+  switch (defect)
+  {
+    case DiskDefect::PointsNotFinite:
+      return "has " + counted(count, "point that is", "points that are") +
+        " not finite; the first is point " + id;
+    case DiskDefect::NoTriangles:
+      return "has no triangles";
+    case DiskDefect::TrianglesWithoutArea:
+      return "has " + counted(count, "triangle", "triangles") +
+        " without area, the first is triangle " + id +
+        "; move or merge the points (Clean removes triangles that have a point twice)";
+    case DiskDefect::UnusedPoints:
+      return "has " + counted(count, "point that is", "points that are") +
+        " in no triangle, the first is point " + id + "; remove them (Clean does)";
+    case DiskDefect::NonManifoldEdges:
+      return "has " + counted(count, "non-manifold edge", "non-manifold edges") +
+        "; every edge must be one of at most two triangles";
+    case DiskDefect::Components:
+      return "has " + std::to_string(count) +
+        " components that no edges join; it must be one: extract one (Connectivity), or merge "
+        "equal "
+        "points (Clean)";
+    case DiskDefect::NotOrientable:
+      return "is not orientable: it has one side only, as a Moebius strip; cut it to a disk";
+    case DiskDefect::NonManifoldPoints:
+      return "has " + counted(count, "point", "points") +
+        " where parts of it touch that no edges join, the first is point " + id +
+        "; each part needs a point of its own there";
+    case DiskDefect::Closed:
+      return "is closed: it has no boundary; cut it open, for example with Clip";
+    case DiskDefect::BoundaryLoops:
+      return "has " + std::to_string(count) +
+        " boundary loops; it must have one: fill the holes (vtkFillHolesFilter), or cut it open "
+        "between them";
+    case DiskDefect::Handles:
+      return "has " + counted(count, "handle", "handles") +
+        ", as a torus has one; cut it open to a disk";
+    default:
+      return "has " + counted(count, "point", "points") +
+        " on its boundary; it must have at least 4, one for each corner of the square";
+  }
+}
+
+double areaOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+} // namespace
+
+NotADisk::NotADisk(DiskDefect defect, std::int64_t count, std::int64_t first)
+  : std::runtime_error(describe(defect, count, first))
+  , Kind(defect)
+  , Number(count)
+  , FirstId(first)
+{
+}
+
+DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
+  : Coordinates(3 * surface.Points.size())
+  , Triangles(3 * surface.NumberOfTriangles)
+  , Shares(surface.NumberOfTriangles)
+{
+  Progress progress(context);
+  progress.BeginStage(0.1);
+  this->CopyPoints(surface.Points);
+  progress.Check();
+  this->CopyTriangles(surface);
+  progress.Check();
+  this->FindAreas();
+  progress.Check();
+  this->RequireUsedPoints();
+  progress.BeginStage(0.5);
+  this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), progress.Stage());
+  if (this->Sides->NonManifold() > 0)
+  {
+    throw NotADisk(DiskDefect::NonManifoldEdges, this->Sides->NonManifold());
+  }
+  progress.BeginStage(0.9);
+  this->Orient(progress.Stage());
+  progress.BeginStage(1.0);
+  this->FindBoundary();
+  progress.Check();
+}
+
+DiskMesh::~DiskMesh() = default;
+DiskMesh::DiskMesh(DiskMesh&&) noexcept = default;
+DiskMesh& DiskMesh::operator=(DiskMesh&&) noexcept = default;
+
+TriangleSurface DiskMesh::Surface() const
+{
+  return { { this->Coordinates.data(), this->NumberOfPoints() }, this->Triangles.data(),
+    this->NumberOfTriangles() };
+}
+
+// Scaled, so that areas neither underflow nor pass the largest double.
+void DiskMesh::CopyPoints(ConstPointSpan<3> points)
+{
+  const std::int64_t count = points.size();
+  std::int64_t wrong = 0;
+  std::int64_t first = -1;
+  Eigen::AlignedBox3d bounds;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Eigen::Map<const Eigen::Vector3d> point(points[i]);
+    if (!point.allFinite())
+    {
+      first = wrong++ == 0 ? i : first;
+    }
+    bounds.extend(point);
+  }
+  if (wrong > 0)
+  {
+    throw NotADisk(DiskDefect::PointsNotFinite, wrong, first);
+  }
+  const Eigen::Vector3d halfSides = 0.5 * bounds.max() - 0.5 * bounds.min();
+  const Eigen::Vector3d centre = 0.5 * bounds.max() + 0.5 * bounds.min();
+  const double half = count > 0 ? halfSides.maxCoeff() : 0.0;
+  this->Length = half > 0.0 ? 2.0 * half : 1.0;
+  const double unit = half > 0.0 ? half : 1.0;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const Eigen::Map<const Eigen::Vector3d> point(points[i]);
+    Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) = 0.5 * ((point - centre) / unit);
+  }
+}
+
+void DiskMesh::CopyTriangles(const TriangleSurface& surface)
+{
+  if (surface.NumberOfTriangles == 0)
+  {
+    throw NotADisk(DiskDefect::NoTriangles, 0);
+  }
+  for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; ++corner)
+  {
+    const std::int64_t point = surface.Triangles[corner];
+    if (point < 0 || point >= surface.Points.size())
+    {
+      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
+        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
+        " points");
+    }
+    this->Triangles.data()[corner] = point;
+  }
+}
+
+void DiskMesh::FindAreas()
+{
+  std::int64_t wrong = 0;
+  std::int64_t first = -1;
+  for (std::int64_t t = 0; t < this->NumberOfTriangles(); ++t)
+  {
+    const auto corner = [this, t](int i) {
+      return Eigen::Map<const Eigen::Vector3d>(this->Coordinates.data() + 3 * this->Triangle(t)[i]);
+    };
+    const double area = areaOf(corner(0), corner(1), corner(2));
+    this->Shares.data()[t] = area;
+    this->TotalArea += area;
+    if (!(area > 0.0))
+    {
+      first = wrong++ == 0 ? t : first;
+    }
+  }
+  if (wrong > 0)
+  {
+    throw NotADisk(DiskDefect::TrianglesWithoutArea, wrong, first);
+  }
+  for (std::int64_t t = 0; t < this->NumberOfTriangles(); ++t)
+  {
+    this->Shares.data()[t] /= this->TotalArea;
+  }
+}
+
+void DiskMesh::RequireUsedPoints() const
+{
+  std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
+  for (std::int64_t corner = 0; corner < this->Triangles.size(); ++corner)
+  {
+    used[static_cast<std::size_t>(this->Triangles.data()[corner])] = 1;
+  }
+  const auto unused = std::count(used.begin(), used.end(), 0);
+  if (unused > 0)
+  {
+    throw NotADisk(
+      DiskDefect::UnusedPoints, unused, std::find(used.begin(), used.end(), 0) - used.begin());
+  }
+}
+
+void DiskMesh::Orient(const Context& context)
+{
+  const std::int64_t reversed = this->Sides->Reversed();
+  const SurfaceOrientation found =
+    orientSurface(this->Surface(), *this->Sides, this->Triangles.data(), context);
+  if (found.Components > 1)
+  {
+    throw NotADisk(DiskDefect::Components, found.Components);
+  }
+  if (!found.IsOrientable)
+  {
+    throw NotADisk(DiskDefect::NotOrientable, 1);
+  }
+  if (reversed > 0) // their sides have other numbers now
+  {
+    this->Sides.reset();
+    this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), context);
+  }
+}
+
+void DiskMesh::FindBoundary()
+{
+  const std::int64_t points = this->NumberOfPoints();
+  const std::int64_t sides = this->Triangles.size();
+  const std::int64_t* from = this->Triangles.data();
+  // Of each point, the side where the triangles about it begin: on the boundary the open one that
+  // leaves it.
+  std::vector<std::int64_t> start(static_cast<std::size_t>(points), -1);
+  std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
+  for (std::int64_t side = 0; side < sides; ++side)
+  {
+    const auto point = static_cast<std::size_t>(from[side]);
+    ++valence[point];
+    if (start[point] < 0 || this->Sides->Other(side) < 0)
+    {
+      start[point] = side;
+    }
+  }
+  std::int64_t pinched = 0;
+  std::int64_t firstPinched = -1;
+  for (std::int64_t point = 0; point < points; ++point)
+  {
+    const std::int64_t first = start[static_cast<std::size_t>(point)];
+    std::int64_t side = first;
+    std::int64_t reached = 0;
+    do
+    {
+      ++reached;
+      const std::int64_t entering = side % 3 == 0 ? side + 2 : side - 1;
+      side = this->Sides->Other(entering);
+    } while (side >= 0 && side != first);
+    if (reached != valence[static_cast<std::size_t>(point)])
+    {
+      firstPinched = pinched++ == 0 ? point : firstPinched;
+    }
+  }
+  if (pinched > 0)
+  {
+    throw NotADisk(DiskDefect::NonManifoldPoints, pinched, firstPinched);
+  }
+
+  std::int64_t loops = 0;
+  std::int64_t open = 0;
+  std::vector<unsigned char> passed(static_cast<std::size_t>(points), 0);
+  for (std::int64_t side = 0; side < sides; ++side)
+  {
+    open += this->Sides->Other(side) < 0 ? 1 : 0;
+    if (this->Sides->Other(side) >= 0 || passed[static_cast<std::size_t>(from[side])])
+    {
+      continue;
+    }
+    ++loops;
+    this->Loop.clear();
+    for (std::int64_t next = side; !passed[static_cast<std::size_t>(from[next])];)
+    {
+      const std::int64_t point = from[next];
+      passed[static_cast<std::size_t>(point)] = 1;
+      this->Loop.push_back(point);
+      const std::int64_t end = from[next % 3 == 2 ? next - 2 : next + 1];
+      next = start[static_cast<std::size_t>(end)];
+    }
+  }
+  if (loops == 0)
+  {
+    throw NotADisk(DiskDefect::Closed, 0);
+  }
+  // Euler's formula: points - edges + triangles = 2 - 2 handles - loops.
+  const std::int64_t edges = (sides + open) / 2;
+  const std::int64_t handles = (2 - loops - (points - edges + sides / 3)) / 2;
+  if (loops > 1)
+  {
+    throw NotADisk(DiskDefect::BoundaryLoops, loops);
+  }
+  if (handles > 0)
+  {
+    throw NotADisk(DiskDefect::Handles, handles);
+  }
+  if (this->Loop.size() < fewestBoundaryPoints)
+  {
+    throw NotADisk(DiskDefect::FewBoundaryPoints, static_cast<std::int64_t>(this->Loop.size()));
+  }
+}
+
+} // namespace RectifiedTransport

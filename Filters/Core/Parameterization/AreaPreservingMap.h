@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Area-preserving maps of disks to the unit square (paper, Section 5.4, after Zhao, Su, Gu,
+// Kaufman, Sun, Gao, Luo 2013).
+//
+//   DiskMesh disk(surface);
+//   ConformalMap conformal = mapConformally(disk, chooseCorners(disk));
+//   AreaPreservingMap map = mapAreaPreserving(disk, conformal.Square);
+#ifndef RectifiedTransport_AreaPreservingMap_h
+#define RectifiedTransport_AreaPreservingMap_h
+
+#include "Core/Parameterization/ConformalMap.h"
+#include "Core/Parameterization/MapDistortion.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+struct AreaPreservingOptions
+{
+  std::int64_t Resolution = 512; // cells an axis of the grid of the flow, 1 to 16384
+  // After the flow, move points until triangles have their areas: the flow moves points only, and
+  // the straight edges between them keep it from that. Off: the paper's method alone.
+  bool Polish = true;
+};
+
+struct AreaPreservingMap
+{
+  std::vector<Point<2>> Positions; // by points, in [0,1]^2
+  MapDistortion Distortion;
+  int Flows = 1;  // of the area density to the uniform one
+  int Sweeps = 0; // of the polish
+};
+
+// Transports the area density of the surface in the unit square to the uniform one, and the points
+// with it, then polishes. Boundary points stay on their sides and corners at their corners. Ends at
+// a median deviation of 1 %, 95 % of the area within 3 %, a root mean square of 2 % and no flips,
+// or with what was reached.
+//
+// Cost: O(points + Resolution^2). Memory: 40 bytes a cell, 200 bytes a point. Throws
+// std::invalid_argument (options), std::bad_alloc and Cancelled.
+AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& conformal,
+  const AreaPreservingOptions& options = {}, const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conformal maps of disks to rectangles, scaled to the unit square (paper, Section 5.4).
+#ifndef RectifiedTransport_ConformalMap_h
+#define RectifiedTransport_ConformalMap_h
+
+#include "Core/Geometry/Points.h"
+#include "Core/Mesh/DiskMesh.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parameterization/SquareCorners.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// A map of a disk's points to the unit square: linear on each triangle, boundary points on the
+// sides.
+struct SquareMap
+{
+  std::vector<Point<2>> Positions; // by points, in [0,1]^2
+  // By points: bit 0 where x is that of the left or right side, bit 1 where y is that of the lower
+  // or upper side; both at corners.
+  std::vector<unsigned char> OnSides;
+  SquareCorners Corners;
+};
+
+struct ConformalMap
+{
+  SquareMap Square;
+  // Width by height of the rectangle that the surface is mapped to conformally, before it is scaled
+  // to the unit square.
+  double AspectRatio;
+};
+
+// Both coordinates are harmonic: 0 and 1 on two opposite sides, with no normal derivative on the
+// others; their conjugate sides make them a conformal map to a rectangle. Finite elements on the
+// surface's intrinsic Delaunay triangulation (Bobenko and Springborn 2007), whose weights are never
+// negative; its edges, not always the surface's, stay straight, so that few of the surface's
+// triangles may be flipped.
+//
+// Cost: two sparse Cholesky factorizations, about O(points^1.5). Memory: 700 to 1200 bytes a point,
+// for up to two threads each. Throws std::bad_alloc and Cancelled.
+ConformalMap mapConformally(
+  const DiskMesh& disk, const SquareCorners& corners, const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a map of a disk to the unit square changes areas and angles.
+#ifndef RectifiedTransport_MapDistortion_h
+#define RectifiedTransport_MapDistortion_h
+
+#include "Core/Geometry/Points.h"
+#include "Core/Mesh/DiskMesh.h"
+#include "Core/Parallel/Context.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+constexpr double MaximumAngleDistortion = 1e3;
+
+struct TriangleDistortion
+{
+  // The share of the area in the square by that of the surface's area; negative where the triangle
+  // is turned over.
+  double Area;
+  // The quotient of the singular values of the map, 1 to MaximumAngleDistortion.
+  double Angle;
+  bool IsFlipped; // its area in the square is not positive
+};
+
+TriangleDistortion distortionOf(
+  const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t triangle);
+
+// Over the surface: means, quantiles and parts weigh triangles by the surface's area. The area
+// distortion's deviation from 1 is |q - 1|.
+struct MapDistortion
+{
+  double AreaRootMeanSquare; // of the deviation
+  double AreaMedian;         // of the deviation
+  double Area95;             // 95 % of the surface deviate by no more
+  double AngleMean;
+  std::int64_t Flipped; // number of triangles
+};
+
+MapDistortion measureDistortion(
+  const DiskMesh& disk, ConstPointSpan<2> positions, const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The masses of triangles on a grid of the plane.
+#ifndef RectifiedTransport_MassRaster_h
+#define RectifiedTransport_MassRaster_h
+
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Context.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Triangles of points in the unit square, with a mass each.
+struct PlaneTriangles
+{
+  ConstPointSpan<2> Positions;   // in [0,1]^2
+  const std::int64_t* Triangles; // three points each
+  const double* Masses;
+  std::int64_t NumberOfTriangles;
+};
+
+// Writes the mass of each cell of a grid on the unit square, axis 0 fastest. The mass of a triangle
+// is spread evenly over it, whichever way it turns, and cut at the cells exactly; that of a
+// triangle without area goes into the cell of its centre. Throws std::bad_alloc and Cancelled.
+void rasterizeMass(const PlaneTriangles& triangles, const GridSize<2>& size, double* masses,
+  const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif
