@@ -127,7 +127,7 @@ OTHERS = [
       "std::max(finest, std::abs(side.Spacing))"),
     E(CORE + "Flow/MapDisplacement.cxx", "const double weight = «this->Density ? this->Density->Share(low, high) : 1.0»",
       "1.0"),
-    S(BRIDGE + "Solid/ClosedSurface.cxx", "surface->SetStrips(strips);", ";"),
+    S(BRIDGE + "Surface/PolygonInput.cxx", "surface->SetStrips(strips);", ";"),
     E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != none»)\n    {\n      this->Append(",
       "below != none && above != none"),
     # the tables that filters share

@@ -29,9 +29,12 @@ BRIDGE = {
     "Image": RUN,
     "Points": RUN,
     "Settings": RUN,
+    "Surface": RUN | {"Points"},
     "Density": RUN | {"Image", "Points"},
     "Blend": WORKERS | {"Splat"},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Seeds", "SiteCells", "Solid", "Splat")},
+    **{folder: WORKERS for folder in ("Flow", "Quality", "Seeds", "SiteCells", "Splat")},
+    **{folder: WORKERS | {"Surface"}
+       for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }
 
 

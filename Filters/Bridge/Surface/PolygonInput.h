@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The polygons and strips of a vtkPolyData as triangles.
+#ifndef RectifiedTransport_PolygonInput_h
+#define RectifiedTransport_PolygonInput_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkCellArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPoints;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Units of a slice of work with random memory access, for Progress.
+constexpr std::int64_t RandomAccessUnits = std::int64_t{ 1 } << 16;
+
+// The coordinates of all points, three each, as the work of the current stage. Throws Failure where
+// they are not finite, Cancelled and std::bad_alloc.
+LargeBuffer<double> readPoints(vtkPolyData* surface, Progress& progress);
+
+// Throws Failure where a surface has neither polygons nor strips, or these have points that it has
+// not; `need` completes "N points and no polygons; ".
+void requirePolygons(vtkPolyData* surface, const std::string& need);
+
+// Whether all polygons are triangles, and there are no strips.
+bool isAllTriangles(vtkPolyData* surface);
+
+// The number of triangles of a polygon or strip: one for each point beyond the second.
+std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
+
+// Polygons and strips as triangles, in their order, as the work of the current stage. Throws
+// Failure where there are fewer than trianglesOf() counts, and Cancelled.
+vtkSmartPointer<vtkCellArray> triangulate(
+  vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);
+
+// Calls visit(ids) with the values of the connectivity array, in its value type.
+template <class Visit>
+void visitIds(vtkCellArray* cells, const Visit& visit)
+{
+  using Integers = vtkTypeList::Create<int, long, long long>; // that cell arrays store
+  using Dispatch = vtkArrayDispatch::DispatchByValueType<Integers>;
+  const auto call = [&visit](auto* array) { visit(vtk::DataArrayValueRange<1>(array)); };
+  vtkDataArray* ids = cells->GetConnectivityArray();
+  if (!Dispatch::Execute(ids, call))
+  {
+    call(ids);
+  }
+}
+
+// Calls visit(i, points) for every triangle i in order, as the work of the current stage. All cells
+// must be triangles. Throws Cancelled.
+template <class Visit>
+void visitTriangles(vtkCellArray* triangles, Progress& progress, const Visit& visit)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  const std::int64_t count = triangles->GetNumberOfCells();
+  visitIds(triangles, [&](const auto& ids) {
+    progress.ForInOrder(
+      count, grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          std::array<std::int64_t, 3> points;
+          for (std::size_t corner = 0; corner < 3; ++corner)
+          {
+            points[corner] =
+              static_cast<std::int64_t>(ids[3 * triangle + static_cast<std::int64_t>(corner)]);
+          }
+          visit(triangle, points);
+        }
+      },
+      RandomAccessUnits);
+  });
+}
+
+} // namespace RectifiedTransport
+
+#endif
