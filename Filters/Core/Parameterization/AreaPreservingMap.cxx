@@ -88,8 +88,8 @@ public:
     {
       position = { position[0] * cells, position[1] * cells };
     }
-    // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with 256
-    // no longer the integrator but the triangles' straight edges limit what the flow reaches.
+    // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with
+    // 256 no longer the integrator but the triangles' straight edges limit what the flow reaches.
     FlowOptions options;
     options.NumberOfSteps = 256;
     flow.Backward(positions, positions, options, progress.Stage());
