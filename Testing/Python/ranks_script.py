@@ -57,4 +57,4 @@ run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(),
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
 run("parameterization", simple.AreaPreservingParameterization(Input=simple.Plane(), Resolution=12))
 run("parameterization shared", simple.AreaPreservingParameterization(
-    Input=shared_points(), Resolution=12))
+    Input=simple.ExtractSurface(Input=shared_points()), Resolution=12))
