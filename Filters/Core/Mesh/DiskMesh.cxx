@@ -109,7 +109,7 @@ DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   this->Orient(progress.Stage());
   progress.BeginStage(1.0);
   this->FindBoundary();
-  progress.Check();
+  progress.EndSlice(1);
 }
 
 DiskMesh::~DiskMesh() = default;
