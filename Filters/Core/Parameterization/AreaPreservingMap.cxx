@@ -216,7 +216,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
     }
   }
   progress.BeginStage(1.0);
-  progress.Check();
+  progress.EndSlice(1);
   return map;
 }
 
