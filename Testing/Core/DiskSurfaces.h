@@ -21,8 +21,6 @@
 namespace RectifiedTransport
 {
 
-const double pi = std::acos(-1.0);
-
 // Quads in columns and rows, cut along their diagonals; `place(u, v)` for u and v from 0 to 1.
 // Points are numbered along columns first; triangles turn left where u x v is up.
 template <class Place>
