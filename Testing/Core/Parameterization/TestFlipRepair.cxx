@@ -21,12 +21,10 @@ using Positions = std::vector<Point<2>>;
 const SerialExecutor serial;
 constexpr std::int64_t cells = 40;
 
-struct FlippedGrid
+struct FlippedGrid : SquareGrid
 {
   FlippedGrid()
-    : Disk(makeRectangle(cells, cells).Surface())
-    , Square(mapped(Disk, sheetCorners(cells, cells)).Square)
-    , Parts(Disk, Square)
+    : SquareGrid(cells)
     , Positions(Square.Positions)
   {
     const double step = 1.0 / static_cast<double>(cells);
@@ -70,9 +68,6 @@ struct FlippedGrid
     return points;
   }
 
-  DiskMesh Disk;
-  SquareMap Square;
-  MapParts Parts;
   std::vector<Point<2>> Positions;
 };
 

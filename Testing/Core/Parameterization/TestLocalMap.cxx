@@ -14,20 +14,6 @@ namespace
 
 using Positions = std::vector<Point<2>>;
 
-struct SquareGrid
-{
-  explicit SquareGrid(std::int64_t cells)
-    : Disk(makeRectangle(cells, cells).Surface())
-    , Square(mapped(Disk, sheetCorners(cells, cells)).Square)
-    , Parts(Disk, Square)
-  {
-  }
-
-  DiskMesh Disk;
-  SquareMap Square;
-  MapParts Parts;
-};
-
 TEST(LocalMap, TrianglesOfPoints)
 {
   const RenumberedMesh mesh = renumber(makeRoundDisk(5));
