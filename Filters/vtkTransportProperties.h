@@ -10,10 +10,14 @@
 #define vtkTransportProperties_h
 
 #include "vtkSetGet.h"
+#include "vtkType.h"
+
+#include <memory> // for std::unique_ptr
 
 namespace RectifiedTransport
 {
 struct AssociationSettings;
+struct CornerSettings;
 struct FlowSettings;
 struct SeedSettings;
 struct SplatSettings;
@@ -218,5 +222,26 @@ public:                                                                         
 protected:                                                                                         \
   RectifiedTransport::AssociationSettings GetAssociationSettings();                                \
   int Association = POINTS
+
+/**
+ * The points of a surface's boundary that become the corners of the unit square:
+ *
+ * - Corners. Four point ids: the first goes to (0,0) and the others, in the order of the boundary,
+ *   to (1,0), (1,1) and (0,1). Without any (default: none) they are chosen. SetCorner makes the
+ *   list as long as needed, with -1 for corners that are not set; it has 1000000 at most.
+ */
+#define vtkCornersPropertiesMacro()                                                                \
+public:                                                                                            \
+  void SetNumberOfCorners(int count);                                                              \
+  int GetNumberOfCorners();                                                                        \
+  void SetCorner(int index, vtkIdType point);                                                      \
+  vtkIdType GetCorner(int index);                                                                  \
+  void ClearCorners()                                                                              \
+  {                                                                                                \
+    this->SetNumberOfCorners(0);                                                                   \
+  }                                                                                                \
+                                                                                                   \
+protected:                                                                                         \
+  std::unique_ptr<RectifiedTransport::CornerSettings> Corners
 
 #endif

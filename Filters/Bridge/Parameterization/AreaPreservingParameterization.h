@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map of a disk to the unit square: the worker of vtkAreaPreservingParameterization.
+#ifndef RectifiedTransport_AreaPreservingParameterization_h
+#define RectifiedTransport_AreaPreservingParameterization_h
+
+#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parameterization/MapDistortion.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// How far the map is from its goal.
+struct ParameterizationReport
+{
+  std::int64_t Triangles;
+  std::int64_t Collapsed; // all points on one side of the square
+  MapDistortion Distortion;
+  bool Polish;
+
+  // What a user should know; mostly nothing.
+  std::vector<std::string> Warnings() const;
+};
+
+// The members are the properties of that class.
+struct AreaPreservingParameterization
+{
+  const CornerSettings& Corners;
+  int Resolution;
+  bool Polish;
+
+  // Throws Failure for values that are out of range whatever the surface.
+  void Check() const;
+
+  // Makes the output the surface's triangles with the map's arrays. Throws Failure and Cancelled.
+  ParameterizationReport Run(vtkPolyData* surface, Progress& progress, vtkPolyData* output) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Settings/CornerSettings.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+std::int64_t CornerSettings::At(int index) const
+{
+  return index >= 0 && index < this->Number() ? this->Points[static_cast<std::size_t>(index)] : -1;
+}
+
+bool CornerSettings::Resize(int count)
+{
+  const bool changes = count != this->Number();
+  this->Points.resize(static_cast<std::size_t>(count), -1);
+  return changes;
+}
+
+bool CornerSettings::Set(int index, std::int64_t point)
+{
+  const bool grows = this->Resize(std::max(index + 1, this->Number()));
+  std::int64_t& known = this->Points[static_cast<std::size_t>(index)];
+  const bool changes = known != point;
+  known = point;
+  return grows || changes;
+}
+
+void CornerSettings::Check() const
+{
+  if (!this->Points.empty() && this->Points.size() != 4)
+  {
+    throw Failure("Corners has " + std::to_string(this->Points.size()) +
+      (this->Points.size() == 1 ? " point" : " points") +
+      "; it must have 4, or none for corners that are chosen");
+  }
+}
+
+SquareCorners CornerSettings::Of(const DiskMesh& disk) const
+{
+  this->Check();
+  if (this->Points.empty())
+  {
+    return chooseCorners(disk);
+  }
+  try
+  {
+    return orderCorners(disk, this->Points);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw Failure(std::string("Corners ") + error.what());
+  }
+}
+
+void CornerSettings::Print(std::ostream& os, vtkIndent indent) const
+{
+  os << indent << "Corners:";
+  for (const std::int64_t point : this->Points)
+  {
+    os << " " << point;
+  }
+  os << (this->Points.empty() ? " automatic\n" : "\n");
+}
+
+} // namespace RectifiedTransport

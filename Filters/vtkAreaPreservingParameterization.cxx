@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkAreaPreservingParameterization.h"
+
+#include "Bridge/Parameterization/AreaPreservingParameterization.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Settings/CornerSettings.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkAreaPreservingParameterization);
+vtkImplementCornersPropertiesMacro(vtkAreaPreservingParameterization);
+
+using namespace RectifiedTransport;
+
+//------------------------------------------------------------------------------
+vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
+  : Resolution(512)
+  , Polish(true)
+{
+  this->Corners = std::make_unique<CornerSettings>();
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkAreaPreservingParameterization::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkAreaPreservingParameterization::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkAreaPreservingParameterization::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkAreaPreservingParameterization::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const AreaPreservingParameterization parameterization{ *this->Corners, this->Resolution,
+    this->Polish };
+  parameterization.Check();
+  AlgorithmProgress progress(this, this->Threading);
+
+  // All data are in piece 0, whatever pieces are requested.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  {
+    return 1;
+  }
+  auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
+    "a vtkPolyData, as Extract Surface makes one of it");
+  if (!input || input->GetNumberOfPoints() == 0)
+  {
+    return 1;
+  }
+  const ParameterizationReport report =
+    parameterization.Run(input, progress, vtkPolyData::GetData(outputVector));
+  for (const std::string& warning : report.Warnings())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkAreaPreservingParameterization::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Corners->Print(os, indent);
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "Polish: " << (this->Polish ? "on" : "off") << "\n";
+}
+VTK_ABI_NAMESPACE_END
