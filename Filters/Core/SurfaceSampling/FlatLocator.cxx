@@ -51,7 +51,7 @@ FlatLocator::FlatLocator(const FlatMesh& mesh, const Context& context)
   this->ReadTriangles(progress);
   if (this->NumberOfItems == 0)
   {
-    throw std::invalid_argument("the plane mesh has no triangle with mass that turns left");
+    throw std::invalid_argument("the plane mesh has no triangle with mass");
   }
   this->Build(progress);
 }
@@ -67,8 +67,7 @@ void FlatLocator::ReadTriangles(Progress& progress)
       const double* a = this->Corner(t, 0);
       const double* b = this->Corner(t, 1);
       const double* c = this->Corner(t, 2);
-      const bool hasMass = !mesh.Masses || mesh.Masses[t] > 0.0;
-      if (hasMass && turnOf(a, b, c) > 0.0)
+      if (!mesh.Masses || mesh.Masses[t] > 0.0)
       {
         Item& item = this->Items.data()[this->NumberOfItems++];
         for (int r = 0; r < 2; ++r)
@@ -196,12 +195,25 @@ std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
   return box.First; // all centres are one point
 }
 
+// Whether the triangle turns left and contains a point.
 bool FlatLocator::Contains(std::int64_t triangle, const double* point) const
 {
   const double* a = this->Corner(triangle, 0);
   const double* b = this->Corner(triangle, 1);
   const double* c = this->Corner(triangle, 2);
-  return turnOf(a, b, point) >= 0.0 && turnOf(b, c, point) >= 0.0 && turnOf(c, a, point) >= 0.0;
+  const double first = turnOf(a, b, point);
+  if (first < 0.0)
+  {
+    return false;
+  }
+  const double next = turnOf(b, c, point);
+  if (next < 0.0)
+  {
+    return false;
+  }
+  const double last = turnOf(c, a, point);
+  // All 0: the triangle has no area.
+  return last >= 0.0 && (first > 0.0 || next > 0.0 || last > 0.0);
 }
 
 // The least of `best` and of the triangles of a box that contain a point.
@@ -258,7 +270,7 @@ double FlatLocator::SquaredDistance(const PlaceOnTriangle& place, const double* 
   return squared;
 }
 
-// Of a point outside of the triangle: the nearest place of its three sides.
+// The nearest place of the triangle's three sides.
 PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* point) const
 {
   const Point<2>& lengths = this->Mesh.Lengths;

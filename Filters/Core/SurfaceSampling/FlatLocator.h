@@ -15,9 +15,8 @@
 namespace RectifiedTransport
 {
 
-// A mesh in the unit square. Of triangles that turn right or have no area none is found: where
-// others cover the square, they lie on these. `Masses`, if not null, has a value for each triangle:
-// those of mass 0 are not found either.
+// A mesh in the unit square. `Masses`, if not null, has a value for each triangle: those of mass 0
+// are not found.
 struct FlatMesh
 {
   ConstPointSpan<2> Positions;
@@ -41,11 +40,13 @@ class FlatLocator
 {
 public:
   // O(triangles log triangles). Memory: about 80 bytes a triangle. Throws std::invalid_argument
-  // where no triangle is left, std::bad_alloc and Cancelled.
+  // where no triangle has mass, std::bad_alloc and Cancelled.
   explicit FlatLocator(const FlatMesh& mesh, const Context& context = Context());
 
-  // The place of a point: in the triangle that contains it, the first of several (on an edge, or
-  // where the map folds), decided without rounding; of a point in none the nearest place.
+  // The place of a point: in the triangle that contains it and turns left, the first of several (on
+  // an edge, or where the map folds), decided without rounding. Where a map covers the square there
+  // is always one, and those that turn right lie below others. Of a point in none it is the nearest
+  // place on an edge.
   PlaceOnTriangle Locate(const Point<2>& point) const;
 
 private:

@@ -321,19 +321,27 @@ TEST(FlatLocator, Outside)
   EXPECT_EQ(corner, (Point<2>{ 0.0, 1.0 }));
 }
 
-TEST(FlatLocator, NothingLeft)
+TEST(FlatLocator, NoMass)
 {
   WholeMesh mesh(3, 1.0, 8);
   mesh.Masses.assign(mesh.Triangles.size(), 0.0);
   EXPECT_EQ(refusal([&]() { FlatLocator locator(mesh.Flat()); }),
-    "the plane mesh has no triangle with mass that turns left");
-  mesh.Masses.clear();
-  for (auto& triangle : mesh.Triangles)
-  {
-    std::swap(triangle[0], triangle[1]);
-  }
-  EXPECT_EQ(refusal([&]() { FlatLocator locator(mesh.Flat()); }),
-    "the plane mesh has no triangle with mass that turns left");
+    "the plane mesh has no triangle with mass");
+}
+
+// Triangles that turn right or have no area contain no point, but are better than nothing.
+TEST(FlatLocator, NothingTurnsLeft)
+{
+  const std::vector<Point<2>> positions{ { 0.25, 0.5 }, { 0.5, 0.5 }, { 0.75, 0.5 },
+    { 0.5, 0.25 } };
+  const std::int64_t flat[3] = { 0, 1, 2 };
+  const FlatMesh line{ positions, flat, 1 };
+  const PlaceOnTriangle onLine = FlatLocator(line).Locate({ 0.375, 0.0 });
+  EXPECT_EQ(positionOf(line, onLine), (Point<2>{ 0.375, 0.5 }));
+  EXPECT_EQ(positionOf(line, FlatLocator(line).Locate({ 1.0, 0.5 })), (Point<2>{ 0.75, 0.5 }));
+  const std::int64_t turned[3] = { 0, 2, 3 };
+  const FlatMesh right{ positions, turned, 1 };
+  EXPECT_EQ(positionOf(right, FlatLocator(right).Locate({ 0.5, 0.48 })), (Point<2>{ 0.5, 0.5 }));
 }
 
 TEST(FlatLocator, Cancelled)
