@@ -35,8 +35,8 @@ struct AreaPreservingMap
 
 // Transports the area density of the surface in the unit square to the uniform one, and the points
 // with it, then polishes. Boundary points stay on their sides and corners at their corners. Ends at
-// a median deviation of 1 %, 95 % of the area within 3 %, a root mean square of 2 % and no flips,
-// or with what was reached.
+// a median deviation of 1 %, 95 % of the area within 3 %, no flips, and a root mean square of 2 %
+// and of 1/24 of the conformal map's (1/12 where that is below 0.6), or with what was reached.
 //
 // Cost: O(points + Resolution^2). Memory: 40 bytes a cell, 200 bytes a point. Throws
 // std::invalid_argument (options), std::bad_alloc and Cancelled.

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/AreaPolish.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/MapTiles.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t tilePoints = 5000;
+constexpr int steps = 3;             // of a tile in a sweep
+constexpr double leastShare = 1e-13; // of the area, that weighs; smaller ones have no accuracy
+
+using Cotangents = std::array<double, 3>;
+
+// The least s > 0 where c0 + c1 s + c2 s^2 = 0, for c0 > 0.
+double firstRoot(double c0, double c1, double c2)
+{
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double discriminant = c1 * c1 - 4.0 * c2 * c0;
+  if (discriminant < 0.0)
+  {
+    return none;
+  }
+  const double q = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
+  double root = none;
+  for (const double candidate : { q / c2, c0 / q })
+  {
+    if (candidate > 0.0 && candidate < root)
+    {
+      root = candidate;
+    }
+  }
+  return root;
+}
+
+class TilePolish
+{
+public:
+  TilePolish(const MapParts& parts, LocalMap& map, bool isFirst)
+    : Map(map)
+    , Damping(isFirst ? 1e-2 : 1e-3)
+    , Smoothing(isFirst ? 1e-2 : 0.0)
+  {
+    for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
+    {
+      this->Shares.push_back(parts.Disk.AreaShare(map.IdOf(t)));
+      this->Weights.push_back(cotangentsOf(parts.Disk, map.IdOf(t)));
+    }
+  }
+
+  void Run(Progress& progress)
+  {
+    if (this->Map.NumberOfUnknowns() == 0)
+    {
+      return;
+    }
+    LocalSystem system = this->Map.MakeSystem();
+    std::vector<double> solution;
+    for (int step = 0; step < steps; ++step)
+    {
+      this->Assemble(system);
+      if (!system.Solve(solution, progress))
+      {
+        return;
+      }
+      this->Step(solution);
+    }
+  }
+
+private:
+  // Weights of the sides in the Dirichlet form of a triangle, those of very thin ones bounded.
+  static Cotangents cotangentsOf(const DiskMesh& disk, std::int64_t triangle)
+  {
+    constexpr double thinnest = 0.02;
+    const ConstPointSpan<3> points = disk.Surface().Points;
+    const auto point = [&](std::size_t i) {
+      return Eigen::Map<const Eigen::Vector3d>(points[disk.Triangle(triangle)[i % 3]]);
+    };
+    const Eigen::Vector3d first = point(1) - point(0);
+    const Eigen::Vector3d second = point(2) - point(0);
+    const double twiceArea =
+      std::max(thinnest * (first.squaredNorm() + second.squaredNorm()), first.cross(second).norm());
+    Cotangents cotangents;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      cotangents[i] = 0.5 * (point(i) - point(i + 2)).dot(point(i + 1) - point(i + 2)) / twiceArea;
+    }
+    return cotangents;
+  }
+
+  double WeightOf(std::size_t triangle) const
+  {
+    return this->Map.IsCollapsed(triangle) ? 0.0
+                                           : 1.0 / std::max(this->Shares[triangle], leastShare);
+  }
+
+  double Energy(const std::vector<Point<2>>& positions) const
+  {
+    double energy = 0.0;
+    for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
+    {
+      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      energy += this->WeightOf(t) * missing * missing;
+      for (std::size_t i = 0; this->Smoothing > 0.0 && i < 3; ++i)
+      {
+        const auto& corners = this->Map.CornersOf(t);
+        const Point<2>& a = positions[static_cast<std::size_t>(corners[i])];
+        const Point<2>& b = positions[static_cast<std::size_t>(corners[(i + 1) % 3])];
+        const double square = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+        energy += this->Smoothing * this->Weights[t][i] * square;
+      }
+    }
+    return energy;
+  }
+
+  void Assemble(LocalSystem& system) const
+  {
+    const std::vector<Point<2>>& positions = this->Map.Positions();
+    const double form = this->Damping + this->Smoothing;
+    system.Clear();
+    for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
+    {
+      const TriangleVector gradient = this->Map.AreaGradient(t);
+      const double weight = this->WeightOf(t);
+      const double missing = this->Map.AreaOf(t, positions) - this->Shares[t];
+      TriangleMatrix matrix;
+      TriangleVector right;
+      for (std::size_t i = 0; i < 6; ++i)
+      {
+        right[i] = -weight * missing * gradient[i];
+        for (std::size_t j = 0; j < 6; ++j)
+        {
+          matrix[i][j] = weight * gradient[i] * gradient[j];
+        }
+      }
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::size_t next = (i + 1) % 3;
+        const auto& corners = this->Map.CornersOf(t);
+        const Point<2>& a = positions[static_cast<std::size_t>(corners[i])];
+        const Point<2>& b = positions[static_cast<std::size_t>(corners[next])];
+        const double value = this->Weights[t][i];
+        for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          const std::size_t m = 2 * i + axis;
+          const std::size_t n = 2 * next + axis;
+          matrix[m][m] += form * value;
+          matrix[n][n] += form * value;
+          matrix[m][n] -= form * value;
+          matrix[n][m] -= form * value;
+          right[m] -= this->Smoothing * value * (a[axis] - b[axis]);
+          right[n] += this->Smoothing * value * (a[axis] - b[axis]);
+        }
+      }
+      system.Add(t, matrix, right);
+    }
+  }
+
+  // The part of a step at which no healthy triangle has lost most of its area, but not less than
+  // half of it: the energy decides further.
+  double LargestStep(const std::vector<double>& solution) const
+  {
+    constexpr double healthy = 0.2; // area by share
+    constexpr double loss = 0.9;
+    constexpr double least = 0.5;
+    const std::vector<Point<2>>& positions = this->Map.Positions();
+    double step = 1.0;
+    for (std::size_t t = 0; t < this->Map.NumberOfTriangles(); ++t)
+    {
+      const double area = this->Map.AreaOf(t, positions);
+      if (area <= healthy * this->Shares[t])
+      {
+        continue;
+      }
+      const auto& corners = this->Map.CornersOf(t);
+      const auto side = [&](int to) {
+        const Point<2>& a = positions[static_cast<std::size_t>(corners[0])];
+        const Point<2>& b = positions[static_cast<std::size_t>(to)];
+        return Point<2>{ b[0] - a[0], b[1] - a[1] };
+      };
+      const auto change = [&](int to) {
+        const Point<2> a = this->Map.MoveOf(corners[0], solution);
+        const Point<2> b = this->Map.MoveOf(to, solution);
+        return Point<2>{ b[0] - a[0], b[1] - a[1] };
+      };
+      const auto cross = [](const Point<2>& a, const Point<2>& b) {
+        return a[0] * b[1] - a[1] * b[0];
+      };
+      const Point<2> e = side(corners[1]);
+      const Point<2> f = side(corners[2]);
+      const Point<2> d = change(corners[1]);
+      const Point<2> g = change(corners[2]);
+      step = std::min(step, firstRoot(loss * cross(e, f), cross(e, g) + cross(d, f), cross(d, g)));
+    }
+    return std::max(step, least);
+  }
+
+  void Step(const std::vector<double>& solution)
+  {
+    constexpr int halvings = 10;
+    constexpr double easier = 0.25;
+    constexpr double harder = 4.0;
+    constexpr double leastDamping = 1e-4;
+    constexpr double fade = 0.3; // of the smoothing
+    const double before = this->Energy(this->Map.Positions());
+    double step = this->LargestStep(solution);
+    for (int i = 0; i < halvings; ++i)
+    {
+      this->Map.Move(solution, step, this->Moved);
+      if (this->Energy(this->Moved) < before)
+      {
+        this->Map.Accept(this->Moved);
+        if (step < 0.24)
+        {
+          this->Damping *= harder;
+        }
+        else if (step > 0.99)
+        {
+          this->Damping = std::max(leastDamping, easier * this->Damping);
+        }
+        this->Smoothing *= fade;
+        return;
+      }
+      step *= 0.5;
+    }
+    this->Damping *= 10.0;
+  }
+
+  LocalMap& Map;
+  std::vector<double> Shares;
+  std::vector<Cotangents> Weights;
+  std::vector<Point<2>> Moved;
+  double Damping;
+  double Smoothing;
+};
+
+} // namespace
+
+void polishAreas(
+  const MapParts& parts, int sweep, std::vector<Point<2>>& positions, const Context& context)
+{
+  Progress progress(context);
+  const auto groups = makeTiles(parts.Disk, positions, tilePoints, sweep);
+  std::int64_t done = 0;
+  for (const std::vector<MapTile>& group : groups)
+  {
+    const auto tiles = static_cast<std::int64_t>(group.size());
+    progress.BeginStage(static_cast<double>(++done) / static_cast<double>(groups.size()));
+    progress.For(
+      tiles, 1,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t tile = first; tile < last; ++tile)
+        {
+          LocalMap map(parts, group[static_cast<std::size_t>(tile)], positions);
+          TilePolish(parts, map, sweep == 0).Run(progress);
+          map.Store(positions);
+        }
+      },
+      1);
+  }
+}
+
+} // namespace RectifiedTransport

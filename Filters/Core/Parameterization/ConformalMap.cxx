@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/ConformalMap.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/IntrinsicDelaunay.h"
+#include "Core/Parameterization/SparseCholesky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr unsigned char onVertical = 1;
+constexpr unsigned char onHorizontal = 2;
+// Of larger surfaces the number of values of a factor passes what Eigen's indices hold.
+constexpr std::int64_t mostPoints = std::int64_t{ 1 } << 24;
+
+// Calls visit(a, b, weight) for each side between two different points, which is part of the weight
+// of their edge.
+template <class Visit>
+void visitSides(const IntrinsicTriangles& triangles, const Visit& visit)
+{
+  for (std::int64_t t = 0; t < triangles.Points.size(); ++t)
+  {
+    const auto& corners = triangles.Points.data()[t];
+    const auto cotangents = triangles.Cotangents(t);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::int64_t a = corners[i];
+      const std::int64_t b = corners[(i + 1) % 3];
+      if (a != b)
+      {
+        visit(static_cast<std::size_t>(a), static_cast<std::size_t>(b), 0.5 * cotangents[i]);
+      }
+    }
+  }
+}
+
+// Makes `values` harmonic where they are not known.
+class HarmonicProblem
+{
+public:
+  HarmonicProblem(const IntrinsicTriangles& triangles, std::vector<double>& values,
+    const std::vector<unsigned char>& isKnown)
+    : Triangles(triangles)
+    , Values(values)
+    , Unknowns(values.size(), -1)
+  {
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      if (!isKnown[i])
+      {
+        this->Unknowns[i] = this->Count++;
+      }
+    }
+  }
+
+  void Solve(Progress& progress)
+  {
+    if (this->Count == 0)
+    {
+      return;
+    }
+    SparseCholesky factor;
+    {
+      const SparseCholesky::Matrix matrix = this->MakeMatrix();
+      factor.Analyze(matrix);
+      if (!factor.Factorize(matrix, progress))
+      {
+        throw std::runtime_error(
+          "the harmonic map has no solution: the surface's triangles are too "
+          "thin");
+      }
+    }
+    // The second solution is of what rounding left of the first.
+    constexpr int refinements = 2;
+    for (int i = 0; i < refinements; ++i)
+    {
+      const SparseCholesky::Vector change = factor.Solve(this->Residual());
+      for (std::size_t point = 0; point < this->Values.size(); ++point)
+      {
+        if (this->Unknowns[point] >= 0)
+        {
+          this->Values[point] += change[this->Unknowns[point]].Value;
+        }
+      }
+    }
+  }
+
+private:
+  SparseCholesky::Matrix MakeMatrix() const
+  {
+    std::vector<double> diagonal(static_cast<std::size_t>(this->Count), 0.0);
+    std::vector<Eigen::Triplet<InterruptibleReal>> entries;
+    entries.reserve(static_cast<std::size_t>(3 * this->Triangles.Points.size() + this->Count));
+    visitSides(this->Triangles, [&](std::size_t a, std::size_t b, double weight) {
+      const int row = this->Unknowns[a];
+      const int column = this->Unknowns[b];
+      for (const int unknown : { row, column })
+      {
+        if (unknown >= 0)
+        {
+          diagonal[static_cast<std::size_t>(unknown)] += weight;
+        }
+      }
+      if (row >= 0 && column >= 0)
+      {
+        entries.emplace_back(std::max(row, column), std::min(row, column), -weight);
+      }
+    });
+    for (int i = 0; i < this->Count; ++i)
+    {
+      entries.emplace_back(i, i, diagonal[static_cast<std::size_t>(i)]);
+    }
+    SparseCholesky::Matrix matrix(this->Count, this->Count);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
+  SparseCholesky::Vector Residual() const
+  {
+    SparseCholesky::Vector residual = SparseCholesky::Vector::Zero(this->Count);
+    visitSides(this->Triangles, [&](std::size_t a, std::size_t b, double weight) {
+      const double flow = weight * (this->Values[a] - this->Values[b]);
+      if (this->Unknowns[a] >= 0)
+      {
+        residual[this->Unknowns[a]] -= flow;
+      }
+      if (this->Unknowns[b] >= 0)
+      {
+        residual[this->Unknowns[b]] += flow;
+      }
+    });
+    return residual;
+  }
+
+  const IntrinsicTriangles& Triangles;
+  std::vector<double>& Values;
+  std::vector<int> Unknowns; // by points; -1 where the value is known
+  int Count = 0;
+};
+
+double dirichletEnergy(const IntrinsicTriangles& triangles, const std::vector<double>& values)
+{
+  double energy = 0.0;
+  visitSides(triangles, [&](std::size_t a, std::size_t b, double weight) {
+    energy += weight * (values[a] - values[b]) * (values[a] - values[b]);
+  });
+  return energy;
+}
+
+// Walks the boundary from the first corner on, and puts its points on the sides.
+void placeSides(const DiskMesh& disk, const SquareCorners& corners, SquareMap& map,
+  std::array<std::vector<double>, 2>& values)
+{
+  const std::vector<std::int64_t>& loop = disk.Boundary();
+  const auto start = std::find(loop.begin(), loop.end(), corners[0]) - loop.begin();
+  std::size_t side = 0;
+  for (std::size_t i = 0; i <= loop.size(); ++i)
+  {
+    const std::int64_t id = loop[(static_cast<std::size_t>(start) + i) % loop.size()];
+    const auto point = static_cast<std::size_t>(id);
+    const auto put = [&](std::size_t on) {
+      const bool horizontal = on % 2 == 0; // the lower and the upper side
+      map.OnSides[point] |= horizontal ? onHorizontal : onVertical;
+      values[horizontal ? 1 : 0][point] = on == 1 || on == 2 ? 1.0 : 0.0;
+    };
+    put(side);
+    if (side < 3 && id == corners[side + 1])
+    {
+      put(++side);
+    }
+  }
+}
+
+} // namespace
+
+ConformalMap mapConformally(
+  const DiskMesh& disk, const SquareCorners& corners, const Context& context)
+{
+  if (disk.NumberOfPoints() > mostPoints)
+  {
+    throw std::invalid_argument("the surface has " + std::to_string(disk.NumberOfPoints()) +
+      " points; there may be " + std::to_string(mostPoints));
+  }
+  const auto points = static_cast<std::size_t>(disk.NumberOfPoints());
+  Progress progress(context);
+  ConformalMap map{ { {}, std::vector<unsigned char>(points, 0), corners }, 1.0 };
+  std::array<std::vector<double>, 2> values;
+  values.fill(std::vector<double>(points, 0.0));
+  placeSides(disk, corners, map.Square, values);
+
+  progress.BeginStage(0.1);
+  const IntrinsicTriangles triangles = triangulateDelaunay(disk, progress.Stage());
+  progress.BeginStage(1.0);
+  const auto solve = [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t axis = first; axis < last; ++axis)
+    {
+      const unsigned char known = axis == 0 ? onVertical : onHorizontal;
+      std::vector<unsigned char> isKnown(points);
+      std::transform(map.Square.OnSides.begin(), map.Square.OnSides.end(), isKnown.begin(),
+        [known](unsigned char sides) { return (sides & known) != 0; });
+      HarmonicProblem(triangles, values[static_cast<std::size_t>(axis)], isKnown).Solve(progress);
+    }
+  };
+  progress.For(2, 1, solve, 1);
+
+  map.Square.Positions.resize(points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    map.Square.Positions[i] = { std::clamp(values[0][i], 0.0, 1.0),
+      std::clamp(values[1][i], 0.0, 1.0) };
+  }
+  // The energies of a conformal map to a rectangle are its area; scaled to the unit square, they
+  // are in proportion to the squares of the scales.
+  map.AspectRatio =
+    std::sqrt(dirichletEnergy(triangles, values[1]) / dirichletEnergy(triangles, values[0]));
+  return map;
+}
+
+} // namespace RectifiedTransport

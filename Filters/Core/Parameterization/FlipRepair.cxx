@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/FlipRepair.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::size_t largestPatch = 8000; // points; larger ones are no matter of a few flips
+constexpr int mostSteps = 60;
+
+using Patch = std::vector<std::int64_t>; // ascending points
+
+bool isFlipped(const DiskMesh& disk, std::int64_t t, const std::vector<Point<2>>& positions)
+{
+  const auto position = [&](int i) {
+    return positions[static_cast<std::size_t>(disk.Triangle(t)[i])];
+  };
+  return !(crossProduct(position(0), position(1), position(2)) > 0.0);
+}
+
+// The points of the triangles about those of a patch.
+void addRing(const MapParts& parts, std::vector<unsigned char>& isIn, Patch& points)
+{
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::int64_t point = points[i];
+    for (const std::int64_t* t = parts.Triangles.begin(point); t < parts.Triangles.end(point); ++t)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const std::int64_t other = parts.Disk.Triangle(*t)[corner];
+        if (!isIn[static_cast<std::size_t>(other)])
+        {
+          isIn[static_cast<std::size_t>(other)] = 1;
+          points.push_back(other);
+        }
+      }
+    }
+  }
+}
+
+// The parts of a set of points that no triangles join, found by clearing `isIn`.
+std::vector<Patch> separate(
+  const MapParts& parts, std::vector<unsigned char>& isIn, const Patch& points)
+{
+  std::vector<Patch> patches;
+  for (const std::int64_t start : points)
+  {
+    if (!isIn[static_cast<std::size_t>(start)])
+    {
+      continue;
+    }
+    Patch patch{ start };
+    isIn[static_cast<std::size_t>(start)] = 0;
+    for (std::size_t next = 0; next < patch.size(); ++next)
+    {
+      const std::int64_t point = patch[next];
+      for (const std::int64_t* t = parts.Triangles.begin(point); t < parts.Triangles.end(point);
+           ++t)
+      {
+        for (int corner = 0; corner < 3; ++corner)
+        {
+          const std::int64_t other = parts.Disk.Triangle(*t)[corner];
+          if (isIn[static_cast<std::size_t>(other)])
+          {
+            isIn[static_cast<std::size_t>(other)] = 0;
+            patch.push_back(other);
+          }
+        }
+      }
+    }
+    std::sort(patch.begin(), patch.end());
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+class PatchRepair
+{
+public:
+  PatchRepair(const MapParts& parts, LocalMap& map)
+    : Map(map)
+  {
+    for (std::size_t t = 0; t < map.NumberOfTriangles(); ++t)
+    {
+      this->Shares.push_back(parts.Disk.AreaShare(map.IdOf(t)));
+    }
+  }
+
+  // Whether fewer triangles are flipped.
+  bool Run(Progress& progress)
+  {
+    if (this->Map.NumberOfUnknowns() == 0)
+    {
+      return false;
+    }
+    const std::int64_t before = this->CountFlipped();
+    LocalSystem system = this->Map.MakeSystem();
+    std::vector<double> solution;
+    double damping = 1e-3;
+    constexpr double mostDamping = 1e6;
+    for (int i = 0; i < mostSteps && damping<mostDamping&& this->CountFlipped()> 0; ++i)
+    {
+      this->Assemble(system);
+      system.Damp(damping);
+      constexpr double less = 1.0 / 3.0;
+      constexpr double leastDamping = 1e-6;
+      damping = system.Solve(solution, progress) && this->Step(solution)
+        ? std::max(leastDamping, less * damping)
+        : 10.0 * damping;
+    }
+    return this->CountFlipped() < before;
+  }
+
+private:
+  double QuotientOf(std::size_t t, const std::vector<Point<2>>& positions) const
+  {
+    return this->Map.AreaOf(t, positions) / this->Shares[t];
+  }
+
+  std::int64_t CountFlipped() const
+  {
+    std::int64_t count = 0;
+    for (std::size_t t = 0; t < this->Shares.size(); ++t)
+    {
+      count += this->Map.AreaOf(t, this->Map.Positions()) > 0.0 ? 0 : 1;
+    }
+    return count;
+  }
+
+  double Energy(const std::vector<Point<2>>& positions) const
+  {
+    double energy = 0.0;
+    for (std::size_t t = 0; t < this->Shares.size(); ++t)
+    {
+      if (!this->Map.IsCollapsed(t))
+      {
+        const double q = this->QuotientOf(t, positions);
+        const double residual = q < 1.0 ? q - 1.0 : std::log(q);
+        energy += residual * residual;
+      }
+    }
+    return energy;
+  }
+
+  void Assemble(LocalSystem& system) const
+  {
+    system.Clear();
+    for (std::size_t t = 0; t < this->Shares.size(); ++t)
+    {
+      if (this->Map.IsCollapsed(t))
+      {
+        continue;
+      }
+      const double q = this->QuotientOf(t, this->Map.Positions());
+      const double residual = q < 1.0 ? q - 1.0 : std::log(q);
+      const double slope = (q < 1.0 ? 1.0 : 1.0 / q) / this->Shares[t];
+      TriangleVector gradient = this->Map.AreaGradient(t);
+      TriangleVector right;
+      for (std::size_t i = 0; i < 6; ++i)
+      {
+        gradient[i] *= slope;
+        right[i] = -residual * gradient[i];
+      }
+      TriangleMatrix matrix;
+      for (std::size_t i = 0; i < 6; ++i)
+      {
+        for (std::size_t j = 0; j < 6; ++j)
+        {
+          matrix[i][j] = gradient[i] * gradient[j];
+        }
+      }
+      system.Add(t, matrix, right);
+    }
+  }
+
+  bool Step(const std::vector<double>& solution)
+  {
+    constexpr int halvings = 8;
+    const double before = this->Energy(this->Map.Positions());
+    double step = 1.0;
+    for (int i = 0; i < halvings; ++i)
+    {
+      this->Map.Move(solution, step, this->Moved);
+      if (this->Energy(this->Moved) < before)
+      {
+        this->Map.Accept(this->Moved);
+        return true;
+      }
+      step *= 0.5;
+    }
+    return false;
+  }
+
+  LocalMap& Map;
+  std::vector<double> Shares;
+  std::vector<Point<2>> Moved;
+};
+
+} // namespace
+
+void repairFlips(
+  const MapParts& parts, int rings, std::vector<Point<2>>& positions, const Context& context)
+{
+  Progress progress(context);
+  std::vector<unsigned char> isIn(positions.size(), 0);
+  Patch points;
+  for (std::int64_t t = 0; t < parts.Disk.NumberOfTriangles(); ++t)
+  {
+    for (int corner = 0; isFlipped(parts.Disk, t, positions) && corner < 3; ++corner)
+    {
+      const std::int64_t point = parts.Disk.Triangle(t)[corner];
+      if (!isIn[static_cast<std::size_t>(point)])
+      {
+        isIn[static_cast<std::size_t>(point)] = 1;
+        points.push_back(point);
+      }
+    }
+  }
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    addRing(parts, isIn, points);
+  }
+  const std::vector<Patch> patches = separate(parts, isIn, points);
+  progress.BeginStage(1.0);
+  progress.For(
+    static_cast<std::int64_t>(patches.size()), 1,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const Patch& patch = patches[static_cast<std::size_t>(i)];
+        if (patch.size() <= largestPatch)
+        {
+          LocalMap map(parts, patch, positions);
+          if (PatchRepair(parts, map).Run(progress))
+          {
+            map.Store(positions);
+          }
+        }
+      }
+    },
+    1);
+}
+
+} // namespace RectifiedTransport

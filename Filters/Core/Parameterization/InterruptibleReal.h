@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Real numbers for Eigen whose divisions poll for cancellation: Eigen's factorizations, which may
+// take many seconds, cannot be interrupted otherwise.
+#ifndef RectifiedTransport_InterruptibleReal_h
+#define RectifiedTransport_InterruptibleReal_h
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// While one exists, divisions on its thread throw Cancelled once the progress is cancelled.
+class DivisionPoll
+{
+public:
+  explicit DivisionPoll(Progress& progress);
+  ~DivisionPoll();
+  DivisionPoll(const DivisionPoll&) = delete;
+  DivisionPoll& operator=(const DivisionPoll&) = delete;
+
+  static void Count()
+  {
+    // A column of a factor has a division for each of its values, and about a hundred other
+    // operations for each of these: some microseconds to milliseconds altogether.
+    constexpr int interval = 1 << 12;
+    if (++Divisions == interval)
+    {
+      Poll();
+    }
+  }
+
+private:
+  static void Poll();
+
+  static thread_local int Divisions;
+  static thread_local Progress* Current;
+};
+
+struct InterruptibleReal
+{
+  double Value;
+
+  InterruptibleReal(double value = 0.0) // NOLINT: a number
+    : Value(value)
+  {
+  }
+  InterruptibleReal& operator+=(const InterruptibleReal& other)
+  {
+    this->Value += other.Value;
+    return *this;
+  }
+  InterruptibleReal& operator-=(const InterruptibleReal& other)
+  {
+    this->Value -= other.Value;
+    return *this;
+  }
+  InterruptibleReal& operator*=(const InterruptibleReal& other)
+  {
+    this->Value *= other.Value;
+    return *this;
+  }
+  InterruptibleReal& operator/=(const InterruptibleReal& other)
+  {
+    DivisionPoll::Count();
+    this->Value /= other.Value;
+    return *this;
+  }
+};
+
+inline InterruptibleReal operator+(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value + b.Value;
+}
+
+inline InterruptibleReal operator-(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value - b.Value;
+}
+
+inline InterruptibleReal operator-(const InterruptibleReal& a)
+{
+  return -a.Value;
+}
+
+inline InterruptibleReal operator*(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value * b.Value;
+}
+
+inline InterruptibleReal operator/(InterruptibleReal a, const InterruptibleReal& b)
+{
+  return a /= b;
+}
+
+inline bool operator==(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value == b.Value;
+}
+
+inline bool operator!=(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value != b.Value;
+}
+
+inline bool operator<(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value < b.Value;
+}
+
+inline bool operator>(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return b < a;
+}
+
+inline bool operator<=(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return a.Value <= b.Value;
+}
+
+inline bool operator>=(const InterruptibleReal& a, const InterruptibleReal& b)
+{
+  return b <= a;
+}
+
+inline InterruptibleReal sqrt(const InterruptibleReal& a)
+{
+  return std::sqrt(a.Value);
+}
+
+inline InterruptibleReal abs(const InterruptibleReal& a)
+{
+  return std::abs(a.Value);
+}
+
+} // namespace RectifiedTransport
+
+template <>
+struct Eigen::NumTraits<RectifiedTransport::InterruptibleReal> : Eigen::NumTraits<double>
+{
+  using Real = RectifiedTransport::InterruptibleReal;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+};
+
+#endif

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/IntrinsicDelaunay.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Sides = std::array<double, 3>;
+
+// Four times the area of a triangle, without cancellation (Kahan 2014, "Miscalculating area and
+// angles of a needle-like triangle"); at least a part of its longest side's square that keeps
+// cotangents finite.
+double areaTimesFour(Sides sides)
+{
+  constexpr double least = 1e-14;
+  std::sort(sides.begin(), sides.end());
+  const auto [c, b, a] = sides;
+  const double square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return std::max(std::sqrt(std::max(square, 0.0)), least * a * a);
+}
+
+double square(double value)
+{
+  return value * value;
+}
+
+class DelaunayRun
+{
+public:
+  DelaunayRun(const DiskMesh& disk, IntrinsicTriangles& triangles)
+    : Triangles(triangles)
+    , Others(3 * disk.NumberOfTriangles())
+  {
+    const ConstPointSpan<3> points = disk.Surface().Points;
+    for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::int64_t* corners = disk.Triangle(t);
+        const Eigen::Map<const Eigen::Vector3d> from(points[corners[i]]);
+        const Eigen::Map<const Eigen::Vector3d> to(points[corners[(i + 1) % 3]]);
+        this->Points(t)[i] = corners[i];
+        this->Lengths(t)[i] = (to - from).norm();
+        const std::int64_t side = 3 * t + static_cast<std::int64_t>(i);
+        this->Others.data()[side] = disk.Edges().Other(side);
+      }
+    }
+    this->Mollify(disk.NumberOfTriangles());
+  }
+
+  void Run(Progress& progress)
+  {
+    const std::int64_t sides = this->Others.size();
+    std::vector<std::int64_t> stack;
+    // Enough for all surfaces that were met; rounding must not let two edges flip for ever. What
+    // remains are weights that may be negative.
+    const std::int64_t most = 100 * sides;
+    constexpr std::int64_t polled = std::int64_t{ 1 } << 16;
+    std::int64_t flips = 0;
+    progress.BeginStage(1.0, sides);
+    for (std::int64_t start = 0; start < sides; ++start)
+    {
+      progress.Add(1);
+      stack.push_back(start);
+      while (!stack.empty())
+      {
+        const std::int64_t side = stack.back();
+        stack.pop_back();
+        if (!this->IsDelaunay(side) && flips < most)
+        {
+          const std::int64_t other = this->Others.data()[side];
+          this->Flip(side, other);
+          for (const std::int64_t triangle : { side / 3, other / 3 })
+          {
+            stack.push_back(3 * triangle);
+            stack.push_back(3 * triangle + 1);
+          }
+          if (++flips % polled == 0)
+          {
+            progress.Check();
+          }
+        }
+      }
+    }
+  }
+
+private:
+  std::array<std::int64_t, 3>& Points(std::int64_t t) { return this->Triangles.Points.data()[t]; }
+  Sides& Lengths(std::int64_t t) { return this->Triangles.Lengths.data()[t]; }
+
+  void Mollify(std::int64_t count)
+  {
+    constexpr double margin = 1e-7; // of the mean length
+    double sum = 0.0;
+    double excess = -std::numeric_limits<double>::infinity(); // of a side over the other two
+    for (std::int64_t t = 0; t < count; ++t)
+    {
+      const Sides& l = this->Lengths(t);
+      sum += l[0] + l[1] + l[2];
+      excess = std::max({ excess, l[0] - l[1] - l[2], l[1] - l[2] - l[0], l[2] - l[0] - l[1] });
+    }
+    const double growth = margin * sum / (3.0 * static_cast<double>(count)) + excess;
+    for (std::int64_t t = 0; growth > 0.0 && t < count; ++t)
+    {
+      for (double& length : this->Lengths(t))
+      {
+        length += growth;
+      }
+    }
+  }
+
+  bool IsDelaunay(std::int64_t side)
+  {
+    constexpr double rounding = 1e-10;
+    const std::int64_t other = this->Others.data()[side];
+    if (other < 0 || other / 3 == side / 3)
+    {
+      return true;
+    }
+    const double a = this->Triangles.Cotangents(side / 3)[static_cast<std::size_t>(side % 3)];
+    const double b = this->Triangles.Cotangents(other / 3)[static_cast<std::size_t>(other % 3)];
+    return a + b >= -rounding * (1.0 + std::abs(a) + std::abs(b));
+  }
+
+  // The edge from a to b, of the triangles a b c and b a d, becomes the one from c to d: their
+  // triangles become c a d and d b c.
+  void Flip(std::int64_t side, std::int64_t other)
+  {
+    const std::int64_t f = side / 3;
+    const std::int64_t g = other / 3;
+    const auto i = static_cast<std::size_t>(side % 3);
+    const auto j = static_cast<std::size_t>(other % 3);
+    const std::int64_t a = this->Points(f)[i];
+    const std::int64_t b = this->Points(f)[(i + 1) % 3];
+    const std::int64_t c = this->Points(f)[(i + 2) % 3];
+    const std::int64_t d = this->Points(g)[(j + 2) % 3];
+    const double ab = this->Lengths(f)[i];
+    const double bc = this->Lengths(f)[(i + 1) % 3];
+    const double ca = this->Lengths(f)[(i + 2) % 3];
+    const double ad = this->Lengths(g)[(j + 1) % 3];
+    const double db = this->Lengths(g)[(j + 2) % 3];
+    // In the plane with a at 0 and b at (ab, 0), c is above and d below.
+    const double cx = (square(ab) + square(ca) - square(bc)) / (2.0 * ab);
+    const double dx = (square(ab) + square(ad) - square(db)) / (2.0 * ab);
+    const double cy = areaTimesFour({ ab, bc, ca }) / (2.0 * ab);
+    const double dy = -areaTimesFour({ ab, ad, db }) / (2.0 * ab);
+    const double cd = std::hypot(cx - dx, cy - dy);
+
+    const auto place = [](std::int64_t t, std::size_t k) {
+      return 3 * t + static_cast<std::int64_t>(k % 3);
+    };
+    // What the outer sides meet; a side of these two triangles has a new number.
+    const auto renamed = [&](std::int64_t met) {
+      return met == place(f, i + 1) ? place(g, 1)
+        : met == place(f, i + 2)    ? place(f, 0)
+        : met == place(g, j + 1)    ? place(f, 1)
+        : met == place(g, j + 2)    ? place(g, 0)
+                                    : met;
+    };
+    std::int64_t* others = this->Others.data();
+    const std::int64_t alongCA = renamed(others[place(f, i + 2)]);
+    const std::int64_t alongAD = renamed(others[place(g, j + 1)]);
+    const std::int64_t alongDB = renamed(others[place(g, j + 2)]);
+    const std::int64_t alongBC = renamed(others[place(f, i + 1)]);
+    this->Points(f) = { c, a, d };
+    this->Lengths(f) = { ca, ad, cd };
+    this->Points(g) = { d, b, c };
+    this->Lengths(g) = { db, bc, cd };
+    const auto join = [others](std::int64_t one, std::int64_t two) {
+      others[one] = two;
+      if (two >= 0)
+      {
+        others[two] = one;
+      }
+    };
+    join(place(f, 0), alongCA);
+    join(place(f, 1), alongAD);
+    join(place(f, 2), place(g, 2));
+    join(place(g, 0), alongDB);
+    join(place(g, 1), alongBC);
+  }
+
+  IntrinsicTriangles& Triangles;
+  LargeBuffer<std::int64_t> Others;
+};
+
+} // namespace
+
+std::array<double, 3> IntrinsicTriangles::Cotangents(std::int64_t triangle) const
+{
+  const Sides& l = this->Lengths.data()[triangle];
+  const double area = areaTimesFour(l);
+  const auto cotangent = [&](std::size_t i) {
+    return (square(l[(i + 1) % 3]) + square(l[(i + 2) % 3]) - square(l[i])) / area;
+  };
+  return { cotangent(0), cotangent(1), cotangent(2) };
+}
+
+IntrinsicTriangles triangulateDelaunay(const DiskMesh& disk, const Context& context)
+{
+  Progress progress(context);
+  IntrinsicTriangles triangles{ LargeBuffer<std::array<std::int64_t, 3>>(disk.NumberOfTriangles()),
+    LargeBuffer<std::array<double, 3>>(disk.NumberOfTriangles()) };
+  DelaunayRun(disk, triangles).Run(progress);
+  return triangles;
+}
+
+} // namespace RectifiedTransport

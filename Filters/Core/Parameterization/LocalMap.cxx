@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/LocalMap.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+void sortOnce(std::vector<std::int64_t>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+} // namespace
+
+PointTriangles::PointTriangles(const DiskMesh& disk)
+  : First(static_cast<std::size_t>(disk.NumberOfPoints()) + 1, 0)
+  , Triangles(static_cast<std::size_t>(3 * disk.NumberOfTriangles()))
+{
+  const std::int64_t* corners = disk.Triangle(0);
+  const std::int64_t count = 3 * disk.NumberOfTriangles();
+  for (std::int64_t corner = 0; corner < count; ++corner)
+  {
+    ++this->First[static_cast<std::size_t>(corners[corner]) + 1];
+  }
+  for (std::size_t point = 1; point < this->First.size(); ++point)
+  {
+    this->First[point] += this->First[point - 1];
+  }
+  std::vector<std::int64_t> next(this->First.begin(), this->First.end() - 1);
+  for (std::int64_t corner = 0; corner < count; ++corner)
+  {
+    this->Triangles[static_cast<std::size_t>(next[static_cast<std::size_t>(corners[corner])]++)] =
+      corner / 3;
+  }
+}
+
+LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& points,
+  const std::vector<Point<2>>& positions)
+{
+  for (const std::int64_t point : points)
+  {
+    this->Ids.insert(this->Ids.end(), parts.Triangles.begin(point), parts.Triangles.end(point));
+  }
+  sortOnce(this->Ids);
+  this->Points.reserve(3 * this->Ids.size());
+  for (const std::int64_t id : this->Ids)
+  {
+    this->Points.insert(this->Points.end(), parts.Disk.Triangle(id), parts.Disk.Triangle(id) + 3);
+  }
+  sortOnce(this->Points);
+
+  for (const std::int64_t point : this->Points)
+  {
+    const auto global = static_cast<std::size_t>(point);
+    const bool isFree = std::binary_search(points.begin(), points.end(), point);
+    const unsigned char sides = parts.Square.OnSides[global];
+    this->IsFree.push_back(isFree);
+    this->UnknownsOf.emplace_back();
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      const bool isUnknown = isFree && (sides >> axis & 1) == 0;
+      this->UnknownsOf.back()[axis] = isUnknown ? this->Unknowns++ : -1;
+    }
+    this->Current.push_back(positions[global]);
+  }
+  for (const std::int64_t id : this->Ids)
+  {
+    std::array<int, 3> corners;
+    std::array<bool, 2> level{ true, true };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::int64_t point = parts.Disk.Triangle(id)[i];
+      corners[i] = static_cast<int>(
+        std::lower_bound(this->Points.begin(), this->Points.end(), point) - this->Points.begin());
+      const auto local = static_cast<std::size_t>(corners[i]);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        const unsigned char sides = parts.Square.OnSides[static_cast<std::size_t>(point)];
+        level[axis] = level[axis] && (sides >> axis & 1) != 0 &&
+          this->Current[local][axis] == this->Current[static_cast<std::size_t>(corners[0])][axis];
+      }
+    }
+    this->Corners.push_back(corners);
+    this->Collapsed.push_back(level[0] || level[1]);
+  }
+}
+
+LocalSystem LocalMap::MakeSystem() const
+{
+  std::vector<TriangleUnknowns> triangles;
+  triangles.reserve(this->Corners.size());
+  for (const std::array<int, 3>& corners : this->Corners)
+  {
+    const auto of = [&](std::size_t i) {
+      return this->UnknownsOf[static_cast<std::size_t>(corners[i])];
+    };
+    triangles.push_back({ of(0)[0], of(0)[1], of(1)[0], of(1)[1], of(2)[0], of(2)[1] });
+  }
+  return { std::move(triangles), this->Unknowns };
+}
+
+TriangleVector LocalMap::AreaGradient(std::size_t triangle) const
+{
+  TriangleVector gradient;
+  const std::array<int, 3>& corners = this->Corners[triangle];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Point<2>& from = this->Current[static_cast<std::size_t>(corners[(i + 1) % 3])];
+    const Point<2>& to = this->Current[static_cast<std::size_t>(corners[(i + 2) % 3])];
+    gradient[2 * i] = -0.5 * (to[1] - from[1]);
+    gradient[2 * i + 1] = 0.5 * (to[0] - from[0]);
+  }
+  return gradient;
+}
+
+Point<2> LocalMap::MoveOf(int corner, const std::vector<double>& solution) const
+{
+  Point<2> move{ 0.0, 0.0 };
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const int unknown = this->UnknownsOf[static_cast<std::size_t>(corner)][axis];
+    move[axis] = unknown >= 0 ? solution[static_cast<std::size_t>(unknown)] : 0.0;
+  }
+  return move;
+}
+
+void LocalMap::Move(
+  const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const
+{
+  moved.resize(this->Current.size());
+  for (std::size_t corner = 0; corner < moved.size(); ++corner)
+  {
+    const Point<2> move = this->MoveOf(static_cast<int>(corner), solution);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      moved[corner][axis] = std::clamp(this->Current[corner][axis] + step * move[axis], 0.0, 1.0);
+    }
+  }
+}
+
+void LocalMap::Store(std::vector<Point<2>>& positions) const
+{
+  for (std::size_t corner = 0; corner < this->Points.size(); ++corner)
+  {
+    if (this->IsFree[corner])
+    {
+      positions[static_cast<std::size_t>(this->Points[corner])] = this->Current[corner];
+    }
+  }
+}
+
+} // namespace RectifiedTransport

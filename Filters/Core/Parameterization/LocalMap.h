@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A part of a map of a disk to the unit square, whose points may move while all others stay.
+#ifndef RectifiedTransport_LocalMap_h
+#define RectifiedTransport_LocalMap_h
+
+#include "Core/Parameterization/ConformalMap.h"
+#include "Core/Parameterization/LocalSystem.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The triangles about each point of a disk.
+class PointTriangles
+{
+public:
+  explicit PointTriangles(const DiskMesh& disk);
+
+  const std::int64_t* begin(std::int64_t point) const { return this->At(point); }
+  const std::int64_t* end(std::int64_t point) const { return this->At(point + 1); }
+
+private:
+  const std::int64_t* At(std::int64_t point) const
+  {
+    return this->Triangles.data() + this->First[static_cast<std::size_t>(point)];
+  }
+
+  std::vector<std::int64_t> First;
+  std::vector<std::int64_t> Triangles;
+};
+
+// What all parts of a map share.
+struct MapParts
+{
+  explicit MapParts(const DiskMesh& disk, const SquareMap& square)
+    : Disk(disk)
+    , Square(square)
+    , Triangles(disk)
+  {
+  }
+
+  const DiskMesh& Disk;
+  const SquareMap& Square; // for the sides that points stay on
+  PointTriangles Triangles;
+};
+
+// Twice the area of a triangle, positive where it turns left.
+inline double crossProduct(const Point<2>& a, const Point<2>& b, const Point<2>& c)
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// The triangles about some points, with numbers of their own for their corners.
+class LocalMap
+{
+public:
+  // `points` may move; ascending.
+  LocalMap(const MapParts& parts, const std::vector<std::int64_t>& points,
+    const std::vector<Point<2>>& positions);
+
+  std::size_t NumberOfTriangles() const { return this->Corners.size(); }
+  // The triangle's number in the disk.
+  std::int64_t IdOf(std::size_t triangle) const { return this->Ids[triangle]; }
+  const std::array<int, 3>& CornersOf(std::size_t triangle) const
+  {
+    return this->Corners[triangle];
+  }
+  std::int64_t PointOf(int corner) const { return this->Points[static_cast<std::size_t>(corner)]; }
+  // Its three corners are on one side of the square.
+  bool IsCollapsed(std::size_t triangle) const { return this->Collapsed[triangle] != 0; }
+  LocalSystem MakeSystem() const;
+  int NumberOfUnknowns() const { return this->Unknowns; }
+
+  const std::vector<Point<2>>& Positions() const { return this->Current; }
+  double AreaOf(std::size_t triangle, const std::vector<Point<2>>& positions) const
+  {
+    const std::array<int, 3>& c = this->Corners[triangle];
+    return 0.5 *
+      crossProduct(positions[static_cast<std::size_t>(c[0])],
+        positions[static_cast<std::size_t>(c[1])], positions[static_cast<std::size_t>(c[2])]);
+  }
+  // The derivatives of a triangle's area by the coordinates of its corners.
+  TriangleVector AreaGradient(std::size_t triangle) const;
+  // Positions moved by `step` times a solution, kept in the square.
+  void Move(const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const;
+  // What a solution moves a corner by.
+  Point<2> MoveOf(int corner, const std::vector<double>& solution) const;
+  void Accept(const std::vector<Point<2>>& positions) { this->Current = positions; }
+  // Writes the positions of the points that may move.
+  void Store(std::vector<Point<2>>& positions) const;
+
+private:
+  std::vector<std::int64_t> Points; // by corners
+  std::vector<std::array<int, 2>> UnknownsOf;
+  std::vector<std::int64_t> Ids;
+  std::vector<std::array<int, 3>> Corners;
+  std::vector<unsigned char> Collapsed;
+  std::vector<unsigned char> IsFree;
+  std::vector<Point<2>> Current;
+  int Unknowns = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Linear systems of the positions of a few points of a map, with a term a triangle.
+#ifndef RectifiedTransport_LocalSystem_h
+#define RectifiedTransport_LocalSystem_h
+
+#include "Core/Parameterization/SparseCholesky.h"
+
+#include <array>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// The unknowns of a triangle's corners, x and y of each; -1 where a coordinate is fixed.
+using TriangleUnknowns = std::array<int, 6>;
+using TriangleVector = std::array<double, 6>;
+using TriangleMatrix = std::array<TriangleVector, 6>; // symmetric
+
+// A symmetric system, summed up over triangles. The pattern is analysed once.
+class LocalSystem
+{
+public:
+  LocalSystem(std::vector<TriangleUnknowns> triangles, int unknowns);
+
+  void Clear();
+  void Add(std::size_t triangle, const TriangleMatrix& matrix, const TriangleVector& right);
+  // Adds `part` of each diagonal value to it.
+  void Damp(double part);
+  // Writes the solution by unknowns. Returns false if there is none. Throws Cancelled.
+  bool Solve(std::vector<double>& solution, Progress& progress);
+
+private:
+  std::vector<TriangleUnknowns> Triangles;
+  std::vector<std::array<int, 21>> Places; // in the matrix's values, of each lower triangle
+  SparseCholesky::Matrix Matrix;
+  SparseCholesky::Vector Right;
+  SparseCholesky Factor;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parameterization/MapDistortion.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Vector2 = Eigen::Vector2d;
+
+struct Sums
+{
+  double Square;
+  double Angle;
+  std::int64_t Flipped;
+};
+
+// The value that the given parts of the weight do not pass, of pairs of a value and its weight.
+double quantile(const std::vector<std::pair<double, double>>& ascending, double part)
+{
+  double sum = 0.0;
+  for (const auto& [value, weight] : ascending)
+  {
+    sum += weight;
+    if (sum >= part)
+    {
+      return value;
+    }
+  }
+  return ascending.back().first;
+}
+
+} // namespace
+
+TriangleDistortion distortionOf(
+  const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t triangle)
+{
+  const std::int64_t* corners = disk.Triangle(triangle);
+  const ConstPointSpan<3> points = disk.Surface().Points;
+  const auto point = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(points[corners[i]]); };
+  const auto image = [&](int i) { return Eigen::Map<const Vector2>(positions[corners[i]]); };
+  const Vector2 first = image(1) - image(0);
+  const Vector2 second = image(2) - image(0);
+  const double determinant = first[0] * second[1] - first[1] * second[0];
+
+  // The map's derivative in a frame of the triangle's plane, along its first side and across.
+  const Eigen::Vector3d base = point(1) - point(0);
+  const Eigen::Vector3d other = point(2) - point(0);
+  const double length = base.norm();
+  const double along = other.dot(base) / length;
+  const double across = base.cross(other).norm() / length;
+  const Vector2 x = first / length;
+  const Vector2 y = (second - x * along) / across;
+  const double sum = x.squaredNorm() + y.squaredNorm();
+  const double twice = 2.0 * std::abs(x[0] * y[1] - x[1] * y[0]);
+  // The singular values s1 >= s2 have s1^2 + s2^2 = sum and 2 s1 s2 = twice.
+  const double larger = 0.5 * (sum + std::sqrt(std::max(0.0, (sum - twice) * (sum + twice))));
+  const double angle = 2.0 * larger / twice;
+
+  TriangleDistortion distortion;
+  distortion.Area = 0.5 * determinant / disk.AreaShare(triangle);
+  distortion.Angle = angle <= MaximumAngleDistortion ? std::max(1.0, angle)
+                                                     : MaximumAngleDistortion; // also without area
+  distortion.IsFlipped = !(determinant > 0.0);
+  return distortion;
+}
+
+MapDistortion measureDistortion(
+  const DiskMesh& disk, ConstPointSpan<2> positions, const Context& context)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  Progress progress(context);
+  std::vector<std::pair<double, double>> deviations(
+    static_cast<std::size_t>(disk.NumberOfTriangles()));
+  progress.BeginStage(0.5);
+  const Sums sums = reduceChunks(
+    progress, disk.NumberOfTriangles(), grain, Sums{ 0.0, 0.0, 0 },
+    [&](std::int64_t first, std::int64_t last) {
+      Sums part{ 0.0, 0.0, 0 };
+      for (std::int64_t t = first; t < last; ++t)
+      {
+        const TriangleDistortion distortion = distortionOf(disk, positions, t);
+        const double weight = disk.AreaShare(t);
+        const double deviation = std::abs(distortion.Area - 1.0);
+        deviations[static_cast<std::size_t>(t)] = { deviation, weight };
+        part.Square += weight * deviation * deviation;
+        part.Angle += weight * distortion.Angle;
+        part.Flipped += distortion.IsFlipped ? 1 : 0;
+      }
+      return part;
+    },
+    [](const Sums& a, const Sums& b) {
+      return Sums{ a.Square + b.Square, a.Angle + b.Angle, a.Flipped + b.Flipped };
+    });
+  std::sort(deviations.begin(), deviations.end());
+  progress.BeginStage(1.0);
+  progress.Check();
+  return { std::sqrt(sums.Square), quantile(deviations, 0.5), quantile(deviations, 0.95),
+    sums.Angle, sums.Flipped };
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of a map of a disk in tiles, for work on one tile while the others stay.
+#ifndef RectifiedTransport_MapTiles_h
+#define RectifiedTransport_MapTiles_h
+
+#include "Core/Geometry/Points.h"
+#include "Core/Mesh/DiskMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+using MapTile = std::vector<std::int64_t>; // ascending points
+
+// A k-d tree's leaves of at most `most` points each. `variant`, 0, 1 ..., selects where the first
+// cuts are and their axes, so that the borders of tiles lie elsewhere. In groups: no triangle has
+// points of two tiles of a group, so that these can move at one time.
+std::vector<std::vector<MapTile>> makeTiles(
+  const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t most, int variant);
+
+} // namespace RectifiedTransport
+
+#endif

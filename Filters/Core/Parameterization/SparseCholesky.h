@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Eigen's sparse Cholesky factorization, made to be cancelled.
+#ifndef RectifiedTransport_SparseCholesky_h
+#define RectifiedTransport_SparseCholesky_h
+
+#include "Core/Parameterization/InterruptibleReal.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Solves A x = b for symmetric matrices of one pattern, of which the lower triangle is given.
+class SparseCholesky
+{
+public:
+  using Matrix = Eigen::SparseMatrix<InterruptibleReal>;
+  using Vector = Eigen::Matrix<InterruptibleReal, Eigen::Dynamic, 1>;
+
+  // The order of elimination of a pattern and that of its factor.
+  void Analyze(const Matrix& lower);
+  // Returns false for a matrix that has a pivot of zero. Polls the progress, on any thread. Throws
+  // Cancelled and std::bad_alloc.
+  bool Factorize(const Matrix& lower, Progress& progress);
+  Vector Solve(const Vector& right) const;
+
+private:
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> Factor;
+};
+
+} // namespace RectifiedTransport
+
+#endif
