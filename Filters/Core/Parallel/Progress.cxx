@@ -103,6 +103,14 @@ bool Progress::ShouldStop()
   return this->IsCancelled();
 }
 
+void Progress::ReportFrom(double fractionOfStage)
+{
+  if (std::this_thread::get_id() == this->Caller)
+  {
+    this->Report(fractionOfStage);
+  }
+}
+
 void Progress::Check()
 {
   if (this->ShouldStop())

@@ -9,11 +9,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <thread>
 
 namespace RectifiedTransport
 {
 
-// Used on the thread that called the library, but for ShouldStop and IsCancelled.
+// Used on the thread that called the library, but for ShouldStop, IsCancelled and ReportFrom.
 class Progress
 {
 public:
@@ -53,6 +54,9 @@ public:
   // throws.
   bool ShouldStop();
   bool IsCancelled() const { return this->Stop.load(std::memory_order_relaxed); }
+  // For long work within a range, on any thread: reports a part of the current stage as done, but
+  // only where that is the thread that constructed this object.
+  void ReportFrom(double fractionOfStage);
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -64,6 +68,7 @@ private:
   void Poll();
 
   const Context Parent;
+  const std::thread::id Caller = std::this_thread::get_id();
   double Reported = 0.0;
   double Begin = 0.0;
   double End = 0.0;

@@ -88,8 +88,8 @@ public:
     {
       position = { position[0] * cells, position[1] * cells };
     }
-    // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with 256
-    // no longer the integrator but the triangles' straight edges limit what the flow reaches.
+    // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with
+    // 256 no longer the integrator but the triangles' straight edges limit what the flow reaches.
     FlowOptions options;
     options.NumberOfSteps = 256;
     flow.Backward(positions, positions, options, progress.Stage());
@@ -136,7 +136,7 @@ private:
   LargeBuffer<double> Masses;
 };
 
-constexpr int mostSweeps = 9;
+constexpr int mostSweeps = 24;
 constexpr int sweepsBeforeFlips = 5; // that flips alone are a reason for
 constexpr int sweepsBeforeFlow = 3;
 constexpr double far = 0.05; // of 95 % of the area: the flow is better at it than sweeps
@@ -207,7 +207,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
       beginNext(0.02);
       measure();
     }
-    for (int rings = 2; rings <= 4 && map.Distortion.Flipped > 0; ++rings)
+    for (int rings = 2; rings <= 14 && map.Distortion.Flipped > 0; ++rings)
     {
       beginNext(0.5);
       repairFlips(parts, rings, map.Positions, progress.Stage());

@@ -61,7 +61,7 @@ public:
     }
   }
 
-  void Solve(Progress& progress)
+  void Solve(Progress& progress, const StagePart& part)
   {
     if (this->Count == 0)
     {
@@ -71,7 +71,7 @@ public:
     {
       const SparseCholesky::Matrix matrix = this->MakeMatrix();
       factor.Analyze(matrix);
-      if (!factor.Factorize(matrix, progress))
+      if (!factor.Factorize(matrix, progress, part))
       {
         throw std::runtime_error(
           "the harmonic map has no solution: the surface's triangles are too "
@@ -206,7 +206,9 @@ ConformalMap mapConformally(
       std::vector<unsigned char> isKnown(points);
       std::transform(map.Square.OnSides.begin(), map.Square.OnSides.end(), isKnown.begin(),
         [known](unsigned char sides) { return (sides & known) != 0; });
-      HarmonicProblem(triangles, values[static_cast<std::size_t>(axis)], isKnown).Solve(progress);
+      const double begin = 0.5 * static_cast<double>(axis);
+      HarmonicProblem(triangles, values[static_cast<std::size_t>(axis)], isKnown)
+        .Solve(progress, { begin, begin + 0.5 });
     }
   };
   progress.For(2, 1, solve, 1);

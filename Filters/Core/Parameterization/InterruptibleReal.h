@@ -13,20 +13,27 @@ namespace RectifiedTransport
 
 class Progress;
 
-// While one exists, divisions on its thread throw Cancelled once the progress is cancelled.
+// A part of the current stage of a progress.
+struct StagePart
+{
+  double Begin;
+  double End;
+};
+
+// While one exists, divisions on its thread throw Cancelled once the progress is cancelled, and
+// report the given part of its stage, of which there are `divisions`.
 class DivisionPoll
 {
 public:
-  explicit DivisionPoll(Progress& progress);
+  DivisionPoll(Progress& progress, const StagePart& part, double divisions);
   ~DivisionPoll();
   DivisionPoll(const DivisionPoll&) = delete;
   DivisionPoll& operator=(const DivisionPoll&) = delete;
 
   static void Count()
   {
-    // A column of a factor has a division for each of its values, and about a hundred other
-    // operations for each of these: some microseconds to milliseconds altogether.
-    constexpr int interval = 1 << 12;
+    // A factor has a division for each of its values, and about a hundred other operations for each
+    // of these: a poll takes place after some milliseconds.
     if (++Divisions == interval)
     {
       Poll();
@@ -34,10 +41,17 @@ public:
   }
 
 private:
+  static constexpr int interval = 1 << 12;
+
   static void Poll();
 
-  static thread_local int Divisions;
-  static thread_local Progress* Current;
+  static thread_local int Divisions; // since the last poll
+  static thread_local DivisionPoll* Current;
+
+  Progress& Polled;
+  const StagePart Part;
+  const double All;
+  double Done = 0.0;
 };
 
 struct InterruptibleReal

@@ -3,15 +3,20 @@
 
 #include "Core/Parallel/Progress.h"
 
+#include <algorithm>
+
 namespace RectifiedTransport
 {
 
 thread_local int DivisionPoll::Divisions = 0;
-thread_local Progress* DivisionPoll::Current = nullptr;
+thread_local DivisionPoll* DivisionPoll::Current = nullptr;
 
-DivisionPoll::DivisionPoll(Progress& progress)
+DivisionPoll::DivisionPoll(Progress& progress, const StagePart& part, double divisions)
+  : Polled(progress)
+  , Part(part)
+  , All(std::max(divisions, 1.0))
 {
-  Current = &progress;
+  Current = this;
 }
 
 DivisionPoll::~DivisionPoll()
@@ -22,7 +27,14 @@ DivisionPoll::~DivisionPoll()
 void DivisionPoll::Poll()
 {
   Divisions = 0;
-  if (Current && Current->ShouldStop())
+  if (!Current)
+  {
+    return;
+  }
+  Current->Done += interval;
+  Current->Polled.ReportFrom(Current->Part.Begin +
+    (Current->Part.End - Current->Part.Begin) * std::min(Current->Done / Current->All, 1.0));
+  if (Current->Polled.ShouldStop())
   {
     throw Cancelled();
   }
@@ -33,9 +45,9 @@ void SparseCholesky::Analyze(const Matrix& lower)
   this->Factor.analyzePattern(lower);
 }
 
-bool SparseCholesky::Factorize(const Matrix& lower, Progress& progress)
+bool SparseCholesky::Factorize(const Matrix& lower, Progress& progress, const StagePart& part)
 {
-  const DivisionPoll poll(progress);
+  const DivisionPoll poll(progress, part, static_cast<double>(this->Factor.NonZeros()));
   this->Factor.factorize(lower);
   return this->Factor.info() == Eigen::Success;
 }

@@ -25,13 +25,19 @@ public:
 
   // The order of elimination of a pattern and that of its factor.
   void Analyze(const Matrix& lower);
-  // Returns false for a matrix that has a pivot of zero. Polls the progress, on any thread. Throws
-  // Cancelled and std::bad_alloc.
-  bool Factorize(const Matrix& lower, Progress& progress);
+  // Returns false for a matrix that has a pivot of zero. On any thread; reports a part of the
+  // progress's stage. Throws Cancelled and std::bad_alloc.
+  bool Factorize(const Matrix& lower, Progress& progress, const StagePart& part);
   Vector Solve(const Vector& right) const;
 
 private:
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> Factor;
+  struct Factorization : Eigen::SimplicialLDLT<Matrix, Eigen::Lower>
+  {
+    // Of the factor, known from the analysis on.
+    Eigen::Index NonZeros() const { return this->m_matrix.nonZeros(); }
+  };
+
+  Factorization Factor;
 };
 
 } // namespace RectifiedTransport
