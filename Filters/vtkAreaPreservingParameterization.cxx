@@ -87,6 +87,6 @@ void vtkAreaPreservingParameterization::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   this->Corners->Print(os, indent);
   os << indent << "Resolution: " << this->Resolution << "\n";
-  os << indent << "Polish: " << (this->Polish ? "on" : "off") << "\n";
+  os << indent << "Polish: " << (this->Polish ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bits that the filters compute: digests of the outputs of 97 runs, which take every filter,
+"""The bits that the filters compute: digests of the outputs of 103 runs, which take every filter,
 dimension and family of options.
 
 usage: python3 TestDigests.py [--record | --against FILE]
@@ -142,6 +142,26 @@ def box_of_triangles(turned=False):
     return surface
 
 
+def sheet(columns=24, rows=17, quads=False):
+    """Hills over a rectangle, as triangles or as polygons of four points."""
+    x, y = np.meshgrid(np.arange(columns + 1), np.arange(rows + 1))
+    heights = ((3 * x * x + 5 * y * y + x * y) % 37) / 32 + (x - 10) * (y - 8) / 64
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.stack([x, y, heights], axis=-1).reshape(-1, 3), deep=1))
+    polygons = vtkCellArray()
+    for j in range(rows):
+        for i in range(columns):
+            a, b = i + j * (columns + 1), i + (j + 1) * (columns + 1)
+            for face in [(a, a + 1, b + 1, b)] if quads else [(a, a + 1, b + 1), (a, b + 1, b)]:
+                polygons.InsertNextCell(len(face))
+                for corner in face:
+                    polygons.InsertCellPoint(corner)
+    surface = vtkPolyData()
+    surface.SetPoints(points)
+    surface.SetPolys(polygons)
+    return surface
+
+
 def run(filter_class, *inputs, array=None, **properties):
     """The outputs of a filter; inputs are those of its ports, None for none."""
     algorithm = filter_class()
@@ -156,9 +176,9 @@ def run(filter_class, *inputs, array=None, **properties):
     if array:
         algorithm.SetInputArrayToProcess(*array)
     for name, value in properties.items():
-        if name == "Weights":
-            for k, weight in enumerate(value):
-                algorithm.SetWeight(k, weight)
+        if name in ("Weights", "Corners"):
+            for k, item in enumerate(value):
+                getattr(algorithm, "Set" + name[:-1])(k, item)
         else:
             setter = getattr(algorithm, "Set" + name)
             setter(*value) if isinstance(value, tuple) else setter(value)
@@ -281,10 +301,22 @@ def other_runs():
             Bounds=(0.0, 3.0, 1.0, 2.0, -1.0, 2.0))
 
 
+def parameterization_runs():
+    parameterization = rt.vtkAreaPreservingParameterization
+    for resolution in (1, 40, 300):
+        yield f"parameterization {resolution}", parameterization, [sheet()], dict(
+            Resolution=resolution)
+    yield "parameterization of quads", parameterization, [sheet(quads=True)], dict(Resolution=64)
+    yield "parameterization by flow", parameterization, [sheet()], dict(Resolution=64, Polish=0)
+    yield "parameterization of corners", parameterization, [sheet(60, 50)], dict(
+        Resolution=64, Corners=[7, 121, 3100, 1952])
+
+
 def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
-    for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs):
+    for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
+                 parameterization_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name
             outputs = run(filter_class, *inputs, **properties)

@@ -130,6 +130,24 @@ class Errors(unittest.TestCase):
         self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
         self.assertIn("Supersampling is 17; it must be from 1 to 16", reported.errors[-2])
 
+    def test_parameterization(self):
+        made = simple.AreaPreservingParameterization(Input=simple.Sphere(), Resolution=16)
+        for settings, message in (
+                ({}, "The input surface is closed: it has no boundary"),
+                ({"Input": simple.Box()}, "has 6 components that no edges join"),
+                ({"Input": simple.Disk()}, "The input surface has 2 boundary loops"),
+                ({"Input": simple.Plane(), "Corners": [0, 1, 3]}, "Corners are 3 points; they must"),
+                ({"Corners": [0, 1, 3, 4]}, "Corners have the point 4; there are points 0 to 3"),
+                ({"Corners": [], "Resolution": 0}, "Resolution is 0; it must be from 1 to 16384")):
+            with self.subTest(message=message):
+                for name, value in settings.items():
+                    setattr(made, name, value)
+                reported = Listener(made.GetClientSideObject())
+                self.assertEqual(output_of(made).GetNumberOfPoints(), 0)
+                self.assertIn(message, reported.errors[0])
+        made.Resolution = 16
+        self.assertEqual(output_of(made).GetNumberOfPoints(), 4)
+
     def test_splat(self):
         splat = simple.SplatMass(Input=simple.Plane(), Radius=0)
         reported = Listener(splat.GetClientSideObject())

@@ -142,6 +142,28 @@ class Plugin(unittest.TestCase):
         self.assertEqual(output_of(solid).GetNumberOfCells(), 24**3)
         self.assertEqual(solid.GetProperty("Threading").GetPanelVisibility(), "advanced")
 
+    def test_texture_lies_on_a_parameterization(self):
+        """The coordinates are the active ones, and the surface's own stay."""
+        plane = simple.Plane(XResolution=4, YResolution=3)
+        made = simple.AreaPreservingParameterization(Input=plane, Resolution=16)
+        data = output_of(made).GetPointData()
+        self.assertEqual(data.GetTCoords().GetName(), "AreaPreserving")
+        self.assertIsNotNone(data.GetArray("TextureCoordinates"))
+        self.assertEqual(list(made.Corners), [])
+        for corners in ([0, 4, 19, 15], [19, 15, 0, 4], []):
+            made.Corners = corners
+            square = output_of(made).GetPointData().GetTCoords()
+            places = [square.GetTuple2(point) for point in corners]
+            self.assertEqual(places, [(0, 0), (1, 0), (1, 1), (0, 1)][:len(corners)])
+
+    def test_parameterizations_are_of_surfaces(self):
+        image = producer(simple, density_image())
+        made = simple.AreaPreservingParameterization(Input=simple.Plane())
+        accepted = made.SMProxy.GetProperty("Input")
+        self.assertTrue(accepted.IsInDomains())
+        accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
+        self.assertFalse(accepted.IsInDomains())
+
     def test_solids_are_of_surfaces(self):
         image = producer(simple, density_image())
         solid = simple.SolidDensity(Input=simple.Sphere())

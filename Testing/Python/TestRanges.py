@@ -11,6 +11,8 @@ from rt_testing import Listener, connect_inputs, density_image, main, points_in,
 
 # A text on bounds or on a choice of several numbers states no range of one number.
 WITHOUT = {"Bounds"}
+# What takes 10 GB at its highest is not tried there.
+LARGE = {("Area-Preserving Parameterization", "Resolution")}
 
 
 class Range(NamedTuple):
@@ -132,7 +134,8 @@ class Ranges(unittest.TestCase):
                     self.assert_taken(proxy, prop, number(allowed.lowest, whole))
                     self.assert_refused(proxy, prop, beside(allowed.lowest, whole, -math.inf))
                 if allowed.highest < math.inf:
-                    self.assert_taken(proxy, prop, number(allowed.highest, whole))
+                    if (proxy.label, prop.name) not in LARGE:
+                        self.assert_taken(proxy, prop, number(allowed.highest, whole))
                     self.assert_refused(proxy, prop, beside(allowed.highest, whole, math.inf))
                 elif not whole:
                     self.assert_taken(proxy, prop, 50.0)

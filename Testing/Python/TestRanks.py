@@ -26,7 +26,9 @@ class Ranks(unittest.TestCase):
             for kind in ("whole", "gathered"):
                 expected["%s %s" % (filter_, kind)] = "some"
             expected["%s shared" % filter_] = "none error"
-        expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid")})
+        expected["parameterization shared"] = "none error"
+        expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid",
+                                                   "parameterization")})
         self.assertEqual(gave, expected, run.stdout + run.stderr[-3000:])
         self.assertNotIn("for ten seconds", run.stdout + run.stderr)
         self.assertEqual(run.returncode, 0)

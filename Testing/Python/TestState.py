@@ -11,7 +11,7 @@ simple = load_plugin()
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
          "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
-         "MassSplatter")
+         "MassSplatter", "AreaPreservingParameterization")
 
 
 def pipeline():
@@ -37,6 +37,9 @@ def pipeline():
                           CostExponent=4, NumberOfSteps=20)
     simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
                         Supersampling=3, Padding=0.25, Association="Cells", Threading="Serial")
+    simple.AreaPreservingParameterization(
+        registrationName="Parameterization", Input=simple.Plane(XResolution=6, YResolution=5),
+        Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial")
     parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
              for first in (100, 200, 300)]
     simple.MorphDensities(registrationName="Morph", Input=parts[0], Target=parts[1], Parameter=0.25,
@@ -91,6 +94,9 @@ class State(unittest.TestCase):
         solid = simple.FindSource("Solid")
         self.assertEqual((solid.Resolution, solid.Supersampling, solid.Padding, solid.Association,
                           solid.Threading), (20, 3, 0.25, "Cells", "Serial"))
+        made = simple.FindSource("Parameterization")
+        self.assertEqual((list(made.Corners), made.Resolution, made.Polish, made.Threading),
+                         ([2, 13, 39, 21], 24, 0, "Serial"))
         morph = simple.FindSource("Morph")
         self.assertEqual((morph.Parameter, morph.MassMode, morph.Kernel, morph.Radius),
                          (0.25, "Geometric", "Gaussian", 2))
@@ -122,7 +128,7 @@ class State(unittest.TestCase):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
                      "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
                      "DensityBarycenter(",
-                     "SplatMass("):
+                     "SplatMass(", "AreaPreservingParameterization("):
             self.assertIn(call, script)
 
 

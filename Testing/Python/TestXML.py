@@ -18,6 +18,7 @@ PUBLIC = {
     "Density Barycenter": ("vtkTransportBarycenter", ["Input"], ["Density", "Particles"]),
     "Splat Mass": ("vtkMassSplatter", ["Input", "Reference"], []),
     "Solid Density": ("vtkSolidDensity", ["Input"], []),
+    "Area-Preserving Parameterization": ("vtkAreaPreservingParameterization", ["Input"], []),
     "Uniform Seeds": ("vtkUniformSeedSource", [], []),
     "Density-Equalizing Warp": ("vtkDensityEqualizingWarp", ["Input", "Density"], []),
     "Transport Quality": ("vtkTransportQuality", ["Input", "Density"], []),

@@ -55,3 +55,6 @@ run("barycenter", simple.DensityBarycenter(Input=[image(), image()], **SHORT))
 run("map", simple.TransportMap(Input=image(), **SHORT))
 run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(), **SHORT))
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
+run("parameterization", simple.AreaPreservingParameterization(Input=simple.Plane(), Resolution=12))
+run("parameterization shared", simple.AreaPreservingParameterization(
+    Input=shared_points(), Resolution=12))

@@ -68,6 +68,21 @@ def closed_surface():
     return source.GetOutput()
 
 
+def disk_surface():
+    """A hemisphere: a vtkPolyData of triangles with one boundary."""
+    from vtkmodules.vtkFiltersSources import vtkSphereSource
+    source = vtkSphereSource()
+    source.SetThetaResolution(12)
+    source.SetEndPhi(90)
+    source.Update()
+    return source.GetOutput()
+
+
+def surface_for(algorithm):
+    """A surface that an algorithm takes: those with corners map a disk to a square."""
+    return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
+
+
 def connect_inputs(algorithm):
     """Gives small data to the inputs that an algorithm requires."""
     for port in range(algorithm.GetNumberOfInputPorts()):
@@ -76,7 +91,7 @@ def connect_inputs(algorithm):
             image = density_image((4, 3))
             kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
             algorithm.SetInputData(port, image if kind == "vtkImageData" else
-                                   closed_surface() if kind == "vtkPolyData" else
+                                   surface_for(algorithm) if kind == "vtkPolyData" else
                                    points_in(image))
 
 

@@ -101,20 +101,20 @@ std::vector<std::string> ParameterizationReport::Warnings() const
   if (flipped > this->Collapsed || (this->Polish && this->Distortion.Area95 > AcceptableDeviation))
   {
     std::ostringstream text;
-    text.precision(2);
+    text.precision(3);
     text << flipped << " of " << this->Triangles
-         << (flipped == 1 ? " triangles is" : " triangles are")
-         << " flipped and 95 % of the area is within " << 100.0 * this->Distortion.Area95
-         << " % of its share of the square; "
-         << (this->Polish ? "a nearly closed surface needs a longer boundary" : "Polish is off");
+         << " triangles are flipped and 95 % of the area is within "
+         << 100.0 * this->Distortion.Area95 << " % of its share of the square; "
+         << (this->Polish ? "a longer boundary helps where the surface is nearly closed, smaller "
+                            "triangles help elsewhere"
+                          : "Polish is off");
     warnings.push_back(text.str());
   }
   if (this->Collapsed > 0)
   {
     warnings.push_back(std::to_string(this->Collapsed) + " of " + std::to_string(this->Triangles) +
-      (this->Collapsed == 1 ? " triangles has" : " triangles have") +
-      " all points on one side of the square and so no area there; subdivide the surface, or give "
-      "Corners between these points");
+      " triangles have all points on one side of the square and so no area there; subdivide the "
+      "surface, or give Corners between these points");
   }
   return warnings;
 }

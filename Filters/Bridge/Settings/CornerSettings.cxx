@@ -36,15 +36,13 @@ void CornerSettings::Check() const
 {
   if (!this->Points.empty() && this->Points.size() != 4)
   {
-    throw Failure("Corners has " + std::to_string(this->Points.size()) +
-      (this->Points.size() == 1 ? " point" : " points") +
-      "; it must have 4, or none for corners that are chosen");
+    throw Failure("Corners are " + std::to_string(this->Points.size()) +
+      " points; they must be 4 of the boundary, or none");
   }
 }
 
 SquareCorners CornerSettings::Of(const DiskMesh& disk) const
 {
-  this->Check();
   if (this->Points.empty())
   {
     return chooseCorners(disk);

@@ -32,8 +32,8 @@ struct CornerSettings
 
   // Throws Failure unless there are none or four.
   void Check() const;
-  // The corners of a disk, chosen where there are none. Throws Failure unless they are different
-  // points of its boundary.
+  // The corners of a disk, chosen where there are none. Throws Failure unless they are four
+  // different points of its boundary.
   SquareCorners Of(const DiskMesh& disk) const;
   void Print(std::ostream& os, vtkIndent indent) const;
 };

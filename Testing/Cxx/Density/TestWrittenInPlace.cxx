@@ -2,6 +2,7 @@
 // Values written into an array with Modified() of the data set only: nothing computed from the
 // values before remains, in the filters' caches or in VTK's.
 #include "CellsTest.h"
+#include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SplatTest.h"
 
@@ -123,6 +124,22 @@ void checkSurface(Checks& checks)
   CHECK(checks, messages.IsOneError("has the point 8; there are points 0 to 7"));
 }
 
+void checkDisk(Checks& checks)
+{
+  auto sheet = makeFlatSheet(3, 3);
+  auto filter = makeParameterization(sheet);
+  Messages messages(filter);
+  const Values before = runSquare(filter);
+  writePoint(sheet, 5, { 0.6, 0.7, 0.3 });
+  const Values after = runSquare(filter);
+  CHECK(checks, largestDifference(before, after) > 0.01);
+  CHECK(checks, messages.Errors.empty());
+  sheet->GetPolys()->GetConnectivityArray()->SetComponent(3, 0, 16.0);
+  sheet->Modified();
+  filter->Update();
+  CHECK(checks, messages.IsOneError("has the point 16; there are points 0 to 15"));
+}
+
 } // namespace
 
 int TestWrittenInPlace(int, char*[])
@@ -134,5 +151,6 @@ int TestWrittenInPlace(int, char*[])
   checkSites(checks);
   checkSplat(checks);
   checkSurface(checks);
+  checkDisk(checks);
   return checks.Result();
 }

@@ -3,6 +3,7 @@
 // from the smallest spacings to the largest.
 #include "BlendTest.h"
 #include "CellsTest.h"
+#include "ParameterizationTest.h"
 #include "SolidTest.h"
 
 #include "vtkInformation.h"
@@ -260,6 +261,11 @@ void checkSources(Checks& checks)
     // VTK cuts polygons into triangles where squares of their areas are numbers.
     const bool isGood = expectFinite(checks, solid, scale, __LINE__);
     checks.That(isGood || std::abs(exponent) > 76, "good", __LINE__, std::to_string(exponent));
+    auto surface = makeSheet(5, 4, [scale](double x, double y) {
+      return std::array<double, 3>{ 0.2 * scale * x, 0.2 * scale * y, 0.01 * scale * x * y };
+    });
+    checks.That(expectFinite(checks, makeParameterization(surface), scale, __LINE__), "a disk",
+      __LINE__, std::to_string(exponent));
     vtkNew<vtkUniformSeedSource> seeds;
     seeds->SetBounds(-scale, scale, 0, scale, 0, scale);
     seeds->SetNumberOfPoints(20);

@@ -2,6 +2,7 @@
 // Filters whose output grows while it is made, with less and less memory: all of it or one error.
 #include "../../MemoryLimit.h"
 #include "CellsTest.h"
+#include "ParameterizationTest.h"
 #include "SolidTest.h"
 
 #include <vector>
@@ -68,6 +69,14 @@ void checkSolid(Checks& checks)
   solid->SetResolution(16);
   checkSweep(checks, solid, __LINE__);
 }
+
+void checkParameterization(Checks& checks)
+{
+  auto surface = makeFlatSheet(70, 70, false);
+  surface->GetCellData()->AddArray(makeNumbers("Number", surface->GetNumberOfCells()));
+  auto filter = makeParameterization(surface);
+  checkSweep(checks, filter, __LINE__);
+}
 #endif
 
 } // namespace
@@ -78,6 +87,7 @@ int TestLittleMemory(int, char*[])
 #ifdef HAS_MEMORY_LIMIT
   checkCells(checks);
   checkSolid(checks);
+  checkParameterization(checks);
 #endif
   return checks.Result();
 }

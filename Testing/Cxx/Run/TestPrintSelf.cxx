@@ -3,6 +3,7 @@
 // them.
 #include "TestData.h"
 
+#include "vtkAreaPreservingParameterization.h"
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
@@ -132,6 +133,16 @@ int TestPrintSelf(int, char*[])
       "Threading: Serial" });
   solid->SetAssociation(9);
   CHECK(checks, solid->GetAssociationAsString() == std::string("Unknown"));
+
+  vtkNew<vtkAreaPreservingParameterization> parameterization;
+  expectLines(checks, parameterization,
+    { "Corners: automatic", "Resolution: 512", "Polish: On", "Threading: Auto" });
+  parameterization->SetCorner(1, 12345678901);
+  parameterization->SetResolution(77);
+  parameterization->PolishOff();
+  parameterization->SetThreadingToVTK();
+  expectLines(checks, parameterization,
+    { "Corners: -1 12345678901", "Resolution: 77", "Polish: Off", "Threading: VTK" });
 
   vtkNew<vtkTransportInterpolator> morph;
   expectLines(checks, morph,

@@ -3,6 +3,7 @@
 // that finds all made, and where only a part is new.
 #include "BlendTest.h"
 #include "CellsTest.h"
+#include "ParameterizationTest.h"
 #include "ProgressTest.h"
 #include "SolidTest.h"
 
@@ -126,6 +127,8 @@ void checkSources(Checks& checks)
   expectRising(checks, solid, "box", __LINE__);
   solid->SetInputData(together(makeBox(0, 1, 0, 2, 0, 3), turned(makeSphere(5, 0, 0, 1))));
   expectRising(checks, solid, "two", __LINE__);
+  expectRising(checks, makeParameterization(makeHills(9, 9)), "triangles", __LINE__);
+  expectRising(checks, makeParameterization(makeFlatSheet(9, 9, false)), "quads", __LINE__);
 }
 
 // Loops of several slices.
