@@ -56,5 +56,7 @@ run("map", simple.TransportMap(Input=image(), **SHORT))
 run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(), **SHORT))
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
 run("parameterization", simple.AreaPreservingParameterization(Input=simple.Plane(), Resolution=12))
+run("surface", simple.SampleSurface(Input=simple.Plane(), Resolution=12))
+run("surface shared", simple.SampleSurface(Input=shared_points(), Resolution=12))
 run("parameterization shared", simple.AreaPreservingParameterization(
     Input=shared_points(), Resolution=12))

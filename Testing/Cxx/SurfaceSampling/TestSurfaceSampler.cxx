@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where vtkSurfaceSampler puts particles: on the surface, as many as asked for, by area or by mass,
 // and on a flat rectangle where vtkTransportSampler puts them.
-#include "SampledSurfaces.h"
+#include "SurfaceSamplerTest.h"
 
 #include "vtkCell.h"
 #include "vtkFloatArray.h"
@@ -99,7 +99,7 @@ void checkFlatAsImage(Checks& checks)
   expected->Update();
   for (const bool triangles : { false, true })
   {
-    auto flat = makeFlat(24, 10, triangles);
+    auto flat = makeFlatSheet(24, 10, triangles);
     const vtkIdType part = triangles ? 2 : 1;
     flat->GetCellData()->AddArray(
       makeArray("Density", flat->GetNumberOfCells(), [=](vtkIdType i) { return bumpy(i / part); }));
@@ -126,7 +126,7 @@ void checkFlatAsImage(Checks& checks)
 // The mass of a linear density of any type is exact.
 void checkPointDensity(Checks& checks)
 {
-  auto flat = makeFlat(20, 10);
+  auto flat = makeFlatSheet(20, 10, false);
   const auto x = [&](vtkIdType i) { return flat->GetPoint(i)[0]; };
   const vtkIdType count = flat->GetNumberOfPoints();
   vtkNew<vtkSurfaceSampler> sampler;
@@ -225,7 +225,7 @@ void checkEmptyParts(Checks& checks)
 // Cells are numbered as in the input: vertices, lines, polygons, strips.
 void checkPolygonsAndStrips(Checks& checks)
 {
-  auto quads = makeFlat(8, 6);
+  auto quads = makeFlatSheet(8, 6, false);
   vtkNew<vtkCellArray> others;
   const vtkIdType ends[2] = { 0, 1 };
   others->InsertNextCell(2, ends);
@@ -248,7 +248,7 @@ void checkPolygonsAndStrips(Checks& checks)
   expectQuads(runSampler(sampler), __LINE__);
   const Values ofQuads = coordinates(sampler->GetOutput());
   // A strip for each row of quads.
-  auto strips = makeFlat(8, 6);
+  auto strips = makeFlatSheet(8, 6, false);
   vtkNew<vtkCellArray> rows;
   for (vtkIdType j = 0; j < 6; ++j)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The arrays of the surface at the particles of vtkSurfaceSampler.
-#include "SampledSurfaces.h"
+#include "SurfaceSamplerTest.h"
 
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"

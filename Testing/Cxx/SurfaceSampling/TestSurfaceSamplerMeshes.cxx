@@ -2,7 +2,7 @@
 // vtkSurfaceSampler on real meshes: patches hold particles in proportion to their area, and the
 // particles keep their distances.
 #include "MeshFile.h"
-#include "SampledSurfaces.h"
+#include "SurfaceSamplerTest.h"
 
 #include "Core/Quality/NearestNeighbours.h"
 

@@ -3,7 +3,7 @@
 // and blocks, and what it says of wrong input.
 #include "BlocksTest.h"
 #include "ProgressTest.h"
-#include "SampledSurfaces.h"
+#include "SurfaceSamplerTest.h"
 #include "ThreadsTest.h"
 
 #include "vtkSphereSource.h"
@@ -42,11 +42,12 @@ void checkThreads(Checks& checks)
 
 void checkAborts(Checks& checks)
 {
-  auto sheet = makeSheet(200, 150, false, [](double x, double y, double* point) {
-    point[0] = x;
-    point[1] = y;
-    point[2] = 1e-2 * x * y;
-  });
+  auto sheet = makeSheet(
+    200, 150,
+    [](double x, double y) {
+      return std::array<double, 3>{ x, y, 1e-2 * x * y };
+    },
+    false);
   sheet->GetPointData()->AddArray(makeArray("Density", sheet->GetNumberOfPoints(), bumpy));
   sheet->GetCellData()->AddArray(makeArray("Number", sheet->GetNumberOfCells(), bumpy));
   vtkNew<vtkSurfaceSampler> sampler;
@@ -77,7 +78,7 @@ void checkPipeline(Checks& checks)
   CHECK(checks, isEmpty(sampler));
   sampler->SetInputData(makeHill());
   expectOnePiece(checks, sampler, __LINE__);
-  sampler->SetInputData(makeBlocks({ makeHill(), nullptr, makeFlat(3, 4) }));
+  sampler->SetInputData(makeBlocks({ makeHill(), nullptr, makeFlatSheet(3, 4, false) }));
   sampler->Update();
   for (const unsigned int block : { 0u, 2u })
   {
@@ -125,7 +126,7 @@ void checkPropertyErrors(Checks& checks)
   test.Expect("Threading is 4; it must be", __LINE__);
   sampler->SetThreading(0);
   sampler->SetNumberOfCorners(3);
-  test.Expect("Corners has 3 points; it must have 4", __LINE__);
+  test.Expect("Corners are 3 points; they must be 4", __LINE__);
   sampler->SetCorner(3, 100);
   test.Expect("Corners ", __LINE__);
   sampler->ClearCorners();
@@ -206,11 +207,11 @@ void checkSurfaceErrors(Checks& checks)
   vtkNew<vtkSphereSource> sphere;
   sampler->SetInputConnection(sphere->GetOutputPort());
   test.Expect({ "The input surface is closed", "with Clip" }, __LINE__);
-  auto points = makeFlat(2, 2);
+  auto points = makeFlatSheet(2, 2, false);
   points->SetPolys(vtkSmartPointer<vtkCellArray>::New());
   sampler->SetInputData(points);
   test.Expect("The input surface has 9 points and no polygons", __LINE__);
-  auto wrong = makeFlat(3, 3);
+  auto wrong = makeFlatSheet(3, 3, false);
   wrong->GetPoints()->SetPoint(5, 0.0, nan, 0.0);
   sampler->SetInputData(wrong);
   test.Expect("The input surface has 1 point that is NaN or infinite", __LINE__);
