@@ -9,7 +9,7 @@ if [ $# -gt 0 ]; then
   exit
 fi
 
-need_to_build $packages_render
+need_to_build $packages_render $packages_examples
 need_meshes
 build_release
 

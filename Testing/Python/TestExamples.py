@@ -33,6 +33,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
                           "--pictures", "2", "--panel", "128"],
          "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
                             "--particles", "1000", "--repeats", "2", "--panel", "128"],
+         "Figure11Parameterization": ["--resolution", "128", "--panel", "160"],
          "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
          "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
          "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
@@ -255,6 +256,25 @@ class Examples(unittest.TestCase):
         self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
         drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
         self.assertTrue(50 < drawn.mean() < 205)
+
+    @need_meshes
+    def test_figure_11(self):
+        rows = tables(self.ran("Figure11Parameterization", "nefertiti", "mushroom"))[0]
+        for tutte, conformal, flow, polish in rows[:4], rows[4:]:
+            self.assertEqual(tutte[0].split()[1], {"nefertiti": "(562)", "mushroom": "(4608)"}[
+                tutte[0].split()[0]])
+            self.assertEqual([row[0] for row in (conformal, flow, polish)],
+                             ["conformal", "flow alone", "and polish"])
+            for map_ in tutte[1:], conformal:  # both far
+                self.assertGreater(first(map_[1]), 0.4)
+            self.assertLess(first(conformal[5]), first(flow[5]))
+            self.assertLess(first(flow[1]), first(conformal[1]) / 2)
+            self.assertLess(20 * first(polish[1]), first(conformal[1]))
+            self.assertLess(first(polish[2]), 0.01)
+            self.assertLess(first(polish[3]), 0.05)
+            self.assertEqual(polish[4], "0")
+        self.check_picture("figure11-nefertiti.png")
+        self.check_picture("figure11-mushroom.png")
 
     @need_meshes
     def test_morph_2d(self):

@@ -16,7 +16,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::size_t fewestBoundaryPoints = 4; // one for each corner of the square
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
+constexpr std::size_t fewestBoundaryPoints = 4;                // one for each corner of the square
 
 std::string counted(std::int64_t count, const char* one, const char* many)
 {
@@ -91,25 +93,23 @@ DiskMesh::DiskMesh(const TriangleSurface& surface, const Context& context)
   , Shares(surface.NumberOfTriangles)
 {
   Progress progress(context);
+  progress.BeginStage(0.05);
+  this->CopyPoints(surface.Points, progress);
   progress.BeginStage(0.1);
-  this->CopyPoints(surface.Points);
-  progress.Check();
-  this->CopyTriangles(surface);
-  progress.Check();
-  this->FindAreas();
-  progress.Check();
-  this->RequireUsedPoints();
+  this->CopyTriangles(surface, progress);
+  progress.BeginStage(0.2);
+  this->FindAreas(progress);
+  progress.BeginStage(0.25);
+  this->RequireUsedPoints(progress);
   progress.BeginStage(0.5);
   this->Sides = std::make_unique<SurfaceEdges>(this->Surface(), progress.Stage());
   if (this->Sides->NonManifold() > 0)
   {
     throw NotADisk(DiskDefect::NonManifoldEdges, this->Sides->NonManifold());
   }
-  progress.BeginStage(0.9);
+  progress.BeginStage(0.8);
   this->Orient(progress.Stage());
-  progress.BeginStage(1.0);
-  this->FindBoundary();
-  progress.Check();
+  this->FindBoundary(progress);
 }
 
 DiskMesh::~DiskMesh() = default;
@@ -123,21 +123,23 @@ TriangleSurface DiskMesh::Surface() const
 }
 
 // Scaled, so that areas neither underflow nor pass the largest double.
-void DiskMesh::CopyPoints(ConstPointSpan<3> points)
+void DiskMesh::CopyPoints(ConstPointSpan<3> points, Progress& progress)
 {
   const std::int64_t count = points.size();
   std::int64_t wrong = 0;
   std::int64_t first = -1;
   Eigen::AlignedBox3d bounds;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const Eigen::Map<const Eigen::Vector3d> point(points[i]);
-    if (!point.allFinite())
+  progress.ForInOrder(count, grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
     {
-      first = wrong++ == 0 ? i : first;
+      const Eigen::Map<const Eigen::Vector3d> point(points[i]);
+      if (!point.allFinite())
+      {
+        first = wrong++ == 0 ? i : first;
+      }
+      bounds.extend(point);
     }
-    bounds.extend(point);
-  }
+  });
   if (wrong > 0)
   {
     throw NotADisk(DiskDefect::PointsNotFinite, wrong, first);
@@ -147,66 +149,85 @@ void DiskMesh::CopyPoints(ConstPointSpan<3> points)
   const double half = count > 0 ? halfSides.maxCoeff() : 0.0;
   this->Length = half > 0.0 ? 2.0 * half : 1.0;
   const double unit = half > 0.0 ? half : 1.0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const Eigen::Map<const Eigen::Vector3d> point(points[i]);
-    Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) = 0.5 * ((point - centre) / unit);
-  }
+  progress.For(count, grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const Eigen::Map<const Eigen::Vector3d> point(points[i]);
+      Eigen::Map<Eigen::Vector3d>(this->Coordinates.data() + 3 * i) =
+        0.5 * ((point - centre) / unit);
+    }
+  });
 }
 
-void DiskMesh::CopyTriangles(const TriangleSurface& surface)
+void DiskMesh::CopyTriangles(const TriangleSurface& surface, Progress& progress)
 {
   if (surface.NumberOfTriangles == 0)
   {
     throw NotADisk(DiskDefect::NoTriangles, 0);
   }
-  for (std::int64_t corner = 0; corner < 3 * surface.NumberOfTriangles; ++corner)
-  {
-    const std::int64_t point = surface.Triangles[corner];
-    if (point < 0 || point >= surface.Points.size())
-    {
-      throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
-        std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
-        " points");
-    }
-    this->Triangles.data()[corner] = point;
-  }
+  progress.ForInOrder(
+    3 * surface.NumberOfTriangles, grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t corner = begin; corner < end; ++corner)
+      {
+        const std::int64_t point = surface.Triangles[corner];
+        if (point < 0 || point >= surface.Points.size())
+        {
+          throw std::invalid_argument("triangle " + std::to_string(corner / 3) + " has the point " +
+            std::to_string(point) + ", but there are " + std::to_string(surface.Points.size()) +
+            " points");
+        }
+        this->Triangles.data()[corner] = point;
+      }
+    });
 }
 
-void DiskMesh::FindAreas()
+void DiskMesh::FindAreas(Progress& progress)
 {
   std::int64_t wrong = 0;
   std::int64_t first = -1;
-  for (std::int64_t t = 0; t < this->NumberOfTriangles(); ++t)
-  {
-    const auto corner = [this, t](int i) {
-      return Eigen::Map<const Eigen::Vector3d>(this->Coordinates.data() + 3 * this->Triangle(t)[i]);
-    };
-    const double area = areaOf(corner(0), corner(1), corner(2));
-    this->Shares.data()[t] = area;
-    this->TotalArea += area;
-    if (!(area > 0.0))
-    {
-      first = wrong++ == 0 ? t : first;
-    }
-  }
+  progress.ForInOrder(
+    this->NumberOfTriangles(), grain,
+    [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t t = begin; t < end; ++t)
+      {
+        const auto corner = [this, t](int i) {
+          return Eigen::Map<const Eigen::Vector3d>(
+            this->Coordinates.data() + 3 * this->Triangle(t)[i]);
+        };
+        const double area = areaOf(corner(0), corner(1), corner(2));
+        this->Shares.data()[t] = area;
+        this->TotalArea += area;
+        if (!(area > 0.0))
+        {
+          first = wrong++ == 0 ? t : first;
+        }
+      }
+    },
+    randomAccess);
   if (wrong > 0)
   {
     throw NotADisk(DiskDefect::TrianglesWithoutArea, wrong, first);
   }
-  for (std::int64_t t = 0; t < this->NumberOfTriangles(); ++t)
-  {
-    this->Shares.data()[t] /= this->TotalArea;
-  }
+  progress.For(this->NumberOfTriangles(), grain, [this](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t < end; ++t)
+    {
+      this->Shares.data()[t] /= this->TotalArea;
+    }
+  });
 }
 
-void DiskMesh::RequireUsedPoints() const
+void DiskMesh::RequireUsedPoints(Progress& progress) const
 {
   std::vector<unsigned char> used(static_cast<std::size_t>(this->NumberOfPoints()), 0);
-  for (std::int64_t corner = 0; corner < this->Triangles.size(); ++corner)
-  {
-    used[static_cast<std::size_t>(this->Triangles.data()[corner])] = 1;
-  }
+  progress.ForInOrder(
+    this->Triangles.size(), grain,
+    [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t corner = begin; corner < end; ++corner)
+      {
+        used[static_cast<std::size_t>(this->Triangles.data()[corner])] = 1;
+      }
+    },
+    randomAccess);
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused > 0)
   {
@@ -235,7 +256,7 @@ void DiskMesh::Orient(const Context& context)
   }
 }
 
-void DiskMesh::FindBoundary()
+void DiskMesh::FindBoundary(Progress& progress)
 {
   const std::int64_t points = this->NumberOfPoints();
   const std::int64_t sides = this->Triangles.size();
@@ -244,15 +265,22 @@ void DiskMesh::FindBoundary()
   // leaves it.
   std::vector<std::int64_t> start(static_cast<std::size_t>(points), -1);
   std::vector<std::int64_t> valence(static_cast<std::size_t>(points), 0);
-  for (std::int64_t side = 0; side < sides; ++side)
-  {
-    const auto point = static_cast<std::size_t>(from[side]);
-    ++valence[point];
-    if (start[point] < 0 || this->Sides->Other(side) < 0)
-    {
-      start[point] = side;
-    }
-  }
+  progress.BeginStage(0.85);
+  progress.ForInOrder(
+    sides, grain,
+    [&](std::int64_t begin, std::int64_t last) {
+      for (std::int64_t side = begin; side < last; ++side)
+      {
+        const auto point = static_cast<std::size_t>(from[side]);
+        ++valence[point];
+        if (start[point] < 0 || this->Sides->Other(side) < 0)
+        {
+          start[point] = side;
+        }
+      }
+    },
+    randomAccess);
+  progress.BeginStage(0.95, points);
   std::int64_t pinched = 0;
   std::int64_t firstPinched = -1;
   for (std::int64_t point = 0; point < points; ++point)
@@ -270,17 +298,20 @@ void DiskMesh::FindBoundary()
     {
       firstPinched = pinched++ == 0 ? point : firstPinched;
     }
+    progress.Add(1);
   }
   if (pinched > 0)
   {
     throw NotADisk(DiskDefect::NonManifoldPoints, pinched, firstPinched);
   }
 
+  progress.BeginStage(1.0, sides);
   std::int64_t loops = 0;
   std::int64_t open = 0;
   std::vector<unsigned char> passed(static_cast<std::size_t>(points), 0);
   for (std::int64_t side = 0; side < sides; ++side)
   {
+    progress.Add(1);
     open += this->Sides->Other(side) < 0 ? 1 : 0;
     if (this->Sides->Other(side) >= 0 || passed[static_cast<std::size_t>(from[side])])
     {
@@ -316,6 +347,7 @@ void DiskMesh::FindBoundary()
   {
     throw NotADisk(DiskDefect::FewBoundaryPoints, static_cast<std::int64_t>(this->Loop.size()));
   }
+  progress.EndSlice(sides);
 }
 
 } // namespace RectifiedTransport

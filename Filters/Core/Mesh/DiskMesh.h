@@ -19,6 +19,8 @@
 namespace RectifiedTransport
 {
 
+class Progress;
+
 // What keeps a surface from being a disk, in the order in which it is looked for.
 enum class DiskDefect
 {
@@ -92,12 +94,12 @@ public:
   const std::vector<std::int64_t>& Boundary() const { return this->Loop; }
 
 private:
-  void CopyPoints(ConstPointSpan<3> points);
-  void CopyTriangles(const TriangleSurface& surface);
-  void FindAreas();
-  void RequireUsedPoints() const;
+  void CopyPoints(ConstPointSpan<3> points, Progress& progress);
+  void CopyTriangles(const TriangleSurface& surface, Progress& progress);
+  void FindAreas(Progress& progress);
+  void RequireUsedPoints(Progress& progress) const;
   void Orient(const Context& context);
-  void FindBoundary();
+  void FindBoundary(Progress& progress);
 
   LargeBuffer<double> Coordinates;
   LargeBuffer<std::int64_t> Triangles;

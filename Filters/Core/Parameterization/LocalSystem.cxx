@@ -120,7 +120,7 @@ void LocalSystem::Damp(double part)
 
 bool LocalSystem::Solve(std::vector<double>& solution, Progress& progress)
 {
-  if (!this->Factor.Factorize(this->Matrix, progress, { 0.0, 0.0 }))
+  if (!this->Factor.Factorize(this->Matrix, progress))
   {
     return false;
   }

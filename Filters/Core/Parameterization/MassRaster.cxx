@@ -136,15 +136,25 @@ private:
   std::array<std::int64_t, 2> BandsOf(std::int64_t triangle) const
   {
     const Polygon polygon = this->PolygonOf(triangle);
-    const auto rows =
-      hasArea(polygon) ? polygon.Cells(1, this->Size[1]) : pointOf(polygon).Cells(1, this->Size[1]);
+    const auto rows = (this->HasArea(polygon) ? polygon : pointOf(polygon)).Cells(1, this->Size[1]);
     return { rows[0] / bandRows, rows[1] / bandRows };
   }
 
-  static bool hasArea(const Polygon& polygon)
+  // Whether the triangle is wide enough for what rounding does to the areas of its parts: about
+  // 1e-16 times its length and the size of the grid.
+  bool HasArea(const Polygon& polygon) const
   {
-    constexpr double least = 1e-14; // cells; below, quotients of areas have no accuracy
-    return polygon.Area() >= least;
+    constexpr double accuracy = 1e-10;
+    double length = 0.0;
+    for (std::size_t i = 1; i < polygon.Count; ++i)
+    {
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        length = std::max(length, std::abs(polygon.Corners[i][axis] - polygon.Corners[0][axis]));
+      }
+    }
+    const auto cells = static_cast<double>(std::max(this->Size[0], this->Size[1]));
+    return polygon.Area() > accuracy * cells * length;
   }
 
   // The centre of a triangle.
@@ -202,7 +212,7 @@ private:
   {
     const double mass = this->Triangles.Masses[triangle];
     Polygon rest = this->PolygonOf(triangle);
-    if (!hasArea(rest))
+    if (!this->HasArea(rest))
     {
       const Polygon centre = pointOf(rest);
       this->MassAt(centre.Cells(0, this->Size[0])[0], centre.Cells(1, this->Size[1])[0]) += mass;

@@ -27,7 +27,7 @@ public:
   void Analyze(const Matrix& lower);
   // Returns false for a matrix that has a pivot of zero. On any thread; reports a part of the
   // progress's stage. Throws Cancelled and std::bad_alloc.
-  bool Factorize(const Matrix& lower, Progress& progress, const StagePart& part);
+  bool Factorize(const Matrix& lower, Progress& progress, const StagePart& part = { 0.0, 0.0 });
   Vector Solve(const Vector& right) const;
 
 private:

@@ -3,6 +3,7 @@
 // the ranges, how many threads there are, which other seeds are there or in what order.
 #include "TestDimensions.h"
 #include "TestFlow.h"
+#include "ThreadsExecutor.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +11,6 @@
 #include <memory>
 #include <thread>
 #include <utility>
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace RectifiedTransport
 {
@@ -51,46 +48,6 @@ public:
     other.join();
   }
   int Concurrency() const override { return 5; }
-};
-
-// OpenMP with a given number of threads.
-class ThreadsExecutor final : public Executor
-{
-public:
-  explicit ThreadsExecutor(int threads)
-    : Threads(threads)
-  {
-  }
-  void For(std::int64_t count, std::int64_t grain, RangeKernel kernel) const override
-  {
-    const Setting setting(this->Threads);
-    OpenMPExecutor().For(count, grain, kernel);
-  }
-  int Concurrency() const override
-  {
-    const Setting setting(this->Threads);
-    return OpenMPExecutor().Concurrency();
-  }
-
-private:
-  struct Setting
-  {
-#ifdef _OPENMP
-    explicit Setting(int threads)
-      : Before(omp_get_max_threads())
-    {
-      omp_set_num_threads(threads);
-    }
-    ~Setting()
-    {
-      omp_set_num_threads(this->Before);
-    }
-    int Before;
-#else
-    explicit Setting(int) {}
-#endif
-  };
-  int Threads;
 };
 
 template <class T>

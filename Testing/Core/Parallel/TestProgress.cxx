@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stages of long work, within one another, and its slices: what is run, reported and thrown.
 #include "Core/Parallel/Progress.h"
+#include "RecordingContext.h"
 #include "TestSplat.h"
 
 #include <gtest/gtest.h>
@@ -17,50 +18,6 @@ namespace
 {
 
 const SerialExecutor serial;
-
-// A context that records the progress that is reported, and cancels after a number of queries.
-class RecordingContext
-{
-public:
-  explicit RecordingContext(const Executor& threads = serial)
-    : Threads(threads)
-  {
-  }
-
-  RectifiedTransport::Context Context()
-  {
-    return { this->Threads,
-      [this](double fraction) {
-        EXPECT_EQ(std::this_thread::get_id(), this->Thread) << "reported on another thread";
-        this->Reported.push_back(fraction);
-      },
-      [this]() {
-        EXPECT_FALSE(this->IsQueried.exchange(true)) << "queried by two at a time";
-        const bool stop = ++this->Queries > this->MaximumQueries;
-        this->IsQueried = false;
-        return stop;
-      } };
-  }
-
-  // What was reported since the last call ascends from `low` to `high`.
-  void ExpectReported(double low, double high)
-  {
-    ASSERT_FALSE(this->Reported.empty());
-    EXPECT_TRUE(std::is_sorted(this->Reported.begin(), this->Reported.end()));
-    EXPECT_GE(this->Reported.front(), low);
-    EXPECT_NEAR(this->Reported.back(), high, 1e-15);
-    this->Reported.clear();
-  }
-
-  std::vector<double> Reported;
-  std::atomic<int> Queries{ 0 };
-  int MaximumQueries = 1 << 30;
-
-private:
-  const Executor& Threads;
-  const std::thread::id Thread = std::this_thread::get_id();
-  std::atomic<bool> IsQueried{ false };
-};
 
 constexpr std::int64_t count = 1000;
 constexpr auto nothing = [](std::int64_t, std::int64_t) {};
@@ -93,7 +50,7 @@ TEST(Progress, NeedsNoCallbacks)
 
 TEST(Progress, StagesFollow)
 {
-  RecordingContext recorder;
+  RecordingContext recorder(serial);
   Progress progress(recorder.Context());
   progress.BeginStage(0.25);
   EXPECT_EQ(progress.StageEnd(), 0.25);
@@ -115,7 +72,7 @@ TEST(Progress, StagesFollow)
 
 TEST(Progress, StagesNest)
 {
-  RecordingContext recorder;
+  RecordingContext recorder(serial);
   Progress outer(recorder.Context());
   outer.BeginStage(0.5);
   {
@@ -146,7 +103,7 @@ TEST(Progress, StagesNest)
 // Several loops may be the work of one stage, or repeat it.
 TEST(Progress, IsNeverTakenBack)
 {
-  RecordingContext recorder;
+  RecordingContext recorder(serial);
   Progress progress(recorder.Context());
   progress.BeginStage(0.5);
   progress.For(count, 1, nothing, 1);
@@ -162,7 +119,7 @@ TEST(Progress, IsNeverTakenBack)
 
 TEST(Progress, AddReportsInIntervals)
 {
-  RecordingContext recorder;
+  RecordingContext recorder(serial);
   Progress progress(recorder.Context());
   constexpr std::int64_t total = 1000000;
   progress.BeginStage(1.0, total);
@@ -319,7 +276,7 @@ TEST(Progress, SlicesAreMultiplesOfTheSmallest)
 
 TEST(Progress, CheckThrows)
 {
-  RecordingContext recorder;
+  RecordingContext recorder(serial);
   recorder.MaximumQueries = 2;
   Progress progress(recorder.Context());
   EXPECT_NO_THROW(progress.Check());
