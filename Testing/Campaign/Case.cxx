@@ -20,6 +20,7 @@ const std::vector<FilterKind>& filterKinds()
     addTransportKinds(all);
     addBlendKinds(all);
     addOtherKinds(all);
+    addSurfaceKinds(all);
     return all;
   }();
   return kinds;

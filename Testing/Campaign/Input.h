@@ -13,6 +13,7 @@
 #include "vtkSmartPointer.h"
 
 #include <string>
+#include <vector>
 
 namespace Campaign
 {
@@ -69,6 +70,9 @@ Input drawPoints(RandomSource& random, vtkImageData* about, vtkIdType most);
 
 // Closed surfaces and others.
 Input drawSurface(RandomSource& random);
+
+// Disks and others. `boundary` gets the points around it, of a disk.
+Input drawDisk(RandomSource& random, std::vector<vtkIdType>& boundary);
 
 // An array of `tuples` tuples of any type, which may hold what no density may.
 vtkSmartPointer<vtkDataArray> drawArray(

@@ -17,6 +17,7 @@ vtkSmartPointer<vtkAlgorithm> make()
 void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);
+void addSurfaceKinds(std::vector<FilterKind>& kinds);
 
 } // namespace Campaign
 

@@ -172,7 +172,7 @@ void changeInPlace(RandomSource& random, Input& input)
     set->GetPoints()->SetPoint(random.Whole(0, set->GetNumberOfPoints() - 1), x);
     set->GetPoints()->Modified();
     auto* surface = vtkPolyData::SafeDownCast(set);
-    if (surface && surface->GetNumberOfPolys() > 0)
+    if (surface && surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
     {
       input.Condition = State::Odd; // coinciding points can tear a surface, or close an open one
     }

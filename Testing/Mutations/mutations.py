@@ -166,6 +166,22 @@ OTHERS = [
     E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
       "this->NumberOfPoints != 0"),
     S("Filters/vtkGuardedAlgorithm.cxx", "image->GetPointData()->Initialize();", ";"),
+    # disks and their parameterization
+    E(CORE + "Mesh/DiskMesh.cxx", "if («reached != valence[static_cast<std::size_t>(point)]»)",
+      "reached > valence[static_cast<std::size_t>(point)]"),
+    E(CORE + "Mesh/DiskMesh.cxx", "this->TotalArea += «area»", "1.0"),
+    E(BRIDGE + "Surface/DiskSurface.cxx", "before += «cells->GetNumberOfCells()»", "0"),
+    E(BRIDGE + "Surface/DiskSurface.cxx", "id < this->FirstPolygon ? «id» :", "0"),
+    S(BRIDGE + "Surface/DiskSurface.cxx", "stages.Next(0.45);\n  this->CopyCellData(input, progress);",
+      ";"),
+    E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
+      "const vtkIdType offset = «this->Surface.CellOf(0)»", "0"),
+    S(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
+      'data->SetActiveTCoords("AreaPreserving");',
+      'data->SetTCoords(data->GetArray("AreaPreserving"));'),
+    E(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
+      "«flipped > this->Collapsed» ||", "flipped > this->Collapsed + 1"),
+    S(BRIDGE + "Settings/CornerSettings.cxx", "known = point;", ";"),
     # the plugin's XML: a domain, a range in the text, a decorator, a hint, an enumeration
     X("Plugin/TransportSampler.xml", 'name="FlowTime" command="SetFlowTime" number_of_elements="1"\n'
       '        default_values="1">\n        <DoubleRangeDomain name="range" min="0" max="«1»"/>', "2"),

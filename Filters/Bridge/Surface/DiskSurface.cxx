@@ -101,9 +101,15 @@ void DiskSurface::CopyCellData(vtkPolyData* input, Progress& progress)
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = from->GetAbstractArray(i);
-    requireMemory(
-      std::string("the array ") + (array->GetName() ? array->GetName() : "without name"),
-      static_cast<double>(cells) * bytesOfTuple(array));
+    const std::string name =
+      std::string("array ") + (array->GetName() ? array->GetName() : "without name");
+    if (array->GetNumberOfTuples() < input->GetNumberOfCells())
+    {
+      throw Failure("The cell " + name + " of the input surface has " +
+        std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
+        std::to_string(input->GetNumberOfCells()) + " cells");
+    }
+    requireMemory("the " + name, static_cast<double>(cells) * bytesOfTuple(array));
   }
   to->CopyAllocate(from, cells);
   progress.ForInOrder(

@@ -100,7 +100,7 @@ public:
         ? onSides[i]
         : Point<2>{ positions[i][0] / cells, positions[i][1] / cells };
     }
-    progress.Check();
+    progress.EndSlice(1);
   }
 
 private:
@@ -216,7 +216,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
     }
   }
   progress.BeginStage(1.0);
-  progress.Check();
+  progress.EndSlice(1);
   return map;
 }
 

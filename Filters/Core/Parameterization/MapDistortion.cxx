@@ -104,7 +104,7 @@ MapDistortion measureDistortion(
     });
   std::sort(deviations.begin(), deviations.end());
   progress.BeginStage(1.0);
-  progress.Check();
+  progress.EndSlice(1);
   return { std::sqrt(sums.Square), quantile(deviations, 0.5), quantile(deviations, 0.95),
     sums.Angle, sums.Flipped };
 }

@@ -191,6 +191,12 @@ void checkFailures(Checks& checks)
   sheet->GetPoints()->SetPoint(8, 1, 1, 0);
   expect(
     sheet, "The input surface has polygons that cannot be cut into triangles: 2 tri", __LINE__);
+  sheet = makeFlatSheet(2, 2, false);
+  sheet->GetCellData()->AddArray(makeNumbers("Short", 3));
+  expect(sheet,
+    "The cell array Short of the input surface has 3 tuples; it must have one for each of the 4 "
+    "cells",
+    __LINE__);
   expect(makePoints({ 0, 0, 0, 1, 0, 0 }),
     "The input surface has 2 points and no polygons; it must be a disk of polygons (lines and "
     "vertices do not count)",

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Area-Preserving Parameterization.
+#include "DrawnInputs.h"
+#include "Kinds.h"
+#include "OutputChecks.h"
+
+#include "vtkAreaPreservingParameterization.h"
+#include "vtkCellData.h"
+#include "vtkIdList.h"
+#include "vtkPointData.h"
+#include "vtkTriangle.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace Campaign
+{
+
+namespace
+{
+
+using Parameterization = vtkAreaPreservingParameterization;
+
+void drawParameterization(Settings& settings)
+{
+  settings.Draw<Parameterization, int>("Resolution", &Parameterization::SetResolution,
+    { 1, 2, 3, 8, 33, 64 }, { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
+  settings.Draw<Parameterization, bool>(
+    "Polish", &Parameterization::SetPolish, { true, false, false }, {}, 0.4);
+  drawThreading<Parameterization>(settings);
+}
+
+// Of the surface at hand; a wrong number is wrong for any.
+void drawCorners(
+  RandomSource& random, std::vector<vtkIdType> boundary, Settings& settings, Input& input)
+{
+  std::vector<vtkIdType> corners;
+  bool inRange = true;
+  if (random.Chance(0.4))
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const auto place = random.Whole(0, static_cast<std::int64_t>(boundary.size()) - 1);
+      corners.push_back(boundary[static_cast<std::size_t>(place)]);
+      boundary.erase(boundary.begin() + place);
+    }
+    switch (random.Whole(0, 19))
+    {
+      case 0:
+        corners.resize(static_cast<std::size_t>(random.Of({ 1, 3, 5 })), 0);
+        inRange = false;
+        break;
+      case 1:
+        corners[2] = corners[0];
+        input.Worsen(State::Faulty);
+        break;
+      case 2:
+        corners[3] = random.Of({ vtkIdType{ -1 }, vtkIdType{ 100000 }, VTK_ID_MAX, VTK_ID_MIN });
+        input.Worsen(State::Faulty);
+        break;
+      default:
+        break;
+    }
+  }
+  std::string text;
+  for (const vtkIdType corner : corners)
+  {
+    text += std::to_string(corner) + " ";
+  }
+  settings.Add(
+    "Corners", text,
+    [corners](vtkAlgorithm* filter) {
+      auto* parameterization = static_cast<Parameterization*>(filter);
+      parameterization->SetNumberOfCorners(static_cast<int>(corners.size()));
+      for (std::size_t i = 0; i < corners.size(); ++i)
+      {
+        parameterization->SetCorner(static_cast<int>(i), corners[i]);
+      }
+    },
+    inRange);
+}
+
+Inputs drawParameterizationInputs(RandomSource& random, Settings& settings)
+{
+  Inputs inputs(1);
+  std::vector<vtkIdType> boundary;
+  inputs[0] = { drawDisk(random, boundary) };
+  drawCorners(random, boundary, settings, inputs[0][0]);
+  return inputs;
+}
+
+State expectParameterization(vtkAlgorithm*, const Inputs& inputs)
+{
+  return inputs[0][0].Condition;
+}
+
+void checkPositions(vtkPointData* data, const char* name, vtkIdType points, Findings& findings)
+{
+  vtkDataArray* positions = requireArray(data, name, 2, points, findings);
+  for (vtkIdType i = 0; positions && i < 2 * points; ++i)
+  {
+    const double x = positions->GetComponent(i / 2, static_cast<int>(i % 2));
+    if (!(x >= 0.0 && x <= 1.0))
+    {
+      findings.That(false, std::string(name) + " " + textOf(x));
+      return;
+    }
+  }
+}
+
+// All of the square is covered once.
+void checkAreas(vtkPolyData* output, vtkDataArray* distortions, Findings& findings)
+{
+  double total = 0.0;
+  double covered = 0.0;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    if (output->GetCellType(cell) == VTK_TRIANGLE)
+    {
+      double x[3][3];
+      output->GetCellPoints(cell, ids);
+      for (int i = 0; i < 3; ++i)
+      {
+        output->GetPoint(ids->GetId(i), x[i]);
+      }
+      const double area = vtkTriangle::TriangleArea(x[0], x[1], x[2]);
+      total += area;
+      covered += area * distortions->GetComponent(cell, 0);
+    }
+  }
+  findings.Near(covered, total, 1e-6, "the covered area");
+}
+
+void checkParameterization(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* output = Parameterization::SafeDownCast(filter)->GetOutput();
+  auto* input = vtkPolyData::SafeDownCast(inputs[0][0].Data);
+  const vtkIdType points = input->GetNumberOfPoints();
+  findings.That(output->GetPoints() == input->GetPoints(), "the points");
+  findings.That(output->GetVerts() == input->GetVerts() ||
+      (output->GetNumberOfVerts() == 0 && input->GetNumberOfVerts() == 0),
+    "the vertices");
+  findings.That(output->GetLines() == input->GetLines() ||
+      (output->GetNumberOfLines() == 0 && input->GetNumberOfLines() == 0),
+    "the lines");
+  findings.That(output->GetPolys()->IsHomogeneous() == 3, "triangles");
+  requirePassed(
+    input->GetPointData(), output->GetPointData(), { "AreaPreserving", "Conformal" }, findings);
+  checkPositions(output->GetPointData(), "AreaPreserving", points, findings);
+  checkPositions(output->GetPointData(), "Conformal", points, findings);
+  findings.That(
+    output->GetPointData()->GetTCoords() == output->GetPointData()->GetArray("AreaPreserving"),
+    "the active texture coordinates");
+
+  const vtkIdType cells = output->GetNumberOfCells();
+  vtkCellData* data = output->GetCellData();
+  for (int i = 0; i < input->GetCellData()->GetNumberOfArrays(); ++i)
+  {
+    findings.That(data->HasArray(input->GetCellData()->GetArrayName(i)) != 0, "a cell array");
+  }
+  vtkDataArray* areas = requireArray(data, "AreaDistortion", 1, cells, findings);
+  vtkDataArray* angles = requireArray(data, "AngleDistortion", 1, cells, findings);
+  auto* flipped = vtkUnsignedCharArray::SafeDownCast(data->GetArray("Flipped"));
+  const bool isWhole = areas && angles && flipped && flipped->GetNumberOfTuples() == cells;
+  findings.That(isWhole, "arrays of cells");
+  if (!isWhole)
+  {
+    return;
+  }
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const double area = areas->GetComponent(cell, 0);
+    const double angle = angles->GetComponent(cell, 0);
+    findings.That(flipped->GetValue(cell) == (area > 0.0 ? 0 : 1), "Flipped of " + textOf(area));
+    findings.That(angle >= 1.0 && angle <= 1000.0, "AngleDistortion " + textOf(angle));
+  }
+  findings.Near(
+    requireField(output, "FlippedCount", findings), sumOf(flipped), 1e-12, "FlippedCount");
+  findings.That(requireField(output, "AreaDistortionRMS", findings) >= 0.0, "AreaDistortionRMS");
+  findings.That(
+    requireField(output, "AngleDistortionMean", findings) >= 1.0 - 1e-9, "AngleDistortionMean");
+  if (inputs[0][0].Condition == State::Sound)
+  {
+    checkAreas(output, areas, findings);
+  }
+}
+
+} // namespace
+
+void addSurfaceKinds(std::vector<FilterKind>& kinds)
+{
+  kinds.push_back({ "Parameterization", make<Parameterization>, drawParameterization,
+    drawParameterizationInputs, expectParameterization, checkParameterization });
+}
+
+} // namespace Campaign
