@@ -26,7 +26,8 @@
  *   `CellId` (the cell of the input that it is on), `Normal` (that of its triangle, of length 1,
  *   active normals; on the side from which most of the area is seen to turn left), and the input's
  *   point arrays, interpolated linearly in its triangle (integers are rounded, text is that of the
- *   nearest point), and cell arrays; not those of the names above, and not ghost arrays;
+ *   nearest point), and cell arrays; not those of the names above, no ghost arrays, and no ids of
+ *   points (vtkIdTypeArray), which VTK does not interpolate;
  * - field data `TotalMass` (density times area, summed), beside the input's own.
  *
  * A cell of the grid in the rectangle spreads its mass evenly: where it is in triangles with and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SurfaceSampling/SampledArrays.h"
 
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Core/Parallel/Progress.h"
@@ -23,8 +24,9 @@ constexpr std::int64_t Grain = std::int64_t{ 1 } << 10;
 // Units of a slice of work: each fills a tuple of every array.
 constexpr std::int64_t Units = std::int64_t{ 1 } << 14;
 
-// The arrays whose names `known` has not.
-void passNewArrays(vtkDataSetAttributes* from, vtkPointData* known, vtkDataSetAttributes* to)
+// The arrays whose names `known` has not; `owner` is "point" or "cell".
+void passNewArrays(vtkDataSetAttributes* from, vtkIdType tuples, const std::string& owner,
+  vtkPointData* known, vtkDataSetAttributes* to)
 {
   to->PassData(from);
   for (int i = to->GetNumberOfArrays() - 1; i >= 0; --i)
@@ -34,6 +36,13 @@ void passNewArrays(vtkDataSetAttributes* from, vtkPointData* known, vtkDataSetAt
       (known->HasArray(name) || std::string(name) == vtkDataSetAttributes::GhostArrayName()))
     {
       to->RemoveArray(i);
+    }
+    else if (to->GetAbstractArray(i)->GetNumberOfTuples() < tuples)
+    {
+      throw Failure("The " + owner + " array '" + (name ? name : "") +
+        "' of the input surface has " +
+        std::to_string(to->GetAbstractArray(i)->GetNumberOfTuples()) +
+        " tuples; it must have one for each of the " + std::to_string(tuples) + " " + owner + "s");
     }
   }
 }
@@ -73,7 +82,7 @@ void sampleArrays(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>
   vtkPolyData* mesh = surface.Triangulated();
   progress.BeginStage(0.5 * (progress.StageEnd() + end));
   vtkNew<vtkPointData> ofPoints;
-  passNewArrays(mesh->GetPointData(), output, ofPoints);
+  passNewArrays(mesh->GetPointData(), mesh->GetNumberOfPoints(), "point", output, ofPoints);
   requireMemoryFor(ofPoints, count);
   vtkNew<vtkPointData> sampled;
   sampled->InterpolateAllocate(ofPoints, count);
@@ -96,7 +105,7 @@ void sampleArrays(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>
 
   progress.BeginStage(end);
   vtkNew<vtkPointData> ofCells;
-  passNewArrays(mesh->GetCellData(), output, ofCells);
+  passNewArrays(mesh->GetCellData(), mesh->GetNumberOfCells(), "cell", output, ofCells);
   requireMemoryFor(ofCells, count);
   for (int attribute = 0; attribute < vtkDataSetAttributes::NUM_ATTRIBUTES; ++attribute)
   {

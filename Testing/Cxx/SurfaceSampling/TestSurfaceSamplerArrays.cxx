@@ -44,6 +44,7 @@ void checkPointArrays(Checks& checks)
   ids->SetName("Ids");
   ids->SetNumberOfTuples(count);
   data->SetGlobalIds(ids);
+  data->AddArray(makeArray<vtkIdTypeArray>("Others", count, value));
 
   vtkNew<vtkSurfaceSampler> sampler;
   sampler->SetInputData(hill);
@@ -71,7 +72,9 @@ void checkPointArrays(Checks& checks)
   CHECK(checks, particles->GetPointData()->GetVectors() == vectors);
   vtkAbstractArray* texts = particles->GetPointData()->GetAbstractArray("Text");
   CHECK(checks, texts && texts->GetNumberOfTuples() == 900);
-  CHECK(checks, !particles->GetPointData()->HasArray("Ids")); // of one point each
+  // Names of points, not numbers.
+  CHECK(checks, !particles->GetPointData()->HasArray("Ids"));
+  CHECK(checks, !particles->GetPointData()->HasArray("Others"));
 }
 
 void checkCellArrays(Checks& checks)
@@ -139,9 +142,34 @@ void checkNames(Checks& checks)
   CHECK(checks, particles->GetPointData()->GetNormals() == pointArray(particles, "Normal"));
 }
 
+void checkShortArrays(Checks& checks)
+{
+  for (const bool triangles : { true, false })
+  {
+    auto hill = makeHill(triangles);
+    const vtkIdType points = hill->GetNumberOfPoints();
+    const vtkIdType cells = hill->GetNumberOfCells();
+    vtkNew<vtkSurfaceSampler> sampler;
+    sampler->SetInputData(hill);
+    sampler->SetNumberOfParticles(10);
+    hill->GetPointData()->AddArray(makeArray("Short", points - 1, [](vtkIdType) { return 1.0; }));
+    ErrorTest(checks, sampler)
+      .Expect("The point array 'Short' of the input surface has " + std::to_string(points - 1) +
+          " tuples; it must have one for each of the " + std::to_string(points) + " points",
+        __LINE__);
+    hill->GetPointData()->RemoveArray("Short");
+    hill->GetCellData()->AddArray(makeArray("Short", cells - 1, [](vtkIdType) { return 1.0; }));
+    ErrorTest(checks, sampler)
+      .Expect({ "he cell array", "Short",
+                "of the input surface has " + std::to_string(cells - 1) +
+                  " tuples; it must have one for each of the " + std::to_string(cells) + " cells" },
+        __LINE__);
+  }
+}
+
 } // namespace
 
 int TestSurfaceSamplerArrays(int, char*[])
 {
-  return runChecks({ checkPointArrays, checkCellArrays, checkNames });
+  return runChecks({ checkPointArrays, checkCellArrays, checkNames, checkShortArrays });
 }
