@@ -146,8 +146,12 @@ def main():
     draw_example(path("barycenters"), "Barycenters2D", "barycenters-2d.png", "--panel", "90")
     draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
+    draw_example(path("parameterization"), "Figure11Parameterization", "figure11-lion-head.png",
+                 "lion-head", "--panel", "300")
+    draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
+                 "--dots", "10000", "--panel", "420")
     print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
-          "morph-3d, barycenters, splats, solid: " + arguments.output)
+          "morph-3d, barycenters, splats, solid, parameterization, surface-dots: " + arguments.output)
 
 
 if __name__ == "__main__":

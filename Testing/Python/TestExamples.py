@@ -22,6 +22,7 @@ from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 DATA = os.path.join(SOURCE, "Testing", "Data")
 SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Cartogram": ["--pixels", "480"],
+         "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
          "Figure2Paths": ["--particles", "2000", "--paths", "24", "--pixels", "480"],
          "Figure4Lookup": ["--resolutions", "16", "64", "--samples", "64", "--published", "48",
@@ -256,6 +257,21 @@ class Examples(unittest.TestCase):
         self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
         drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
         self.assertTrue(50 < drawn.mean() < 205)
+
+    @need_meshes
+    def test_stipple_surface(self):
+        """More of the dots where it bends, and not much less even than in the plane."""
+        area, curvature = tables(self.ran("StippleSurface"))[0]
+        for row in area, curvature:
+            self.assertEqual(row[1], "3000")
+            self.assertGreater(first(row[3]), 0.55)
+        self.assertLess(first(curvature[2]), first(area[2]))  # the density is at most 1
+        self.check_picture("stipple-surface-lion-head.png")
+
+    def test_a_surface_that_is_no_disk(self):
+        for example in "StippleSurface", "Figure11Parameterization":
+            printed = self.refused(example, os.path.join(DATA, "spot.vtp"))
+            self.assertIn("The input surface is closed: it has no boundary", printed)
 
     @need_meshes
     def test_figure_11(self):
