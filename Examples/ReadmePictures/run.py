@@ -147,7 +147,7 @@ def main():
     draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
     draw_example(path("parameterization"), "Figure11Parameterization", "figure11-lion-head.png",
-                 "lion-head", "--panel", "300")
+                 "lion-head", "--panel", "240")
     draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
                  "--dots", "10000", "--panel", "420")
     print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
