@@ -19,6 +19,7 @@ namespace RectifiedTransport
 struct AssociationSettings;
 struct CornerSettings;
 struct FlowSettings;
+struct SeedSettings;
 struct SplatSettings;
 } // namespace RectifiedTransport
 
@@ -92,6 +93,58 @@ protected:                                                                      
   int NumberOfSteps = 32;                                                                          \
   double Tolerance = 0.01;                                                                         \
   int TableLookup = INTERPOLATED
+
+/**
+ * The uniform seeds that particles start from:
+ *
+ * - SeedPattern: how the seeds are distributed, evenly in lengths. BlueNoise (default): even and
+ *   irregular, without preferred directions. Lattice: the centres of a grid of equal boxes, whose
+ *   number is as near to NumberOfParticles as the aspect ratio allows. Jittered: one at random in
+ *   each of as many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random:
+ *   independent.
+ * - RandomSeed: the seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random:
+ *   any integer; the same one gives the same seeds on every machine. Default 1.
+ */
+#define vtkSeedPropertiesMacro()                                                                   \
+public:                                                                                            \
+  enum SeedPatternType                                                                             \
+  {                                                                                                \
+    BLUE_NOISE = 0,                                                                                \
+    LATTICE = 1,                                                                                   \
+    JITTERED = 2,                                                                                  \
+    LOW_DISCREPANCY = 3,                                                                           \
+    RANDOM = 4                                                                                     \
+  };                                                                                               \
+  vtkSetMacro(SeedPattern, int);                                                                   \
+  vtkGetMacro(SeedPattern, int);                                                                   \
+  void SetSeedPatternToBlueNoise()                                                                 \
+  {                                                                                                \
+    this->SetSeedPattern(BLUE_NOISE);                                                              \
+  }                                                                                                \
+  void SetSeedPatternToLattice()                                                                   \
+  {                                                                                                \
+    this->SetSeedPattern(LATTICE);                                                                 \
+  }                                                                                                \
+  void SetSeedPatternToJittered()                                                                  \
+  {                                                                                                \
+    this->SetSeedPattern(JITTERED);                                                                \
+  }                                                                                                \
+  void SetSeedPatternToLowDiscrepancy()                                                            \
+  {                                                                                                \
+    this->SetSeedPattern(LOW_DISCREPANCY);                                                         \
+  }                                                                                                \
+  void SetSeedPatternToRandom()                                                                    \
+  {                                                                                                \
+    this->SetSeedPattern(RANDOM);                                                                  \
+  }                                                                                                \
+  const char* GetSeedPatternAsString();                                                            \
+  vtkSetMacro(RandomSeed, int);                                                                    \
+  vtkGetMacro(RandomSeed, int);                                                                    \
+                                                                                                   \
+protected:                                                                                         \
+  RectifiedTransport::SeedSettings GetSeedSettings();                                              \
+  int SeedPattern = BLUE_NOISE;                                                                    \
+  int RandomSeed = 1
 
 /**
  * How the mass of a particle is spread over the image's cells (or dual cells) around it (see

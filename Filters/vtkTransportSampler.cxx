@@ -7,7 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
-#include "Bridge/Settings/SeedPatternTexts.h"
+#include "Bridge/Settings/SeedSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,14 +19,13 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSampler);
+vtkImplementSeedPropertiesMacro(vtkTransportSampler);
 
 using namespace RectifiedTransport;
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()
   : NumberOfParticles(8192)
-  , SeedPattern(BLUE_NOISE)
-  , RandomSeed(1)
   , SamplesPerCell(0)
   , FlowTime(1.0)
   , OutputPaths(false)
@@ -37,12 +36,6 @@ vtkTransportSampler::vtkTransportSampler()
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::~vtkTransportSampler() = default;
-
-//------------------------------------------------------------------------------
-const char* vtkTransportSampler::GetSeedPatternAsString()
-{
-  return choiceText(SeedPatternTexts, this->SeedPattern);
-}
 
 //------------------------------------------------------------------------------
 void vtkTransportSampler::SetSeedsConnection(vtkAlgorithmOutput* seeds)
@@ -87,10 +80,10 @@ int vtkTransportSampler::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
-  requireChoice("SeedPattern", this->SeedPattern, SeedPatternTexts);
-  const TransportSampler sampler{ this->GetFlowSettings().Options(),
-    static_cast<RectifiedTransport::SeedPattern>(this->SeedPattern), this->NumberOfParticles,
-    this->RandomSeed, this->SamplesPerCell, this->FlowTime, this->OutputPaths != 0 };
+  const RectifiedTransport::SeedPattern pattern = this->GetSeedSettings().Pattern();
+  const TransportSampler sampler{ this->GetFlowSettings().Options(), pattern,
+    this->NumberOfParticles, this->RandomSeed, this->SamplesPerCell, this->FlowTime,
+    this->OutputPaths != 0 };
   requireThat(
     this->SamplesPerCell >= 0, "SamplesPerCell", this->SamplesPerCell, "0 (not used) or greater");
   requireThat(this->NumberOfParticles >= 1 || seeds || sampler.UsesGrid(), "NumberOfParticles",
@@ -131,8 +124,7 @@ void vtkTransportSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
-  os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
-  os << indent << "RandomSeed: " << this->RandomSeed << "\n";
+  this->GetSeedSettings().Print(os, indent);
   os << indent << "SamplesPerCell: " << this->SamplesPerCell << "\n";
   os << indent << "FlowTime: " << this->FlowTime << "\n";
   os << indent << "OutputPaths: " << (this->OutputPaths ? "On" : "Off") << "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Area-Preserving Parameterization.
+// Area-Preserving Parameterization and Sample Surface.
 #include "DrawnInputs.h"
 #include "Kinds.h"
 #include "OutputChecks.h"
@@ -8,6 +8,7 @@
 #include "vtkCellData.h"
 #include "vtkIdList.h"
 #include "vtkPointData.h"
+#include "vtkSurfaceSampler.h"
 #include "vtkTriangle.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -20,18 +21,8 @@ namespace Campaign
 namespace
 {
 
-using Parameterization = vtkAreaPreservingParameterization;
-
-void drawParameterization(Settings& settings)
-{
-  settings.Draw<Parameterization, int>("Resolution", &Parameterization::SetResolution,
-    { 1, 2, 3, 8, 33, 64 }, { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
-  settings.Draw<Parameterization, bool>(
-    "Polish", &Parameterization::SetPolish, { true, false, false }, {}, 0.4);
-  drawThreading<Parameterization>(settings);
-}
-
 // Of the surface at hand; a wrong number is wrong for any.
+template <class T>
 void drawCorners(
   RandomSource& random, std::vector<vtkIdType> boundary, Settings& settings, Input& input)
 {
@@ -71,14 +62,26 @@ void drawCorners(
   settings.Add(
     "Corners", text,
     [corners](vtkAlgorithm* filter) {
-      auto* parameterization = static_cast<Parameterization*>(filter);
-      parameterization->SetNumberOfCorners(static_cast<int>(corners.size()));
+      auto* owner = static_cast<T*>(filter);
+      owner->SetNumberOfCorners(static_cast<int>(corners.size()));
       for (std::size_t i = 0; i < corners.size(); ++i)
       {
-        parameterization->SetCorner(static_cast<int>(i), corners[i]);
+        owner->SetCorner(static_cast<int>(i), corners[i]);
       }
     },
     inRange);
+}
+
+//------------------------------------------------------------------------------
+using Parameterization = vtkAreaPreservingParameterization;
+
+void drawParameterization(Settings& settings)
+{
+  settings.Draw<Parameterization, int>("Resolution", &Parameterization::SetResolution,
+    { 1, 2, 3, 8, 33, 64 }, { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
+  settings.Draw<Parameterization, bool>(
+    "Polish", &Parameterization::SetPolish, { true, false, false }, {}, 0.4);
+  drawThreading<Parameterization>(settings);
 }
 
 Inputs drawParameterizationInputs(RandomSource& random, Settings& settings)
@@ -86,11 +89,11 @@ Inputs drawParameterizationInputs(RandomSource& random, Settings& settings)
   Inputs inputs(1);
   std::vector<vtkIdType> boundary;
   inputs[0] = { drawDisk(random, boundary) };
-  drawCorners(random, boundary, settings, inputs[0][0]);
+  drawCorners<Parameterization>(random, boundary, settings, inputs[0][0]);
   return inputs;
 }
 
-State expectParameterization(vtkAlgorithm*, const Inputs& inputs)
+State expectDisk(vtkAlgorithm*, const Inputs& inputs)
 {
   return inputs[0][0].Condition;
 }
@@ -187,12 +190,141 @@ void checkParameterization(vtkAlgorithm* filter, const Inputs& inputs, Findings&
   }
 }
 
+//------------------------------------------------------------------------------
+using Sampler = vtkSurfaceSampler;
+
+void drawSampler(Settings& settings)
+{
+  settings.Draw<Sampler, vtkIdType>("NumberOfParticles", &Sampler::SetNumberOfParticles,
+    { 1, 2, 10, 333, 1000 }, { 0, -1, 1000000000000, std::numeric_limits<vtkIdType>::max() }, 1.0);
+  settings.Draw<Sampler, int>("Resolution", &Sampler::SetResolution, { 1, 2, 3, 8, 33, 64 },
+    { 0, -1, 16385, std::numeric_limits<int>::max() }, 1.0);
+  settings.Draw<Sampler, int>(
+    "SeedPattern", &Sampler::SetSeedPattern, { 0, 1, 2, 3, 4 }, { -1, 5 });
+  settings.Draw<Sampler, int>("RandomSeed", &Sampler::SetRandomSeed,
+    { 0, 1, -1, 77, std::numeric_limits<int>::max(), std::numeric_limits<int>::min() }, {}, 0.3);
+  drawFlowSettings<Sampler>(settings);
+}
+
+// A density, none, or one that is not there.
+void drawSurfaceDensity(RandomSource& random, Settings& settings, Input& input)
+{
+  auto* surface = vtkPolyData::SafeDownCast(input.Data);
+  const bool onPoints = random.Chance(0.5);
+  const vtkIdType count = onPoints ? surface->GetNumberOfPoints() : surface->GetNumberOfCells();
+  if (random.Chance(0.6) && count > 0)
+  {
+    std::string text;
+    const auto array = drawArray(random, count, 1, text);
+    array->SetName("Density");
+    if (onPoints)
+    {
+      surface->GetPointData()->AddArray(array);
+    }
+    else
+    {
+      surface->GetCellData()->AddArray(array);
+    }
+    input.Describe("Density " + text);
+  }
+  const std::string name = random.Of({ "", "None", "Density", "Density", "Density", "Own" });
+  const int association = random.Of({ onPoints ? 0 : 1, onPoints ? 0 : 1, 0, 1, 3 });
+  settings.Add(
+    "Array", name + " " + std::to_string(association), [name, association](vtkAlgorithm* filter) {
+      filter->SetInputArrayToProcess(0, 0, 0, association, name.c_str());
+    });
+  if (!name.empty() && name != "None")
+  {
+    input.Worsen(State::Odd);
+  }
+}
+
+Inputs drawSamplerInputs(RandomSource& random, Settings& settings)
+{
+  Inputs inputs(1);
+  std::vector<vtkIdType> boundary;
+  inputs[0] = { drawDisk(random, boundary) };
+  drawCorners<Sampler>(random, boundary, settings, inputs[0][0]);
+  drawSurfaceDensity(random, settings, inputs[0][0]);
+  return inputs;
+}
+
+void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* sampler = Sampler::SafeDownCast(filter);
+  auto* input = vtkPolyData::SafeDownCast(inputs[0][0].Data);
+  vtkPolyData* output = sampler->GetOutput();
+  const vtkIdType count = output->GetNumberOfPoints();
+  findings.That(
+    sampler->GetSeedPattern() == Sampler::LATTICE || count == sampler->GetNumberOfParticles(),
+    "NumberOfParticles");
+  requireFinitePoints(output, findings);
+  requireVertices(output, findings);
+  vtkPointData* data = output->GetPointData();
+  vtkDataArray* masses = requireArray(data, "Mass", 1, count, findings);
+  findings.Near(sumOf(masses), requireField(output, "TotalMass", findings), 1e-9, "sum of Mass");
+  vtkDataArray* normals = requireArray(data, "Normal", 3, count, findings);
+  vtkDataArray* ids = requireArray(data, "SeedId", 1, count, findings);
+  vtkDataArray* cells = requireArray(data, "CellId", 1, count, findings);
+  if (!masses || !normals || !ids || !cells)
+  {
+    return;
+  }
+  const vtkIdType first = input->GetNumberOfVerts() + input->GetNumberOfLines();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double* n = normals->GetTuple3(i);
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const auto cell = static_cast<vtkIdType>(cells->GetComponent(i, 0));
+    const bool isThere = cell >= first && cell < input->GetNumberOfCells();
+    findings.That(ids->GetComponent(i, 0) == static_cast<double>(i), "SeedId");
+    findings.That(std::abs(length - 1.0) < 1e-12, "Normal of length " + textOf(length));
+    findings.That(isThere, "CellId " + std::to_string(cell));
+    if (!isThere)
+    {
+      return;
+    }
+    input->GetCellPoints(cell, corners);
+    double x[3];
+    output->GetPoint(i, x);
+    for (int a = 0; a < 3; ++a)
+    {
+      double low = Infinity;
+      double high = -Infinity;
+      for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
+      {
+        double corner[3];
+        input->GetPoint(corners->GetId(k), corner);
+        low = std::min(low, corner[a]);
+        high = std::max(high, corner[a]);
+      }
+      const double slack = 1e-12 * std::max(std::abs(low), std::abs(high));
+      findings.That(x[a] >= low - slack && x[a] <= high + slack, "a particle in its cell");
+    }
+  }
+  const auto requireSampled = [&](vtkFieldData* from, bool ofPoints) {
+    for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+    {
+      const char* name = from->GetArrayName(i);
+      vtkDataArray* sampled = data->GetArray(name);
+      const bool isId = ofPoints && from->GetArray(i)->IsA("vtkIdTypeArray");
+      findings.That(
+        isId || (sampled && sampled->GetNumberOfTuples() == count), std::string("array ") + name);
+    }
+  };
+  requireSampled(input->GetPointData(), true);
+  requireSampled(input->GetCellData(), false);
+}
+
 } // namespace
 
 void addSurfaceKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back({ "Parameterization", make<Parameterization>, drawParameterization,
-    drawParameterizationInputs, expectParameterization, checkParameterization });
+    drawParameterizationInputs, expectDisk, checkParameterization });
+  kinds.push_back(
+    { "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk, checkSampler });
 }
 
 } // namespace Campaign

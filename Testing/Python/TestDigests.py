@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bits that the filters compute: digests of the outputs of 103 runs, which take every filter,
+"""The bits that the filters compute: digests of the outputs of 112 runs, which take every filter,
 dimension and family of options.
 
 usage: python3 TestDigests.py [--record | --against FILE]
@@ -312,11 +312,31 @@ def parameterization_runs():
         Resolution=64, Corners=[7, 121, 3100, 1952])
 
 
+def surface_runs():
+    sampler = rt.vtkSurfaceSampler
+    surface = sheet()
+    heights = numpy_to_vtk(values((surface.GetNumberOfPoints(),), 0).astype(np.float32), deep=1)
+    heights.SetName("Heights")
+    surface.GetPointData().AddArray(heights)
+    numbers = numpy_to_vtk(values((surface.GetNumberOfCells(),), 3), deep=1)
+    numbers.SetName("Numbers")
+    surface.GetCellData().AddArray(numbers)
+    for pattern, name in enumerate(PATTERNS):
+        yield f"surface {name}", sampler, [surface], dict(
+            SeedPattern=pattern, NumberOfParticles=2000, RandomSeed=7, Resolution=200)
+    yield "surface with a density", sampler, [surface], dict(
+        NumberOfParticles=2000, Resolution=64, array=(0, 0, 0, 0, "Heights"))
+    yield "surface with a density of cells", sampler, [surface], dict(
+        NumberOfParticles=2000, Resolution=64, Integrator=1, array=(0, 0, 0, 1, "Numbers"))
+    yield "surface of quads", sampler, [sheet(quads=True)], dict(Resolution=64)
+    yield "surface of corners", sampler, [sheet(60, 50)], dict(Corners=[7, 121, 3100, 1952])
+
+
 def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
     for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
-                 parameterization_runs):
+                 parameterization_runs, surface_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name
             outputs = run(filter_class, *inputs, **properties)

@@ -148,6 +148,29 @@ class Errors(unittest.TestCase):
         made.Resolution = 16
         self.assertEqual(output_of(made).GetNumberOfPoints(), 4)
 
+    def test_surface(self):
+        plane = simple.Calculator(Input=simple.Plane(XResolution=4), ResultArrayName="Height",
+                                  Function="coordsX")
+        sampled = simple.SampleSurface(Input=simple.Sphere(), Resolution=16, NumberOfParticles=9)
+        for settings, message in (
+                ({}, "The input surface is closed: it has no boundary"),
+                ({"Input": plane, "DensityArray": ["POINTS", "Height"]},
+                 "The density array 'Height' has 4 negative values, the first at index 0 (-0.5)"),
+                ({"DensityArray": ["POINTS", "Normals"]},
+                 "The density array 'Normals' has 3 components; it must have 1"),
+                ({"DensityArray": ["CELLS", "Gone"]},
+                 "The input surface has no density array 'Gone'; it has "),
+                ({"DensityArray": ["POINTS", "None"], "NumberOfParticles": 0},
+                 "NumberOfParticles is 0; it must be at least 1")):
+            with self.subTest(message=message):
+                for name, value in settings.items():
+                    setattr(sampled, name, value)
+                reported = Listener(sampled.GetClientSideObject())
+                self.assertEqual(output_of(sampled).GetNumberOfPoints(), 0)
+                self.assertIn(message, reported.errors[0])
+        sampled.NumberOfParticles = 9
+        self.assertEqual(output_of(sampled).GetNumberOfPoints(), 9)
+
     def test_splat(self):
         splat = simple.SplatMass(Input=simple.Plane(), Radius=0)
         reported = Listener(splat.GetClientSideObject())

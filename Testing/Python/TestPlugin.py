@@ -156,13 +156,34 @@ class Plugin(unittest.TestCase):
             places = [square.GetTuple2(point) for point in corners]
             self.assertEqual(places, [(0, 0), (1, 0), (1, 1), (0, 1)][:len(corners)])
 
+    def test_surface_is_sampled(self):
+        """None is the density at first; scalars of points and cells are listed."""
+        plane = simple.Plane(XResolution=4, YResolution=3)
+        lifted = simple.Calculator(Input=plane, ResultArrayName="Height", Function="1+coordsX")
+        sampled = simple.SampleSurface(Input=lifted, Resolution=16)
+        self.assertEqual(list(sampled.DensityArray), ["POINTS", "None"])
+        self.assertAlmostEqual(
+            output_of(sampled).GetFieldData().GetArray("TotalMass").GetTuple1(0), 1)
+        sampled.DensityArray = ["POINTS", "Height"]
+        particles = output_of(sampled)
+        self.assertEqual(particles.GetNumberOfPoints(), 8192)
+        self.assertAlmostEqual(particles.GetFieldData().GetArray("TotalMass").GetTuple1(0), 1)
+        for i in (0, 100, 8191):
+            self.assertAlmostEqual(particles.GetPointData().GetArray("Height").GetTuple1(i),
+                                   1 + particles.GetPoint(i)[0])
+        self.assertEqual(list(sampled.Corners), [])
+        again = simple.TransportQuality(
+            Input=sampled, Density=simple.SplatMass(Input=sampled, Dimensions=[8, 8, 1]))
+        self.assertEqual(output_of(again).GetNumberOfRows(), 1)
+
     def test_parameterizations_are_of_surfaces(self):
         image = producer(simple, density_image())
-        made = simple.AreaPreservingParameterization(Input=simple.Plane())
-        accepted = made.SMProxy.GetProperty("Input")
-        self.assertTrue(accepted.IsInDomains())
-        accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
-        self.assertFalse(accepted.IsInDomains())
+        for make in (simple.AreaPreservingParameterization, simple.SampleSurface):
+            made = make(Input=simple.Plane())
+            accepted = made.SMProxy.GetProperty("Input")
+            self.assertTrue(accepted.IsInDomains())
+            accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
+            self.assertFalse(accepted.IsInDomains())
 
     def test_solids_are_of_surfaces(self):
         image = producer(simple, density_image())

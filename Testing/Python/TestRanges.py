@@ -12,7 +12,7 @@ from rt_testing import Listener, connect_inputs, density_image, main, points_in,
 # A text on bounds or on a choice of several numbers states no range of one number.
 WITHOUT = {"Bounds"}
 # What takes 10 GB at its highest is not tried there.
-LARGE = {("Area-Preserving Parameterization", "Resolution")}
+LARGE = {("Area-Preserving Parameterization", "Resolution"), ("Sample Surface", "Resolution")}
 
 
 class Range(NamedTuple):

@@ -26,9 +26,10 @@ class Ranks(unittest.TestCase):
             for kind in ("whole", "gathered"):
                 expected["%s %s" % (filter_, kind)] = "some"
             expected["%s shared" % filter_] = "none error"
-        expected["parameterization shared"] = "none error"
+        for name in ("parameterization shared", "surface shared"):
+            expected[name] = "none error"
         expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid",
-                                                   "parameterization")})
+                                                   "parameterization", "surface")})
         self.assertEqual(gave, expected, run.stdout + run.stderr[-3000:])
         self.assertNotIn("for ten seconds", run.stdout + run.stderr)
         self.assertEqual(run.returncode, 0)

@@ -11,7 +11,7 @@ simple = load_plugin()
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
          "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
-         "MassSplatter", "AreaPreservingParameterization")
+         "MassSplatter", "AreaPreservingParameterization", "SurfaceSampler")
 
 
 def pipeline():
@@ -40,6 +40,11 @@ def pipeline():
     simple.AreaPreservingParameterization(
         registrationName="Parameterization", Input=simple.Plane(XResolution=6, YResolution=5),
         Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial")
+    sheet = simple.Calculator(Input=simple.Plane(XResolution=6, YResolution=5),
+                              ResultArrayName="Height", Function="2+coordsX")
+    simple.SampleSurface(registrationName="OnSurface", Input=sheet, NumberOfParticles=321,
+                         DensityArray=["POINTS", "Height"], SeedPattern="Jittered", RandomSeed=7,
+                         Corners=[2, 13, 39, 21], Resolution=24, NumberOfSteps=9)
     parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
              for first in (100, 200, 300)]
     simple.MorphDensities(registrationName="Morph", Input=parts[0], Target=parts[1], Parameter=0.25,
@@ -97,6 +102,11 @@ class State(unittest.TestCase):
         made = simple.FindSource("Parameterization")
         self.assertEqual((list(made.Corners), made.Resolution, made.Polish, made.Threading),
                          ([2, 13, 39, 21], 24, 0, "Serial"))
+        sampled = simple.FindSource("OnSurface")
+        self.assertEqual((sampled.NumberOfParticles, list(sampled.DensityArray), sampled.SeedPattern,
+                          sampled.RandomSeed, list(sampled.Corners), sampled.Resolution,
+                          sampled.NumberOfSteps),
+                         (321, ["POINTS", "Height"], "Jittered", 7, [2, 13, 39, 21], 24, 9))
         morph = simple.FindSource("Morph")
         self.assertEqual((morph.Parameter, morph.MassMode, morph.Kernel, morph.Radius),
                          (0.25, "Geometric", "Gaussian", 2))
@@ -128,7 +138,7 @@ class State(unittest.TestCase):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
                      "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
                      "DensityBarycenter(",
-                     "SplatMass(", "AreaPreservingParameterization("):
+                     "SplatMass(", "AreaPreservingParameterization(", "SampleSurface("):
             self.assertIn(call, script)
 
 

@@ -19,6 +19,7 @@ PUBLIC = {
     "Splat Mass": ("vtkMassSplatter", ["Input", "Reference"], []),
     "Solid Density": ("vtkSolidDensity", ["Input"], []),
     "Area-Preserving Parameterization": ("vtkAreaPreservingParameterization", ["Input"], []),
+    "Sample Surface": ("vtkSurfaceSampler", ["Input"], []),
     "Uniform Seeds": ("vtkUniformSeedSource", [], []),
     "Density-Equalizing Warp": ("vtkDensityEqualizingWarp", ["Input", "Density"], []),
     "Transport Quality": ("vtkTransportQuality", ["Input", "Density"], []),
@@ -54,6 +55,7 @@ SECOND_OUTPUT = [("View", {"type": "None", "port": "1"}),
                  ("RepresentationType", {**POINTS, "port": "1"})]
 SHOWN = {  # how an output is shown at first, where it is not as ParaView shows all
     "Sample Density": [("RepresentationType", POINTS)],
+    "Sample Surface": [("RepresentationType", POINTS)],
     "Uniform Seeds": [("RepresentationType", POINTS)],
     "Morph Densities": SECOND_OUTPUT,
     "Density Barycenter": SECOND_OUTPUT,

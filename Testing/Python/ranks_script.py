@@ -18,6 +18,10 @@ def shared_points():
     return simple.RedistributeDataSet(Input=simple.Sphere(ThetaResolution=20))
 
 
+def shared_surface():
+    return simple.ExtractSurface(Input=shared_points())
+
+
 def gathered_points():
     return simple.RedistributeDataSet(Input=simple.Sphere(ThetaResolution=20),
                                       NumberOfPartitions=1)
@@ -56,5 +60,7 @@ run("map", simple.TransportMap(Input=image(), **SHORT))
 run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(), **SHORT))
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
 run("parameterization", simple.AreaPreservingParameterization(Input=simple.Plane(), Resolution=12))
+run("surface", simple.SampleSurface(Input=simple.Plane(), Resolution=12))
+run("surface shared", simple.SampleSurface(Input=shared_surface(), Resolution=12))
 run("parameterization shared", simple.AreaPreservingParameterization(
-    Input=simple.ExtractSurface(Input=shared_points()), Resolution=12))
+    Input=shared_surface(), Resolution=12))

@@ -5,6 +5,7 @@
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SplatTest.h"
+#include "SurfaceSamplerTest.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
@@ -140,6 +141,25 @@ void checkDisk(Checks& checks)
   CHECK(checks, messages.IsOneError("has the point 16; there are points 0 to 15"));
 }
 
+void checkSampledSurface(Checks& checks)
+{
+  auto hill = makeHill();
+  auto density = makeArray("Density", hill->GetNumberOfPoints(), bumpy);
+  hill->GetPointData()->AddArray(density);
+  vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetInputData(hill);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  sampler->SetNumberOfParticles(100);
+  sampler->SetResolution(50);
+  const Values before = coordinates(runSampler(sampler));
+  density->SetValue(5, 1e5);
+  hill->Modified();
+  const Values after = coordinates(runSampler(sampler));
+  CHECK(checks, largestDifference(before, after) > 0.1);
+  writePoint(hill, 60, { 11.0, 2.0, 30.0 });
+  CHECK(checks, largestDifference(after, coordinates(runSampler(sampler))) > 0.1);
+}
+
 } // namespace
 
 int TestWrittenInPlace(int, char*[])
@@ -152,5 +172,6 @@ int TestWrittenInPlace(int, char*[])
   checkSplat(checks);
   checkSurface(checks);
   checkDisk(checks);
+  checkSampledSurface(checks);
   return checks.Result();
 }

@@ -5,6 +5,7 @@
 #include "CellsTest.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
+#include "SurfaceSamplerTest.h"
 
 #include "vtkInformation.h"
 #include "vtkMassSplatter.h"
@@ -266,6 +267,13 @@ void checkSources(Checks& checks)
     });
     checks.That(expectFinite(checks, makeParameterization(surface), scale, __LINE__), "a disk",
       __LINE__, std::to_string(exponent));
+    vtkNew<vtkSurfaceSampler> sampler;
+    sampler->SetInputData(surface);
+    sampler->SetNumberOfParticles(20);
+    sampler->SetResolution(20);
+    // Areas are numbers up to here.
+    const bool isSampled = expectFinite(checks, sampler, scale, __LINE__);
+    checks.That(isSampled == (exponent <= 154), "sampled", __LINE__, std::to_string(exponent));
     vtkNew<vtkUniformSeedSource> seeds;
     seeds->SetBounds(-scale, scale, 0, scale, 0, scale);
     seeds->SetNumberOfPoints(20);

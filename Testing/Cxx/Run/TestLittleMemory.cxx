@@ -4,6 +4,7 @@
 #include "CellsTest.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
+#include "SurfaceSamplerTest.h"
 
 #include <vector>
 
@@ -77,6 +78,20 @@ void checkParameterization(Checks& checks)
   auto filter = makeParameterization(surface);
   checkSweep(checks, filter, __LINE__);
 }
+
+void checkSurfaceSampler(Checks& checks)
+{
+  auto surface = makeHill(false);
+  surface->GetCellData()->AddArray(makeNumbers("Number", surface->GetNumberOfCells()));
+  surface->GetPointData()->AddArray(makeNumbers("Density", surface->GetNumberOfPoints()));
+  vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetInputData(surface);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  sampler->SetNumberOfParticles(50000);
+  sampler->SetResolution(200);
+  sampler->SetNumberOfSteps(4);
+  checkSweep(checks, sampler, __LINE__);
+}
 #endif
 
 } // namespace
@@ -88,6 +103,7 @@ int TestLittleMemory(int, char*[])
   checkCells(checks);
   checkSolid(checks);
   checkParameterization(checks);
+  checkSurfaceSampler(checks);
 #endif
   return checks.Result();
 }

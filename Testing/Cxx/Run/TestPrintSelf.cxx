@@ -8,6 +8,7 @@
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
 #include "vtkSolidDensity.h"
+#include "vtkSurfaceSampler.h"
 #include "vtkTransportBarycenter.h"
 #include "vtkTransportInterpolator.h"
 #include "vtkTransportMap.h"
@@ -144,6 +145,26 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, parameterization,
     { "Corners: -1 12345678901", "Resolution: 77", "Polish: Off", "Threading: VTK" });
 
+  vtkNew<vtkSurfaceSampler> surface;
+  expectLines(checks, surface,
+    { "NumberOfParticles: 8192", "Resolution: 1024", "SeedPattern: BlueNoise", "RandomSeed: 1",
+      "Corners: automatic", "Integrator: Multistep", "NumberOfSteps: 32", "Tolerance: 0.01",
+      "TableLookup: Interpolated", "Threading: Auto" });
+  surface->SetNumberOfParticles(12345678901);
+  surface->SetResolution(77);
+  surface->SetSeedPatternToJittered();
+  surface->SetRandomSeed(-4);
+  surface->SetCorner(0, 12345678901);
+  surface->SetIntegratorToEuler();
+  surface->SetNumberOfSteps(7);
+  surface->SetTolerance(0.5);
+  surface->SetTableLookupToNearest();
+  surface->SetThreadingToSerial();
+  expectLines(checks, surface,
+    { "NumberOfParticles: 12345678901", "Resolution: 77", "SeedPattern: Jittered", "RandomSeed: -4",
+      "Corners: 12345678901", "Integrator: Euler", "NumberOfSteps: 7", "Tolerance: 0.5",
+      "TableLookup: Nearest", "Threading: Serial" });
+
   vtkNew<vtkTransportInterpolator> morph;
   expectLines(checks, morph,
     { "Dimensions: 0 0 0", "ParticlesPerCell: 1", "MassMode: Linear", "Kernel: CloudInCell",
@@ -184,6 +205,8 @@ int TestPrintSelf(int, char*[])
   {
     source->SetPattern(i);
     CHECK(checks, source->GetPatternAsString() == std::string(patterns[i]));
+    surface->SetSeedPattern(i);
+    CHECK(checks, surface->GetSeedPatternAsString() == std::string(patterns[i]));
     sampler->SetSeedPattern(i);
     CHECK(checks, sampler->GetSeedPatternAsString() == std::string(patterns[i]));
   }

@@ -6,6 +6,7 @@
 #include "ParameterizationTest.h"
 #include "ProgressTest.h"
 #include "SolidTest.h"
+#include "SurfaceSamplerTest.h"
 
 #include "vtkMassSplatter.h"
 #include "vtkTransportMap.h"
@@ -129,6 +130,14 @@ void checkSources(Checks& checks)
   expectRising(checks, solid, "two", __LINE__);
   expectRising(checks, makeParameterization(makeHills(9, 9)), "triangles", __LINE__);
   expectRising(checks, makeParameterization(makeFlatSheet(9, 9, false)), "quads", __LINE__);
+  vtkNew<vtkSurfaceSampler> surface;
+  surface->SetNumberOfParticles(100);
+  surface->SetResolution(50);
+  for (const bool triangles : { false, true })
+  {
+    surface->SetInputData(makeHill(triangles));
+    expectRising(checks, surface, "particles on a surface", __LINE__);
+  }
 }
 
 // Loops of several slices.

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/SurfaceSampling/SurfaceMasses.h"
+
+#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/ArrayList.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/DiskSurface.h"
+#include "Core/Parallel/Reduction.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+std::string titleOf(vtkDataArray* array)
+{
+  const char* name = array->GetName();
+  return std::string("The density array '") + (name ? name : "") + "'";
+}
+
+// What is wrong with values, in the order of their indices.
+struct DensityRange
+{
+  double Largest = 0.0;
+  std::int64_t NotFinite = 0;
+  std::int64_t Negative = 0;
+  std::int64_t First = -1; // that is not finite, else that is negative
+};
+
+DensityRange joinRanges(DensityRange all, const DensityRange& next)
+{
+  const bool isFirst = all.NotFinite > 0 ? false : next.NotFinite > 0 ? true : all.Negative == 0;
+  all.First = isFirst ? next.First : all.First;
+  all.Largest = std::max(all.Largest, next.Largest);
+  all.NotFinite += next.NotFinite;
+  all.Negative += next.Negative;
+  return all;
+}
+
+// Of the values of points or cells from `begin` on that are no ghosts.
+DensityRange rangeOf(const double* values, const unsigned char* ghosts, std::int64_t begin,
+  std::int64_t end, Progress& progress)
+{
+  return reduceChunks(
+    progress, end - begin, Grain, DensityRange{},
+    [=](std::int64_t first, std::int64_t last) {
+      DensityRange range;
+      for (std::int64_t i = begin + first; i < begin + last; ++i)
+      {
+        const double value = values[i];
+        DensityRange one;
+        one.NotFinite = std::isfinite(value) ? 0 : 1;
+        one.Negative = value < 0.0 ? 1 : 0;
+        one.First = one.NotFinite + one.Negative > 0 ? i : -1;
+        one.Largest = value > 0.0 ? value : 0.0;
+        range = ghosts && (ghosts[i] & ghostCell) ? range : joinRanges(range, one);
+      }
+      return range;
+    },
+    joinRanges);
+}
+
+void requireDensity(const DensityRange& range, vtkDataArray* array)
+{
+  if (range.NotFinite + range.Negative == 0)
+  {
+    return;
+  }
+  std::ostringstream message;
+  message << titleOf(array) << " has ";
+  if (range.NotFinite > 0)
+  {
+    message << range.NotFinite << (range.NotFinite == 1 ? " value that is" : " values that are")
+            << " NaN or infinite";
+  }
+  else
+  {
+    message << range.Negative << (range.Negative == 1 ? " negative value" : " negative values");
+  }
+  message << ", the first at index " << range.First << " ("
+          << array->GetComponent(static_cast<vtkIdType>(range.First), 0) << "); "
+          << (range.NotFinite > 0 ? "every value must be finite"
+                                  : "a density must not be negative");
+  throw Failure(message.str());
+}
+
+} // namespace
+
+SurfaceDensity::SurfaceDensity(
+  vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name)
+  : Values(vtkDataArray::SafeDownCast(found))
+  , OnPoints(onPoints)
+{
+  if (!this->Values)
+  {
+    throw Failure((found ? "The density array '" + name + "' is not numeric"
+                         : "The input surface has no density array '" + name + "'") +
+      "; it has " + listArrays(surface->GetPointData(), "point") + " and " +
+      listArrays(surface->GetCellData(), "cell"));
+  }
+  const int components = this->Values->GetNumberOfComponents();
+  if (components != 1)
+  {
+    throw Failure(
+      titleOf(this->Values) + " has " + std::to_string(components) + " components; it must have 1");
+  }
+  const vtkIdType expected = onPoints ? surface->GetNumberOfPoints() : surface->GetNumberOfCells();
+  if (this->Values->GetNumberOfTuples() != expected)
+  {
+    throw Failure(titleOf(this->Values) + " has " +
+      std::to_string(this->Values->GetNumberOfTuples()) + " values, but there are " +
+      std::to_string(expected) + (onPoints ? " points" : " cells") +
+      "; there must be one for each");
+  }
+}
+
+SurfaceMasses::SurfaceMasses(
+  vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density, Progress& progress)
+{
+  const DiskMesh& disk = surface.Disk();
+  const std::int64_t triangles = disk.NumberOfTriangles();
+  const unsigned char* ghosts = ghostFlags(input, vtkDataObject::CELL, "input surface");
+  withMemory("the masses of " + std::to_string(triangles) + " triangles",
+    static_cast<double>(triangles) * sizeof(double),
+    [&]() { this->Masses = LargeBuffer<double>(triangles); });
+  vtkDataArray* array = density.Array();
+  std::optional<DoubleTuples> tuples;
+  double largest = 1.0;
+  if (array)
+  {
+    tuples.emplace(array, progress);
+    const DensityRange range = density.IsOnPoints()
+      ? rangeOf(tuples->data(), nullptr, 0, input->GetNumberOfPoints(), progress)
+      : rangeOf(tuples->data(), ghosts, surface.CellOf(0), input->GetNumberOfCells(), progress);
+    requireDensity(range, array);
+    largest = range.Largest > 0.0 ? range.Largest : 1.0;
+  }
+  const double* values = tuples ? tuples->data() : nullptr;
+  // Relative to the largest density, so that no mass is past the largest double.
+  const auto densityOf = [&](std::int64_t triangle) {
+    const vtkIdType cell = surface.InputCellOf(triangle);
+    if (ghosts && (ghosts[cell] & ghostCell))
+    {
+      return 0.0;
+    }
+    if (!values || !density.IsOnPoints())
+    {
+      return values ? values[cell] / largest : 1.0;
+    }
+    const std::int64_t* corners = disk.Triangle(triangle);
+    return (values[corners[0]] / largest + values[corners[1]] / largest +
+             values[corners[2]] / largest) /
+      3.0;
+  };
+  double* masses = this->Masses.data();
+  const double shares = reduceChunks(
+    progress, triangles, Grain, 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t triangle = first; triangle < last; ++triangle)
+      {
+        masses[triangle] = disk.AreaShare(triangle) * densityOf(triangle);
+        sum += masses[triangle];
+      }
+      return sum;
+    },
+    std::plus<>());
+  const std::string title =
+    array ? titleOf(array) + " has a total mass" : std::string("The input surface has an area");
+  if (!(shares > 0.0))
+  {
+    throw Failure(title + " of zero" +
+      (ghosts ? " (duplicate and blanked ghosts carry none)" : "") +
+      (array ? "; at least one value must be positive" : ""));
+  }
+  this->Sum = shares * disk.Area() * disk.Unit() * largest * disk.Unit();
+  if (!std::isfinite(this->Sum))
+  {
+    throw Failure(title + " past the largest double; " +
+      (array ? "its values must be smaller" : "the coordinates must be smaller"));
+  }
+}
+
+} // namespace RectifiedTransport

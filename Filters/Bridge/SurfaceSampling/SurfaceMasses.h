@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The masses of the triangles of a surface: area, times a density.
+#ifndef RectifiedTransport_SurfaceMasses_h
+#define RectifiedTransport_SurfaceMasses_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
+class vtkDataArray;
+class vtkPolyData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class DiskSurface;
+
+// A density per area of the points or cells of a surface.
+class SurfaceDensity
+{
+public:
+  SurfaceDensity() = default; // 1 everywhere
+  // Throws Failure for an array that is missing (`found` is nullptr), not numeric, of several
+  // components or of another length; `name` is that of the request.
+  SurfaceDensity(
+    vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name);
+
+  // nullptr for 1.
+  vtkDataArray* Array() const { return this->Values; }
+  bool IsOnPoints() const { return this->OnPoints; }
+
+private:
+  vtkDataArray* Values = nullptr;
+  bool OnPoints = true;
+};
+
+class SurfaceMasses
+{
+public:
+  // Of a triangle the mass is its area times the mean of the density at its points, which is exact
+  // for linear interpolation, or times that of its cell; ghost cells have none. As the work of the
+  // current stage. Throws Failure for densities that are negative or not finite and for masses of
+  // no sum, and Cancelled.
+  SurfaceMasses(vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density,
+    Progress& progress);
+
+  // By triangles, up to a factor.
+  const double* Values() const { return this->Masses.data(); }
+  // In units of the density and of the input.
+  double Total() const { return this->Sum; }
+
+private:
+  LargeBuffer<double> Masses;
+  double Sum = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

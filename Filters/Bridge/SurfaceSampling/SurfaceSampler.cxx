@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/SurfaceSampling/SurfaceSampler.h"
+
+#include "Bridge/Density/CostModel.h"
+#include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Surface/DiskSurface.h"
+#include "Bridge/SurfaceSampling/SampledArrays.h"
+#include "Bridge/SurfaceSampling/SurfaceMasses.h"
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/SurfaceSampling/SurfaceSamples.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+// Nanoseconds, as measured on one thread.
+double costOfMap(double points)
+{
+  return 40.0 * std::pow(points, 1.5);
+}
+
+Eigen::Vector3d normalOf(const DiskMesh& disk, std::int64_t triangle)
+{
+  const std::int64_t* corners = disk.Triangle(triangle);
+  const ConstPointSpan<3> points = disk.Surface().Points;
+  const auto corner = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(points[corners[i]]); };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
+}
+
+// The points with vertices, SeedId, Mass, CellId and Normal.
+void writeParticles(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places,
+  double totalMass, Progress& progress, vtkPolyData* output)
+{
+  const std::int64_t count = places.size();
+  auto points = newArray<vtkDoubleArray>("Points", 3, count);
+  auto ids = newArray<vtkIdTypeArray>("SeedId", 1, count);
+  auto masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  auto cells = newArray<vtkIdTypeArray>("CellId", 1, count);
+  auto normals = newArray<vtkDoubleArray>("Normal", 3, count);
+  vtkIdType* id = ids->GetPointer(0);
+  double* mass = masses->GetPointer(0);
+  vtkIdType* cell = cells->GetPointer(0);
+  double* point = points->GetPointer(0);
+  double* normal = normals->GetPointer(0);
+  const double share = totalMass / static_cast<double>(count);
+  const DiskMesh& disk = surface.Disk();
+  progress.For(count, Grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const PlaceOnTriangle& place = places.data()[i];
+      Eigen::Vector3d x = Eigen::Vector3d::Zero();
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        Eigen::Vector3d at;
+        surface.Triangulated()->GetPoint(
+          static_cast<vtkIdType>(disk.Triangle(place.Triangle)[corner]), at.data());
+        x += place.Weights[static_cast<std::size_t>(corner)] * at;
+      }
+      Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
+      Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(disk, place.Triangle);
+      id[i] = i;
+      mass[i] = share;
+      cell[i] = surface.InputCellOf(place.Triangle);
+    }
+  });
+  vtkNew<vtkPoints> made;
+  made->SetDataTypeToDouble();
+  made->SetData(points);
+  output->SetPoints(made);
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(ids);
+  data->AddArray(masses);
+  data->AddArray(cells);
+  data->SetNormals(normals);
+}
+
+} // namespace
+
+void SurfaceSampler::Check() const
+{
+  requireThat(
+    this->NumberOfParticles >= 1, "NumberOfParticles", this->NumberOfParticles, "at least 1");
+  requireThat(
+    this->Resolution >= 1 && this->Resolution <= SurfaceSamplingOptions::MaximumResolution,
+    "Resolution", this->Resolution, "from 1 to 16384");
+  this->Corners.Check();
+}
+
+std::int64_t SurfaceSampler::Run(
+  vtkPolyData* input, const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
+{
+  SurfaceSamplingOptions options;
+  options.NumberOfSamples = this->NumberOfParticles;
+  options.Resolution = this->Resolution;
+  options.Pattern = this->Pattern;
+  options.RandomSeed = static_cast<std::uint64_t>(this->RandomSeed);
+  options.Flow = this->Flow;
+  const auto size = static_cast<double>(input->GetNumberOfPoints());
+  const auto asked = static_cast<double>(this->NumberOfParticles);
+  const double cells = static_cast<double>(this->Resolution) * this->Resolution;
+  const auto arrays = static_cast<double>(
+    input->GetPointData()->GetNumberOfArrays() + input->GetCellData()->GetNumberOfArrays());
+  const auto ends = stageEnds({ 1500.0 * size, costOfMap(size), 50.0 * size,
+    30.0 * cells + 1500.0 * size + (1000.0 + Cost::flow(this->Flow, 2)) * asked,
+    Cost::Write * asked, Cost::Write * asked, 2.0 * Cost::Write * asked * (1.0 + arrays) });
+  const std::string particles =
+    std::to_string(this->NumberOfParticles) + " particles (see NumberOfParticles)";
+  constexpr double bytesOfParticle =
+    9 * sizeof(double) + 4 * sizeof(vtkIdType) + sizeof(PlaceOnTriangle);
+  requireMemory(particles, asked * bytesOfParticle);
+
+  const DiskSurface surface(input, progress, ends[0]);
+  const DiskMesh& disk = surface.Disk();
+  progress.BeginStage(ends[1]);
+  const ConformalMap map =
+    withMemory("the conformal map of " + std::to_string(disk.NumberOfPoints()) + " points",
+      1200.0 * static_cast<double>(disk.NumberOfPoints()),
+      [&]() { return mapConformally(disk, this->Corners.Of(disk), progress.Stage()); });
+  progress.BeginStage(ends[2]);
+  const SurfaceMasses masses(input, surface, density, progress);
+
+  const GridSize<2> grid = flatGrid(map.AspectRatio, this->Resolution);
+  const double tables = numberOfCells<2>(grid) * sizeof(double) + RectifiedFlow<2>::MemoryFor(grid);
+  const std::string flow = "the flow on " + std::to_string(grid[0]) + " x " +
+    std::to_string(grid[1]) + " cells (see Resolution)";
+  requireMemory(flow, tables);
+  progress.BeginStage(ends[3]);
+  const SurfaceSamples samples = withMemory(flow + " and " + particles,
+    tables + asked * bytesOfParticle + 80.0 * static_cast<double>(disk.NumberOfTriangles()),
+    [&]() { return sampleSurface(disk, map, masses.Values(), options, progress.Stage()); });
+
+  progress.BeginStage(ends[4]);
+  writeParticles(surface, samples.Places, masses.Total(), progress, output);
+  progress.BeginStage(ends[5]);
+  output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
+  sampleArrays(surface, samples.Places, progress, ends[6], output->GetPointData());
+  addFieldValue(output, "TotalMass", masses.Total());
+  return samples.Flow.MovedToMass;
+}
+
+} // namespace RectifiedTransport

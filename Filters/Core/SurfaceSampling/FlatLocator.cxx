@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceSampling/FlatLocator.h"
+
+#include "Core/SurfaceSampling/Turn.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t leafTriangles = 4;
+
+// Triangles between two polls for cancellation.
+constexpr std::int64_t mostAtOnce = std::int64_t{ 1 } << 15;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The barycentric coordinates of a place from values in proportion to them.
+PlaceOnTriangle placeOf(std::int64_t triangle, double a, double b, double c)
+{
+  const double sum = a + b + c;
+  return { triangle, { a / sum, b / sum, c / sum } };
+}
+
+} // namespace
+
+struct FlatLocator::Nearest
+{
+  double Squared = infinity;
+  PlaceOnTriangle Place{ -1, {} };
+};
+
+FlatLocator::FlatLocator(const FlatMesh& mesh, const Context& context)
+  : Mesh(mesh)
+  , Items(mesh.NumberOfTriangles)
+{
+  Progress progress(context);
+  // Every level of the tree reads each triangle twice.
+  std::int64_t passes = 1;
+  for (std::int64_t rest = mesh.NumberOfTriangles; rest > leafTriangles; rest /= 2)
+  {
+    passes += 2;
+  }
+  progress.BeginStage(1.0, passes * mesh.NumberOfTriangles);
+  this->ReadTriangles(progress);
+  if (this->NumberOfItems == 0)
+  {
+    throw std::invalid_argument("the plane mesh has no triangle with mass");
+  }
+  this->Build(progress);
+}
+
+void FlatLocator::ReadTriangles(Progress& progress)
+{
+  const FlatMesh& mesh = this->Mesh;
+  for (std::int64_t first = 0; first < mesh.NumberOfTriangles; first += mostAtOnce)
+  {
+    const std::int64_t last = std::min(first + mostAtOnce, mesh.NumberOfTriangles);
+    for (std::int64_t t = first; t < last; ++t)
+    {
+      const double* a = this->Corner(t, 0);
+      const double* b = this->Corner(t, 1);
+      const double* c = this->Corner(t, 2);
+      if (!mesh.Masses || mesh.Masses[t] > 0.0)
+      {
+        Item& item = this->Items.data()[this->NumberOfItems++];
+        for (int r = 0; r < 2; ++r)
+        {
+          const auto range = std::minmax({ a[r], b[r], c[r] });
+          item.Centre[r] = 0.5 * (range.first + range.second);
+        }
+        item.Triangle = t;
+      }
+    }
+    progress.Add(last - first);
+  }
+}
+
+void FlatLocator::Build(Progress& progress)
+{
+  struct Task
+  {
+    std::int64_t First;
+    std::int64_t Last;
+    std::int64_t Parent; // of a second child, else -1
+  };
+  std::vector<Task> tasks{ { 0, this->NumberOfItems, -1 } };
+  while (!tasks.empty())
+  {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const auto box = static_cast<std::int64_t>(this->Boxes.size());
+    if (task.Parent >= 0)
+    {
+      this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
+    }
+    Box made{ { infinity, infinity }, { -infinity, -infinity }, task.First, task.Last, -1 };
+    this->Bound(made, progress);
+    this->Boxes.push_back(made);
+    const std::int64_t middle = this->Divide(made, progress);
+    if (middle > task.First)
+    {
+      tasks.push_back({ middle, task.Last, box });
+      tasks.push_back({ task.First, middle, -1 });
+    }
+  }
+}
+
+void FlatLocator::Bound(Box& box, Progress& progress) const
+{
+  for (std::int64_t first = box.First; first < box.Last; first += mostAtOnce)
+  {
+    const std::int64_t last = std::min(first + mostAtOnce, box.Last);
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const double* x = this->Corner(this->Items.data()[i].Triangle, corner);
+        for (int r = 0; r < 2; ++r)
+        {
+          box.Low[r] = std::min(box.Low[r], x[r]);
+          box.High[r] = std::max(box.High[r], x[r]);
+        }
+      }
+    }
+    progress.Add(last - first);
+  }
+}
+
+// Partitions the triangles of a box by their centres, about the median of a sample. Returns where
+// the second part begins, the first triangle of the box if it is a leaf.
+std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
+{
+  Item* items = this->Items.data();
+  const std::int64_t count = box.Last - box.First;
+  if (count <= leafTriangles)
+  {
+    return box.First;
+  }
+  std::array<double, 63> sample;
+  const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
+  const auto median = sample.begin() + taken / 2;
+  const int longer = (box.High[1] - box.Low[1]) * this->Mesh.Lengths[1] >
+      (box.High[0] - box.Low[0]) * this->Mesh.Lengths[0]
+    ? 1
+    : 0;
+  for (const int axis : { longer, 1 - longer })
+  {
+    for (std::int64_t i = 0; i < taken; ++i)
+    {
+      sample[static_cast<std::size_t>(i)] = items[box.First + i * count / taken].Centre[axis];
+    }
+    std::nth_element(sample.begin(), median, sample.begin() + taken);
+    const double pivot = *median;
+    // Centres equal to the pivot are in the upper part, or, if that were all, in the lower one.
+    for (const bool withEqual : { false, true })
+    {
+      std::int64_t middle = box.First;
+      std::int64_t last = box.Last;
+      const auto isBelow = [=](const Item& item) {
+        return withEqual ? item.Centre[axis] <= pivot : item.Centre[axis] < pivot;
+      };
+      while (middle < last)
+      {
+        const std::int64_t open = last - middle;
+        while (middle < last && open - (last - middle) < mostAtOnce)
+        {
+          if (isBelow(items[middle]))
+          {
+            ++middle;
+          }
+          else if (!isBelow(items[last - 1]))
+          {
+            --last;
+          }
+          else
+          {
+            std::swap(items[middle++], items[--last]);
+          }
+        }
+        progress.Add(open - (last - middle));
+      }
+      if (middle > box.First && middle < box.Last)
+      {
+        return middle;
+      }
+    }
+  }
+  return box.First; // all centres are one point
+}
+
+// Whether the triangle turns left and contains a point.
+bool FlatLocator::Contains(std::int64_t triangle, const double* point) const
+{
+  const double* a = this->Corner(triangle, 0);
+  const double* b = this->Corner(triangle, 1);
+  const double* c = this->Corner(triangle, 2);
+  const double first = turnOf(a, b, point);
+  if (first < 0.0)
+  {
+    return false;
+  }
+  const double next = turnOf(b, c, point);
+  if (next < 0.0)
+  {
+    return false;
+  }
+  const double last = turnOf(c, a, point);
+  // All 0: the triangle has no area.
+  return last >= 0.0 && (first > 0.0 || next > 0.0 || last > 0.0);
+}
+
+// The least of `best` and of the triangles of a box that contain a point.
+std::int64_t FlatLocator::FirstContaining(
+  const double* point, std::int64_t box, std::int64_t best) const
+{
+  const Box& at = this->Boxes[static_cast<std::size_t>(box)];
+  if (point[0] < at.Low[0] || point[0] > at.High[0] || point[1] < at.Low[1] ||
+    point[1] > at.High[1])
+  {
+    return best;
+  }
+  if (at.Second >= 0)
+  {
+    best = this->FirstContaining(point, box + 1, best);
+    return this->FirstContaining(point, at.Second, best);
+  }
+  for (std::int64_t i = at.First; i < at.Last; ++i)
+  {
+    const std::int64_t triangle = this->Items.data()[i].Triangle;
+    best = triangle < best && this->Contains(triangle, point) ? triangle : best;
+  }
+  return best;
+}
+
+// The squared distance of a point from a box.
+double FlatLocator::Gap(const double* point, std::int64_t box) const
+{
+  const Box& at = this->Boxes[static_cast<std::size_t>(box)];
+  double squared = 0.0;
+  for (int r = 0; r < 2; ++r)
+  {
+    const double gap = std::max({ at.Low[r] - point[r], point[r] - at.High[r], 0.0 }) *
+      this->Mesh.Lengths[static_cast<std::size_t>(r)];
+    squared += gap * gap;
+  }
+  return squared;
+}
+
+double FlatLocator::SquaredDistance(const PlaceOnTriangle& place, const double* point) const
+{
+  double squared = 0.0;
+  for (int r = 0; r < 2; ++r)
+  {
+    double x = 0.0;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      x +=
+        place.Weights[static_cast<std::size_t>(corner)] * this->Corner(place.Triangle, corner)[r];
+    }
+    const double gap = (x - point[r]) * this->Mesh.Lengths[static_cast<std::size_t>(r)];
+    squared += gap * gap;
+  }
+  return squared;
+}
+
+// The nearest place of the triangle's three sides.
+PlaceOnTriangle FlatLocator::NearestPlace(std::int64_t triangle, const double* point) const
+{
+  const Point<2>& lengths = this->Mesh.Lengths;
+  Nearest best;
+  for (std::size_t side = 0; side < 3; ++side)
+  {
+    const std::size_t next = (side + 1) % 3;
+    const double* a = this->Corner(triangle, static_cast<int>(side));
+    const double* b = this->Corner(triangle, static_cast<int>(next));
+    double along = 0.0;
+    double length = 0.0;
+    for (int r = 0; r < 2; ++r)
+    {
+      const double scale = lengths[static_cast<std::size_t>(r)];
+      along += (b[r] - a[r]) * scale * ((point[r] - a[r]) * scale);
+      length += (b[r] - a[r]) * scale * ((b[r] - a[r]) * scale);
+    }
+    const double share = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+    PlaceOnTriangle place{ triangle, {} };
+    place.Weights[side] = 1.0 - share;
+    place.Weights[next] = share;
+    const double squared = this->SquaredDistance(place, point);
+    best = squared < best.Squared ? Nearest{ squared, place } : best;
+  }
+  return best.Place;
+}
+
+void FlatLocator::FindNearest(const double* point, std::int64_t box, Nearest& best) const
+{
+  const Box& at = this->Boxes[static_cast<std::size_t>(box)];
+  if (at.Second < 0)
+  {
+    for (std::int64_t i = at.First; i < at.Last; ++i)
+    {
+      const std::int64_t triangle = this->Items.data()[i].Triangle;
+      const PlaceOnTriangle place = this->NearestPlace(triangle, point);
+      const double squared = this->SquaredDistance(place, point);
+      if (squared < best.Squared ||
+        (squared == best.Squared && triangle < best.Place.Triangle)) // the first of several
+      {
+        best = { squared, place };
+      }
+    }
+    return;
+  }
+  const std::int64_t children[2] = { box + 1, at.Second };
+  const double gaps[2] = { this->Gap(point, children[0]), this->Gap(point, children[1]) };
+  const int nearer = gaps[1] < gaps[0] ? 1 : 0;
+  for (const int child : { nearer, 1 - nearer })
+  {
+    if (gaps[child] <= best.Squared)
+    {
+      this->FindNearest(point, children[child], best);
+    }
+  }
+}
+
+PlaceOnTriangle FlatLocator::Locate(const Point<2>& point) const
+{
+  constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  const double* x = point.data();
+  const std::int64_t triangle = this->FirstContaining(x, 0, none);
+  if (triangle != none)
+  {
+    const double* a = this->Corner(triangle, 0);
+    const double* b = this->Corner(triangle, 1);
+    const double* c = this->Corner(triangle, 2);
+    return placeOf(triangle, turnOf(b, c, x), turnOf(c, a, x), turnOf(a, b, x));
+  }
+  Nearest best;
+  this->FindNearest(x, 0, best);
+  return best.Place;
+}
+
+} // namespace RectifiedTransport

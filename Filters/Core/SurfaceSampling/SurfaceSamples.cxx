@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceSampling/SurfaceSamples.h"
+
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/MassRaster.h"
+#include "Core/Tables/Density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 10;
+
+// The sides of the rectangle of a map, the longer one 1.
+Point<2> lengthsOf(double aspectRatio)
+{
+  return { std::min(1.0, aspectRatio), std::min(1.0, 1.0 / aspectRatio) };
+}
+
+RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress& progress)
+{
+  LargeBuffer<double> masses(size[0] * size[1]);
+  progress.BeginStage(0.1);
+  rasterizeMass({ flat.Positions, flat.Triangles, flat.Masses, flat.NumberOfTriangles }, size,
+    masses.data(), progress.Stage());
+  progress.BeginStage(0.25);
+  return RectifiedFlow<2>(DensityArray<2, double>(masses.data(), size), progress.Stage());
+}
+
+} // namespace
+
+GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution)
+{
+  GridSize<2> size;
+  const Point<2> lengths = lengthsOf(aspectRatio);
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const double cells = lengths[axis] * static_cast<double>(resolution);
+    size[axis] = std::max<std::int64_t>(1, std::llround(cells));
+  }
+  return size;
+}
+
+UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options)
+{
+  return UnitSeeds<2>(
+    options.Pattern, lengthsOf(aspectRatio), options.NumberOfSamples, options.RandomSeed);
+}
+
+SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, const double* masses,
+  const SurfaceSamplingOptions& options, const Context& context)
+{
+  if (options.Resolution < 1 || options.Resolution > SurfaceSamplingOptions::MaximumResolution)
+  {
+    throw std::invalid_argument("the resolution is " + std::to_string(options.Resolution) +
+      "; it must be from 1 to " + std::to_string(SurfaceSamplingOptions::MaximumResolution));
+  }
+  if (options.NumberOfSamples < 0)
+  {
+    throw std::invalid_argument("the number of samples is " +
+      std::to_string(options.NumberOfSamples) + "; it must be at least 0");
+  }
+  Progress progress(context);
+  const TriangleSurface surface = disk.Surface();
+  const FlatMesh flat{ map.Square.Positions, surface.Triangles, surface.NumberOfTriangles, masses,
+    lengthsOf(map.AspectRatio) };
+  const GridSize<2> size = flatGrid(map.AspectRatio, options.Resolution);
+  const UnitSeeds<2> seeds = flatSeeds(map.AspectRatio, options);
+  const auto count = static_cast<std::int64_t>(seeds.Count());
+  SurfaceSamples samples{ LargeBuffer<PlaceOnTriangle>(count), {} };
+  LargeBuffer<double> coordinates(2 * count);
+  const PointSpan<2> points(coordinates.data(), count);
+  {
+    const RectifiedFlow<2> flow = flowOf(flat, size, progress);
+    progress.BeginStage(0.3);
+    seeds.Generate(points, progress.Stage());
+    for (std::int64_t i = 0; i < 2 * count; ++i)
+    {
+      coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
+    }
+    progress.BeginStage(0.6);
+    samples.Flow = flow.Forward(points, points, options.Flow, progress.Stage());
+  }
+  progress.BeginStage(0.8);
+  const FlatLocator locator(flat, progress.Stage());
+  progress.BeginStage(1.0);
+  PlaceOnTriangle* places = samples.Places.data();
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      places[i] = locator.Locate({ points[i][0] / static_cast<double>(size[0]),
+        points[i][1] / static_cast<double>(size[1]) });
+    }
+  });
+  return samples;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a disk that follow masses of its triangles (paper, Sections 5.1 and 5.4).
+//
+//   DiskMesh disk(surface);
+//   ConformalMap map = mapConformally(disk, chooseCorners(disk));
+//   SurfaceSamples samples = sampleSurface(disk, map, disk.AreaShares());
+#ifndef RectifiedTransport_SurfaceSamples_h
+#define RectifiedTransport_SurfaceSamples_h
+
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/GridSize.h"
+#include "Core/Mesh/DiskMesh.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parameterization/ConformalMap.h"
+#include "Core/Seeds/UnitSeeds.h"
+#include "Core/SurfaceSampling/FlatLocator.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+struct SurfaceSamplingOptions
+{
+  static constexpr std::int64_t MaximumResolution = 16384;
+
+  std::int64_t NumberOfSamples = 8192; // Lattice: the nearest number of a grid
+  std::int64_t Resolution = 1024;      // cells along the longer side of the rectangle, 1 to 16384
+  SeedPattern Pattern = SeedPattern::BlueNoise;
+  std::uint64_t RandomSeed = 1;
+  FlowOptions Flow;
+};
+
+struct SurfaceSamples
+{
+  LargeBuffer<PlaceOnTriangle> Places; // in the order of the seeds
+  FlowReport Flow;
+};
+
+// The grid of the rectangle of a map: `resolution` cells along its longer side, as near to squares
+// as whole numbers allow.
+GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution);
+
+// The seeds in the rectangle of a map.
+UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options);
+
+// Moves uniform points of the rectangle that a disk is mapped to conformally, which keeps their
+// pattern, by the flow of the triangles' masses, and puts them on the triangles. A place is never
+// on a triangle without mass: points that land there, in a cell of the grid that other triangles
+// give mass to, go to the nearest place that has.
+//
+// Cost: O(Resolution^2 + triangles log triangles + samples (log triangles + steps)). Memory: 45
+// bytes a cell, 80 a triangle and 48 a sample. The samples have the same bits on any number of
+// threads. Throws InvalidDensity, std::invalid_argument (options), std::bad_alloc and Cancelled.
+SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, const double* masses,
+  const SurfaceSamplingOptions& options = {}, const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfaceSampler.h"
+
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/SeedSettings.h"
+#include "Bridge/SurfaceSampling/SurfaceMasses.h"
+#include "Bridge/SurfaceSampling/SurfaceSampler.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkSurfaceSampler);
+vtkImplementSeedPropertiesMacro(vtkSurfaceSampler);
+vtkImplementCornersPropertiesMacro(vtkSurfaceSampler);
+vtkImplementFlowPropertiesMacro(vtkSurfaceSampler);
+
+using namespace RectifiedTransport;
+
+//------------------------------------------------------------------------------
+vtkSurfaceSampler::vtkSurfaceSampler()
+  : NumberOfParticles(8192)
+  , Resolution(1024)
+{
+  this->Corners = std::make_unique<CornerSettings>();
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+  this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
+}
+
+//------------------------------------------------------------------------------
+vtkSurfaceSampler::~vtkSurfaceSampler() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkSurfaceSampler::GetOutput()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSampler::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSampler::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+SurfaceDensity vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
+{
+  vtkInformation* choice = this->GetInputArrayInformation(0);
+  int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS &&
+    association != vtkDataObject::FIELD_ASSOCIATION_CELLS &&
+    association != vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
+  {
+    throw Failure("The field association of the density array is " + std::to_string(association) +
+      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
+  }
+  const char* given = choice->Get(vtkDataObject::FIELD_NAME());
+  const std::string name = given ? given : "";
+  if (name.empty() && (given || !choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())))
+  {
+    return {};
+  }
+  vtkAbstractArray* found = this->GetInputAbstractArrayToProcess(0, surface, association);
+  if (!found && name == "None")
+  {
+    return {};
+  }
+  return { surface, found, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, name };
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSampler::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const SurfaceSampler sampler{ this->GetFlowSettings().Options(), *this->Corners,
+    this->NumberOfParticles, this->Resolution, this->GetSeedSettings().Pattern(),
+    this->RandomSeed };
+  sampler.Check();
+  AlgorithmProgress progress(this, this->Threading);
+
+  // All particles are in piece 0, whatever pieces are requested.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  {
+    return 1;
+  }
+  auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
+    "a vtkPolyData, as Extract Surface makes one of it");
+  if (!input || input->GetNumberOfPoints() == 0)
+  {
+    return 1;
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  const std::int64_t moved = sampler.Run(input, this->FindDensity(input), progress, output);
+  if (moved > 0)
+  {
+    vtkWarningMacro(<< moved << " of " << output->GetNumberOfPoints()
+                    << " particles in empty cells moved to the nearest cell with mass (more "
+                       "NumberOfSteps may spare them that)");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSampler::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  this->GetSeedSettings().Print(os, indent);
+  this->Corners->Print(os, indent);
+  this->GetFlowSettings().Print(os, indent);
+}
+VTK_ABI_NAMESPACE_END

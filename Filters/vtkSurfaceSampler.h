@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSurfaceSampler
+ * @brief   sample a surface with particles
+ *
+ * Places particles on a surface that is a disk so that each region holds as many as its share of
+ * the area, or of the mass of a density per area. Seeds of an even pattern fill the rectangle that
+ * the surface is mapped to conformally, which keeps angles and so the pattern; they are moved along
+ * the rectified flow of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
+ * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147, to the density of the
+ * surface in the rectangle, and from there put on its triangles.
+ *
+ * Input: a vtkPolyData whose polygons and triangle strips are a disk: one component with one
+ * boundary, without holes and handles. Others are errors that say which: clip a closed surface
+ * open. Polygons are cut into triangles; points are not merged, so that a cut along which points
+ * are there twice stays a cut; lines and vertices do not count. No points give an empty output.
+ *
+ * The density is array 0 of SetInputArrayToProcess, a point or cell array of one component and any
+ * numeric type; none (the default) is 1. The mass of a triangle is its area times the mean of the
+ * values at its points (of linear interpolation the exact mass), or times the value of its cell.
+ * Negative, NaN and infinite values, and a total mass of zero or past the largest double, are
+ * errors. Ghost cells (duplicate, hidden or refined) have no mass.
+ *
+ * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
+ * - point data `SeedId` (the particle's number), `Mass` (an equal share of the total mass each),
+ *   `CellId` (the cell of the input that it is on), `Normal` (that of its triangle, of length 1,
+ *   active normals; on the side from which most of the area is seen to turn left), and the input's
+ *   point arrays, interpolated linearly in its triangle (integers are rounded, text is that of the
+ *   nearest point), and cell arrays; not those of the names above, no ghost arrays, and no ids of
+ *   points (vtkIdTypeArray), which VTK does not interpolate;
+ * - field data `TotalMass` (density times area, summed), beside the input's own.
+ *
+ * A cell of the grid in the rectangle spreads its mass evenly: where it is in triangles with and
+ * without mass, particles that would be on the latter are moved to the nearest place that has mass.
+ * Up to 2 % of the particles were, for bands of density 0 and 1 across a head; more Resolution
+ * makes them fewer. Where the map turns triangles over, which is rare, their particles are on those
+ * above them.
+ *
+ * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *
+ * steps) for the rest. Memory: up to 1200 bytes a point, 45 a cell of the grid, and 140 a particle
+ * and the arrays that are passed.
+ *
+ * The output is in one piece: where several are requested, piece 0 holds all particles.
+ *
+ * @warning A surface is flat nowhere but in part: the flow stretches the pattern where the
+ * conformal map is very uneven, as at the tip of a long nose.
+ *
+ * \code{.cpp}
+ * vtkNew<vtkSurfaceSampler> sampler;
+ * sampler->SetInputConnection(reader->GetOutputPort());
+ * sampler->SetNumberOfParticles(20000);
+ * sampler->Update();
+ * vtkPolyData* particles = sampler->GetOutput();
+ * \endcode
+ *
+ * @sa vtkTransportSampler vtkAreaPreservingParameterization
+ */
+#ifndef vtkSurfaceSampler_h
+#define vtkSurfaceSampler_h
+
+#include "vtkGuardedAlgorithm.h"
+#include "vtkTransportProperties.h" // for the seeds, the corners and the integration of the flow
+
+namespace RectifiedTransport
+{
+class SurfaceDensity;
+} // namespace RectifiedTransport
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPolyData;
+
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkSurfaceSampler : public vtkGuardedAlgorithm
+{
+public:
+  static vtkSurfaceSampler* New();
+  vtkTypeMacro(vtkSurfaceSampler, vtkGuardedAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The number of particles, at least 1. Default 8192. The output has exactly as many, except where
+   * SeedPattern is Lattice.
+   */
+  vtkSetMacro(NumberOfParticles, vtkIdType);
+  vtkGetMacro(NumberOfParticles, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * The number of cells along the longer side of the rectangle that the surface is mapped to, 1 to
+   * 16384; along the other one as many as make them nearest to squares. Default 1024.
+   */
+  vtkSetMacro(Resolution, int);
+  vtkGetMacro(Resolution, int);
+  ///@}
+
+  vtkSeedPropertiesMacro();
+  vtkCornersPropertiesMacro();
+  // Tolerance is in cells of the rectangle's grid.
+  vtkFlowPropertiesMacro();
+
+public:
+  /**
+   * The particles.
+   */
+  vtkPolyData* GetOutput();
+
+protected:
+  vtkSurfaceSampler();
+  ~vtkSurfaceSampler() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  vtkIdType NumberOfParticles;
+  int Resolution;
+
+private:
+  RectifiedTransport::SurfaceDensity FindDensity(vtkPolyData* surface);
+
+  vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
+  void operator=(const vtkSurfaceSampler&) = delete;
+};
+VTK_ABI_NAMESPACE_END
+
+#endif
