@@ -263,36 +263,61 @@ Vector<Dimension> velocity(const Tables<Dimension>& tables, const Vector<Dimensi
   return v;
 }
 
+template <std::size_t Dimension>
+Vector<Dimension> moved(const Vector<Dimension>& x, const Vector<Dimension>& v, double by)
+{
+  Vector<Dimension> y;
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+  {
+    y[axis] = x[axis] + by * v[axis];
+  }
+  return y;
+}
+
+// A step of RK4 of the length `dt`, which is negative backward.
+template <std::size_t Dimension>
+void step(const Tables<Dimension>& tables, Vector<Dimension>& x, double t0, double t1, double t2,
+  double dt, FinalVelocity finalVelocity)
+{
+  const Vector<Dimension> v1 = velocity(tables, x, t0, finalVelocity);
+  const Vector<Dimension> v2 = velocity(tables, moved(x, v1, 0.5 * dt), t1, finalVelocity);
+  const Vector<Dimension> v3 = velocity(tables, moved(x, v2, 0.5 * dt), t1, finalVelocity);
+  const Vector<Dimension> v4 = velocity(tables, moved(x, v3, dt), t2, finalVelocity);
+  for (std::size_t axis = 0; axis < Dimension; ++axis)
+  {
+    x[axis] += (v1[axis] + 2.0 * (v2[axis] + v3[axis]) + v4[axis]) * (dt / 6.0);
+  }
+}
+
 // Algorithm 2 without its tables: moves each point from t = 0 to t = 1 in `steps` steps of RK4.
 template <std::size_t Dimension>
 void advect(const Tables<Dimension>& tables, std::vector<Vector<Dimension>>& points, int steps,
   FinalVelocity finalVelocity)
 {
   const double dt = 1.0 / steps;
-  const auto moved = [](const Vector<Dimension>& x, const Vector<Dimension>& v, double by) {
-    Vector<Dimension> y;
-    for (std::size_t axis = 0; axis < Dimension; ++axis)
-    {
-      y[axis] = x[axis] + by * v[axis];
-    }
-    return y;
-  };
   for (Vector<Dimension>& x : points)
   {
-    for (int step = 0; step < steps; ++step)
+    for (int i = 0; i < steps; ++i)
     {
-      const double t0 = static_cast<double>(step) / steps;
-      const double t1 = (step + 0.5) / steps;
-      const double t2 = static_cast<double>(step + 1) / steps;
-      const Vector<Dimension> v1 = velocity(tables, x, t0, finalVelocity);
-      const Vector<Dimension> v2 = velocity(tables, moved(x, v1, 0.5 * dt), t1, finalVelocity);
-      const Vector<Dimension> v3 = velocity(tables, moved(x, v2, 0.5 * dt), t1, finalVelocity);
-      const Vector<Dimension> v4 = velocity(tables, moved(x, v3, dt), t2, finalVelocity);
-      for (std::size_t axis = 0; axis < Dimension; ++axis)
-      {
-        x[axis] += (v1[axis] + 2.0 * (v2[axis] + v3[axis]) + v4[axis]) * (dt / 6.0);
-      }
+      const double t0 = static_cast<double>(i) / steps;
+      const double t1 = (i + 0.5) / steps;
+      const double t2 = static_cast<double>(i + 1) / steps;
+      step(tables, x, t0, t1, t2, dt, finalVelocity);
     }
+  }
+}
+
+// The same from t = 1 to t = 0 (Section 5.4), with the limit at t = 1: with zero nothing moves in
+// the first stage.
+template <std::size_t Dimension>
+void retrace(const Tables<Dimension>& tables, Vector<Dimension>& x, int steps)
+{
+  for (int i = steps; i > 0; --i)
+  {
+    const double t0 = static_cast<double>(i) / steps;
+    const double t1 = (i - 0.5) / steps;
+    const double t2 = static_cast<double>(i - 1) / steps;
+    step(tables, x, t0, t1, t2, -1.0 / steps, FinalVelocity::Limit);
   }
 }
 

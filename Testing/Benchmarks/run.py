@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
-usage: python3 run.py [--repetitions N] [--quality] [--morphs] PROGRAM
+usage: python3 run.py [--repetitions N] [--quality | --morphs | --parameterization] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -203,6 +203,23 @@ def morphs(r):
                  "CloudInCell / reading and writing"], rows)
 
 
+def parameterization(r):
+    rows = []
+    for size in (1 << 14, 1 << 16, 1 << 18, 1 << 20):
+        name = f"Parameterization/%s/{size}"
+        paper, flow, polish = (name % kind for kind in ("flow/paper", "flow/core", "polish/core"))
+        triangles = r.median(polish, "triangles")
+        rows.append([f"{triangles:,.0f}", milliseconds(r.median(name % "conformal")),
+                     *(milliseconds(r.median(kind)) for kind in (paper, flow, polish)),
+                     f"{r.ratio(paper, flow):.1f}×",
+                     f"{1e3 * r.median(polish) / triangles:.1f} µs",
+                     *(f"{r.median(kind, 'rms'):.3f} / {r.median(kind, 'flipped'):.0f}"
+                       for kind in (name % "conformal", paper, flow, polish))])
+    print_table(["triangles", "conformal map", "flow: paper", "core", "and polish", "flow: ratio",
+                 "flow and polish, a triangle", "rms / flipped: conformal", "flow: paper",
+                 "core", "and polish"], rows)
+
+
 def run(arguments, names):
     """What the program reports of the benchmarks whose names match."""
     with tempfile.TemporaryDirectory() as folder:
@@ -225,14 +242,17 @@ def main():
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--quality", action="store_true", help="only how good the particles are")
     parser.add_argument("--morphs", action="store_true", help="only morphs, barycenters and splats")
+    parser.add_argument("--parameterization", action="store_true", help="only maps of disks")
     arguments = parser.parse_args()
 
+    if arguments.parameterization:
+        return parameterization(Results(run(arguments, "Parameterization")))
     if arguments.quality:
         return quality(Results(run(arguments, "Quality")))
     if arguments.morphs:
         return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh"))
+    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh|Parameterization"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")

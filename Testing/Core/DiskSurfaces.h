@@ -5,6 +5,7 @@
 
 #include "Core/Mesh/DiskMesh.h"
 #include "Core/Parameterization/ConformalMap.h"
+#include "Core/Parameterization/LocalMap.h"
 #include "TestMesh.h"
 
 #include <algorithm>
@@ -20,8 +21,6 @@
 
 namespace RectifiedTransport
 {
-
-const double pi = std::acos(-1.0);
 
 // Quads in columns and rows, cut along their diagonals; `place(u, v)` for u and v from 0 to 1.
 // Points are numbered along columns first; triangles turn left where u x v is up.
@@ -283,6 +282,24 @@ inline ConformalMap mapped(const DiskMesh& disk, const std::vector<std::int64_t>
 {
   return mapConformally(disk, corners.empty() ? chooseCorners(disk) : orderCorners(disk, corners));
 }
+
+// The unit square's own map, which may not be copied: parts refer to the rest.
+struct SquareGrid
+{
+  explicit SquareGrid(std::int64_t cells)
+    : Disk(makeRectangle(cells, cells).Surface())
+    , Square(mapped(Disk, sheetCorners(cells, cells)).Square)
+    , Parts(Disk, Square)
+  {
+  }
+
+  SquareGrid(const SquareGrid&) = delete;
+  SquareGrid& operator=(const SquareGrid&) = delete;
+
+  DiskMesh Disk;
+  SquareMap Square;
+  MapParts Parts;
+};
 
 } // namespace RectifiedTransport
 

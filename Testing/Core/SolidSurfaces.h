@@ -61,7 +61,6 @@ Mesh makeTorus(std::int64_t around, std::int64_t across, const Place& place)
 inline Mesh makeSphere(const Point<3>& centre, double radius, std::int64_t rings)
 {
   const std::int64_t around = 2 * rings;
-  const double pi = std::acos(-1.0);
   Mesh mesh;
   const auto at = [&](double polar, double angle) {
     mesh.Points.push_back({ centre[0] + radius * std::sin(polar) * std::cos(angle),

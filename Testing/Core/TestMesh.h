@@ -6,12 +6,15 @@
 #include "Core/Mesh/TriangleSurface.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace RectifiedTransport
 {
+
+const double pi = std::acos(-1.0);
 
 struct Mesh
 {

@@ -21,41 +21,6 @@ namespace
 {
 
 constexpr std::int64_t maximumResolution = 1 << 14;
-constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-
-// A side of the square and the masses of the cells along it. The flow's limit there moves points
-// along the side, by the transport of these masses to the uniform one: that is the mass before
-// them.
-class SideMasses
-{
-public:
-  SideMasses(const double* masses, std::int64_t count, std::int64_t stride)
-    : Before(static_cast<std::size_t>(count) + 1, 0.0)
-  {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      this->Before[static_cast<std::size_t>(i) + 1] =
-        this->Before[static_cast<std::size_t>(i)] + masses[i * stride];
-    }
-  }
-
-  double ShareBefore(double x) const
-  {
-    const double total = this->Before.back();
-    if (!(total > 0.0))
-    {
-      return x;
-    }
-    const auto count = static_cast<double>(this->Before.size() - 1);
-    const double cell = std::min(std::floor(x * count), count - 1.0);
-    const double low = this->Before[static_cast<std::size_t>(cell)];
-    const double high = this->Before[static_cast<std::size_t>(cell) + 1];
-    return std::clamp((low + (high - low) * (x * count - cell)) / total, 0.0, 1.0);
-  }
-
-private:
-  std::vector<double> Before; // the sums of the masses below each cell, and of all
-};
 
 class AreaFlow
 {
@@ -77,16 +42,19 @@ public:
     rasterizeMass({ positions, this->Disk.Triangle(0), this->Disk.AreaShares(),
                     this->Disk.NumberOfTriangles() },
       size, this->Masses.data(), progress.Stage());
-    const std::vector<Point<2>> onSides = this->MovedAlongSides(positions);
-
     progress.BeginStage(0.4);
     const DensityArray<2, double> density(this->Masses.data(), size);
     const RectifiedFlow<2> flow(density, progress.Stage());
     progress.BeginStage(0.95);
     const auto cells = static_cast<double>(this->Resolution);
-    for (Point<2>& position : positions)
+    for (std::size_t i = 0; i < positions.size(); ++i)
     {
-      position = { position[0] * cells, position[1] * cells };
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        const double position = positions[i][axis];
+        positions[i][axis] =
+          cells * (this->IsOnSide(i, axis) ? std::clamp(position, inside, 1.0 - inside) : position);
+      }
     }
     // Conformal maps squeeze areas by factors of up to 10^5, where 32 steps are not enough: with
     // 256 no longer the integrator but the triangles' straight edges limit what the flow reaches.
@@ -96,38 +64,24 @@ public:
     progress.BeginStage(1.0);
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
-      positions[i] = this->Square.OnSides[i] != 0
-        ? onSides[i]
-        : Point<2>{ positions[i][0] / cells, positions[i][1] / cells };
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        positions[i][axis] =
+          this->IsOnSide(i, axis) ? this->Square.Positions[i][axis] : positions[i][axis] / cells;
+      }
     }
     progress.EndSlice(1);
   }
 
 private:
-  std::vector<Point<2>> MovedAlongSides(std::vector<Point<2>> positions) const
+  // Points on the sides move along them as points this far inside do. The flow moves a point of the
+  // distance e to a side by about sqrt(2 e) away from it, hence those on a side quite differently
+  // from any neighbour, and triangles there would shear.
+  static constexpr double inside = 1.0 / 512.0;
+
+  bool IsOnSide(std::size_t point, std::size_t axis) const
   {
-    const std::int64_t n = this->Resolution;
-    const double* masses = this->Masses.data();
-    const SideMasses lower(masses, n, 1);
-    const SideMasses upper(masses + (n - 1) * n, n, 1);
-    const SideMasses left(masses, n, n);
-    const SideMasses right(masses + n - 1, n, n);
-    for (std::size_t i = 0; i < positions.size(); ++i)
-    {
-      Point<2>& position = positions[i];
-      switch (this->Square.OnSides[i])
-      {
-        case 1:
-          position[1] = (position[0] == 0.0 ? left : right).ShareBefore(position[1]);
-          break;
-        case 2:
-          position[0] = (position[1] == 0.0 ? lower : upper).ShareBefore(position[0]);
-          break;
-        default:
-          break;
-      }
-    }
-    return positions;
+    return (this->Square.OnSides[point] >> axis & 1) != 0;
   }
 
   const DiskMesh& Disk;

@@ -179,6 +179,7 @@ TEST(MapDistortion, ThreadsAndCancel)
   }
   RecordingContext whole(serial);
   measureDistortion(disk, positions, whole.Context());
+  whole.ExpectReported(0.0, 1.0);
   for (int maximum = 0; maximum < whole.Queries; ++maximum)
   {
     RecordingContext recorder(serial);

@@ -271,8 +271,7 @@ TEST(SolidCoverage, SphereConverges)
 
 TEST(SolidCoverage, Torus)
 {
-  const double pi = std::acos(-1.0);
-  const Mesh mesh = makeTorus(64, 32, [pi](double u, double v) {
+  const Mesh mesh = makeTorus(64, 32, [](double u, double v) {
     const double r = 10.0 + 4.0 * std::cos(2.0 * pi * v);
     return Point<3>{ 15.9 + r * std::cos(2.0 * pi * u), 16.2 + r * std::sin(2.0 * pi * u),
       16.3 + 4.0 * std::sin(2.0 * pi * v) };

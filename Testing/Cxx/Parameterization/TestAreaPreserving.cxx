@@ -487,7 +487,23 @@ void checkTeeth(Checks& checks)
   CHECK(checks, messages.Warnings.empty());
 }
 
-// All but two triangles of a sphere.
+// The flow alone turns one of the triangles about a peak over, and says so.
+void checkPeak(Checks& checks)
+{
+  auto filter = makeParameterization(makeSheet(6, 6, [](double x, double y) {
+    return std::array<double, 3>{ x, y, x == 2.0 && y == 1.0 ? 6.0 : 0.0 };
+  }));
+  Messages messages(filter);
+  filter->PolishOff();
+  filter->Update();
+  expectFigures(checks, filter, __LINE__);
+  CHECK(checks, sumOf(cellValues(filter, "Flipped")) == 1.0);
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 1);
+  CHECK(checks, contains(messages.Warnings[0], "1 of 72 triangles are flipped and 95 % of the "));
+  CHECK(checks, contains(messages.Warnings[0], "Polish is off"));
+}
+
+// A sphere without a small cap.
 void checkNearlyClosed(Checks& checks)
 {
   auto filter = makeParameterization(makeCap(24, 0.97));
@@ -511,6 +527,7 @@ void checkNearlyClosed(Checks& checks)
 
 int TestAreaPreserving(int, char*[])
 {
-  return runChecks({ checkRectangle, checkHills, checkHemisphere, checkCorners, checkWhatIsKept,
-    checkPolygons, checkOrientation, checkCut, checkSmall, checkTeeth, checkNearlyClosed });
+  return runChecks(
+    { checkRectangle, checkHills, checkHemisphere, checkCorners, checkWhatIsKept, checkPolygons,
+      checkOrientation, checkCut, checkSmall, checkTeeth, checkPeak, checkNearlyClosed });
 }
