@@ -127,7 +127,7 @@ OTHERS = [
       "right[m] += this->Smoothing * value * (a[axis] - b[axis])"),
     E(CORE + "Parameterization/AreaPolish.cxx", "«this->Energy(this->Moved) < before»", "true"),
     S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
-    E(CORE + "Parameterization/AreaPreservingMap.cxx", "upper(masses + «(n - 1) * n», n, 1)", "0 * n"),
+    E(CORE + "Parameterization/AreaPreservingMap.cxx", "inside = «1.0 / 512.0»", "0.0"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «far»", "1e9"),
     # particles on surfaces
     E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
