@@ -32,8 +32,8 @@
  *
  * A cell of the grid in the rectangle spreads its mass evenly: where it is in triangles with and
  * without mass, particles that would be on the latter are moved to the nearest place that has mass.
- * Up to 2 % of the particles were, for bands of density 0 and 1 across a head; more Resolution
- * makes them fewer. Where the map turns triangles over, which is rare, their particles are on those
+ * With 24 bands of density 0 and 1 across a head 3.4 % of the particles were; more Resolution makes
+ * them fewer. Where the map turns triangles over, which is rare, their particles are on those
  * above them.
  *
  * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *

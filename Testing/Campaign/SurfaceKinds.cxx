@@ -212,7 +212,8 @@ void drawSurfaceDensity(RandomSource& random, Settings& settings, Input& input)
   auto* surface = vtkPolyData::SafeDownCast(input.Data);
   const bool onPoints = random.Chance(0.5);
   const vtkIdType count = onPoints ? surface->GetNumberOfPoints() : surface->GetNumberOfCells();
-  if (random.Chance(0.6) && count > 0)
+  const bool hasOne = random.Chance(0.6) && count > 0;
+  if (hasOne)
   {
     std::string text;
     const auto array = drawArray(random, count, 1, text);
@@ -227,7 +228,8 @@ void drawSurfaceDensity(RandomSource& random, Settings& settings, Input& input)
     }
     input.Describe("Density " + text);
   }
-  const std::string name = random.Of({ "", "None", "Density", "Density", "Density", "Own" });
+  const std::string name = hasOne ? random.Of({ "", "Density", "Density", "Density", "Own" })
+                                  : random.Of({ "", "", "", "None", "None", "Density", "Own" });
   const int association = random.Of({ onPoints ? 0 : 1, onPoints ? 0 : 1, 0, 1, 3 });
   settings.Add(
     "Array", name + " " + std::to_string(association), [name, association](vtkAlgorithm* filter) {

@@ -129,7 +129,7 @@ OTHERS = [
     S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "inside = «1.0 / 512.0»", "0.0"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «far»", "1e9"),
-    # surfaces
+    # particles on surfaces
     E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
       "true"),
     E(CORE + "SurfaceSampling/FlatLocator.cxx",
