@@ -137,10 +137,15 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
   measure();
   const double goal = goalFor(map.Distortion);
   AreaFlow flow(disk, conformal, options.Resolution);
-  beginNext(0.4);
-  flow.Run(map.Positions, progress.Stage());
-  beginNext(0.02);
-  measure();
+  const bool isKept = isNear(map.Distortion, goal) && map.Distortion.Flipped == 0;
+  if (!options.Polish || !isKept) // the integrator's error may be larger than what there is to mend
+  {
+    beginNext(0.4);
+    flow.Run(map.Positions, progress.Stage());
+    ++map.Flows;
+    beginNext(0.02);
+    measure();
+  }
   if (options.Polish)
   {
     const MapParts parts(disk, conformal);

@@ -29,7 +29,7 @@ struct AreaPreservingMap
 {
   std::vector<Point<2>> Positions; // by points, in [0,1]^2
   MapDistortion Distortion;
-  int Flows = 1;  // of the area density to the uniform one
+  int Flows = 0;  // of the area density to the uniform one; 0 where the conformal map keeps areas
   int Sweeps = 0; // of the polish
 };
 
