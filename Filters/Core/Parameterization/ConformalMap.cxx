@@ -70,7 +70,9 @@ public:
     SparseCholesky factor;
     {
       const SparseCholesky::Matrix matrix = this->MakeMatrix();
+      check(progress);
       factor.Analyze(matrix);
+      check(progress);
       if (!factor.Factorize(matrix, progress, part))
       {
         throw std::runtime_error(
@@ -82,7 +84,10 @@ public:
     constexpr int refinements = 2;
     for (int i = 0; i < refinements; ++i)
     {
-      const SparseCholesky::Vector change = factor.Solve(this->Residual());
+      const SparseCholesky::Vector residual = this->Residual();
+      check(progress);
+      const SparseCholesky::Vector change = factor.Solve(residual);
+      check(progress);
       for (std::size_t point = 0; point < this->Values.size(); ++point)
       {
         if (this->Unknowns[point] >= 0)
@@ -94,6 +99,15 @@ public:
   }
 
 private:
+  // On any thread.
+  static void check(Progress& progress)
+  {
+    if (progress.ShouldStop())
+    {
+      throw Cancelled();
+    }
+  }
+
   SparseCholesky::Matrix MakeMatrix() const
   {
     std::vector<double> diagonal(static_cast<std::size_t>(this->Count), 0.0);
