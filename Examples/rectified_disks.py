@@ -157,9 +157,9 @@ def lit(mesh, pose, pixels, texture=None):
     view = example.picture_view([pixels, pixels], [1, 1, 1])
     source = example.producer(mesh)
     shown = simple.Show(source, view, "GeometryRepresentation")
-    shown.ColorArrayName = [None, ""]
+    example.paint(shown, [1, 1, 1])
     shown.Texture = texture
-    shown.Ambient, shown.Diffuse = 0.35, 0.8
+    shown.Ambient, shown.Diffuse = 0.25, 0.75
     aim(view, mesh, pose)
     picture = figures.drawn(example.save_picture, view)
     for proxy in view, source:

@@ -36,7 +36,7 @@
  * give an empty output.
  *
  * Cost: O(points^1.5) for the conformal map, O(points + Resolution^2) for the rest. Memory: up to
- * 1200 bytes a point, and 40 bytes a cell of the grid.
+ * 1350 bytes a point, and 40 bytes a cell of the grid.
  *
  * @warning A nearly closed surface, whose boundary is short, cannot be mapped with areas that are
  * near; the warning says how near they are.

@@ -107,12 +107,11 @@ int vtkSurfaceSampler::RequestData(
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const std::int64_t moved = sampler.Run(input, this->FindDensity(input), progress, output);
-  if (moved > 0)
+  const SurfaceSamplingReport report =
+    sampler.Run(input, this->FindDensity(input), progress, output);
+  for (const std::string& warning : report.Warnings())
   {
-    vtkWarningMacro(<< moved << " of " << output->GetNumberOfPoints()
-                    << " particles in empty cells moved to the nearest cell with mass (more "
-                       "NumberOfSteps may spare them that)");
+    vtkWarningMacro(<< warning);
   }
   return 1;
 }

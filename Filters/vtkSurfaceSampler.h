@@ -37,13 +37,15 @@
  * above them.
  *
  * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *
- * steps) for the rest. Memory: up to 1200 bytes a point, 45 a cell of the grid, and 140 a particle
+ * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle
  * and the arrays that are passed.
  *
  * The output is in one piece: where several are requested, piece 0 holds all particles.
  *
- * @warning A surface is flat nowhere but in part: the flow stretches the pattern where the
- * conformal map is very uneven, as at the tip of a long nose.
+ * @warning The flow stretches the pattern where the conformal map is very uneven, as on a neck that
+ * the map wraps around a head. Where it squeezes much of the surface into few cells of the grid, as
+ * the far end of a long tube, the numbers of particles would be wrong: the area-preserving map (see
+ * vtkAreaPreservingParameterization) is used instead, with a warning.
  *
  * \code{.cpp}
  * vtkNew<vtkSurfaceSampler> sampler;

@@ -21,7 +21,7 @@ def add_curvature(mesh):
     value on, so that flat parts have dots as well."""
     curved = figures.apply(vtkCurvatures(), mesh, CurvatureType=1)  # mean
     bend = np.abs(vtk_to_numpy(curved.GetPointData().GetArray("Mean_Curvature")))
-    most = np.quantile(bend, LIMIT)
+    most = max(np.quantile(bend, LIMIT), 1e-300)  # 0 where all is flat
     density = numpy_to_vtk(0.1 + 0.9 * np.minimum(bend, most) / most, deep=1)
     density.SetName("Curvature")
     mesh.GetPointData().AddArray(density)

@@ -4,9 +4,9 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
-#include "Core/Parameterization/ConformalMap.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -23,7 +23,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int MaximumParameterizationResolution = 16384;
 // A deviation of 95 % of the area that is worth a warning; the goal is 3 %.
 constexpr double AcceptableDeviation = 0.05;
 
@@ -112,16 +111,14 @@ std::vector<std::string> ParameterizationReport::Warnings() const
   }
   if (this->Collapsed > 0)
   {
-    warnings.push_back(std::to_string(this->Collapsed) + " of " + std::to_string(this->Triangles) +
-      " triangles have all points on one side of the square and so no area there; subdivide the "
-      "surface, or give Corners between these points");
+    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles));
   }
   return warnings;
 }
 
 void AreaPreservingParameterization::Check() const
 {
-  requireThat(this->Resolution >= 1 && this->Resolution <= MaximumParameterizationResolution,
+  requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", this->Resolution, "from 1 to 16384");
   this->Corners.Check();
 }
@@ -135,8 +132,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
   const std::string purpose = " of " + std::to_string(disk.NumberOfPoints()) + " points";
 
   progress.BeginStage(0.4);
-  const ConformalMap conformal = withMemory("the conformal map" + purpose, 1200.0 * points,
-    [&]() { return mapConformally(disk, this->Corners.Of(disk), progress.Stage()); });
+  const ConformalMap conformal = mapDisk(disk, this->Corners.Of(disk), progress);
   progress.BeginStage(0.95);
   const std::string cells = std::to_string(this->Resolution);
   const double bytes = 40.0 * this->Resolution * this->Resolution + 200.0 * points;

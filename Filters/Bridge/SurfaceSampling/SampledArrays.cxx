@@ -106,6 +106,10 @@ void sampleArrays(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>
   progress.BeginStage(end);
   vtkNew<vtkPointData> ofCells;
   passNewArrays(mesh->GetCellData(), mesh->GetNumberOfCells(), "cell", output, ofCells);
+  if (vtkDataArray* ids = ofCells->GetGlobalIds())
+  {
+    ofCells->RemoveArray(ids->GetName()); // would be of several particles
+  }
   requireMemoryFor(ofCells, count);
   for (int attribute = 0; attribute < vtkDataSetAttributes::NUM_ATTRIBUTES; ++attribute)
   {

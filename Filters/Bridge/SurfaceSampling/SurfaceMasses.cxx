@@ -191,6 +191,12 @@ SurfaceMasses::SurfaceMasses(
       (array ? "; at least one value must be positive" : ""));
   }
   this->Sum = shares * disk.Area() * disk.Unit() * largest * disk.Unit();
+  if (!(this->Sum > 0.0))
+  {
+    throw Failure(title + " below the least double; " +
+      (array ? "its values, or the coordinates, must be larger"
+             : "the coordinates must be larger"));
+  }
   if (!std::isfinite(this->Sum))
   {
     throw Failure(title + " past the largest double; " +

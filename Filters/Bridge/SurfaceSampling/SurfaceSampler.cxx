@@ -6,10 +6,12 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/SurfaceSampling/SampledArrays.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
 #include "vtkCellArray.h"
@@ -24,7 +26,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <string>
+#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -101,13 +103,42 @@ void SurfaceSampler::Check() const
 {
   requireThat(
     this->NumberOfParticles >= 1, "NumberOfParticles", this->NumberOfParticles, "at least 1");
-  requireThat(
-    this->Resolution >= 1 && this->Resolution <= SurfaceSamplingOptions::MaximumResolution,
+  requireThat(this->Resolution >= 1 && this->Resolution <= AreaPreservingOptions::MaximumResolution,
     "Resolution", this->Resolution, "from 1 to 16384");
   this->Corners.Check();
 }
 
-std::int64_t SurfaceSampler::Run(
+std::vector<std::string> SurfaceSamplingReport::Warnings() const
+{
+  std::vector<std::string> warnings;
+  if (this->Moved > 0)
+  {
+    warnings.push_back(std::to_string(this->Moved) + " of " + std::to_string(this->Particles) +
+      " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
+      "them that)");
+  }
+  if (this->IsAreaPreserving)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text
+      << "The conformal map squeezes much of the surface into few cells: the particles come from "
+         "the area-preserving map instead, which shears their pattern (a longer boundary helps)";
+    if (this->PatchError > SurfaceSamples::AcceptableError)
+    {
+      text << "; their numbers in patches of the surface are still wrong by "
+           << 100.0 * this->PatchError << " %";
+    }
+    warnings.push_back(text.str());
+  }
+  if (this->Collapsed > 0)
+  {
+    warnings.push_back(collapsedWarning(this->Collapsed, this->Triangles));
+  }
+  return warnings;
+}
+
+SurfaceSamplingReport SurfaceSampler::Run(
   vtkPolyData* input, const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
 {
   SurfaceSamplingOptions options;
@@ -133,10 +164,7 @@ std::int64_t SurfaceSampler::Run(
   const DiskSurface surface(input, progress, ends[0]);
   const DiskMesh& disk = surface.Disk();
   progress.BeginStage(ends[1]);
-  const ConformalMap map =
-    withMemory("the conformal map of " + std::to_string(disk.NumberOfPoints()) + " points",
-      1200.0 * static_cast<double>(disk.NumberOfPoints()),
-      [&]() { return mapConformally(disk, this->Corners.Of(disk), progress.Stage()); });
+  const ConformalMap map = mapDisk(disk, this->Corners.Of(disk), progress);
   progress.BeginStage(ends[2]);
   const SurfaceMasses masses(input, surface, density, progress);
 
@@ -156,7 +184,8 @@ std::int64_t SurfaceSampler::Run(
   output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
   sampleArrays(surface, samples.Places, progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
-  return samples.Flow.MovedToMass;
+  return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),
+    countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving };
 }
 
 } // namespace RectifiedTransport

@@ -9,6 +9,8 @@
 #include "Core/Seeds/Seeds.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
@@ -19,6 +21,19 @@ namespace RectifiedTransport
 
 class Progress;
 class SurfaceDensity;
+
+// Of one run, for warnings.
+struct SurfaceSamplingReport
+{
+  std::int64_t Particles = 0;
+  std::int64_t Moved = 0; // from empty cells of the grid to the nearest mass
+  std::int64_t Triangles = 0;
+  std::int64_t Collapsed = 0; // triangles without area in the map
+  double PatchError = 0.0;
+  bool IsAreaPreserving = false; // the map that the particles come from
+
+  std::vector<std::string> Warnings() const;
+};
 
 // The members are the properties of that class.
 struct SurfaceSampler
@@ -33,9 +48,8 @@ struct SurfaceSampler
   // Throws Failure for values that are out of range whatever the surface.
   void Check() const;
 
-  // Writes particles. Returns how many ended in empty cells of the grid and were moved to the
-  // nearest mass. Throws Failure and Cancelled.
-  std::int64_t Run(vtkPolyData* surface, const SurfaceDensity& density, Progress& progress,
+  // Writes particles. Throws Failure and Cancelled.
+  SurfaceSamplingReport Run(vtkPolyData* surface, const SurfaceDensity& density, Progress& progress,
     vtkPolyData* output) const;
 };
 

@@ -20,8 +20,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t maximumResolution = 1 << 14;
-
 class AreaFlow
 {
 public:
@@ -93,7 +91,7 @@ private:
 constexpr int mostSweeps = 24;
 constexpr int sweepsBeforeFlips = 5; // that flips alone are a reason for
 constexpr int sweepsBeforeFlow = 3;
-constexpr double far = 0.05; // of 95 % of the area: the flow is better at it than sweeps
+constexpr double distant = 0.05; // of 95 % of the area: the flow is better at it than sweeps
 
 // The root mean square to be reached: small, and small beside what a conformal map has.
 double goalFor(const MapDistortion& conformal)
@@ -116,10 +114,10 @@ bool isNear(const MapDistortion& distortion, double goal)
 AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& conformal,
   const AreaPreservingOptions& options, const Context& context)
 {
-  if (options.Resolution < 1 || options.Resolution > maximumResolution)
+  if (options.Resolution < 1 || options.Resolution > AreaPreservingOptions::MaximumResolution)
   {
     throw std::invalid_argument("Resolution is " + std::to_string(options.Resolution) +
-      "; it must be from 1 to " + std::to_string(maximumResolution));
+      "; it must be from 1 to " + std::to_string(AreaPreservingOptions::MaximumResolution));
   }
   Progress progress(context);
   AreaPreservingMap map;
@@ -135,9 +133,10 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
 
   beginNext(0.02);
   measure();
-  const double goal = goalFor(map.Distortion);
+  const CollapsedTriangles collapsed = findCollapsed(disk, conformal);
+  const double goal = std::hypot(goalFor(map.Distortion), std::sqrt(collapsed.AreaShare));
   AreaFlow flow(disk, conformal, options.Resolution);
-  const bool isKept = isNear(map.Distortion, goal) && map.Distortion.Flipped == 0;
+  const bool isKept = isNear(map.Distortion, goal) && map.Distortion.Flipped <= collapsed.Count;
   if (!options.Polish || !isKept) // the integrator's error may be larger than what there is to mend
   {
     beginNext(0.4);
@@ -151,11 +150,11 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
     const MapParts parts(disk, conformal);
     const auto isDone = [&]() {
       return isNear(map.Distortion, goal) &&
-        (map.Distortion.Flipped == 0 || map.Sweeps >= sweepsBeforeFlips);
+        (map.Distortion.Flipped <= collapsed.Count || map.Sweeps >= sweepsBeforeFlips);
     };
     for (; map.Sweeps < mostSweeps && !isDone(); ++map.Sweeps)
     {
-      if (map.Sweeps > 0 && map.Sweeps % sweepsBeforeFlow == 0 && map.Distortion.Area95 > far)
+      if (map.Sweeps > 0 && map.Sweeps % sweepsBeforeFlow == 0 && map.Distortion.Area95 > distant)
       {
         beginNext(0.3);
         flow.Run(map.Positions, progress.Stage());
@@ -166,7 +165,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
       beginNext(0.02);
       measure();
     }
-    for (int rings = 2; rings <= 14 && map.Distortion.Flipped > 0; ++rings)
+    for (int rings = 2; rings <= 14 && map.Distortion.Flipped > collapsed.Count; ++rings)
     {
       beginNext(0.5);
       repairFlips(parts, rings, map.Positions, progress.Stage());

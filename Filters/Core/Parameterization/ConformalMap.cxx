@@ -75,9 +75,7 @@ public:
       check(progress);
       if (!factor.Factorize(matrix, progress, part))
       {
-        throw std::runtime_error(
-          "the harmonic map has no solution: the surface's triangles are too "
-          "thin");
+        throw std::invalid_argument("has triangles that are too thin for a conformal map");
       }
     }
     // The second solution is of what rounding left of the first.
@@ -191,6 +189,10 @@ void placeSides(const DiskMesh& disk, const SquareCorners& corners, SquareMap& m
       put(++side);
     }
   }
+  if (side != 3)
+  {
+    throw std::invalid_argument("has other corners than points of its boundary in their order");
+  }
 }
 
 } // namespace
@@ -200,8 +202,8 @@ ConformalMap mapConformally(
 {
   if (disk.NumberOfPoints() > mostPoints)
   {
-    throw std::invalid_argument("the surface has " + std::to_string(disk.NumberOfPoints()) +
-      " points; there may be " + std::to_string(mostPoints));
+    throw std::invalid_argument("has " + std::to_string(disk.NumberOfPoints()) +
+      " points; a conformal map takes at most " + std::to_string(mostPoints));
   }
   const auto points = static_cast<std::size_t>(disk.NumberOfPoints());
   Progress progress(context);
@@ -225,7 +227,16 @@ ConformalMap mapConformally(
         .Solve(progress, { begin, begin + 0.5 });
     }
   };
-  progress.For(2, 1, solve, 1);
+  // Large problems one after the other on this thread, which reports; memory is that of one.
+  constexpr std::size_t large = 100000;
+  if (points > large)
+  {
+    solve(0, 2);
+  }
+  else
+  {
+    progress.For(2, 1, solve, 1);
+  }
 
   map.Square.Positions.resize(points);
   for (std::size_t i = 0; i < points; ++i)

@@ -34,12 +34,13 @@ struct ConformalMap
 
 // Both coordinates are harmonic: 0 and 1 on two opposite sides, with no normal derivative on the
 // others; their conjugate sides make them a conformal map to a rectangle. Finite elements on the
-// surface's intrinsic Delaunay triangulation (Bobenko and Springborn 2007), whose weights are never
-// negative; its edges, not always the surface's, stay straight, so that few of the surface's
-// triangles may be flipped.
+// surface's intrinsic Delaunay triangulation (Bobenko and Springborn 2007), whose weights are not
+// negative up to rounding; its edges, not always the surface's, stay straight, so that few of the
+// surface's triangles may be flipped.
 //
-// Cost: two sparse Cholesky factorizations, about O(points^1.5). Memory: 700 to 1200 bytes a point,
-// for up to two threads each. Throws std::bad_alloc and Cancelled.
+// Corners are those of chooseCorners or orderCorners. Cost: two sparse Cholesky factorizations,
+// about O(points^1.5). Memory: 700 to 1350 bytes a point. Throws std::invalid_argument for other
+// corners, more than 2^24 points or triangles that are too thin, std::bad_alloc and Cancelled.
 ConformalMap mapConformally(
   const DiskMesh& disk, const SquareCorners& corners, const Context& context = Context());
 

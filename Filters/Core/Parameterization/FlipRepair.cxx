@@ -18,10 +18,15 @@ constexpr int mostSteps = 60;
 
 using Patch = std::vector<std::int64_t>; // ascending points
 
-bool isFlipped(const DiskMesh& disk, std::int64_t t, const std::vector<Point<2>>& positions)
+// Collapsed triangles are not: there is nothing to repair.
+bool isFlipped(const MapParts& parts, std::int64_t t, const std::vector<Point<2>>& positions)
 {
+  if (isCollapsed(parts.Disk, parts.Square, t))
+  {
+    return false;
+  }
   const auto position = [&](int i) {
-    return positions[static_cast<std::size_t>(disk.Triangle(t)[i])];
+    return positions[static_cast<std::size_t>(parts.Disk.Triangle(t)[i])];
   };
   return !(crossProduct(position(0), position(1), position(2)) > 0.0);
 }
@@ -108,7 +113,7 @@ public:
     std::vector<double> solution;
     double damping = 1e-3;
     constexpr double mostDamping = 1e6;
-    for (int i = 0; i < mostSteps && damping<mostDamping&& this->CountFlipped()> 0; ++i)
+    for (int i = 0; i < mostSteps && (damping < mostDamping) && (this->CountFlipped() > 0); ++i)
     {
       this->Assemble(system);
       system.Damp(damping);
@@ -132,7 +137,7 @@ private:
     std::int64_t count = 0;
     for (std::size_t t = 0; t < this->Shares.size(); ++t)
     {
-      count += this->Map.AreaOf(t, this->Map.Positions()) > 0.0 ? 0 : 1;
+      count += this->Map.IsCollapsed(t) || this->Map.AreaOf(t, this->Map.Positions()) > 0.0 ? 0 : 1;
     }
     return count;
   }
@@ -216,7 +221,7 @@ void repairFlips(
   Patch points;
   for (std::int64_t t = 0; t < parts.Disk.NumberOfTriangles(); ++t)
   {
-    for (int corner = 0; isFlipped(parts.Disk, t, positions) && corner < 3; ++corner)
+    for (int corner = 0; isFlipped(parts, t, positions) && corner < 3; ++corner)
     {
       const std::int64_t point = parts.Disk.Triangle(t)[corner];
       if (!isIn[static_cast<std::size_t>(point)])

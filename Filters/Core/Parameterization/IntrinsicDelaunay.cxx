@@ -65,7 +65,7 @@ public:
     std::vector<std::int64_t> stack;
     // Enough for all surfaces that were met; rounding must not let two edges flip for ever. What
     // remains are weights that may be negative.
-    const std::int64_t most = 100 * sides;
+    const std::int64_t most = 10 * sides;
     constexpr std::int64_t polled = std::int64_t{ 1 } << 16;
     std::int64_t flips = 0;
     progress.BeginStage(1.0, sides);
@@ -101,7 +101,7 @@ private:
 
   void Mollify(std::int64_t count)
   {
-    constexpr double margin = 1e-7; // of the mean length
+    constexpr double margin = 1e-12; // of the mean length
     double sum = 0.0;
     double excess = -std::numeric_limits<double>::infinity(); // of a side over the other two
     for (std::int64_t t = 0; t < count; ++t)

@@ -17,6 +17,37 @@ void sortOnce(std::vector<std::int64_t>& values)
 
 } // namespace
 
+bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t triangle)
+{
+  const std::int64_t* points = disk.Triangle(triangle);
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const double first = square.Positions[static_cast<std::size_t>(points[0])][axis];
+    if (std::all_of(points, points + 3, [&](std::int64_t point) {
+          const auto i = static_cast<std::size_t>(point);
+          return (square.OnSides[i] >> axis & 1) != 0 && square.Positions[i][axis] == first;
+        }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square)
+{
+  CollapsedTriangles collapsed;
+  for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
+  {
+    if (isCollapsed(disk, square, t))
+    {
+      ++collapsed.Count;
+      collapsed.AreaShare += disk.AreaShare(t);
+    }
+  }
+  return collapsed;
+}
+
 PointTriangles::PointTriangles(const DiskMesh& disk)
   : First(static_cast<std::size_t>(disk.NumberOfPoints()) + 1, 0)
   , Triangles(static_cast<std::size_t>(3 * disk.NumberOfTriangles()))
@@ -71,22 +102,14 @@ LocalMap::LocalMap(const MapParts& parts, const std::vector<std::int64_t>& point
   for (const std::int64_t id : this->Ids)
   {
     std::array<int, 3> corners;
-    std::array<bool, 2> level{ true, true };
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::int64_t point = parts.Disk.Triangle(id)[i];
       corners[i] = static_cast<int>(
         std::lower_bound(this->Points.begin(), this->Points.end(), point) - this->Points.begin());
-      const auto local = static_cast<std::size_t>(corners[i]);
-      for (std::size_t axis = 0; axis < 2; ++axis)
-      {
-        const unsigned char sides = parts.Square.OnSides[static_cast<std::size_t>(point)];
-        level[axis] = level[axis] && (sides >> axis & 1) != 0 &&
-          this->Current[local][axis] == this->Current[static_cast<std::size_t>(corners[0])][axis];
-      }
     }
     this->Corners.push_back(corners);
-    this->Collapsed.push_back(level[0] || level[1]);
+    this->Collapsed.push_back(isCollapsed(parts.Disk, parts.Square, id));
   }
 }
 

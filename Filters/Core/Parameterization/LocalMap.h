@@ -47,6 +47,17 @@ struct MapParts
   PointTriangles Triangles;
 };
 
+// Whether the three points of a triangle are on one side of the square: it has no area there.
+bool isCollapsed(const DiskMesh& disk, const SquareMap& square, std::int64_t triangle);
+
+struct CollapsedTriangles
+{
+  std::int64_t Count = 0;
+  double AreaShare = 0.0; // of the surface
+};
+
+CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square);
+
 // Twice the area of a triangle, positive where it turns left.
 inline double crossProduct(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 {
@@ -68,7 +79,6 @@ public:
   {
     return this->Corners[triangle];
   }
-  std::int64_t PointOf(int corner) const { return this->Points[static_cast<std::size_t>(corner)]; }
   // Its three corners are on one side of the square.
   bool IsCollapsed(std::size_t triangle) const { return this->Collapsed[triangle] != 0; }
   LocalSystem MakeSystem() const;

@@ -3,7 +3,9 @@
 
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/Parameterization/MassRaster.h"
+#include "Core/SurfaceSampling/SamplePatches.h"
 #include "Core/Tables/Density.h"
 
 #include <algorithm>
@@ -25,6 +27,13 @@ Point<2> lengthsOf(double aspectRatio)
   return { std::min(1.0, aspectRatio), std::min(1.0, 1.0 / aspectRatio) };
 }
 
+// A map that samples are made by: to the unit square, which is scaled to `aspectRatio`.
+struct FlatMap
+{
+  ConstPointSpan<2> Positions;
+  double AspectRatio;
+};
+
 RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress& progress)
 {
   LargeBuffer<double> masses(size[0] * size[1]);
@@ -33,6 +42,47 @@ RectifiedFlow<2> flowOf(const FlatMesh& flat, const GridSize<2>& size, Progress&
     masses.data(), progress.Stage());
   progress.BeginStage(0.25);
   return RectifiedFlow<2>(DensityArray<2, double>(masses.data(), size), progress.Stage());
+}
+
+SurfaceSamples sampleMap(const DiskMesh& disk, const FlatMap& map, const double* masses,
+  const SurfaceSamplingOptions& options, const Context& context)
+{
+  Progress progress(context);
+  const TriangleSurface surface = disk.Surface();
+  const FlatMesh flat{ map.Positions, surface.Triangles, surface.NumberOfTriangles, masses,
+    lengthsOf(map.AspectRatio) };
+  const GridSize<2> size = flatGrid(map.AspectRatio, options.Resolution);
+  const UnitSeeds<2> seeds = flatSeeds(map.AspectRatio, options);
+  const auto count = static_cast<std::int64_t>(seeds.Count());
+  SurfaceSamples samples;
+  samples.Places = LargeBuffer<PlaceOnTriangle>(count);
+  LargeBuffer<double> coordinates(2 * count);
+  const PointSpan<2> points(coordinates.data(), count);
+  {
+    const RectifiedFlow<2> flow = flowOf(flat, size, progress);
+    progress.BeginStage(0.3);
+    seeds.Generate(points, progress.Stage());
+    for (std::int64_t i = 0; i < 2 * count; ++i)
+    {
+      coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
+    }
+    progress.BeginStage(0.6);
+    samples.Flow = flow.Forward(points, points, options.Flow, progress.Stage());
+  }
+  progress.BeginStage(0.75);
+  const FlatLocator locator(flat, progress.Stage());
+  progress.BeginStage(0.95);
+  PlaceOnTriangle* places = samples.Places.data();
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      places[i] = locator.Locate({ points[i][0] / static_cast<double>(size[0]),
+        points[i][1] / static_cast<double>(size[1]) });
+    }
+  });
+  progress.BeginStage(1.0);
+  samples.PatchError = patchError(disk, masses, samples.Places, progress.Stage());
+  return samples;
 }
 
 } // namespace
@@ -58,10 +108,10 @@ UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options
 SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, const double* masses,
   const SurfaceSamplingOptions& options, const Context& context)
 {
-  if (options.Resolution < 1 || options.Resolution > SurfaceSamplingOptions::MaximumResolution)
+  if (options.Resolution < 1 || options.Resolution > AreaPreservingOptions::MaximumResolution)
   {
     throw std::invalid_argument("the resolution is " + std::to_string(options.Resolution) +
-      "; it must be from 1 to " + std::to_string(SurfaceSamplingOptions::MaximumResolution));
+      "; it must be from 1 to " + std::to_string(AreaPreservingOptions::MaximumResolution));
   }
   if (options.NumberOfSamples < 0)
   {
@@ -69,37 +119,22 @@ SurfaceSamples sampleSurface(const DiskMesh& disk, const ConformalMap& map, cons
       std::to_string(options.NumberOfSamples) + "; it must be at least 0");
   }
   Progress progress(context);
-  const TriangleSurface surface = disk.Surface();
-  const FlatMesh flat{ map.Square.Positions, surface.Triangles, surface.NumberOfTriangles, masses,
-    lengthsOf(map.AspectRatio) };
-  const GridSize<2> size = flatGrid(map.AspectRatio, options.Resolution);
-  const UnitSeeds<2> seeds = flatSeeds(map.AspectRatio, options);
-  const auto count = static_cast<std::int64_t>(seeds.Count());
-  SurfaceSamples samples{ LargeBuffer<PlaceOnTriangle>(count), {} };
-  LargeBuffer<double> coordinates(2 * count);
-  const PointSpan<2> points(coordinates.data(), count);
+  progress.BeginStage(0.5);
+  SurfaceSamples samples =
+    sampleMap(disk, { map.Square.Positions, map.AspectRatio }, masses, options, progress.Stage());
+  if (samples.PatchError > SurfaceSamples::AcceptableError)
   {
-    const RectifiedFlow<2> flow = flowOf(flat, size, progress);
-    progress.BeginStage(0.3);
-    seeds.Generate(points, progress.Stage());
-    for (std::int64_t i = 0; i < 2 * count; ++i)
-    {
-      coordinates.data()[i] *= static_cast<double>(size[static_cast<std::size_t>(i % 2)]);
-    }
-    progress.BeginStage(0.6);
-    samples.Flow = flow.Forward(points, points, options.Flow, progress.Stage());
+    samples.Places = {}; // its memory is needed now
+    progress.BeginStage(0.8);
+    AreaPreservingOptions flat;
+    flat.Resolution = options.Resolution;
+    const AreaPreservingMap kept = mapAreaPreserving(disk, map.Square, flat, progress.Stage());
+    progress.BeginStage(1.0);
+    samples = sampleMap(disk, { kept.Positions, 1.0 }, masses, options, progress.Stage());
+    samples.IsAreaPreserving = true;
   }
-  progress.BeginStage(0.8);
-  const FlatLocator locator(flat, progress.Stage());
   progress.BeginStage(1.0);
-  PlaceOnTriangle* places = samples.Places.data();
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      places[i] = locator.Locate({ points[i][0] / static_cast<double>(size[0]),
-        points[i][1] / static_cast<double>(size[1]) });
-    }
-  });
+  progress.EndSlice(1);
   return samples;
 }
 

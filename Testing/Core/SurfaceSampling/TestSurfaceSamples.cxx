@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of a surface that follow masses: against the flow of an image where the surface is flat,
 // and by counts where it is not.
+#include "Core/SurfaceSampling/SamplePatches.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
 #include "TestFlow.h"
@@ -282,6 +283,110 @@ TEST(SurfaceSamples, ThreadsProgressAndCancel)
       serial, [&](double progress) { reached = progress; }, [&]() { return reached >= from; });
     EXPECT_THROW(run(context), Cancelled) << from;
   }
+}
+
+// A tube of radius 1 and height `height`, closed at its upper end.
+QuadSurface makeTube(double height)
+{
+  constexpr std::int64_t around = 48;
+  const auto along = static_cast<std::int64_t>(height * around / 6.28);
+  QuadSurface tube({ around, along }, [=](double i, double j) {
+    const double angle = 2.0 * std::acos(-1.0) * i / around;
+    return Point<3>{ std::cos(angle), std::sin(angle), height * j / static_cast<double>(along) };
+  });
+  // The last column of points is the first again, and a fan closes the end.
+  for (auto& triangle : tube.Triangles)
+  {
+    for (std::int64_t& point : triangle)
+    {
+      point = point % (around + 1) == around ? point - around : point;
+    }
+  }
+  const std::int64_t end = along * (around + 1);
+  for (std::int64_t i = 0; i < around; ++i)
+  {
+    tube.Triangles.push_back({ end + i, end + (i + 1) % around, end + around });
+  }
+  tube.Places.back() = { 0.0, 0.0, height }; // a duplicate until now: the middle of the end
+  // Points of the other rows' last column are used no more: they move to the end of the list.
+  std::vector<std::int64_t> numbers(tube.Places.size(), -1);
+  Points<3> used;
+  for (auto& triangle : tube.Triangles)
+  {
+    for (std::int64_t& point : triangle)
+    {
+      std::int64_t& number = numbers[static_cast<std::size_t>(point)];
+      if (number < 0)
+      {
+        number = static_cast<std::int64_t>(used.size());
+        used.push_back(tube.Places[static_cast<std::size_t>(point)]);
+      }
+      point = number;
+    }
+  }
+  tube.Places = used;
+  return tube;
+}
+
+// The conformal map squeezes the far end of a long tube into a cell of the grid.
+TEST(SurfaceSamples, LongTubes)
+{
+  for (const double height : { 2.0, 10.0 })
+  {
+    const QuadSurface tube = makeTube(height);
+    const DiskMesh disk = tube.Disk();
+    const ConformalMap map = mapConformally(disk, chooseCorners(disk));
+    SurfaceSamplingOptions options;
+    options.NumberOfSamples = 4096;
+    options.Resolution = 256;
+    const SurfaceSamples samples = sampleSurface(disk, map, disk.AreaShares(), options);
+    EXPECT_EQ(samples.IsAreaPreserving, height > 5.0);
+    EXPECT_LT(samples.PatchError, 0.1);
+    EXPECT_EQ(samples.PatchError, patchError(disk, disk.AreaShares(), samples.Places));
+    constexpr std::size_t bands = 8;
+    std::array<double, bands> counts{};
+    double onTube = 0.0;
+    for (std::int64_t i = 0; i < samples.Places.size(); ++i)
+    {
+      const PlaceOnTriangle& place = samples.Places.data()[i];
+      double z = 0.0;
+      for (std::size_t corner = 0; corner < 3; ++corner)
+      {
+        const auto point = static_cast<std::size_t>(disk.Triangle(place.Triangle)[corner]);
+        z += place.Weights[corner] * tube.Places[point][2];
+      }
+      if (z < height - 1e-9) // not in the end
+      {
+        counts[static_cast<std::size_t>(bands * z / height)] += 1.0;
+        onTube += 1.0;
+      }
+    }
+    for (const double count : counts)
+    {
+      EXPECT_NEAR(count, onTube / bands, 0.1 * onTube / bands) << height;
+    }
+  }
+}
+
+// All samples in the first triangle of a flat grid; and as many in each as its mass.
+TEST(PatchError, CountsBySharesOfTheMass)
+{
+  const QuadSurface flat({ 8, 8 }, [](double x, double y) { return Point<3>{ x, y, 0.0 }; });
+  const DiskMesh disk = flat.Disk();
+  constexpr std::int64_t count = 128 * 64; // a patch a triangle
+  LargeBuffer<PlaceOnTriangle> places(count);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    places.data()[i] = { i % 128, { 1.0, 0.0, 0.0 } };
+  }
+  EXPECT_NEAR(patchError(disk, disk.AreaShares(), places), 0.0, 1e-12);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    places.data()[i].Triangle = 0;
+  }
+  // 127 patches lack 1/128 and one has 127/128 too much: sqrt((127 + 127^2) / 128) = sqrt(127).
+  EXPECT_NEAR(patchError(disk, disk.AreaShares(), places), std::sqrt(127.0), 1e-9);
+  EXPECT_EQ(patchError(disk, disk.AreaShares(), LargeBuffer<PlaceOnTriangle>(0)), 0.0);
 }
 
 } // namespace

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SurfaceSampling/SamplePatches.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double samplesOfPatch = 64.0;
+
+class PatchTree
+{
+public:
+  PatchTree(const DiskMesh& disk, const double* masses)
+    : Masses(masses)
+    , Patches(static_cast<std::size_t>(disk.NumberOfTriangles()), 0)
+  {
+    const ConstPointSpan<3> points = disk.Surface().Points;
+    for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
+    {
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      for (int i = 0; i < 3; ++i)
+      {
+        centre += Eigen::Map<const Eigen::Vector3d>(points[disk.Triangle(t)[i]]) / 3.0;
+      }
+      this->Items.push_back({ centre, t });
+      this->Total += masses[t];
+    }
+  }
+
+  // Numbers the patches, of which each has at most `largest` of the mass, if it can.
+  void Divide(double largest, Progress& progress)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> left{ { 0, this->Items.size() } };
+    while (!left.empty())
+    {
+      const auto [first, last] = left.back();
+      left.pop_back();
+      double mass = 0.0;
+      Eigen::AlignedBox3d bounds;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        mass += this->Masses[this->Items[i].Triangle];
+        bounds.extend(this->Items[i].Centre);
+      }
+      progress.Add(static_cast<std::int64_t>(last - first));
+      if (last - first == 1 || mass <= largest)
+      {
+        for (std::size_t i = first; i < last; ++i)
+        {
+          this->Patches[static_cast<std::size_t>(this->Items[i].Triangle)] = this->Expected.size();
+        }
+        this->Expected.push_back(mass / this->Total);
+        continue;
+      }
+      Eigen::Index axis = 0;
+      bounds.sizes().maxCoeff(&axis);
+      const std::size_t middle = first + (last - first) / 2;
+      const auto at = [this](std::size_t i) {
+        return this->Items.begin() + static_cast<std::ptrdiff_t>(i);
+      };
+      std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
+        return std::make_pair(a.Centre[axis], a.Triangle) <
+          std::make_pair(b.Centre[axis], b.Triangle);
+      });
+      left.push_back({ first, middle });
+      left.push_back({ middle, last });
+    }
+  }
+
+  double TotalMass() const { return this->Total; }
+
+  double Error(const LargeBuffer<PlaceOnTriangle>& places) const
+  {
+    std::vector<double> found(this->Expected.size(), 0.0);
+    const double each = 1.0 / static_cast<double>(places.size());
+    for (std::int64_t i = 0; i < places.size(); ++i)
+    {
+      found[this->Patches[static_cast<std::size_t>(places.data()[i].Triangle)]] += each;
+    }
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t patch = 0; patch < found.size(); ++patch)
+    {
+      difference += std::pow(found[patch] - this->Expected[patch], 2);
+      size += std::pow(this->Expected[patch], 2);
+    }
+    return std::sqrt(difference / size);
+  }
+
+private:
+  struct Item
+  {
+    Eigen::Vector3d Centre;
+    std::int64_t Triangle;
+  };
+
+  const double* Masses;
+  std::vector<Item> Items;
+  std::vector<std::size_t> Patches; // by triangles
+  std::vector<double> Expected;     // by patches, the share of the mass
+  double Total = 0.0;
+};
+
+} // namespace
+
+double patchError(const DiskMesh& disk, const double* masses,
+  const LargeBuffer<PlaceOnTriangle>& places, const Context& context)
+{
+  if (places.size() == 0)
+  {
+    return 0.0;
+  }
+  Progress progress(context);
+  // About as many levels as halve the triangles to patches.
+  const double patches = std::max(static_cast<double>(places.size()) / samplesOfPatch, 1.0);
+  progress.BeginStage(0.9,
+    static_cast<std::int64_t>(
+      (2.0 + std::log2(patches)) * static_cast<double>(disk.NumberOfTriangles())));
+  PatchTree tree(disk, masses);
+  tree.Divide(tree.TotalMass() / patches, progress);
+  progress.BeginStage(1.0);
+  const double error = tree.Error(places);
+  progress.EndSlice(1);
+  return error;
+}
+
+} // namespace RectifiedTransport
