@@ -114,4 +114,25 @@ inline vtkSmartPointer<vtkDoubleArray> makeNumbers(const char* name, vtkIdType c
   return numbers;
 }
 
+// A strip with eight teeth, of 24 triangles.
+inline vtkSmartPointer<vtkPolyData> makeTeeth()
+{
+  constexpr int teeth = 8;
+  Values points;
+  std::vector<vtkIdType> polygons;
+  for (int i = 0; i <= teeth; ++i)
+  {
+    const double x = i;
+    points.insert(points.end(), { x, 0, 0, x, -1, 0, x + 0.5, 1, 0 });
+    if (i < teeth)
+    {
+      const vtkIdType p = 3 * i;
+      polygons.insert(
+        polygons.end(), { 3, p, p + 3, p + 2, 3, p + 1, p + 4, p + 3, 3, p + 1, p + 3, p });
+    }
+  }
+  points.resize(points.size() - 3);
+  return makePolygons(points, polygons);
+}
+
 #endif

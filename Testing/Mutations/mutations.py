@@ -128,7 +128,7 @@ OTHERS = [
     E(CORE + "Parameterization/AreaPolish.cxx", "«this->Energy(this->Moved) < before»", "true"),
     S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "inside = «1.0 / 512.0»", "0.0"),
-    E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «far»", "1e9"),
+    E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «distant»", "1e9"),
     # particles on surfaces
     E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
       "true"),
@@ -138,6 +138,7 @@ OTHERS = [
       "this->Contains(triangle, point)"),
     E(CORE + "SurfaceSampling/FlatLocator.cxx", "if («gaps[child] <= best.Squared»)",
       "gaps[child] <= 0.5 * best.Squared"),
+    E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "samples.PatchError > «SurfaceSamples::AcceptableError»", "1e9"),
     E(CORE + "SurfaceSampling/SurfaceSamples.cxx", "options.Pattern, «lengthsOf(aspectRatio)»",
       "Point<2>({ 1.0, 1.0 })"),
     E(BRIDGE + "SurfaceSampling/SurfaceMasses.cxx", "if («ghosts && (ghosts[cell] & ghostCell)»)", "false"),

@@ -46,22 +46,7 @@ void checkSmall(Checks& checks)
 // A strip with teeth, more than the square has corners: some have no area.
 void checkTeeth(Checks& checks)
 {
-  constexpr int teeth = 8;
-  Values points;
-  std::vector<vtkIdType> polygons;
-  for (int i = 0; i <= teeth; ++i)
-  {
-    const double x = i;
-    points.insert(points.end(), { x, 0, 0, x, -1, 0, x + 0.5, 1, 0 });
-    if (i < teeth)
-    {
-      const vtkIdType p = 3 * i;
-      polygons.insert(
-        polygons.end(), { 3, p, p + 3, p + 2, 3, p + 1, p + 4, p + 3, 3, p + 1, p + 3, p });
-    }
-  }
-  points.resize(points.size() - 3);
-  auto filter = makeParameterization(makePolygons(points, polygons));
+  auto filter = makeParameterization(makeTeeth());
   Messages messages(filter);
   filter->Update();
   CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 2);
