@@ -28,10 +28,9 @@ ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progres
 
 std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles)
 {
-  return collapsed == 0 ? std::string()
-                        : std::to_string(collapsed) + " of " + std::to_string(triangles) +
-      " triangles have all points on one side of the square and so no area there; subdivide the "
-      "surface, or give Corners between these points";
+  return std::to_string(collapsed) + " of " + std::to_string(triangles) +
+    " triangles have all points on one side of the square and so no area there; subdivide the "
+    "surface, or give Corners between these points";
 }
 
 } // namespace RectifiedTransport

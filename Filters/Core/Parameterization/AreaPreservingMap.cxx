@@ -91,6 +91,7 @@ private:
 constexpr int mostSweeps = 24;
 constexpr int sweepsBeforeFlips = 5; // that flips alone are a reason for
 constexpr int sweepsBeforeFlow = 3;
+constexpr int mostRings = 14;    // of triangles around flipped ones that the repair may move
 constexpr double distant = 0.05; // of 95 % of the area: the flow is better at it than sweeps
 
 // The root mean square to be reached: small, and small beside what a conformal map has.
@@ -165,7 +166,7 @@ AreaPreservingMap mapAreaPreserving(const DiskMesh& disk, const SquareMap& confo
       beginNext(0.02);
       measure();
     }
-    for (int rings = 2; rings <= 14 && map.Distortion.Flipped > collapsed.Count; ++rings)
+    for (int rings = 2; rings <= mostRings && map.Distortion.Flipped > collapsed.Count; ++rings)
     {
       beginNext(0.5);
       repairFlips(parts, rings, map.Positions, progress.Stage());

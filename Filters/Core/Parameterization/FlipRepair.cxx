@@ -18,17 +18,14 @@ constexpr int mostSteps = 60;
 
 using Patch = std::vector<std::int64_t>; // ascending points
 
-// Collapsed triangles are not: there is nothing to repair.
+// Not a collapsed one: there is nothing to repair.
 bool isFlipped(const MapParts& parts, std::int64_t t, const std::vector<Point<2>>& positions)
 {
-  if (isCollapsed(parts.Disk, parts.Square, t))
-  {
-    return false;
-  }
   const auto position = [&](int i) {
     return positions[static_cast<std::size_t>(parts.Disk.Triangle(t)[i])];
   };
-  return !(crossProduct(position(0), position(1), position(2)) > 0.0);
+  return !(crossProduct(position(0), position(1), position(2)) > 0.0) &&
+    !isCollapsed(parts.Disk, parts.Square, t);
 }
 
 // The points of the triangles about those of a patch.
@@ -221,7 +218,11 @@ void repairFlips(
   Patch points;
   for (std::int64_t t = 0; t < parts.Disk.NumberOfTriangles(); ++t)
   {
-    for (int corner = 0; isFlipped(parts, t, positions) && corner < 3; ++corner)
+    if (!isFlipped(parts, t, positions))
+    {
+      continue;
+    }
+    for (int corner = 0; corner < 3; ++corner)
     {
       const std::int64_t point = parts.Disk.Triangle(t)[corner];
       if (!isIn[static_cast<std::size_t>(point)])
