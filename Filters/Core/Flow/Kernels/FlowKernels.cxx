@@ -7,8 +7,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// sin^2(pi/2 * step / steps) from basic operations alone: the library's sine may differ in the
-// last bit from one processor to the next.
+#include "Core/Flow/Kernels/AdamsWeights.txx"
+
+} // namespace
+
 double grading(std::int64_t step, std::int64_t steps)
 {
   if (2 * step > steps)
@@ -27,8 +29,6 @@ double grading(std::int64_t step, std::int64_t steps)
   return sine * sine;
 }
 
-} // namespace
-
 StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
 {
   const auto at = [steps](std::int64_t k) { return grading(k, steps); };
@@ -45,21 +45,15 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
     c[2] = 0.0;
     return weights;
   }
-  const double alpha = (at(step - 1) - at(step)) / weights.Length;
-  c[0] = (1.0 / 3.0 - alpha / 2.0) / (1.0 - alpha);
-  c[1] = (1.0 / 3.0 - (1.0 + alpha) / 2.0 + alpha) / alpha;
-  c[2] = -1.0 / (6.0 * alpha * (alpha - 1.0));
+  const double first = (at(step - 1) - at(step)) / weights.Length;
+  const double second = step > 1 ? (at(step - 2) - at(step)) / weights.Length : 2.0 * first;
+  adamsWeights(first, second, weights.Predictor, weights.Corrector);
   if (step == 1)
   {
-    p[0] = 1.0 - 0.5 / alpha;
-    p[1] = 0.5 / alpha;
+    p[0] = 1.0 - 0.5 / first;
+    p[1] = 0.5 / first;
     p[2] = 0.0;
-    return weights;
   }
-  const double beta = (at(step - 2) - at(step)) / weights.Length;
-  p[0] = (1.0 / 3.0 - (alpha + beta) / 2.0 + alpha * beta) / (alpha * beta);
-  p[1] = (1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta));
-  p[2] = (1.0 / 3.0 - alpha / 2.0) / (beta * (beta - alpha));
   return weights;
 }
 

@@ -27,7 +27,9 @@ namespace
 
 #include "Core/Flow/Kernels/FlowLanes.txx"
 
-#include "Core/Flow/Kernels/FlowFixedSteps.txx"
+#include "Core/Flow/Kernels/FlowMultistep.txx"
+
+#include "Core/Flow/Kernels/FlowUniformSteps.txx"
 
 #include "Core/Flow/Kernels/FlowAdaptive.txx"
 

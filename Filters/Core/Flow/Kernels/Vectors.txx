@@ -1,105 +1,123 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four or eight doubles, one or two node records, in as many registers as the instruction set
-// needs. Vector types wider than the hardware's are legal, but compilers spill them. Included by
-// FlowKernels.txx.
+// Records of tables (doubles) and of flow maps (floats), in as many registers as the instruction
+// set needs. Vector types wider than the hardware's are legal, but compilers spill them. Included
+// by FlowKernels.txx.
 
 #if defined(__AVX512F__)
-constexpr int widestRegister = 8;
+constexpr int widestRegister = 64; // bytes
 #elif defined(__AVX__)
-constexpr int widestRegister = 4;
+constexpr int widestRegister = 32;
 #else
-constexpr int widestRegister = 2;
+constexpr int widestRegister = 16;
 #endif
 
-template <int Lanes>
+template <class Value, int Bytes>
 struct RegisterOf;
 template <>
-struct RegisterOf<2>
+struct RegisterOf<double, 16>
 {
   using Type = double __attribute__((vector_size(16)));
 };
 template <>
-struct RegisterOf<4>
+struct RegisterOf<double, 32>
 {
   using Type = double __attribute__((vector_size(32)));
 };
 template <>
-struct RegisterOf<8>
+struct RegisterOf<double, 64>
 {
   using Type = double __attribute__((vector_size(64)));
 };
+template <>
+struct RegisterOf<float, 16>
+{
+  using Type = float __attribute__((vector_size(16)));
+};
+template <>
+struct RegisterOf<float, 32>
+{
+  using Type = float __attribute__((vector_size(32)));
+};
+template <>
+struct RegisterOf<float, 64>
+{
+  using Type = float __attribute__((vector_size(64)));
+};
 
-template <int N>
+template <int N, class Value = double>
 struct Vector
 {
-  static constexpr int Lanes = N < widestRegister ? N : widestRegister; // of a register
+  static constexpr int Size = static_cast<int>(sizeof(Value));
+  static constexpr int Lanes =
+    N * Size < widestRegister ? N : widestRegister / Size; // of a register
   static constexpr int Registers = N / Lanes;
-  using Register = typename RegisterOf<Lanes>::Type;
+  using Register = typename RegisterOf<Value, Lanes * Size>::Type;
 
   Register Part[Registers];
 
-  RT_INLINE double operator[](int lane) const { return this->Part[lane / Lanes][lane % Lanes]; }
+  RT_INLINE Value operator[](int lane) const { return this->Part[lane / Lanes][lane % Lanes]; }
 };
 
 using Vector4 = Vector<4>;
 using Vector8 = Vector<8>;
 
-template <int N>
-RT_INLINE Vector<N> operator+(const Vector<N>& a, const Vector<N>& b)
+template <int N, class Value>
+RT_INLINE Vector<N, Value> operator+(const Vector<N, Value>& a, const Vector<N, Value>& b)
 {
-  Vector<N> sum;
+  Vector<N, Value> sum;
 #pragma GCC unroll 4
-  for (int i = 0; i < Vector<N>::Registers; ++i)
+  for (int i = 0; i < Vector<N, Value>::Registers; ++i)
   {
     sum.Part[i] = a.Part[i] + b.Part[i];
   }
   return sum;
 }
 
-template <int N>
-RT_INLINE Vector<N> operator-(const Vector<N>& a, const Vector<N>& b)
+template <int N, class Value>
+RT_INLINE Vector<N, Value> operator-(const Vector<N, Value>& a, const Vector<N, Value>& b)
 {
-  Vector<N> difference;
+  Vector<N, Value> difference;
 #pragma GCC unroll 4
-  for (int i = 0; i < Vector<N>::Registers; ++i)
+  for (int i = 0; i < Vector<N, Value>::Registers; ++i)
   {
     difference.Part[i] = a.Part[i] - b.Part[i];
   }
   return difference;
 }
 
-template <int N>
-RT_INLINE Vector<N> operator*(const Vector<N>& a, const Vector<N>& b)
+template <int N, class Value>
+RT_INLINE Vector<N, Value> operator*(const Vector<N, Value>& a, const Vector<N, Value>& b)
 {
-  Vector<N> product;
+  Vector<N, Value> product;
 #pragma GCC unroll 4
-  for (int i = 0; i < Vector<N>::Registers; ++i)
+  for (int i = 0; i < Vector<N, Value>::Registers; ++i)
   {
     product.Part[i] = a.Part[i] * b.Part[i];
   }
   return product;
 }
 
-template <int N>
-RT_INLINE Vector<N> operator*(const Vector<N>& a, double b)
+template <int N, class Value>
+RT_INLINE Vector<N, Value> operator*(const Vector<N, Value>& a, Value b)
 {
-  Vector<N> product;
+  Vector<N, Value> product;
 #pragma GCC unroll 4
-  for (int i = 0; i < Vector<N>::Registers; ++i)
+  for (int i = 0; i < Vector<N, Value>::Registers; ++i)
   {
     product.Part[i] = a.Part[i] * b;
   }
   return product;
 }
 
-template <int N>
-RT_INLINE Vector<N> loadVector(const double* from)
+template <int N, class Value>
+RT_INLINE Vector<N, Value> loadVector(const Value* from)
 {
-  Vector<N> vector;
+  using Loaded = Vector<N, Value>;
+  Loaded vector;
 #pragma GCC unroll 4
-  for (int i = 0; i < Vector<N>::Registers; ++i)
+  for (int i = 0; i < Loaded::Registers; ++i)
   {
-    std::memcpy(&vector.Part[i], from + i * Vector<N>::Lanes, sizeof(typename Vector<N>::Register));
+    std::memcpy(&vector.Part[i], from + i * Loaded::Lanes, sizeof(typename Loaded::Register));
   }
   return vector;
 }

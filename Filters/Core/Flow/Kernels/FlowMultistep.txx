@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrators with a fixed number of steps. Included by FlowKernels.txx.
+// Graded Adams-Bashforth-Moulton 3 (PEC). Included by FlowKernels.txx.
 
 // The state of a multistep method: positions and the velocities of the last steps.
 template <int Dimension>
@@ -126,6 +126,38 @@ struct PlateauLanes
     return true;
   }
 };
+
+// v(x, 1) = x - S/2.
+template <int Dimension>
+RT_INLINE void finalVelocity(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      v[axis][i] = x[axis][i] - half;
+    }
+  }
+}
+
+// v(x, 0) = M - x.
+template <int Dimension>
+RT_INLINE void initialVelocity(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double centroid = job.Tables.Centroid[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      v[axis][i] = centroid - x[axis][i];
+    }
+  }
+}
 
 template <int Dimension>
 StepWeights stepWeights(const FlowJob<Dimension>& job, std::int64_t step, std::int64_t steps)
@@ -279,38 +311,6 @@ RT_INLINE void writeSeed(const FlowJob<Dimension>& job, const LaneVectors<Dimens
   }
 }
 
-// v(x, 1) = x - S/2.
-template <int Dimension>
-RT_INLINE void finalVelocity(
-  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const double half = 0.5 * job.Tables.Size[axis];
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      v[axis][i] = x[axis][i] - half;
-    }
-  }
-}
-
-// v(x, 0) = M - x.
-template <int Dimension>
-RT_INLINE void initialVelocity(
-  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, LaneVectors<Dimension>& v)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const double centroid = job.Tables.Centroid[axis];
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      v[axis][i] = centroid - x[axis][i];
-    }
-  }
-}
-
 // Time 1 to 0 over the reversed graded steps of [0,1]; a particle is done once its box is the whole
 // domain, as its seed is then known in closed form.
 template <int Dimension>
@@ -374,125 +374,4 @@ std::int64_t multistepBackward(
     }
   }
   return evaluations;
-}
-
-// The velocity at one time for all lanes, the ends of [0,1] included.
-template <int Dimension>
-RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& field, int count,
-  const LaneVectors<Dimension>& x, double time, const LaneVectors<Dimension>& held,
-  LaneVectors<Dimension>& v, bool* unresolved)
-{
-  if (time <= 0.0)
-  {
-    initialVelocity<Dimension>(job, x, v);
-    return;
-  }
-  if (time >= 1.0)
-  {
-    finalVelocity<Dimension>(job, x, v);
-    return;
-  }
-  alignas(64) Lanes t;
-#pragma omp simd
-  for (int i = 0; i < BlockSize; ++i)
-  {
-    t[i] = time;
-  }
-  evaluateVelocity<Dimension>(job, field, count, x, t, held, v);
-  for (int i = 0; i < count; ++i)
-  {
-    unresolved[i] = unresolved[i] || field.Void[i] > 0.0;
-  }
-}
-
-// The published scheme, with the correct limit at time 1: uniform steps of RungeKutta4 (paper,
-// Algorithm 2) or Euler, in either direction.
-template <int Dimension>
-std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* unresolved)
-{
-  MultistepLanes<Dimension> lanes;
-  PathWriter<Dimension> writer(job, seeds, index, count);
-  loadPositions<Dimension>(job, seeds, count, lanes.Position);
-  alignas(64) LaneVectors<Dimension> previous;
-  alignas(64) LaneVectors<Dimension> slope; // at the step's start
-  alignas(64) LaneVectors<Dimension> sum;
-  const bool fourStages = job.Method == Integrator::RungeKutta4;
-  const std::int64_t steps = job.Steps << refinement;
-  const double length = (job.Backward ? -1.0 : 1.0) / static_cast<double>(steps);
-  const auto timeAt = [&](std::int64_t halfSteps) {
-    const double fraction = static_cast<double>(halfSteps) / static_cast<double>(2 * steps);
-    return job.Backward ? 1.0 - fraction : fraction;
-  };
-#pragma omp simd
-  for (int i = 0; i < BlockSize; ++i)
-  {
-    lanes.Span[i] = length;
-  }
-  // A lane whose box is empty keeps its velocity, at first that of the straight line to the
-  // centroid.
-  initialVelocity<Dimension>(job, lanes.Position, *lanes.V[0]);
-  if (writer.IsDense())
-  {
-    const Lanes start = {};
-    writer.WriteStraight(*lanes.V[0], start);
-  }
-
-  const double one[3] = { 1.0, 0.0, 0.0 };
-  for (std::int64_t step = 0; step <= steps; ++step)
-  {
-    if (shouldStop<Dimension>(job, step))
-    {
-      return step * count * (fourStages ? 4 : 1);
-    }
-    // The slope at a step's start closes the interpolant over the step before it.
-    auto& first = *lanes.V[3];
-    velocityAt<Dimension>(
-      job, lanes.Field, count, lanes.Position, timeAt(2 * step), *lanes.V[0], first, unresolved);
-    if (writer.IsDense() && step > 0)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        writer.WriteHermite(
-          i, timeAt(2 * step - 2), timeAt(2 * step), previous, slope, lanes.Position, first);
-      }
-    }
-    if (step == steps)
-    {
-      break;
-    }
-    std::memcpy(previous, lanes.Position, sizeof(previous));
-    std::memcpy(slope, first, sizeof(slope));
-    std::memcpy(sum, first, sizeof(sum));
-    lanes.Rotate();
-    if (fourStages)
-    {
-      for (int stage = 1; stage < 4; ++stage)
-      {
-        const double part = stage < 3 ? 0.5 : 1.0;
-        const auto& last = *lanes.V[0];
-        lanes.Advance(job, one, part, last, last, last, lanes.Trial);
-        auto& next = *lanes.V[3];
-        velocityAt<Dimension>(job, lanes.Field, count, lanes.Trial,
-          timeAt(2 * step + (stage < 3 ? 1 : 2)), last, next, unresolved);
-        const double weight = stage < 3 ? 2.0 : 1.0;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-#pragma omp simd
-          for (int i = 0; i < BlockSize; ++i)
-          {
-            sum[axis][i] += weight * next[axis][i];
-          }
-        }
-        lanes.Rotate();
-      }
-    }
-    lanes.Advance(job, one, fourStages ? 1.0 / 6.0 : 1.0, sum, sum, sum, lanes.Position);
-  }
-  finishPositions<Dimension>(job, count, lanes.Position, unresolved);
-  if (!writer.IsDense())
-  {
-    writer.WriteEnd(lanes.Position);
-  }
-  return steps * count * (fourStages ? 4 : 1);
 }
