@@ -98,6 +98,12 @@ inline FlowOptions steps(int count, Integrator method = Integrator::Multistep)
   return options;
 }
 
+inline FlowOptions with(FlowMaps maps, FlowOptions options = {})
+{
+  options.Maps = maps;
+  return options;
+}
+
 inline FlowOptions adaptive(double tolerance)
 {
   FlowOptions options;
@@ -120,6 +126,14 @@ inline std::string nameOf(Integrator method)
       return "Adaptive";
   }
   return "unknown";
+}
+
+// Auto means one of these.
+constexpr FlowMaps OffAndOn[] = { FlowMaps::Off, FlowMaps::On };
+
+inline std::string nameOf(FlowMaps maps)
+{
+  return maps == FlowMaps::On ? "maps" : maps == FlowMaps::Off ? "no maps" : "maps or none";
 }
 
 constexpr Integrator AllIntegrators[] = { Integrator::Multistep, Integrator::RungeKutta4,

@@ -75,8 +75,9 @@ SURVIVED = [
 # left out, in every folder of Filters.
 OTHERS = [
     # tables and flow
-    E(CORE + "Flow/Kernels/FlowKernels.cxx", "p[1] = «(1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta))»",
-      "1.001 * (1.0 / 3.0 - beta / 2.0) / (alpha * (alpha - beta))"),
+    E(CORE + "Flow/Kernels/AdamsWeights.txx",
+      "predictor[1] = «(1.0 / 3.0 - second / 2.0) / (first * (first - second))»",
+      "1.001 * (1.0 / 3.0 - second / 2.0) / (first * (first - second))"),
     E(CORE + "Flow/Kernels/FlowMultistep.txx", "c[2] * (*lanes.V[1])[axis][i] - «c[0] * half»", "half"),
     E(CORE + "Flow/Kernels/FlowMultistep.txx", "«x[axis][lane] < t * size»)", "false"),
     E(CORE + "Flow/Kernels/FlowUniformSteps.txx", "const double weight = «stage < 3 ? 2.0 : 1.0»", "1.5"),

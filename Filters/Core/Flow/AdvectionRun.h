@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_AdvectionRun_h
 #define RectifiedTransport_AdvectionRun_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Flow/AdvectionJob.h"
+#include "Core/Flow/FlowMap.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
@@ -14,76 +14,15 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace RectifiedTransport
 {
 
-constexpr int refinements = 5; // 2N, 4N ... 32N
 constexpr int rangeBlocks = 16;
-
-inline void check(const FlowOptions& options)
-{
-  constexpr int maximumSteps = FlowOptions::MaximumNumberOfSteps;
-  if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
-  {
-    throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +
-      ", it must be from 1 to " + std::to_string(maximumSteps));
-  }
-  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
-  {
-    throw std::invalid_argument("Tolerance is " + std::to_string(options.Tolerance) +
-      ", it must be a positive number of cells");
-  }
-}
-
-enum class AdvectionKind
-{
-  Forward,
-  Backward,
-  ForwardToCells // of a density of isolated cells
-};
-
-// Relative to the domain's longest side. Below it the estimate of a step's error is rounding alone,
-// and smaller steps gain no accuracy.
-constexpr double finestTolerance = 0x1p-40;
-
-// The least width of a box, in cells of a level, at which that level is used: coarse levels are
-// faster and add an error that a larger number of steps does not remove. In 3D they gain less, as
-// the sums on the finest level are simpler.
-template <int Dimension>
-double coarseRatio(const FlowOptions& options, AdvectionKind kind)
-{
-  constexpr double never = 1e12;
-  constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
-  const bool adaptive = options.Method == Integrator::Adaptive;
-  const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
-  const bool accurate = kind == AdvectionKind::ForwardToCells ||
-    (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
-  return exact ? never : accurate ? 64.0 : usual;
-}
-
-// Where only isolated cells have mass, nearly all particles miss them with few steps: the first
-// pass takes the number of steps that they would be redone with.
-inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
-{
-  if (kind != AdvectionKind::ForwardToCells)
-  {
-    return 0;
-  }
-  constexpr int enough = 128;
-  int refinement = 0;
-  while (options.Method != Integrator::Adaptive && refinement < refinements &&
-    (options.NumberOfSteps << refinement) < enough)
-  {
-    ++refinement;
-  }
-  return refinement;
-}
 
 // Counted over the ranges of one advection; sums of integers do not depend on their order.
 struct Counters
@@ -123,10 +62,8 @@ template <int Dimension>
 class RangeAdvection
 {
 public:
-  RangeAdvection(
-    const FlowJob<Dimension>& job, int firstRefinement, Counters& counters, Progress& progress)
+  RangeAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
     : Job(job)
-    , First(firstRefinement)
     , Count(counters)
     , Work(progress)
     , Advect(flowKernels().Advect<Dimension>())
@@ -142,16 +79,16 @@ public:
     this->Number = count;
   }
 
-  // Advects the particles and keeps the unresolved ones, to be redone.
-  void Pass(int refinement)
+  // Advects the particles and keeps the unresolved ones, for the next pass.
+  void Pass(int pass)
   {
     const int count = std::exchange(this->Number, 0);
     for (int first = 0; first < count && !this->Work.ShouldStop(); first += BlockSize)
     {
       const int lanes = std::min(BlockSize, count - first);
       bool unresolved[BlockSize] = {};
-      this->Count.Evaluations += this->Advect(this->Job, this->Seeds + first * Dimension,
-        this->Index + first, lanes, refinement, unresolved);
+      this->Count.Evaluations += this->Advect(
+        this->Job, this->Seeds + first * Dimension, this->Index + first, lanes, pass, unresolved);
       for (int i = 0; i < lanes; ++i)
       {
         if (unresolved[i])
@@ -163,17 +100,17 @@ public:
         }
       }
     }
-    if (refinement == this->First)
+    if (pass == 0)
     {
       this->Number = this->Job.Backward || this->Job.Nearest ? 0 : this->Number;
       this->Count.Redone += this->Number;
     }
   }
 
-  // All passes, each with twice as many steps; what is left moves to the nearest mass.
-  void Run()
+  // All passes; what is left moves to the nearest mass.
+  void Run(int firstPass, int lastPass)
   {
-    for (int pass = this->First; this->Number > 0 && pass <= refinements; ++pass)
+    for (int pass = firstPass; this->Number > 0 && pass <= lastPass; ++pass)
     {
       this->Pass(pass);
     }
@@ -191,7 +128,6 @@ public:
 
 private:
   const FlowJob<Dimension>& Job;
-  const int First;
   Counters& Count;
   Progress& Work;
   const AdvectBlock<Dimension> Advect;
@@ -214,8 +150,7 @@ public:
   {
   }
 
-  // With 2^refinement times the steps, then twice as many in each pass.
-  void Run(const std::vector<UnresolvedParticles<Dimension>>& ranges, int refinement)
+  void Run(const std::vector<UnresolvedParticles<Dimension>>& ranges, int firstPass, int lastPass)
   {
     for (const UnresolvedParticles<Dimension>& range : ranges)
     {
@@ -223,9 +158,10 @@ public:
       this->Seeds.insert(this->Seeds.end(), range.Seeds.begin(), range.Seeds.end());
     }
     this->IsUnresolved.resize(this->Index.size());
-    for (; !this->Index.empty() && refinement <= refinements; ++refinement)
+    for (int pass = firstPass; !this->Index.empty() && pass <= lastPass; ++pass)
     {
-      this->Pass(refinement);
+      this->Pass(pass);
+      this->Count.Redone += pass == 0 ? static_cast<std::int64_t>(this->Index.size()) : 0;
     }
     const auto left = static_cast<std::int64_t>(this->Index.size());
     this->Work.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
@@ -237,20 +173,19 @@ public:
   }
 
 private:
-  void Pass(int refinement)
+  void Pass(int pass)
   {
     const auto count = static_cast<std::int64_t>(this->Index.size());
-    this->Work.Threads().For(
-      count, BlockSize, [this, refinement](std::int64_t first, std::int64_t last) {
-        if (this->Work.ShouldStop())
-        {
-          return;
-        }
-        bool unresolved[BlockSize] = {};
-        this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
-          this->Index.data() + first, static_cast<int>(last - first), refinement, unresolved);
-        std::copy(unresolved, unresolved + (last - first), this->IsUnresolved.data() + first);
-      });
+    this->Work.Threads().For(count, BlockSize, [this, pass](std::int64_t first, std::int64_t last) {
+      if (this->Work.ShouldStop())
+      {
+        return;
+      }
+      bool unresolved[BlockSize] = {};
+      this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
+        this->Index.data() + first, static_cast<int>(last - first), pass, unresolved);
+      std::copy(unresolved, unresolved + (last - first), this->IsUnresolved.data() + first);
+    });
     std::size_t left = 0;
     for (std::size_t i = 0; i < this->Index.size(); ++i)
     {
@@ -345,40 +280,41 @@ class AdvectionRun
 public:
   AdvectionRun(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options,
     const Context& context)
-    : First(firstRefinement(options, kind))
+    : Shared(tables, kind, options)
+    , Job(Shared.Job)
     , Work(context)
   {
-    check(options);
-    this->Job.Tables = tables;
-    this->Job.Method = options.Method;
-    this->Job.Backward = kind == AdvectionKind::Backward;
-    this->Job.Nearest = options.Lookup == TableLookup::Nearest;
-    const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
-    this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
-    this->Job.Steps = options.NumberOfSteps;
-    this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
-    if (options.Method == Integrator::Multistep)
-    {
-      this->Weights.reserve(static_cast<std::size_t>(options.NumberOfSteps));
-      for (int step = 0; step < options.NumberOfSteps; ++step)
-      {
-        this->Weights.push_back(multistepWeights(step, options.NumberOfSteps));
-      }
-    }
-    this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
     this->Job.ShouldStop = [](void* clientData) {
       return static_cast<Progress*>(clientData)->ShouldStop();
     };
     this->Job.ClientData = &this->Work;
     // Fewer particles a range where there are many steps: bounds the time between progress reports.
-    constexpr int usualSteps = 64;
-    const int steps = options.NumberOfSteps << this->First;
-    this->Grain =
-      std::max(1, std::min(rangeBlocks, rangeBlocks * usualSteps / std::max(steps, usualSteps))) *
-      BlockSize;
+    constexpr std::int64_t usualSteps = 64;
+    const std::int64_t steps = std::max(this->Job.Steps, usualSteps);
+    this->Grain = std::max<std::int64_t>(1, rangeBlocks * usualSteps / steps) * BlockSize;
   }
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
+
+  const FlowJob<Dimension>& SharedJob() const { return this->Job; }
+
+  // The context of work that comes before the advection and takes a share of its time.
+  Context BeginPreparation(double share)
+  {
+    this->Work.BeginStage(share);
+    return this->Work.Stage();
+  }
+
+  // Particles start from a flow map, or end on it: one of the same tables, steps and direction.
+  // If it was made for this run, its evaluations are the run's.
+  void UseMap(std::shared_ptr<const FlowMap<Dimension>> map, bool isNew)
+  {
+    this->Count.Evaluations += isNew ? map->Evaluations() : 0;
+    this->Map = std::move(map);
+    const bool hasLevels = this->Map->View().LevelCount > 0;
+    this->Job.Map = hasLevels ? &this->Map->View() : nullptr;
+    this->First = hasLevels && !this->Job.Backward ? -this->Job.Map->LevelCount : 0;
+  }
 
   // Advects the particles of a source chunk by chunk: source.Prepare(first) makes the chunk that
   // begins at particle `first` and returns its length, source.Fill reads particles of it. Writes
@@ -409,7 +345,7 @@ public:
       const std::size_t before = unresolved.size();
       unresolved.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(this->Job, this->First, this->Count, this->Work);
+        RangeAdvection<Dimension> range(this->Job, this->Count, this->Work);
         range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
         range.Pass(this->First);
         unresolved[before + static_cast<std::size_t>(first / this->Grain)] = range.Unresolved();
@@ -422,7 +358,7 @@ public:
       if (left >= enough || begin == chunkEnd)
       {
         UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Work)
-          .Run(unresolved, this->First + 1);
+          .Run(unresolved, this->First + 1, this->Shared.LastPass);
         unresolved.clear();
         left = 0;
       }
@@ -440,9 +376,9 @@ public:
       [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
         RangeCells<Dimension> ends(lattice, this->Job);
-        RangeAdvection<Dimension> range(ends.LocalJob(), this->First, this->Count, this->Work);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
         range.Fill(ends, first, length);
-        range.Run();
+        range.Run(this->First, this->Shared.LastPass);
         if (!this->Work.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);
@@ -462,9 +398,10 @@ private:
     return report;
   }
 
-  const int First;
+  const AdvectionJob<Dimension> Shared;
   FlowJob<Dimension> Job;
-  std::vector<StepWeights> Weights;
+  std::shared_ptr<const FlowMap<Dimension>> Map;
+  int First = 0; // pass
   Counters Count;
   Progress Work;
   std::int64_t Grain = BlockSize;

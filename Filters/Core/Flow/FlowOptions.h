@@ -22,6 +22,15 @@ enum class TableLookup
   Nearest // the box is rounded to whole grid cells (the paper's ablation, Figure 4)
 };
 
+// Lattices of seeds that carry the smooth part of the flow (FlowMap.h): of Multistep with
+// Interpolated, in 2D and 3D.
+enum class FlowMaps
+{
+  Auto, // where they take less time for so many particles, that of making them included
+  On,
+  Off
+};
+
 struct FlowOptions
 {
   static constexpr int MaximumNumberOfSteps = 10000;
@@ -32,11 +41,13 @@ struct FlowOptions
   // side.
   double Tolerance = 0.01;
   TableLookup Lookup = TableLookup::Interpolated;
+  FlowMaps Maps = FlowMaps::Auto;
 
   bool operator==(const FlowOptions& other) const
   {
     return this->Method == other.Method && this->NumberOfSteps == other.NumberOfSteps &&
-      this->Tolerance == other.Tolerance && this->Lookup == other.Lookup;
+      this->Tolerance == other.Tolerance && this->Lookup == other.Lookup &&
+      this->Maps == other.Maps;
   }
 };
 

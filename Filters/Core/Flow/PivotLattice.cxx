@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/PivotLattice.h"
 
+#include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
@@ -93,6 +94,9 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   }
   const auto places = static_cast<std::int64_t>(pivot.Places.size());
   const std::int64_t each = places > 0 ? particles / places : 0;
+  // All places take the same way, as the particles of one run do.
+  const FlowOptions same = withFlowMaps<Dimension>(
+    options, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
   Progress progress(context);
   FlowReport report;
   for (std::int64_t place = 0; place < places; ++place)
@@ -100,7 +104,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
     progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
     const FlowReport part =
       flow.ForwardLattice(pivot.Lattice, pivot.Places[static_cast<std::size_t>(place)],
-        positions.Part(place * each, each), options, progress.Stage());
+        positions.Part(place * each, each), same, progress.Stage());
     report.Redone += part.Redone;
     report.MovedToMass += part.MovedToMass;
     report.Evaluations += part.Evaluations;

@@ -2,6 +2,7 @@
 #include "Core/Flow/RectifiedFlow.h"
 
 #include "Core/Flow/AdvectionRun.h"
+#include "Core/Flow/FlowMap.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/ParticleOrder.h"
 #include "Core/Geometry/CountText.h"
@@ -11,6 +12,9 @@
 #include "Core/Tables/SummedAreaTables.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -140,8 +144,72 @@ struct RectifiedFlow<Dimension>::Internals
   {
   }
 
+  // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
+  // that its options ask for, if any.
+  void Prepare(AdvectionRun<Dimension>& run, const FlowOptions& options, double particles,
+    double firstTime = 1.0)
+  {
+    const FlowJob<Dimension>& job = run.SharedJob();
+    if (job.Method != Integrator::Multistep || job.Nearest || options.Maps == FlowMaps::Off)
+    {
+      return;
+    }
+    const FlowMapShape<Dimension> shape(this->Size, static_cast<int>(job.Steps),
+      job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+    if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||
+      (options.Maps == FlowMaps::Auto && !shape.PaysFor(particles)))
+    {
+      return;
+    }
+    KeptMap& kept = this->Maps[job.Backward ? 1 : 0];
+    std::shared_ptr<const FlowMap<Dimension>> map = kept.Get(shape.NumberOfSteps);
+    const bool isNew = !map;
+    if (isNew)
+    {
+      // Not locked: other runs make their own meanwhile, of the same bits.
+      const double particlesCost = particles * shape.Levels.back().HandOver;
+      map = std::make_shared<const FlowMap<Dimension>>(
+        shape, job, run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)));
+      kept.Set(shape.NumberOfSteps, map);
+    }
+    run.UseMap(std::move(map), isNew);
+  }
+
+  std::int64_t MemorySize()
+  {
+    return this->Tables.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
+  }
+
+  // The flow map of the last number of steps in one direction.
+  class KeptMap
+  {
+  public:
+    std::shared_ptr<const FlowMap<Dimension>> Get(int steps)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      return steps == this->Steps ? this->Map : nullptr;
+    }
+    void Set(int steps, std::shared_ptr<const FlowMap<Dimension>> map)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Steps = steps;
+      this->Map.swap(map);
+    }
+    std::int64_t MemorySize()
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      return this->Map ? this->Map->MemorySize() : 0;
+    }
+
+  private:
+    std::mutex Mutex;
+    int Steps = 0;
+    std::shared_ptr<const FlowMap<Dimension>> Map;
+  };
+
   GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
+  KeptMap Maps[2];
 };
 
 template <int Dimension>
@@ -195,7 +263,7 @@ Point<Dimension> RectifiedFlow<Dimension>::Centroid() const
 template <int Dimension>
 std::int64_t RectifiedFlow<Dimension>::MemorySize() const
 {
-  return this->Data->Tables.MemorySize();
+  return this->Data->MemorySize();
 }
 
 // One record for each node of each level, where a level has a fixed share of the nodes of the finer
@@ -238,6 +306,7 @@ FlowReport RectifiedFlow<Dimension>::Forward(ConstPointSpan<Dimension> seeds,
 {
   checkCount(positions.size(), static_cast<double>(seeds.size()));
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(seeds.size()));
   return run.Advect(SortedPoints<Dimension>(seeds), positions);
 }
 
@@ -250,6 +319,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
   checkCount(
     positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(seeds.size()), times.front());
   return run.Advect(SortedPoints<Dimension>(seeds), positions, times);
 }
 
@@ -259,6 +329,7 @@ FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
 {
   checkCount(positions.size(), static_cast<double>(points.size()));
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(points.size()));
   return run.Advect(SortedPoints<Dimension>(points), positions);
 }
 
@@ -276,6 +347,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
 {
   const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(positions.size()));
   return run.Advect(order, positions);
 }
 
@@ -286,6 +358,7 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
   const auto order =
     checkedOrder<Dimension>(lattice, cellCentre<Dimension>(), this->Size(), positions.size());
   AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(positions.size()));
   return run.Advect(order, positions);
 }
 
@@ -297,6 +370,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
   const LatticeOrder<Dimension> order(lattice, this->Data->Size);
   AdvectionRun<Dimension> run(
     this->Data->Tables.View(), AdvectionKind::ForwardToCells, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(order.Count()));
   return run.AdvectToCells(order, cells);
 }
 

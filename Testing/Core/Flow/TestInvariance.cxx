@@ -50,6 +50,22 @@ public:
   int Concurrency() const override { return 5; }
 };
 
+std::vector<FlowOptions> allOptions()
+{
+  std::vector<FlowOptions> all;
+  for (const Integrator method : AllIntegrators)
+  {
+    all.push_back(with(FlowMaps::Off, steps(20, method)));
+  }
+  all.push_back(with(FlowMaps::On, steps(20)));
+  return all;
+}
+
+std::string describe(const FlowOptions& options)
+{
+  return nameOf(options.Method) + ", " + nameOf(options.Maps);
+}
+
 template <class T>
 using Invariance = DimensionTest<T>;
 TYPED_TEST_SUITE(Invariance, Dimensions);
@@ -82,15 +98,14 @@ TYPED_TEST(Invariance, ExecutorsAndThreads)
     const RectifiedFlow<Dimension> flow(density.Source(), *executor);
     EXPECT_EQ(flow.Total(), reference.Total()) << name;
     EXPECT_EQ(flow.Centroid(), reference.Centroid()) << name;
-    for (const Integrator method : AllIntegrators)
+    for (const FlowOptions& options : allOptions())
     {
-      const FlowOptions options = steps(20, method);
       EXPECT_TRUE(sameBits<Dimension>(runForward(flow, seeds, options, *executor),
         runForward(reference, seeds, options, SerialExecutor())))
-        << name << ", forward, " << nameOf(method);
+        << name << ", forward, " << describe(options);
       EXPECT_TRUE(sameBits<Dimension>(runBackward(flow, seeds, options, *executor),
         runBackward(reference, seeds, options, SerialExecutor())))
-        << name << ", backward, " << nameOf(method);
+        << name << ", backward, " << describe(options);
     }
   }
 }
@@ -128,9 +143,8 @@ TYPED_TEST(Invariance, OrderAndSubsetOfTheSeeds)
 
   for (const TableLookup lookup : { TableLookup::Interpolated, TableLookup::Nearest })
   {
-    for (const Integrator method : AllIntegrators)
+    for (FlowOptions options : allOptions())
     {
-      FlowOptions options = steps(20, method);
       options.Lookup = lookup;
       const Points<Dimension> all = runForward(flow, seeds, options);
       const Points<Dimension> allBack = runBackward(flow, seeds, options);
@@ -139,10 +153,10 @@ TYPED_TEST(Invariance, OrderAndSubsetOfTheSeeds)
         const Points<Dimension> chosen = pick<Dimension>(seeds, choice);
         EXPECT_TRUE(
           sameBits<Dimension>(runForward(flow, chosen, options), pick<Dimension>(all, choice)))
-          << nameOf(method) << ", forward, " << choice.size() << " seeds";
+          << describe(options) << ", forward, " << choice.size() << " seeds";
         EXPECT_TRUE(
           sameBits<Dimension>(runBackward(flow, chosen, options), pick<Dimension>(allBack, choice)))
-          << nameOf(method) << ", backward, " << choice.size() << " seeds";
+          << describe(options) << ", backward, " << choice.size() << " seeds";
       }
     }
   }
@@ -207,14 +221,22 @@ TYPED_TEST(Invariance, ConcurrentCalls)
   const TestDensity<Dimension> density = densityWithVoids<Dimension>();
   const RectifiedFlow<Dimension> flow = makeFlow(density);
   const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, ParticleCount);
-  const Points<Dimension> expected = runForward(flow, seeds);
-  const Points<Dimension> expectedBack = runBackward(flow, seeds);
-  Points<Dimension> other;
-  std::thread thread([&]() { other = runForward(flow, seeds, {}, SerialExecutor()); });
-  const Points<Dimension> back = runBackward(flow, seeds, {}, SerialExecutor());
-  thread.join();
-  EXPECT_TRUE(sameBits<Dimension>(other, expected));
-  EXPECT_TRUE(sameBits<Dimension>(back, expectedBack));
+  for (const FlowMaps maps : OffAndOn)
+  {
+    // Maps are made by the runs that need them first.
+    const RectifiedFlow<Dimension> other = makeFlow(density);
+    const Points<Dimension> expected = runForward(other, seeds, with(maps));
+    const Points<Dimension> expectedBack = runBackward(other, seeds, with(maps));
+    Points<Dimension> forward[2];
+    std::thread thread(
+      [&]() { forward[0] = runForward(flow, seeds, with(maps), SerialExecutor()); });
+    forward[1] = runForward(flow, seeds, with(maps), SerialExecutor());
+    const Points<Dimension> back = runBackward(flow, seeds, with(maps), SerialExecutor());
+    thread.join();
+    EXPECT_TRUE(sameBits<Dimension>(forward[0], expected)) << nameOf(maps);
+    EXPECT_TRUE(sameBits<Dimension>(forward[1], expected)) << nameOf(maps);
+    EXPECT_TRUE(sameBits<Dimension>(back, expectedBack)) << nameOf(maps);
+  }
 }
 
 // Integers, floats and doubles of equal values give equal tables.

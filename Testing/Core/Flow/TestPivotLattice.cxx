@@ -179,7 +179,7 @@ void expectFlowOfPlaces(const TestDensity<Dimension>& density, const GridSize<Di
   ASSERT_EQ(static_cast<std::int64_t>(points.size()), pivot.NumberOfParticles());
   for (const Integrator method : AllIntegrators)
   {
-    const FlowOptions options = steps(12, method);
+    const FlowOptions options = steps(24, method);
     Points<Dimension> threaded(points.size());
     Points<Dimension> alone(points.size());
     Points<Dimension> others(points.size());

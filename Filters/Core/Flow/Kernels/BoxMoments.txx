@@ -366,45 +366,60 @@ RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
     });
 }
 
-// In 2D the boxes on the finest level have nodes far apart in memory and out of the caches, at
-// addresses known before they are summed. In 3D there are too many nodes for prefetching to pay.
-constexpr int prefetchDistance = 3;
+// Boxes on the finest level have nodes far apart in memory and out of the caches, at addresses
+// known before they are summed. In 3D there are so many that prefetching pays only where the boxes
+// of neighbouring lanes have none in common.
+template <int Dimension>
+constexpr int prefetchDistance = Dimension == 2 ? 12 : 8;
 
-RT_INLINE void prefetchBox(const TableView<2>& tables, const BoxLanes<2>& boxes, int lane)
+template <int Dimension>
+RT_INLINE bool shouldPrefetch(const TableView<Dimension>& tables, bool sparse)
 {
-  if (boxes.Level[lane] != 0)
+  return tables.BeyondCaches && (Dimension == 2 || sparse);
+}
+
+// The pairs of nodes along axis 0 around both sides of a box, in the rows and planes around those
+// of the axes from Axis down.
+template <int Dimension, int Axis>
+RT_INLINE void prefetchPairs(const TableView<Dimension>& tables, const BoxLanes<Dimension>& boxes,
+  int lane, const double* nodes)
+{
+  if constexpr (Axis == 0)
   {
-    return;
-  }
-  constexpr int lastOfPair = 2 * TableView<2>::Record - 1;
-  const auto& level = tables.Levels[0];
-  for (int side1 = 0; side1 < 2; ++side1)
-  {
-    for (int side0 = 0; side0 < 2; ++side0)
+    constexpr int lastOfPair = 2 * TableView<Dimension>::Record - 1;
+    for (int side = 0; side < 2; ++side)
     {
-      const double* pair = level.Nodes + boxes.Node[0][side0][lane] * TableView<2>::Record +
-        boxes.Node[1][side1][lane] * level.Stride[1];
-      for (int row = 0; row < 2; ++row)
-      {
-        __builtin_prefetch(pair + row * level.Stride[1]);
-        __builtin_prefetch(pair + row * level.Stride[1] + lastOfPair);
-      }
+      const double* pair = nodes + boxes.Node[0][side][lane] * TableView<Dimension>::Record;
+      __builtin_prefetch(pair);
+      __builtin_prefetch(pair + lastOfPair);
+    }
+  }
+  else
+  {
+    const std::int64_t stride = tables.Levels[0].Stride[Axis];
+    for (int side = 0; side < 2; ++side)
+    {
+      const double* row = nodes + boxes.Node[Axis][side][lane] * stride;
+      prefetchPairs<Dimension, Axis - 1>(tables, boxes, lane, row);
+      prefetchPairs<Dimension, Axis - 1>(tables, boxes, lane, row + stride);
     }
   }
 }
 
 // Sums the boxes of the first `count` lanes, of those that are active if `active` is given.
 template <int Dimension, bool All>
-__attribute__((noinline)) void sumBoxes(
-  const TableView<Dimension>& tables, BoxLanes<Dimension>& boxes, int count, const bool* active)
+__attribute__((noinline)) void sumBoxes(const TableView<Dimension>& tables,
+  BoxLanes<Dimension>& boxes, int count, const bool* active, bool sparse)
 {
+  const bool prefetch = shouldPrefetch(tables, sparse);
   for (int i = 0; i < count; ++i)
   {
-    if constexpr (Dimension == 2)
+    if constexpr (Dimension > 1)
     {
-      if (tables.BeyondCaches && i + prefetchDistance < count)
+      const int ahead = i + prefetchDistance<Dimension>;
+      if (prefetch && ahead < count && boxes.Level[ahead] == 0 && (All || active[ahead]))
       {
-        prefetchBox(tables, boxes, i + prefetchDistance);
+        prefetchPairs<Dimension, Dimension - 1>(tables, boxes, ahead, tables.Levels[0].Nodes);
       }
     }
     if (All || active[i])

@@ -5,6 +5,7 @@
 #define RectifiedTransport_FlowKernels_h
 
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/Kernels/FlowMapView.h"
 #include "Core/Parallel/InstructionSet.h"
 #include "Core/Tables/TableView.h"
 
@@ -26,6 +27,10 @@ struct StepWeights
   double Corrector[3];
 };
 
+// sin^2(pi/2 * step / steps) from basic operations alone: the library's sine may differ in the
+// last bit from one processor to the next.
+double grading(std::int64_t step, std::int64_t steps);
+
 // Weights of step `step` of `steps`.
 StepWeights multistepWeights(std::int64_t step, std::int64_t steps);
 
@@ -37,11 +42,13 @@ struct FlowJob
   Integrator Method;
   bool Backward;
   bool Nearest;
+  bool Sparse = false; // neighbouring particles have few table nodes in common
   double Tolerance;
   std::int64_t Steps;
-  const StepWeights* Weights;           // of Multistep with `Steps` steps, else null
-  double CoarseRatio;                   // least width of a box in cells of the level that is used
-  double* Output = nullptr;             // interleaved coordinates
+  const StepWeights* Weights; // of Multistep with `Steps` steps, else null
+  double CoarseRatio;         // least width of a box in cells of the level that is used
+  const FlowMapView<Dimension>* Map = nullptr; // of the same steps and direction; Multistep only
+  double* Output = nullptr;                    // interleaved coordinates
   const double* Times = nullptr;        // dense output, ascending; null for the end point alone
   std::int64_t TimeCount = 1;           // 1 with the end point alone
   bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
@@ -49,33 +56,68 @@ struct FlowJob
 };
 
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the
-// output, with 2^refinement times the steps (Adaptive: 4^-refinement times the tolerance). Sets
-// unresolved[i] if particle i met an empty box or ended in an empty cell. Returns the number of
-// velocity evaluations. Once ShouldStop returned true, positions are undefined.
+// output. Pass 0 takes Steps steps, pass p > 0 takes 2^p times as many (Adaptive: 4^-p times the
+// tolerance); forwards, pass -1 - l starts from level l of the map, and all times must lie after
+// its hand-over. Sets unresolved[i] if particle i met an empty box, ended in an empty cell, or may
+// not be interpolated. Returns the number of velocity evaluations. Once ShouldStop returned true,
+// positions are undefined.
 template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* unresolved);
+  const std::int64_t* index, int count, int pass, bool* unresolved);
+
+// Nodes of a lattice, at most BlockSize.
+struct NodeBlock
+{
+  const double* Places; // interleaved coordinates
+  const std::int64_t* Index;
+  int Count;
+  unsigned char* Deferred; // a node of the block
+  unsigned char* Troubled; // a node of the lattice
+};
+
+// Makes the records of nodes of a level from those of the level `parent` of the job's map, which is
+// coarser; backwards with those before it; -1: from scratch. Sets Deferred to 1 where the parent
+// may not be interpolated: that node has no record then. Sets Troubled[Index[i]] to 1 for nodes
+// that met an empty box, else to 0. Returns the number of velocity evaluations.
+template <int Dimension>
+using AdvanceNodes = std::int64_t (*)(const FlowJob<Dimension>& job,
+  const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block);
 
 struct FlowKernels
 {
   AdvectBlock<1> Advect1D;
   AdvectBlock<2> Advect2D;
   AdvectBlock<3> Advect3D;
+  AdvanceNodes<1> AdvanceNodes1D;
+  AdvanceNodes<2> AdvanceNodes2D;
+  AdvanceNodes<3> AdvanceNodes3D;
 
   template <int Dimension>
   AdvectBlock<Dimension> Advect() const
   {
+    return choose<Dimension>(this->Advect1D, this->Advect2D, this->Advect3D);
+  }
+  template <int Dimension>
+  AdvanceNodes<Dimension> Advance() const
+  {
+    return choose<Dimension>(this->AdvanceNodes1D, this->AdvanceNodes2D, this->AdvanceNodes3D);
+  }
+
+private:
+  template <int Dimension, class F1, class F2, class F3>
+  static auto choose(F1 one, F2 two, F3 three)
+  {
     if constexpr (Dimension == 1)
     {
-      return this->Advect1D;
+      return one;
     }
     else if constexpr (Dimension == 2)
     {
-      return this->Advect2D;
+      return two;
     }
     else
     {
-      return this->Advect3D;
+      return three;
     }
   }
 };

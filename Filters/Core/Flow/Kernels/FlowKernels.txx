@@ -27,7 +27,13 @@ namespace
 
 #include "Core/Flow/Kernels/FlowLanes.txx"
 
+#include "Core/Flow/Kernels/AdamsWeights.txx"
+#include "Core/Flow/Kernels/MultistepLanes.txx"
+
+#include "Core/Flow/Kernels/FlowMapLanes.txx"
 #include "Core/Flow/Kernels/FlowMultistep.txx"
+
+#include "Core/Flow/Kernels/FlowMapNodes.txx"
 
 #include "Core/Flow/Kernels/FlowUniformSteps.txx"
 
@@ -35,26 +41,26 @@ namespace
 
 template <int Dimension>
 std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* unresolved)
+  const std::int64_t* index, int count, int pass, bool* unresolved)
 {
   if (job.Method == Integrator::Adaptive)
   {
-    return advectAdaptive<Dimension>(job, seeds, index, count, refinement, unresolved);
+    return advectAdaptive<Dimension>(job, seeds, index, count, pass, unresolved);
   }
   if (job.Method == Integrator::Multistep)
   {
-    return job.Backward
-      ? multistepBackward<Dimension>(job, seeds, index, count)
-      : multistepForward<Dimension>(job, seeds, index, count, refinement, unresolved);
+    return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count)
+                        : multistepForward<Dimension>(job, seeds, index, count, pass, unresolved);
   }
-  return advectUniformSteps<Dimension>(job, seeds, index, count, refinement, unresolved);
+  return advectUniformSteps<Dimension>(job, seeds, index, count, pass, unresolved);
 }
 
 } // namespace
 
 const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
-  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3> };
+  static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
+    &advanceNodes<1>, &advanceNodes<2>, &advanceNodes<3> };
   return kernels;
 }
 

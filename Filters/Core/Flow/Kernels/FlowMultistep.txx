@@ -1,132 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Graded Adams-Bashforth-Moulton 3 (PEC). Included by FlowKernels.txx.
 
-// The state of a multistep method: positions and the velocities of the last steps.
-template <int Dimension>
-struct MultistepLanes
-{
-  alignas(64) LaneVectors<Dimension> Position;
-  alignas(64) LaneVectors<Dimension> Trial;
-  alignas(64) LaneVectors<Dimension> Velocities[4];
-  LaneVectors<Dimension>* V[4]; // newest, second, third, output
-  alignas(64) Lanes Time;
-  alignas(64) Lanes Span;       // length of the graded interval
-  alignas(64) Lanes Unresolved; // 1 once a box was empty
-  VelocityLanes<Dimension> Field;
-
-  MultistepLanes()
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      this->V[k] = &this->Velocities[k];
-    }
-    std::memset(this->Velocities, 0, sizeof(this->Velocities));
-    std::memset(this->Unresolved, 0, sizeof(this->Unresolved));
-    std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
-    std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
-  }
-
-  void Rotate()
-  {
-    LaneVectors<Dimension>* oldest = this->V[2];
-    this->V[2] = this->V[1];
-    this->V[1] = this->V[0];
-    this->V[0] = this->V[3];
-    this->V[3] = oldest;
-  }
-
-  // result = Position + Span * (a[0] first + a[1] second + a[2] third), kept in the domain.
-  RT_INLINE void Advance(const FlowJob<Dimension>& job, const double a[3], double length,
-    const LaneVectors<Dimension>& first, const LaneVectors<Dimension>& second,
-    const LaneVectors<Dimension>& third, LaneVectors<Dimension>& result)
-  {
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double size = job.Tables.Size[axis];
-#pragma omp simd
-      for (int i = 0; i < BlockSize; ++i)
-      {
-        const double sum = a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
-        result[axis][i] =
-          clampToDomain(this->Position[axis][i] + this->Span[i] * length * sum, size);
-      }
-    }
-  }
-};
-
-// Where the density has its maximum in all of a particle's box, and the box is not clipped, its
-// mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities with
-// empty cells are most often shapes of one value, where nearly all boxes become such.
-template <int Dimension>
-struct PlateauLanes
-{
-  alignas(64) LaneVectors<Dimension> End; // x(1)
-  alignas(64) Lanes Done;                 // 1 where End is known, else 0
-  bool Active[BlockSize];                 // lanes that are not done
-  int Left = BlockSize;                   // how many
-
-  PlateauLanes()
-  {
-    std::memset(this->End, 0, sizeof(this->End));
-    std::memset(this->Done, 0, sizeof(this->Done));
-    std::memset(this->Active, 1, sizeof(this->Active));
-  }
-
-  // After an evaluation of the velocity in `field`, with particles at x. Marks in `found` the lanes
-  // that are done since the last call, and returns whether there are any.
-  RT_INLINE bool Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
-    const LaneVectors<Dimension>& x, Lanes& found)
-  {
-    constexpr double rounding = 1e-9;
-    alignas(64) Lanes mass; // the largest that the box could hold
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      mass[i] = job.Tables.Largest;
-    }
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double size = job.Tables.Size[axis];
-#pragma omp simd
-      for (int i = 0; i < BlockSize; ++i)
-      {
-        const double from = field.From[axis][i];
-        const double to = field.To[axis][i];
-        mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
-      }
-    }
-    double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // Mass is 1 / mass here
-      found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
-      this->Done[i] += found[i];
-      sum += found[i];
-    }
-    if (sum == 0.0)
-    {
-      return false;
-    }
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      this->Active[i] = this->Done[i] == 0.0;
-    }
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double half = 0.5 * job.Tables.Size[axis];
-#pragma omp simd
-      for (int i = 0; i < BlockSize; ++i)
-      {
-        const double centre = half + (x[axis][i] - half) * field.InverseTime[i];
-        this->End[axis][i] = found[i] > 0.0 ? centre : this->End[axis][i];
-      }
-    }
-    this->Left -= static_cast<int>(sum);
-    return true;
-  }
-};
-
 // v(x, 1) = x - S/2.
 template <int Dimension>
 RT_INLINE void finalVelocity(
@@ -159,70 +33,131 @@ RT_INLINE void initialVelocity(
   }
 }
 
+// The weights of a run of `steps` steps: a look-up where they are those of the job.
 template <int Dimension>
-StepWeights stepWeights(const FlowJob<Dimension>& job, std::int64_t step, std::int64_t steps)
+class RunWeights
 {
-  return job.Weights && steps == job.Steps ? job.Weights[step] : multistepWeights(step, steps);
+public:
+  RunWeights(const FlowJob<Dimension>& job, int pass)
+    : Steps(pass > 0 ? job.Steps << pass : job.Steps)
+    , Known(pass > 0 ? nullptr : job.Weights)
+  {
+  }
+  // Of particles that hand over.
+  explicit RunWeights(const FlowMapView<Dimension>& map)
+    : Steps(map.Steps)
+    , Known(map.Weights)
+  {
+  }
+
+  StepWeights operator[](std::int64_t step) const
+  {
+    return this->Known ? this->Known[step] : multistepWeights(step, this->Steps);
+  }
+
+  const std::int64_t Steps;
+
+private:
+  const StepWeights* Known;
+};
+
+// Common to all lanes from a hand-over on: time 1/4 + 3/4 sin^2(pi k / 2N) after step k of N.
+constexpr double commonStart = 0.25;
+
+// Takes the positions of the lanes to the end of a step: predictor, velocity there (left in V[3]),
+// and whether the box was empty. Lanes that are done have no velocity.
+template <int Dimension>
+RT_INLINE void predictStep(const FlowJob<Dimension>& job, const StepWeights& weights,
+  const Lanes& start, int count, const bool* active, MultistepLanes<Dimension>& lanes)
+{
+  const auto& v0 = *lanes.V[0];
+  lanes.Advance(job, weights.Predictor, weights.Length, v0, *lanes.V[1], *lanes.V[2], lanes.Trial);
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Time[i] = start[i] + lanes.Span[i] * weights.Time;
+  }
+  evaluateVelocity<Dimension>(
+    job, lanes.Field, count, lanes.Trial, lanes.Time, v0, *lanes.V[3], active);
 }
 
-// Time 0 to 1 by graded Adams-Bashforth-Moulton 3 (PEC), from the end of the straight start. The
-// last step is implicit and closed, as the velocity at time 1 is x - S/2.
+// Time 0 to 1 by graded Adams-Bashforth-Moulton 3 (PEC), from the end of the straight start, or in
+// a pass before 0 from a level of the flow map. The last step is implicit and closed, as the
+// velocity at time 1 is x - S/2.
 template <int Dimension>
 std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds,
-  const std::int64_t* index, int count, int refinement, bool* unresolved)
+  const std::int64_t* index, int count, int pass, bool* unresolved)
 {
   MultistepLanes<Dimension> lanes;
   PathWriter<Dimension> writer(job, seeds, index, count);
+  PlateauLanes<Dimension> plateau;
   alignas(64) Lanes start;
   loadPositions<Dimension>(job, seeds, count, lanes.Position);
-  startStraight<Dimension>(job, lanes.Position, *lanes.V[0], start);
-  if (writer.IsDense())
+  const RunWeights<Dimension> run =
+    pass < 0 ? RunWeights<Dimension>(*job.Map) : RunWeights<Dimension>(job, pass);
+  const std::int64_t steps = run.Steps;
+  std::int64_t step = 0;
+  bool deferred[BlockSize] = {};
+  if (pass < 0)
   {
-    writer.WriteStraight(*lanes.V[0], start);
+    const FlowMapLevel<Dimension>& level = job.Map->Levels[-1 - pass];
+    loadFromMap<Dimension>(job, level, count, lanes, deferred);
+    plateau.Exclude(deferred);
+    step = steps - level.HandOver;
+    const double handOver = commonStart + (1.0 - commonStart) * run[step - 1].Time;
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      start[i] = commonStart;
+      lanes.Time[i] = handOver;
+    }
+  }
+  else
+  {
+    startStraight<Dimension>(job, lanes.Position, *lanes.V[0], start);
+    if (writer.IsDense())
+    {
+      writer.WriteStraight(*lanes.V[0], start);
+    }
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      lanes.Time[i] = start[i];
+    }
   }
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
     lanes.Span[i] = 1.0 - start[i];
-    lanes.Time[i] = start[i];
   }
 
-  const std::int64_t steps = job.Steps << refinement;
   const bool hasPlateaus = job.Tables.Occupied && !job.Nearest;
-  PlateauLanes<Dimension> plateau;
-  std::int64_t step = 0;
+  std::int64_t evaluations = 0;
   for (; step + 1 < steps && plateau.Left > 0; ++step)
   {
     if (shouldStop<Dimension>(job, step))
     {
-      return step * count;
+      return evaluations;
     }
-    const StepWeights weights = stepWeights<Dimension>(job, step, steps);
-    const auto& v0 = *lanes.V[0];
-    const auto& v1 = *lanes.V[1];
-    auto& newest = *lanes.V[3];
-    lanes.Advance(job, weights.Predictor, weights.Length, v0, v1, *lanes.V[2], lanes.Trial);
+    const StepWeights weights = run[step];
     alignas(64) Lanes before;
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      before[i] = lanes.Time[i];
-      lanes.Time[i] = start[i] + lanes.Span[i] * weights.Time;
-    }
+    std::memcpy(before, lanes.Time, sizeof(before));
     const bool* active = plateau.Left < BlockSize ? plateau.Active : nullptr;
-    evaluateVelocity<Dimension>(
-      job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
+    predictStep<Dimension>(job, weights, start, count, active, lanes);
+    evaluations += count;
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
       const double isVoid = plateau.Done[i] > 0.0 ? 0.0 : lanes.Field.Void[i];
       lanes.Unresolved[i] = larger(lanes.Unresolved[i], isVoid);
     }
+    const auto& v0 = *lanes.V[0];
+    const auto& newest = *lanes.V[3];
     if (writer.IsDense())
     {
       std::memcpy(lanes.Trial, lanes.Position, sizeof(lanes.Trial));
     }
-    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
+    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, *lanes.V[1], lanes.Position);
     if (writer.IsDense())
     {
       for (int i = 0; i < count; ++i)
@@ -248,10 +183,10 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
   for (int i = 0; i < count; ++i)
   {
-    unresolved[i] = lanes.Unresolved[i] > 0.0;
+    unresolved[i] = deferred[i] || lanes.Unresolved[i] > 0.0;
   }
 
-  const StepWeights last = stepWeights<Dimension>(job, steps - 1, steps);
+  const StepWeights last = run[steps - 1];
   const double* c = last.Corrector;
   auto& final = *lanes.V[3];
   for (int axis = 0; axis < Dimension; ++axis)
@@ -280,7 +215,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   {
     writer.WriteEnd(lanes.Trial);
   }
-  return step * count;
+  return evaluations;
 }
 
 // Whether a lane's box is the whole domain; x then lies on a straight path from its seed.
@@ -299,20 +234,93 @@ RT_INLINE bool isBoxWhole(
   return true;
 }
 
+// A coordinate of the seed of a particle whose box is the whole domain at time t.
+template <int Dimension>
+RT_INLINE double seedOf(
+  const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane, double t, int axis)
+{
+  const double seed = (x[axis][lane] - t * job.Tables.Centroid[axis]) / (1.0 - t);
+  return smaller(larger(seed, 0.0), job.Tables.Size[axis]);
+}
+
 template <int Dimension>
 RT_INLINE void writeSeed(const FlowJob<Dimension>& job, const LaneVectors<Dimension>& x, int lane,
   double t, std::int64_t index)
 {
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double size = job.Tables.Size[axis];
-    const double seed = (x[axis][lane] - t * job.Tables.Centroid[axis]) / (1.0 - t);
-    job.Output[index * Dimension + axis] = smaller(larger(seed, 0.0), size);
+    job.Output[index * Dimension + axis] = seedOf<Dimension>(job, x, lane, t, axis);
   }
 }
 
-// Time 1 to 0 over the reversed graded steps of [0,1]; a particle is done once its box is the whole
-// domain, as its seed is then known in closed form.
+// Lanes at a level's time whose cell of its lattice is good: the seeds of their positions are
+// interpolated. Writes them, and marks the lanes as done.
+template <int Dimension, class Write>
+void finishFromMap(const FlowMapLevel<Dimension>& level, int count,
+  const LaneVectors<Dimension>& positions, bool* active, int& left, const Write& write)
+{
+  constexpr int record = FlowMapLevel<Dimension>::BackwardRecord;
+  StencilLanes<Dimension> stencils;
+  findStencils<Dimension>(level, positions, stencils);
+  RecordInterpolation<record, Dimension> interpolate(level, positions, stencils);
+  for (int i = 0; i < count; ++i)
+  {
+    if (active[i] && isGood<Dimension>(level, stencils, i))
+    {
+      const Vector<record, float> seed = interpolate(i);
+      write(i, [&](int axis) { return smaller(larger(seed[axis], 0.0), level.Axes[axis].Size); });
+      active[i] = false;
+      --left;
+    }
+  }
+}
+
+// One step of a backward run to `time`: the velocity there is left in V[0].
+template <int Dimension>
+RT_INLINE void stepBackward(const FlowJob<Dimension>& job, const StepWeights& weights, double time,
+  int count, const bool* active, MultistepLanes<Dimension>& lanes)
+{
+  const auto& v0 = *lanes.V[0];
+  const auto& v1 = *lanes.V[1];
+  auto& newest = *lanes.V[3];
+  lanes.Advance(job, weights.Predictor, weights.Length, v0, v1, *lanes.V[2], lanes.Trial);
+  if (time <= 0.0)
+  {
+    initialVelocity<Dimension>(job, lanes.Trial, newest);
+  }
+  else
+  {
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      lanes.Time[i] = time;
+    }
+    evaluateVelocity<Dimension>(
+      job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
+  }
+  lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
+  lanes.Rotate();
+}
+
+// Lanes whose box is the whole domain at `time`: their seed is known in closed form. Writes it, and
+// marks the lanes as done.
+template <int Dimension, class Write>
+RT_INLINE void finishWhole(const FlowJob<Dimension>& job, int count,
+  const LaneVectors<Dimension>& x, double time, bool* active, int& left, const Write& write)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    if (active[i] && (time <= 0.0 || isBoxWhole<Dimension>(job, x, i, time)))
+    {
+      write(i, [&](int axis) { return seedOf<Dimension>(job, x, i, time, axis); });
+      active[i] = false;
+      --left;
+    }
+  }
+}
+
+// Time 1 to 0 over the reversed graded steps of [0,1]; a particle is done once the flow map, if
+// there is one, gives its seed, or its box is the whole domain.
 template <int Dimension>
 std::int64_t multistepBackward(
   const FlowJob<Dimension>& job, const double* seeds, const std::int64_t* index, int count)
@@ -331,47 +339,33 @@ std::int64_t multistepBackward(
   {
     lanes.Span[i] = -1.0;
   }
+  const auto write = [&](int lane, const auto& coordinate) {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      job.Output[index[lane] * Dimension + axis] = coordinate(axis);
+    }
+  };
 
+  int level = job.Map ? job.Map->LevelCount - 1 : -1;
+  const RunWeights<Dimension> run =
+    job.Map ? RunWeights<Dimension>(*job.Map) : RunWeights<Dimension>(job, 0);
   std::int64_t evaluations = 0;
-  for (std::int64_t step = 0; step < job.Steps && left > 0; ++step)
+  for (std::int64_t step = 0; step < run.Steps && left > 0; ++step)
   {
     if (shouldStop<Dimension>(job, step))
     {
       return evaluations;
     }
-    const StepWeights weights = stepWeights<Dimension>(job, step, job.Steps);
-    const double time = 1.0 - weights.Time;
-    const bool atStart = step + 1 == job.Steps;
-    const auto& v0 = *lanes.V[0];
-    const auto& v1 = *lanes.V[1];
-    auto& newest = *lanes.V[3];
-    lanes.Advance(job, weights.Predictor, weights.Length, v0, v1, *lanes.V[2], lanes.Trial);
-    if (atStart)
+    const StepWeights weights = run[step];
+    const double time = step + 1 == run.Steps ? 0.0 : 1.0 - weights.Time;
+    stepBackward<Dimension>(job, weights, time, count, active, lanes);
+    evaluations += time > 0.0 ? left : 0;
+    if (level >= 0 && step + 1 == job.Map->Levels[level].HandOver)
     {
-      initialVelocity<Dimension>(job, lanes.Trial, newest);
+      finishFromMap<Dimension>(job.Map->Levels[level], count, lanes.Position, active, left, write);
+      --level;
     }
-    else
-    {
-#pragma omp simd
-      for (int i = 0; i < BlockSize; ++i)
-      {
-        lanes.Time[i] = time;
-      }
-      evaluateVelocity<Dimension>(
-        job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest, active);
-      evaluations += left;
-    }
-    lanes.Advance(job, weights.Corrector, weights.Length, newest, v0, v1, lanes.Position);
-    lanes.Rotate();
-    for (int i = 0; i < count; ++i)
-    {
-      if (active[i] && (atStart || isBoxWhole<Dimension>(job, lanes.Position, i, time)))
-      {
-        writeSeed<Dimension>(job, lanes.Position, i, atStart ? 0.0 : time, index[i]);
-        active[i] = false;
-        --left;
-      }
-    }
+    finishWhole<Dimension>(job, count, lanes.Position, time, active, left, write);
   }
   return evaluations;
 }

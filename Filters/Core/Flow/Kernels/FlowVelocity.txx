@@ -210,11 +210,11 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   if (active)
   {
-    sumBoxes<Dimension, false>(job.Tables, boxes, count, active);
+    sumBoxes<Dimension, false>(job.Tables, boxes, count, active, job.Sparse);
   }
   else
   {
-    sumBoxes<Dimension, true>(job.Tables, boxes, count, nullptr);
+    sumBoxes<Dimension, true>(job.Tables, boxes, count, nullptr, job.Sparse);
   }
   const double voidMass = job.Tables.VoidMass;
   const double hold = job.Backward ? 2.0 : 0.0;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all blocks of one advection share, from its options.
+#ifndef RectifiedTransport_AdvectionJob_h
+#define RectifiedTransport_AdvectionJob_h
+
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+constexpr int refinements = 5; // 2N, 4N ... 32N
+
+inline void check(const FlowOptions& options)
+{
+  constexpr int maximumSteps = FlowOptions::MaximumNumberOfSteps;
+  if (options.NumberOfSteps < 1 || options.NumberOfSteps > maximumSteps)
+  {
+    throw std::invalid_argument("NumberOfSteps is " + std::to_string(options.NumberOfSteps) +
+      ", it must be from 1 to " + std::to_string(maximumSteps));
+  }
+  if (!(options.Tolerance > 0.0) || !std::isfinite(options.Tolerance))
+  {
+    throw std::invalid_argument("Tolerance is " + std::to_string(options.Tolerance) +
+      ", it must be a positive number of cells");
+  }
+}
+
+enum class AdvectionKind
+{
+  Forward,
+  Backward,
+  ForwardToCells // of a density of isolated cells
+};
+
+// Relative to the domain's longest side. Below it the estimate of a step's error is rounding alone,
+// and smaller steps gain no accuracy.
+constexpr double finestTolerance = 0x1p-40;
+
+// The least width of a box, in cells of a level, at which that level is used: coarse levels are
+// faster and add an error that a larger number of steps does not remove. In 3D they gain less, as
+// the sums on the finest level are simpler.
+template <int Dimension>
+double coarseRatio(const FlowOptions& options, AdvectionKind kind)
+{
+  constexpr double never = 1e12;
+  constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
+  const bool adaptive = options.Method == Integrator::Adaptive;
+  const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
+  const bool accurate = kind == AdvectionKind::ForwardToCells ||
+    (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
+  return exact ? never : accurate ? 64.0 : usual;
+}
+
+// Where only isolated cells have mass, nearly all particles miss them with few steps: the first
+// pass takes the number of steps that they would be redone with, 2^(this) times as many.
+inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
+{
+  if (kind != AdvectionKind::ForwardToCells)
+  {
+    return 0;
+  }
+  constexpr int enough = 128;
+  int refinement = 0;
+  while (options.Method != Integrator::Adaptive && refinement < refinements &&
+    (options.NumberOfSteps << refinement) < enough)
+  {
+    ++refinement;
+  }
+  return refinement;
+}
+
+template <int Dimension>
+class AdvectionJob
+{
+public:
+  // Throws std::invalid_argument.
+  AdvectionJob(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options)
+    : LastPass(refinements - firstRefinement(options, kind))
+  {
+    check(options);
+    this->Job.Tables = tables;
+    this->Job.Method = options.Method;
+    this->Job.Backward = kind == AdvectionKind::Backward;
+    this->Job.Nearest = options.Lookup == TableLookup::Nearest;
+    const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
+    this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
+    this->Job.Steps = std::int64_t{ options.NumberOfSteps } << firstRefinement(options, kind);
+    this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
+    if (options.Method == Integrator::Multistep)
+    {
+      this->Weights.reserve(static_cast<std::size_t>(this->Job.Steps));
+      for (std::int64_t step = 0; step < this->Job.Steps; ++step)
+      {
+        this->Weights.push_back(multistepWeights(step, this->Job.Steps));
+      }
+    }
+    this->Job.Weights = this->Weights.empty() ? nullptr : this->Weights.data();
+  }
+  AdvectionJob(const AdvectionJob&) = delete;
+  AdvectionJob& operator=(const AdvectionJob&) = delete;
+
+  FlowJob<Dimension> Job;
+  const int LastPass; // of the unresolved particles, each with twice the steps
+
+private:
+  std::vector<StepWeights> Weights;
+};
+
+} // namespace RectifiedTransport
+
+#endif

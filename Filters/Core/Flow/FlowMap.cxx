@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/FlowMap.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Marks of a node: it met an empty box (set by the kernels); the edge along axis a bends too much.
+constexpr int isTroubled = 1;
+constexpr int isBent(int axis)
+{
+  return 2 << axis;
+}
+
+double placeOf(const LatticeAxis& axis, std::int64_t node)
+{
+  if (node <= 0 || node >= axis.Cells)
+  {
+    return node <= 0 ? 0.0 : axis.Size;
+  }
+  const double u = static_cast<double>(node) * (axis.Length / static_cast<double>(axis.Cells));
+  const double fromEnd = axis.Length - u;
+  if (u < 2.0 * axis.Layer)
+  {
+    return u * u / (4.0 * axis.Layer);
+  }
+  return fromEnd < 2.0 * axis.Layer ? axis.Size - fromEnd * fromEnd / (4.0 * axis.Layer)
+                                    : u - axis.Layer;
+}
+
+// One lattice while it is made.
+template <int Dimension>
+class LatticeBuild
+{
+public:
+  LatticeBuild(
+    const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level, Progress& progress)
+    : Job(job)
+    , Level(level)
+    , Work(progress)
+  {
+    std::int64_t stride = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->Nodes[axis] = level.Axes[axis].Cells + 1;
+      this->Stride[axis] = stride;
+      stride *= this->Nodes[axis];
+      for (std::int64_t node = 0; node < this->Nodes[axis]; ++node)
+      {
+        this->Places[axis].push_back(placeOf(level.Axes[axis], node));
+      }
+    }
+    this->Marks.resize(static_cast<std::size_t>(stride));
+  }
+
+  // Makes the records, each from the finest of the coarser levels that may be interpolated there,
+  // else from scratch. Returns the number of velocity evaluations.
+  std::int64_t Advance()
+  {
+    std::vector<std::int64_t> left(this->Marks.size());
+    std::iota(left.begin(), left.end(), std::int64_t{ 0 });
+    std::int64_t evaluations = 0;
+    for (int parent = this->Job.Map->LevelCount - 1; parent >= -1 && !left.empty(); --parent)
+    {
+      evaluations += this->AdvanceFrom(parent, left);
+    }
+    return evaluations;
+  }
+
+  // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
+  // stencils of an edge, forwards also of the ends of straight lines, deviate from cubics by more
+  // than `deviation`. Returns whether most may not; backwards most of those that have a past.
+  bool FindBad(double deviation, unsigned char* bad)
+  {
+    std::vector<float> bends(this->Marks.size()); // squared
+    const auto limit = static_cast<float>(deviation * deviation);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
+        bends[static_cast<std::size_t>(node)] =
+          place + 3 < this->Nodes[axis] ? this->Bend(node, this->Stride[axis]) : 0.0f;
+      });
+      this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
+        // The stencils of both cells that share the edge's ends, and its own.
+        float largest = 0.0f;
+        for (std::int64_t first = place - 2; first <= place; ++first)
+        {
+          const std::int64_t inside =
+            std::min(std::max(first, std::int64_t{ 0 }), this->Nodes[axis] - 4);
+          const std::int64_t start = node + (inside - place) * this->Stride[axis];
+          largest = std::max(largest, bends[static_cast<std::size_t>(start)]);
+        }
+        unsigned char& mark = this->Marks[static_cast<std::size_t>(node)];
+        mark = static_cast<unsigned char>(mark | (largest > limit ? isBent(axis) : 0));
+      });
+    }
+    return this->MarkCells(bad);
+  }
+
+private:
+  static constexpr std::int64_t blocks = 4; // a range
+  static constexpr std::int64_t nodeGrain = std::int64_t{ 1 } << 12;
+
+  std::int64_t AdvanceFrom(int parent, std::vector<std::int64_t>& left)
+  {
+    const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
+    std::vector<unsigned char> deferred(left.size());
+    std::atomic<std::int64_t> evaluations{ 0 };
+    this->Work.For(
+      static_cast<std::int64_t>(left.size()), blocks * BlockSize,
+      [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t first = begin; first < end && !this->Work.ShouldStop();
+             first += BlockSize)
+        {
+          const auto count = static_cast<int>(std::min<std::int64_t>(BlockSize, end - first));
+          double places[BlockSize * Dimension];
+          for (int i = 0; i < count; ++i)
+          {
+            std::int64_t node = left[static_cast<std::size_t>(first + i)];
+            for (int axis = 0; axis < Dimension; ++axis)
+            {
+              const auto place = static_cast<std::size_t>(node % this->Nodes[axis]);
+              places[i * Dimension + axis] = this->Places[axis][place];
+              node /= this->Nodes[axis];
+            }
+          }
+          evaluations += advance(this->Job, this->Level, parent,
+            { places, left.data() + first, count, deferred.data() + first, this->Marks.data() });
+        }
+      },
+      blocks * BlockSize);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < left.size(); ++i)
+    {
+      left[kept] = left[i];
+      kept += deferred[i];
+    }
+    left.resize(kept);
+    return evaluations;
+  }
+
+  // Calls function(node, its place along the axis) for all nodes.
+  template <class Function>
+  void ForNodes(int axis, const Function& function)
+  {
+    this->Work.For(static_cast<std::int64_t>(this->Marks.size()), nodeGrain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t node = first; node < last; ++node)
+        {
+          function(node, node / this->Stride[axis] % this->Nodes[axis]);
+        }
+      });
+  }
+
+  // The squared third difference from a node on, over 16: about what a cubic leaves out.
+  float Bend(std::int64_t node, std::int64_t stride) const
+  {
+    constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
+    constexpr int backward = FlowMapLevel<Dimension>::BackwardRecord;
+    const int record = this->Job.Backward ? backward : forward;
+    const float* first = this->Level.Records + node * record;
+    const auto difference = [&](int entry) {
+      const float* r = first + entry;
+      const std::int64_t s = stride * record;
+      return (r[3 * s] - r[0]) + 3.0f * (r[s] - r[2 * s]);
+    };
+    float here = 0.0f;
+    float ahead = 0.0f;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const float position = difference(axis);
+      here += position * position;
+      if (!this->Job.Backward)
+      {
+        const float end = position + this->Level.TimeLeft * difference(Dimension + axis);
+        ahead += end * end;
+      }
+    }
+    return std::max(here, ahead) / 256.0f;
+  }
+
+  bool MarkCells(unsigned char* bad)
+  {
+    GridSize<Dimension> cells;
+    std::int64_t count = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      cells[axis] = this->Level.Axes[axis].Cells;
+      count *= cells[axis];
+    }
+    std::atomic<std::int64_t> bent{ 0 };
+    std::atomic<std::int64_t> met{ 0 };
+    this->Work.For(count, nodeGrain, [&](std::int64_t first, std::int64_t last) {
+      std::int64_t bentHere = 0;
+      std::int64_t troubledHere = 0;
+      for (std::int64_t cell = first; cell < last; ++cell)
+      {
+        std::int64_t node = 0;
+        std::int64_t rest = cell;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          node += rest % cells[axis] * this->Stride[axis];
+          rest /= cells[axis];
+        }
+        const int marks = this->MarksOfCell(node);
+        bad[cell] = marks != 0 ? 1 : 0;
+        troubledHere += marks & isTroubled ? 1 : 0;
+        bentHere += marks != 0 && !(marks & isTroubled) ? 1 : 0;
+      }
+      bent += bentHere;
+      met += troubledHere;
+    });
+    return !this->Job.Backward && 2 * (bent + met) > count;
+  }
+
+  // Those of the corners and edges of the cell above a node.
+  int MarksOfCell(std::int64_t node) const
+  {
+    int marks = 0;
+    for (int corner = 0; corner < (1 << Dimension); ++corner)
+    {
+      std::int64_t at = node;
+      int relevant = isTroubled;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const bool upper = (corner >> axis & 1) != 0;
+        at += upper ? this->Stride[axis] : 0;
+        relevant |= upper ? 0 : isBent(axis);
+      }
+      marks |= this->Marks[static_cast<std::size_t>(at)] & relevant;
+    }
+    return marks;
+  }
+
+  const FlowJob<Dimension>& Job;
+  const FlowMapLevel<Dimension>& Level;
+  Progress& Work;
+  GridSize<Dimension> Nodes;
+  GridSize<Dimension> Stride; // in nodes
+  std::vector<double> Places[Dimension];
+  std::vector<unsigned char> Marks; // of the nodes
+};
+
+} // namespace
+
+template <int Dimension>
+FlowMap<Dimension>::FlowMap(
+  const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context)
+{
+  Progress progress(context);
+  for (int step = 0; step < shape.Steps; ++step)
+  {
+    this->Weights.push_back(multistepWeights(step, shape.Steps));
+  }
+  this->Map.Steps = shape.Steps;
+  this->Map.Weights = this->Weights.data();
+  FlowJob<Dimension> nodes = job;
+  nodes.Map = &this->Map;
+  nodes.Sparse = true;
+  nodes.ShouldStop = [](void* clientData) {
+    return static_cast<Progress*>(clientData)->ShouldStop();
+  };
+  nodes.ClientData = &progress;
+  double done = 0.0;
+  for (const typename FlowMapShape<Dimension>::Level& planned : shape.Levels)
+  {
+    done += planned.Cost / shape.Cost;
+    FlowMapLevel<Dimension> level;
+    level.HandOver = planned.HandOver;
+    level.TimeLeft = static_cast<float>(planned.TimeLeft);
+    std::int64_t count = 1;
+    std::int64_t cells = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = job.Tables.Size[axis];
+      const double length = size + 2.0 * planned.Layers[axis];
+      level.Axes[axis] = { size, planned.Layers[axis], length,
+        static_cast<double>(planned.Cells[axis]) / length, planned.Cells[axis] };
+      cells *= planned.Cells[axis];
+      count *= planned.Cells[axis] + 1;
+    }
+    Lattice lattice{ LargeBuffer<float>(count *
+                       (job.Backward ? FlowMapLevel<Dimension>::BackwardRecord
+                                     : FlowMapLevel<Dimension>::ForwardRecord)),
+      LargeBuffer<unsigned char>(cells) };
+    level.Records = lattice.Records.data();
+    level.Bad = lattice.Bad.data();
+
+    constexpr double partOfAdvance = 0.9;
+    LatticeBuild<Dimension> build(nodes, level, progress);
+    progress.BeginStage(progress.StageEnd() + partOfAdvance * (done - progress.StageEnd()));
+    this->Evaluated += build.Advance();
+    progress.BeginStage(done);
+    if (build.FindBad(shape.Deviation, lattice.Bad.data()))
+    {
+      break; // finer ones would be no better
+    }
+    this->Lattices.push_back(std::move(lattice));
+    this->Map.Levels[this->Map.LevelCount++] = level;
+  }
+}
+
+template <int Dimension>
+std::int64_t FlowMap<Dimension>::MemorySize() const
+{
+  std::int64_t bytes = 0;
+  for (const Lattice& lattice : this->Lattices)
+  {
+    bytes += lattice.Records.bytes() + lattice.Bad.bytes();
+  }
+  return bytes;
+}
+
+template class FlowMap<1>;
+template class FlowMap<2>;
+template class FlowMap<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A flow map: lattices of seeds, advected while boxes are wide and the flow is smooth. Particles
+// take over by interpolation for the last few steps; backwards they end by it. It depends on the
+// density, the number of steps and the direction alone.
+#ifndef RectifiedTransport_FlowMap_h
+#define RectifiedTransport_FlowMap_h
+
+#include "Core/Flow/FlowMapShape.h"
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class FlowMap
+{
+public:
+  // Makes all levels of a shape, but none from the first on that may mostly not be interpolated.
+  // The job gives the tables, the direction, the steps and their weights. Throws std::bad_alloc and
+  // Cancelled.
+  FlowMap(
+    const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context);
+  FlowMap(const FlowMap&) = delete;
+  FlowMap& operator=(const FlowMap&) = delete;
+
+  const FlowMapView<Dimension>& View() const { return this->Map; }
+  std::int64_t MemorySize() const; // bytes
+  std::int64_t Evaluations() const { return this->Evaluated; }
+
+private:
+  struct Lattice
+  {
+    LargeBuffer<float> Records;
+    LargeBuffer<unsigned char> Bad;
+  };
+
+  FlowMapView<Dimension> Map;
+  std::vector<StepWeights> Weights;
+  std::vector<Lattice> Lattices;
+  std::int64_t Evaluated = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

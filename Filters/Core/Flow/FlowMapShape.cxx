@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/FlowMapShape.h"
+
+#include "Core/Flow/Kernels/FlowKernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Measured constants, in 2D and 3D.
+struct Constants
+{
+  double Steps;         // of particles that hand over, a NumberOfSteps
+  double Error;         // interpolation error that is allowed, times NumberOfSteps^2 / size
+  double LeastRatio;    // width of the box over spacing
+  double LeastCells;    // of the coarsest lattice: the start of the paths has kinks
+  double Interpolation; // time of an interpolation, in velocity evaluations of particles
+  double Node;          // time of a node's velocity evaluation: nodes lie far apart
+  double Particles;     // a grid cell, for which the number of nodes is chosen
+};
+
+template <int Dimension>
+constexpr Constants constants = Dimension == 3 ? Constants{ 1.0, 1.9, 4.5, 22.0, 1.3, 1.8, 1.0 }
+                                               : Constants{ 0.95, 1.2, 5.0, 40.0, 1.2, 1.3, 0.25 };
+
+// The narrowest box, in cells, that a lattice may serve: below, grid cells are not smoothed.
+constexpr double narrowest = 6.0;
+// Each lattice's spacing is at least this many times that of the next finer one.
+constexpr double refinement = 2.0;
+constexpr std::int64_t fewestCells = 5; // along an axis of a lattice
+
+template <int Dimension>
+double numberOfNodes(const GridSize<Dimension>& cells)
+{
+  double nodes = 1.0;
+  for (const std::int64_t count : cells)
+  {
+    nodes *= static_cast<double>(count + 1);
+  }
+  return nodes;
+}
+
+// Everything in units of the geometric mean of the axes' sizes: the flow commutes with scalings of
+// axes, and so do the lattices.
+template <int Dimension>
+class LevelChooser
+{
+public:
+  using Level = typename FlowMapShape<Dimension>::Level;
+
+  LevelChooser(
+    const GridSize<Dimension>& size, int numberOfSteps, int steps, FlowDirection direction)
+    : Size(size)
+    , Steps(steps)
+    , Direction(direction)
+  {
+    const double cells = numberOfCells<Dimension>(size);
+    // Rounded: roots other than the square root differ from one library to the next.
+    this->Mean = std::round(Dimension == 3 ? std::cbrt(cells) : std::sqrt(cells));
+    this->Particles = cells * Fixed.Particles;
+    this->Error = Fixed.Error * this->Mean / (static_cast<double>(numberOfSteps) * numberOfSteps);
+    for (int handOver = 0; handOver < steps; ++handOver)
+    {
+      this->Spacings.push_back(this->FindSpacing(handOver));
+    }
+  }
+
+  double Deviation() const
+  {
+    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.2) * this->Error;
+  }
+
+  double WidestSpacing() const { return this->Mean / Fixed.LeastCells; }
+
+  // The first hand-over with a spacing; the number of steps if there is none.
+  int FirstWith(double spacing) const
+  {
+    const auto first = std::lower_bound(this->Spacings.begin(), this->Spacings.end(), spacing);
+    return static_cast<int>(first - this->Spacings.begin());
+  }
+
+  // Of the box at a hand-over.
+  double Width(int handOver) const
+  {
+    const double rest = this->Rest(handOver);
+    return this->Mean * rest / (1.0 - rest);
+  }
+
+  // The spacing h at which the error of the interpolation, W (h / W)^(16/7) but for a factor, is
+  // the allowed one. It grows with the hand-over.
+  double Spacing(int handOver) const { return this->Spacings[static_cast<std::size_t>(handOver)]; }
+
+  bool MayBeFinest(int handOver) const
+  {
+    const double width = this->Width(handOver);
+    const double spacing = std::min(this->Spacing(handOver), this->WidestSpacing());
+    return this->IsAfterStart(handOver) && width >= narrowest &&
+      width >= spacing * Fixed.LeastRatio;
+  }
+
+  // The paths' straight starts, which end at time 1/2 at the latest, must be over.
+  bool IsAfterStart(int handOver) const
+  {
+    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= 0.5;
+  }
+
+  // The levels from the finest, whose hand-over is given, to the coarsest.
+  std::vector<Level> Levels(int finest) const
+  {
+    std::vector<int> handOvers = { finest };
+    while (handOvers.size() < FlowMapView<Dimension>::MaximumLevels)
+    {
+      const int next = this->FirstWith(refinement * this->Spacing(handOvers.back()));
+      if (!this->IsAfterStart(next) || this->Spacing(next) > this->WidestSpacing())
+      {
+        break;
+      }
+      handOvers.push_back(next);
+    }
+    // Nodes of the coarsest take the whole way from their seeds: as few as may be.
+    if (handOvers.size() > 1)
+    {
+      int& coarsest = handOvers.back();
+      coarsest = std::max(coarsest, this->FirstWith(this->WidestSpacing()) - 1);
+      while (!this->IsAfterStart(coarsest))
+      {
+        --coarsest;
+      }
+    }
+    std::vector<Level> levels;
+    for (const int handOver : handOvers)
+    {
+      levels.push_back(this->At(handOver));
+    }
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+      const int here = levels[i].HandOver;
+      const double evaluations = i + 1 < levels.size()
+        ? Fixed.Interpolation + this->FromCoarser(levels[i + 1].HandOver - here)
+        : latticeSteps * (this->Steps - here);
+      levels[i].Cost = numberOfNodes<Dimension>(levels[i].Cells) * evaluations * Fixed.Node;
+    }
+    return levels;
+  }
+
+  // Evaluations of a particle from a hand-over on.
+  double Remaining(int handOver) const
+  {
+    return this->Direction == FlowDirection::Forward ? handOver - 1 + Fixed.Interpolation
+                                                     : handOver + Fixed.Interpolation;
+  }
+
+  double TimeOfParticles(int finest) const { return this->Particles * this->Remaining(finest); }
+
+private:
+  static constexpr Constants Fixed = constants<Dimension>;
+  static constexpr double latticeSteps = 2.0;
+
+  // 1 - t at a hand-over.
+  double Rest(int handOver) const
+  {
+    const double graded = grading(handOver, this->Steps);
+    return this->Direction == FlowDirection::Forward ? 0.75 * graded : graded;
+  }
+
+  // Square roots alone: they have the same bits everywhere.
+  double FindSpacing(int handOver) const
+  {
+    const double width = this->Width(handOver);
+    const double fourth = std::sqrt(std::sqrt(this->Error / std::max(width, 1e-300)));
+    const double eighth = std::sqrt(fourth);
+    return width * (fourth * eighth * std::sqrt(eighth));
+  }
+
+  double FromCoarser(int steps) const
+  {
+    return this->Direction == FlowDirection::Forward ? steps : latticeSteps * steps + 2;
+  }
+
+  // The same number of spacings to the box's width on every axis.
+  Level At(int handOver) const
+  {
+    const double spacing = std::min(this->Spacing(handOver), this->WidestSpacing());
+    const double ratio = this->Width(handOver) / spacing;
+    Level level{ handOver, this->Rest(handOver), {}, {}, 0.0 };
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = static_cast<double>(this->Size[axis]);
+      const double width = size * (this->Width(handOver) / this->Mean);
+      level.Layers[axis] =
+        this->Direction == FlowDirection::Forward ? std::min(width, size / 2.0) : 0.0;
+      const double length = size + 2.0 * level.Layers[axis];
+      level.Cells[axis] =
+        std::max(fewestCells, static_cast<std::int64_t>(std::ceil(length * ratio / width)));
+    }
+    return level;
+  }
+
+  const GridSize<Dimension> Size;
+  const int Steps;
+  const FlowDirection Direction;
+  double Mean;
+  double Particles;
+  double Error;
+  std::vector<double> Spacings; // by hand-over
+};
+
+} // namespace
+
+template <int Dimension>
+FlowMapShape<Dimension>::FlowMapShape(
+  const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction)
+  : NumberOfSteps(numberOfSteps)
+  , Steps(direction == FlowDirection::Backward
+        ? numberOfSteps
+        : static_cast<int>(std::ceil(constants<Dimension>.Steps * numberOfSteps)))
+  , Direction(direction)
+{
+  if constexpr (Dimension > 1)
+  {
+    const int steps = this->Steps;
+    const LevelChooser<Dimension> chooser(size, numberOfSteps, steps, direction);
+    this->Deviation = chooser.Deviation();
+    double least = chooser.TimeOfParticles(steps);
+    for (int handOver = 1; handOver < steps; ++handOver)
+    {
+      if (!chooser.MayBeFinest(handOver))
+      {
+        continue;
+      }
+      std::vector<Level> levels = chooser.Levels(handOver);
+      if (numberOfNodes<Dimension>(levels.front().Cells) > numberOfCells<Dimension>(size))
+      {
+        continue;
+      }
+      double cost = 0.0;
+      for (const Level& level : levels)
+      {
+        cost += level.Cost;
+      }
+      const double time = cost + chooser.TimeOfParticles(handOver);
+      if (time < least || this->Levels.empty())
+      {
+        least = time;
+        this->Cost = cost;
+        this->Levels.assign(levels.rbegin(), levels.rend());
+      }
+    }
+  }
+}
+
+template <int Dimension>
+bool FlowMapShape<Dimension>::PaysFor(double particles) const
+{
+  constexpr Constants fixed = constants<Dimension>;
+  if (this->Levels.empty())
+  {
+    return false;
+  }
+  const double saved = this->NumberOfSteps - this->Levels.back().HandOver - fixed.Interpolation;
+  return particles * saved > this->Cost;
+}
+
+template <int Dimension>
+FlowOptions withFlowMaps(
+  FlowOptions options, const GridSize<Dimension>& size, FlowDirection direction, double particles)
+{
+  if (options.Maps == FlowMaps::Auto)
+  {
+    const FlowMapShape<Dimension> shape(size, options.NumberOfSteps, direction);
+    options.Maps = shape.PaysFor(particles) ? FlowMaps::On : FlowMaps::Off;
+  }
+  return options;
+}
+
+template struct FlowMapShape<1>;
+template struct FlowMapShape<2>;
+template struct FlowMapShape<3>;
+template FlowOptions withFlowMaps<1>(FlowOptions, const GridSize<1>&, FlowDirection, double);
+template FlowOptions withFlowMaps<2>(FlowOptions, const GridSize<2>&, FlowDirection, double);
+template FlowOptions withFlowMaps<3>(FlowOptions, const GridSize<3>&, FlowDirection, double);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which lattices a flow map has: they follow from the grid, the number of steps and the direction
+// alone. Documentation/FlowMaps.md derives the formulas.
+#ifndef RectifiedTransport_FlowMapShape_h
+#define RectifiedTransport_FlowMapShape_h
+
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/GridSize.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+enum class FlowDirection
+{
+  Forward,
+  Backward
+};
+
+template <int Dimension>
+struct FlowMapShape
+{
+  struct Level
+  {
+    int HandOver;              // steps of particles between it and time 1
+    double TimeLeft;           // until time 1
+    GridSize<Dimension> Cells; // of the lattice, between its nodes
+    Point<Dimension> Layers;   // see LatticeAxis
+    double Cost;               // in velocity evaluations of particles
+  };
+
+  // Empty where lattices do not serve: in 1D, for few steps, and where they would need more nodes
+  // than the grid has cells.
+  FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction);
+
+  // Whether particles take less time with the map, that of making it included.
+  bool PaysFor(double particles) const;
+
+  int NumberOfSteps;
+  int Steps; // of particles that hand over: fewer, as the lattices' are finer
+  FlowDirection Direction;
+  std::vector<Level> Levels; // wider spacings first
+  double Deviation = 0.0;    // in cells: cells of a lattice that deviate more from cubics are bad
+  double Cost = 0.0;         // of all levels
+};
+
+// Options with Auto replaced by what it means for so many particles, On or Off.
+template <int Dimension>
+FlowOptions withFlowMaps(
+  FlowOptions options, const GridSize<Dimension>& size, FlowDirection direction, double particles);
+
+} // namespace RectifiedTransport
+
+#endif

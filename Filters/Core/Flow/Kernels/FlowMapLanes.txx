@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Interpolation of a flow map by cubics through four nodes an axis. Included by FlowKernels.txx.
+
+// Where the particles of a block lie in a lattice.
+template <int Dimension>
+struct StencilLanes
+{
+  alignas(64) float Weights[Dimension][4][BlockSize];
+  alignas(64) std::int32_t First[Dimension][BlockSize]; // of the four nodes
+  alignas(64) std::int32_t Cell[Dimension][BlockSize];
+};
+
+// The four nodes around each particle; next to the ends of an axis, its first or last four.
+template <int Dimension>
+RT_INLINE void findStencils(const FlowMapLevel<Dimension>& level,
+  const LaneVectors<Dimension>& positions, StencilLanes<Dimension>& stencils)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const LatticeAxis nodes = level.Axes[axis];
+    const double* position = positions[axis];
+    const auto last = static_cast<double>(nodes.Cells - 1);
+    std::int32_t* cells = stencils.Cell[axis];
+    std::int32_t* firsts = stencils.First[axis];
+    float(*weights)[BlockSize] = stencils.Weights[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double fromEnd = nodes.Size - position[i];
+      const double inLayer = 2.0 * __builtin_sqrt(nodes.Layer * smaller(position[i], fromEnd));
+      const double inside = position[i] + nodes.Layer;
+      const double belowEnd = fromEnd < nodes.Layer ? nodes.Length - inLayer : inside;
+      const double u = position[i] < nodes.Layer ? inLayer : belowEnd;
+      const double place = u * nodes.InverseSpacing;
+      const double cell = smaller(truncated(place), last);
+      const double first = smaller(larger(cell - 1.0, 0.0), last - 2.0);
+      const double a = place - first;
+      const double b = a - 1.0;
+      const double c = a - 2.0;
+      const double d = a - 3.0;
+      cells[i] = static_cast<std::int32_t>(cell);
+      firsts[i] = static_cast<std::int32_t>(first);
+      weights[0][i] = static_cast<float>(b * c * d * (-1.0 / 6.0));
+      weights[1][i] = static_cast<float>(a * c * d * 0.5);
+      weights[2][i] = static_cast<float>(a * b * d * -0.5);
+      weights[3][i] = static_cast<float>(a * b * c * (1.0 / 6.0));
+    }
+  }
+}
+
+template <int Dimension>
+RT_INLINE bool isGood(
+  const FlowMapLevel<Dimension>& level, const StencilLanes<Dimension>& stencils, int lane)
+{
+  std::int64_t cell = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    cell = cell * level.Axes[axis].Cells + stencils.Cell[axis][lane];
+  }
+  return level.Bad[cell] == 0;
+}
+
+template <int N, class RecordAt>
+RT_INLINE Vector<N, float> sumNodes(
+  const float (&weights)[4][BlockSize], int lane, const RecordAt& record)
+{
+  return (record(0) * weights[0][lane] + record(1) * weights[1][lane]) +
+    (record(2) * weights[2][lane] + record(3) * weights[3][lane]);
+}
+
+// Interpolates records of N floats, axis by axis, axis 0 last. Where consecutive lanes differ along
+// axis 0 alone, as those of a lattice of particles do, they share what was summed along the others.
+template <int N, int Dimension>
+class RecordInterpolation
+{
+public:
+  RecordInterpolation(const FlowMapLevel<Dimension>& level, const LaneVectors<Dimension>& positions,
+    const StencilLanes<Dimension>& stencils)
+    : Level(level)
+    , Stencils(stencils)
+  {
+    std::int64_t stride = N;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      this->Strides[axis] = stride;
+      stride *= level.Axes[axis].Cells + 1;
+    }
+    this->SharesRow[0] = false;
+    for (int i = 1; i < BlockSize; ++i)
+    {
+      this->SharesRow[i] = true;
+      for (int axis = 1; axis < Dimension; ++axis)
+      {
+        this->SharesRow[i] = this->SharesRow[i] && positions[axis][i] == positions[axis][i - 1];
+      }
+    }
+  }
+
+  RT_INLINE Vector<N, float> operator()(int lane)
+  {
+    const std::int32_t first = this->Stencils.First[0][lane];
+    const std::int32_t shift = first - this->First;
+    int kept = 0;
+    if (lane == this->Last + 1 && this->SharesRow[lane] && shift >= 0 && shift < 4)
+    {
+      kept = 4 - shift;
+      for (int k = 0; k < kept; ++k)
+      {
+        this->Columns[k] = this->Columns[k + shift];
+      }
+    }
+    std::int64_t start = first * this->Strides[0];
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      start += this->Stencils.First[axis][lane] * this->Strides[axis];
+    }
+    for (int k = kept; k < 4; ++k)
+    {
+      this->Columns[k] =
+        this->SumAxes<Dimension - 1>(lane, this->Level.Records + start + k * this->Strides[0]);
+    }
+    this->First = first;
+    this->Last = lane;
+    return sumNodes<N>(
+      this->Stencils.Weights[0],
+      lane, [&](int k) __attribute__((always_inline)) { return this->Columns[k]; });
+  }
+
+private:
+  // Along axes Axis, Axis - 1 ... 1.
+  template <int Axis>
+  RT_INLINE Vector<N, float> SumAxes(int lane, const float* record) const
+  {
+    if constexpr (Axis == 0)
+    {
+      return loadVector<N>(record);
+    }
+    else
+    {
+      return sumNodes<N>(
+        this->Stencils.Weights[Dimension - Axis], lane, [&](int k) __attribute__((always_inline)) {
+          return this->template SumAxes<Axis - 1>(
+            lane, record + k * this->Strides[Dimension - Axis]);
+        });
+    }
+  }
+
+  const FlowMapLevel<Dimension>& Level;
+  const StencilLanes<Dimension>& Stencils;
+  std::int64_t Strides[Dimension]; // in floats
+  bool SharesRow[BlockSize];       // with the lane before
+  Vector<N, float> Columns[4];
+  std::int32_t First = 0; // of the columns
+  int Last = -2;          // lane
+};
+
+// Positions and the last three velocities at a level's time of the particles with the seeds in
+// lanes.Position. Lanes whose cell of the lattice is bad, and those from `count` on, are not
+// changed, and marked as deferred.
+template <int Dimension>
+void loadFromMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level, int count,
+  MultistepLanes<Dimension>& lanes, bool (&deferred)[BlockSize])
+{
+  constexpr int record = FlowMapLevel<Dimension>::ForwardRecord;
+  StencilLanes<Dimension> stencils;
+  findStencils<Dimension>(level, lanes.Position, stencils);
+  RecordInterpolation<record, Dimension> interpolate(level, lanes.Position, stencils);
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    deferred[i] = i >= count || !isGood<Dimension>(level, stencils, i);
+    if (deferred[i])
+    {
+      continue;
+    }
+    const Vector<record, float> state = interpolate(i);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      lanes.Position[axis][i] = clampToDomain(state[axis], job.Tables.Size[axis]);
+      for (int k = 0; k < 3; ++k)
+      {
+        (*lanes.V[k])[axis][i] = state[(k + 1) * Dimension + axis];
+      }
+    }
+  }
+}

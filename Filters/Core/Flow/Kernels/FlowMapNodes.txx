@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The nodes of a flow map's lattices. Included by FlowKernels.txx.
+
+// Steps of a lattice for each of its particles' steps: a lattice has few nodes, and its errors are
+// those of all particles.
+constexpr std::int64_t latticeSteps = 2;
+
+// Step `step` of the first `count` graded steps of `steps`, stretched to end at 1.
+inline StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
+{
+  const double end = grading(count, steps);
+  StepWeights weights = multistepWeights(step, steps);
+  weights.Time = step + 1 == count ? 1.0 : weights.Time / end;
+  weights.Length /= end;
+  return weights;
+}
+
+template <int Dimension>
+RT_INLINE void correctStep(
+  const FlowJob<Dimension>& job, const StepWeights& weights, MultistepLanes<Dimension>& lanes)
+{
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Unresolved[i] = larger(lanes.Unresolved[i], lanes.Field.Void[i]);
+  }
+  lanes.Advance(
+    job, weights.Corrector, weights.Length, *lanes.V[3], *lanes.V[0], *lanes.V[1], lanes.Position);
+  lanes.Rotate();
+}
+
+// result = Position + length * (a[0] first + a[1] second + a[2] third), kept in the domain, with
+// each lane's own weights.
+template <int Dimension>
+RT_INLINE void advanceByLane(const FlowJob<Dimension>& job, const double (&a)[3][BlockSize],
+  double length, const LaneVectors<Dimension>& first, const LaneVectors<Dimension>& second,
+  const LaneVectors<Dimension>& third, const LaneVectors<Dimension>& position,
+  LaneVectors<Dimension>& result)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double size = job.Tables.Size[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double sum =
+        a[0][i] * first[axis][i] + a[1][i] * second[axis][i] + a[2][i] * third[axis][i];
+      result[axis][i] = clampToDomain(position[axis][i] + length * sum, size);
+    }
+  }
+}
+
+// From the seeds in lanes.Position to the time of a hand-over: the straight start, graded steps to
+// two of the common steps before, and those two, at first with velocities of each lane's own times.
+template <int Dimension>
+std::int64_t startNodes(
+  const FlowJob<Dimension>& job, int handOver, int count, MultistepLanes<Dimension>& lanes)
+{
+  const auto timeAt = [&](std::int64_t stepsLeft) {
+    return commonStart + (1.0 - commonStart) * grading(job.Map->Steps - stepsLeft, job.Map->Steps);
+  };
+  alignas(64) Lanes start;
+  startStraight<Dimension>(job, lanes.Position, *lanes.V[0], start);
+  const double end = timeAt(handOver + 2);
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Span[i] = end - start[i];
+    lanes.Time[i] = start[i];
+  }
+  const std::int64_t steps = latticeSteps * (job.Map->Steps - handOver - 2);
+  StepWeights weights{};
+  double last = 0.0; // lengths of the last two steps, in units of Span
+  double before = 0.0;
+  for (std::int64_t step = 0; step < steps; ++step)
+  {
+    if (shouldStop<Dimension>(job, step))
+    {
+      return step * count;
+    }
+    weights = stretchedWeights(step, steps, latticeSteps * job.Map->Steps);
+    predictStep<Dimension>(job, weights, start, count, nullptr, lanes);
+    correctStep<Dimension>(job, weights, lanes);
+    before = last;
+    last = weights.Length;
+  }
+
+  alignas(64) Lanes first; // times since the last but one velocity and the one before it
+  alignas(64) Lanes second;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    first[i] = last * lanes.Span[i];
+    second[i] = first[i] + before * lanes.Span[i];
+  }
+  for (int left = handOver + 2; left > handOver; --left)
+  {
+    const double time = timeAt(left - 1);
+    const double length = time - timeAt(left);
+    alignas(64) double predictor[3][BlockSize];
+    alignas(64) double corrector[3][BlockSize];
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      double p[3];
+      double c[3];
+      adamsWeights(-first[i] / length, -second[i] / length, p, c);
+      for (int k = 0; k < 3; ++k)
+      {
+        predictor[k][i] = p[k];
+        corrector[k][i] = c[k];
+      }
+      second[i] = first[i] + length;
+      first[i] = length;
+      lanes.Time[i] = time;
+    }
+    const auto& v0 = *lanes.V[0];
+    const auto& v1 = *lanes.V[1];
+    auto& newest = *lanes.V[3];
+    advanceByLane<Dimension>(
+      job, predictor, length, v0, v1, *lanes.V[2], lanes.Position, lanes.Trial);
+    evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest);
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      lanes.Unresolved[i] = larger(lanes.Unresolved[i], lanes.Field.Void[i]);
+    }
+    advanceByLane<Dimension>(
+      job, corrector, length, newest, v0, v1, lanes.Position, lanes.Position);
+    lanes.Rotate();
+  }
+  return (steps + 2) * count;
+}
+
+// Steps of particles from one hand-over to that of a finer level.
+template <int Dimension>
+std::int64_t continueNodes(const FlowJob<Dimension>& job, int from, int handOver, int count,
+  MultistepLanes<Dimension>& lanes)
+{
+  alignas(64) Lanes start;
+#pragma omp simd
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    start[i] = commonStart;
+    lanes.Span[i] = 1.0 - commonStart;
+  }
+  const RunWeights<Dimension> run(*job.Map);
+  for (std::int64_t left = from; left > handOver; --left)
+  {
+    if (shouldStop<Dimension>(job, from - left))
+    {
+      break;
+    }
+    const StepWeights weights = run[run.Steps - left];
+    predictStep<Dimension>(job, weights, start, count, nullptr, lanes);
+    correctStep<Dimension>(job, weights, lanes);
+  }
+  return static_cast<std::int64_t>(from - handOver) * count;
+}
+
+template <int Dimension>
+std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
+  const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block)
+{
+  constexpr int record = FlowMapLevel<Dimension>::ForwardRecord;
+  MultistepLanes<Dimension> lanes;
+  loadPositions<Dimension>(job, block.Places, block.Count, lanes.Position);
+  bool deferred[BlockSize] = {};
+  std::int64_t evaluations = 0;
+  if (parent < 0)
+  {
+    evaluations = startNodes<Dimension>(job, level.HandOver, block.Count, lanes);
+  }
+  else
+  {
+    const FlowMapLevel<Dimension>& coarser = job.Map->Levels[parent];
+    loadFromMap<Dimension>(job, coarser, block.Count, lanes, deferred);
+    evaluations =
+      continueNodes<Dimension>(job, coarser.HandOver, level.HandOver, block.Count, lanes);
+  }
+  for (int i = 0; i < block.Count; ++i)
+  {
+    block.Deferred[i] = deferred[i] ? 1 : 0;
+    block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
+    float* state = level.Records + block.Index[i] * record;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      state[axis] = static_cast<float>(lanes.Position[axis][i]);
+      for (int k = 0; k < 3; ++k)
+      {
+        state[(k + 1) * Dimension + axis] = static_cast<float>((*lanes.V[k])[axis][i]);
+      }
+    }
+    for (int k = 4 * Dimension; k < record; ++k)
+    {
+      state[k] = 0.0f;
+    }
+  }
+  return evaluations;
+}
+
+// From a level's time back to that of the next coarser level, which gives the seeds, and where its
+// cells are bad on to the one after it, at last to time 0.
+template <int Dimension>
+std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
+  const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block)
+{
+  constexpr int record = FlowMapLevel<Dimension>::BackwardRecord;
+  const auto timeAt = [&](std::int64_t step) {
+    return step < job.Map->Steps ? 1.0 - grading(step, job.Map->Steps) : 0.0;
+  };
+  const auto write = [&](int lane, const auto& coordinate) {
+    float* seed = level.Records + block.Index[lane] * record;
+    for (int axis = 0; axis < record; ++axis)
+    {
+      seed[axis] = axis < Dimension ? static_cast<float>(coordinate(axis)) : 0.0f;
+    }
+  };
+  MultistepLanes<Dimension> lanes;
+  loadPositions<Dimension>(job, block.Places, block.Count, lanes.Position);
+  std::memset(lanes.Velocities, 0, sizeof(lanes.Velocities));
+  bool active[BlockSize];
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    active[i] = i < block.Count;
+  }
+  const auto markEmpty = [&]() {
+    for (int i = 0; i < block.Count; ++i)
+    {
+      if (active[i])
+      {
+        lanes.Unresolved[i] = larger(lanes.Unresolved[i], lanes.Field.Void[i]);
+      }
+    }
+  };
+  int left = block.Count;
+  std::int64_t evaluations = 0;
+  std::int64_t from = level.HandOver;
+  finishWhole<Dimension>(job, block.Count, lanes.Position, timeAt(from), active, left, write);
+  for (; left > 0; --parent)
+  {
+    const std::int64_t to = parent < 0 ? job.Map->Steps : job.Map->Levels[parent].HandOver;
+    const std::int64_t steps = latticeSteps * (to - from) + 1;
+    const double begin = timeAt(from);
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      lanes.Time[i] = begin;
+      lanes.Span[i] = timeAt(to) - begin;
+    }
+    evaluateVelocity<Dimension>(
+      job, lanes.Field, block.Count, lanes.Position, lanes.Time, *lanes.V[0], *lanes.V[0], active);
+    evaluations += left;
+    markEmpty();
+    for (std::int64_t step = 0; step < steps && left > 0; ++step)
+    {
+      if (shouldStop<Dimension>(job, step))
+      {
+        return evaluations;
+      }
+      const StepWeights weights = stretchedWeights(step, steps, 2 * steps);
+      const double time = step + 1 == steps ? timeAt(to) : begin + lanes.Span[0] * weights.Time;
+      stepBackward<Dimension>(job, weights, time, block.Count, active, lanes);
+      if (time > 0.0)
+      {
+        evaluations += left;
+        markEmpty();
+      }
+      finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
+    }
+    if (parent >= 0)
+    {
+      finishFromMap<Dimension>(
+        job.Map->Levels[parent], block.Count, lanes.Position, active, left, write);
+    }
+    from = to;
+  }
+  for (int i = 0; i < block.Count; ++i)
+  {
+    block.Deferred[i] = 0;
+    block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
+  }
+  return evaluations;
+}
+
+template <int Dimension>
+std::int64_t advanceNodes(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
+  int parent, const NodeBlock& block)
+{
+  return job.Backward ? advanceBackwardNodes<Dimension>(job, level, parent, block)
+                      : advanceForwardNodes<Dimension>(job, level, parent, block);
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a block of particles in a multistep method. Included by FlowKernels.txx.
+
+// The state of a multistep method: positions and the velocities of the last steps.
+template <int Dimension>
+struct MultistepLanes
+{
+  alignas(64) LaneVectors<Dimension> Position;
+  alignas(64) LaneVectors<Dimension> Trial;
+  alignas(64) LaneVectors<Dimension> Velocities[4];
+  LaneVectors<Dimension>* V[4]; // newest, second, third, output
+  alignas(64) Lanes Time;
+  alignas(64) Lanes Span;       // length of the graded interval
+  alignas(64) Lanes Unresolved; // 1 once a box was empty
+  VelocityLanes<Dimension> Field;
+
+  MultistepLanes()
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      this->V[k] = &this->Velocities[k];
+    }
+    std::memset(this->Velocities, 0, sizeof(this->Velocities));
+    std::memset(this->Unresolved, 0, sizeof(this->Unresolved));
+    std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
+    std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
+  }
+
+  void Rotate()
+  {
+    LaneVectors<Dimension>* oldest = this->V[2];
+    this->V[2] = this->V[1];
+    this->V[1] = this->V[0];
+    this->V[0] = this->V[3];
+    this->V[3] = oldest;
+  }
+
+  // result = Position + Span * (a[0] first + a[1] second + a[2] third), kept in the domain.
+  RT_INLINE void Advance(const FlowJob<Dimension>& job, const double a[3], double length,
+    const LaneVectors<Dimension>& first, const LaneVectors<Dimension>& second,
+    const LaneVectors<Dimension>& third, LaneVectors<Dimension>& result)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double sum = a[0] * first[axis][i] + a[1] * second[axis][i] + a[2] * third[axis][i];
+        result[axis][i] =
+          clampToDomain(this->Position[axis][i] + this->Span[i] * length * sum, size);
+      }
+    }
+  }
+};
+
+// Where the density has its maximum in all of a particle's box, and the box is not clipped, its
+// mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities with
+// empty cells are most often shapes of one value, where nearly all boxes become such.
+template <int Dimension>
+struct PlateauLanes
+{
+  alignas(64) LaneVectors<Dimension> End; // x(1)
+  alignas(64) Lanes Done;                 // 1 where End is known, else 0
+  bool Active[BlockSize];                 // lanes that are not done
+  int Left = BlockSize;                   // how many
+
+  PlateauLanes()
+  {
+    std::memset(this->End, 0, sizeof(this->End));
+    std::memset(this->Done, 0, sizeof(this->Done));
+    std::memset(this->Active, 1, sizeof(this->Active));
+  }
+
+  // Counts lanes as done that shall not be computed.
+  void Exclude(const bool (&lanes)[BlockSize])
+  {
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      this->Active[i] = !lanes[i];
+      this->Done[i] = lanes[i] ? 1.0 : 0.0;
+      this->Left -= lanes[i] ? 1 : 0;
+    }
+  }
+
+  // After an evaluation of the velocity in `field`, with particles at x. Marks in `found` the lanes
+  // that are done since the last call, and returns whether there are any.
+  RT_INLINE bool Find(const FlowJob<Dimension>& job, const VelocityLanes<Dimension>& field,
+    const LaneVectors<Dimension>& x, Lanes& found)
+  {
+    constexpr double rounding = 1e-9;
+    alignas(64) Lanes mass; // the largest that the box could hold
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      mass[i] = job.Tables.Largest;
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double size = job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double from = field.From[axis][i];
+        const double to = field.To[axis][i];
+        mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
+      }
+    }
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double missing = mass[i] * field.Boxes.Mass[i] - 1.0; // Mass is 1 / mass here
+      found[i] = missing <= rounding && field.Void[i] == 0.0 && this->Done[i] == 0.0 ? 1.0 : 0.0;
+      this->Done[i] += found[i];
+      sum += found[i];
+    }
+    if (sum == 0.0)
+    {
+      return false;
+    }
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      this->Active[i] = this->Done[i] == 0.0;
+    }
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double half = 0.5 * job.Tables.Size[axis];
+#pragma omp simd
+      for (int i = 0; i < BlockSize; ++i)
+      {
+        const double centre = half + (x[axis][i] - half) * field.InverseTime[i];
+        this->End[axis][i] = found[i] > 0.0 ? centre : this->End[axis][i];
+      }
+    }
+    this->Left -= static_cast<int>(sum);
+    return true;
+  }
+};

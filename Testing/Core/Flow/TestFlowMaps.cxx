@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flow maps: which lattices there are, and that particles that start from them are where they
+// should be. TestInvariance and TestConvergence run with and without them, too.
+#include "Core/Flow/FlowMap.h"
+#include "Core/Flow/FlowMapShape.h"
+
+#include "RecordingContext.h"
+#include "TestDimensions.h"
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+FlowMapShape<Dimension> forwardShape(const GridSize<Dimension>& size, int count = 32)
+{
+  return FlowMapShape<Dimension>(size, count, FlowDirection::Forward);
+}
+
+template <int Dimension>
+double nodesOf(const typename FlowMapShape<Dimension>::Level& level)
+{
+  double nodes = 1.0;
+  for (const std::int64_t cells : level.Cells)
+  {
+    nodes *= static_cast<double>(cells + 1);
+  }
+  return nodes;
+}
+
+TEST(FlowMapShape, CoarserLevelsFirst)
+{
+  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+  {
+    const FlowMapShape<2> shape({ 1024, 1024 }, 64, direction);
+    ASSERT_GE(shape.Levels.size(), 2u);
+    for (std::size_t i = 1; i < shape.Levels.size(); ++i)
+    {
+      EXPECT_LT(shape.Levels[i].HandOver, shape.Levels[i - 1].HandOver);
+      EXPECT_LT(shape.Levels[i].TimeLeft, shape.Levels[i - 1].TimeLeft);
+      EXPECT_GT(nodesOf<2>(shape.Levels[i]), 1.5 * nodesOf<2>(shape.Levels[i - 1]));
+    }
+    EXPECT_LE(shape.Levels.front().TimeLeft, 0.5);
+  }
+}
+
+// More steps: more nodes, each in its place with less deviation.
+TEST(FlowMapShape, FollowsTheSteps)
+{
+  const FlowMapShape<2> few = forwardShape<2>({ 500, 400 }, 32);
+  const FlowMapShape<2> many = forwardShape<2>({ 500, 400 }, 64);
+  EXPECT_NEAR(many.Deviation, few.Deviation / 4.0, 1e-12);
+  EXPECT_GT(nodesOf<2>(many.Levels.back()), nodesOf<2>(few.Levels.back()));
+}
+
+TEST(FlowMapShape, NoneWhereTheyDoNotServe)
+{
+  EXPECT_TRUE(forwardShape<1>({ 100000 }).Levels.empty());
+  EXPECT_TRUE(forwardShape<2>({ 1024, 1024 }, 3).Levels.empty());
+  EXPECT_TRUE(forwardShape<2>({ 3, 3 }).Levels.empty());
+  EXPECT_FALSE(forwardShape<2>({ 1024, 1024 }).PaysFor(1000.0));
+  EXPECT_TRUE(forwardShape<2>({ 1024, 1024 }).PaysFor(40000.0));
+  EXPECT_FALSE(forwardShape<3>({ 256, 256, 256 }).PaysFor(8192.0));
+  EXPECT_TRUE(forwardShape<3>({ 128, 128, 128 }).PaysFor(128.0 * 128.0 * 128.0));
+}
+
+// The lattices of a stretched grid are those of the square one of as many cells.
+TEST(FlowMapShape, FollowsTheAxes)
+{
+  const FlowMapShape<2> square = forwardShape<2>({ 512, 512 });
+  const FlowMapShape<2> flat = forwardShape<2>({ 4096, 64 });
+  ASSERT_EQ(square.Levels.size(), flat.Levels.size());
+  for (std::size_t i = 0; i < flat.Levels.size(); ++i)
+  {
+    EXPECT_EQ(square.Levels[i].Cells, flat.Levels[i].Cells);
+    EXPECT_EQ(square.Levels[i].HandOver, flat.Levels[i].HandOver);
+    EXPECT_DOUBLE_EQ(flat.Levels[i].Layers[0], 64.0 * flat.Levels[i].Layers[1]);
+  }
+}
+
+TEST(FlowMapShape, Memory)
+{
+  double bytes = 0.0;
+  for (const auto& level : forwardShape<3>({ 256, 256, 256 }).Levels)
+  {
+    bytes += nodesOf<3>(level) * (FlowMapLevel<3>::ForwardRecord * sizeof(float) + 1.0);
+  }
+  EXPECT_GT(bytes, 1e6);
+  EXPECT_LT(bytes, 60e6);
+}
+
+template <int Dimension>
+TestDensity<Dimension> densityWithMaps()
+{
+  return twoGaussians<Dimension>(sizeFor<Dimension>({ 100 }, { 190, 160 }, { 61, 52, 70 }));
+}
+
+using PlaneAndSpace = testing::Types<Dim<2>, Dim<3>>;
+template <class T>
+using FlowMapRun = DimensionTest<T>;
+TYPED_TEST_SUITE(FlowMapRun, PlaneAndSpace);
+
+// What Auto means depends on the number of particles, not on what ran before.
+TYPED_TEST(FlowMapRun, Auto)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const FlowMapShape<D> shape = forwardShape<D>(density.Size);
+  ASSERT_FALSE(shape.Levels.empty());
+  std::size_t enough = 1;
+  while (!shape.PaysFor(static_cast<double>(enough)))
+  {
+    enough *= 2;
+  }
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> many = randomPoints<D>(density.Size, enough);
+  const Points<D> few(many.begin(), many.begin() + static_cast<std::ptrdiff_t>(enough / 4));
+  const Points<D> withMaps = runForward(flow, many, with(FlowMaps::On));
+  EXPECT_TRUE(sameBits<D>(runForward(flow, many), withMaps));
+  EXPECT_TRUE(sameBits<D>(runForward(flow, few), runForward(flow, few, with(FlowMaps::Off))));
+  EXPECT_FALSE(sameBits<D>(withMaps, runForward(flow, many, with(FlowMaps::Off))));
+}
+
+// Kept maps give the bits of new ones, also after those of another number of steps.
+TYPED_TEST(FlowMapRun, Kept)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 3000);
+  const std::int64_t tables = flow.MemorySize();
+  const Points<D> first = runForward(flow, seeds, with(FlowMaps::On));
+  EXPECT_GT(flow.MemorySize(), tables);
+  Points<D> again(seeds.size());
+  const FlowReport kept = flow.Forward(seeds, again, with(FlowMaps::On));
+  EXPECT_TRUE(sameBits<D>(first, again));
+  const FlowReport made = flow.Forward(seeds, again, with(FlowMaps::On, steps(48)));
+  EXPECT_GT(made.Evaluations, kept.Evaluations);
+  EXPECT_TRUE(
+    sameBits<D>(again, runForward(makeFlow(density), seeds, with(FlowMaps::On, steps(48)))));
+  EXPECT_TRUE(sameBits<D>(first, runForward(flow, seeds, with(FlowMaps::On))));
+  const FlowReport direct = flow.Forward(seeds, again, with(FlowMaps::Off));
+  EXPECT_LT(kept.Evaluations, direct.Evaluations * 3 / 5);
+}
+
+// Particles of a lattice share sums of records with their neighbours; the bits are those of points.
+TYPED_TEST(FlowMapRun, LatticeIsItsPoints)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  for (const GridSize<D>& lattice : { density.Size, evenSize<D>(29) })
+  {
+    const Points<D> centres = latticePoints<D>(density.Size, lattice);
+    Points<D> positions(centres.size());
+    flow.ForwardLattice(lattice, positions, with(FlowMaps::On));
+    EXPECT_TRUE(sameBits<D>(positions, runForward(flow, centres, with(FlowMaps::On))));
+    flow.BackwardLattice(lattice, positions, with(FlowMaps::On));
+    EXPECT_TRUE(sameBits<D>(positions, runBackward(flow, centres, with(FlowMaps::On))));
+  }
+}
+
+// All times after the last hand-over come from the maps, else none does.
+TYPED_TEST(FlowMapRun, Times)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 500);
+  const double handOver = 1.0 - forwardShape<D>(density.Size).Levels.back().TimeLeft;
+  Points<D> late(2 * seeds.size());
+  flow.ForwardAt(seeds, { handOver, 1.0 }, late, with(FlowMaps::On));
+  const Points<D> ends = runForward(flow, seeds, with(FlowMaps::On));
+  Points<D> direct(2 * seeds.size());
+  flow.ForwardAt(seeds, { handOver, 1.0 }, direct, with(FlowMaps::Off));
+  double largest = 0.0;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    EXPECT_EQ(late[2 * i + 1], ends[i]);
+    for (int axis = 0; axis < D; ++axis)
+    {
+      largest = std::max(largest, std::abs(late[2 * i][axis] - direct[2 * i][axis]));
+    }
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(largest, 1.0);
+
+  Points<D> early(2 * seeds.size());
+  flow.ForwardAt(seeds, { 0.9 * handOver, 1.0 }, early, with(FlowMaps::On));
+  flow.ForwardAt(seeds, { 0.9 * handOver, 1.0 }, direct, with(FlowMaps::Off));
+  EXPECT_TRUE(sameBits<D>(early, direct));
+}
+
+// The errors of maps, forward and back, are no larger than those without.
+TYPED_TEST(FlowMapRun, Errors)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 3000);
+  const Points<D> truth = runForward(flow, seeds, with(FlowMaps::Off, steps(600)));
+  const Points<D> past = runBackward(flow, truth, with(FlowMaps::Off, steps(600)));
+  for (const int count : { 16, 32, 64 })
+  {
+    const auto errors = [&](FlowMaps maps, bool back) {
+      const FlowOptions options = with(maps, steps(count));
+      return back ? comparePositions<D>(runBackward(flow, truth, options), past)
+                  : comparePositions<D>(runForward(flow, seeds, options), truth);
+    };
+    for (const bool back : { false, true })
+    {
+      const PositionErrors direct = errors(FlowMaps::Off, back);
+      const PositionErrors mapped = errors(FlowMaps::On, back);
+      EXPECT_LT(mapped.Mean, 1.1 * direct.Mean) << count << (back ? ", backward" : ", forward");
+      EXPECT_LT(mapped.Percentile95, 1.3 * direct.Percentile95)
+        << count << (back ? ", backward" : ", forward");
+    }
+  }
+}
+
+template <int Dimension>
+void expectNoStrays(const TestDensity<Dimension>& density, const char* what)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, 4000);
+  for (const int count : { 8, 32, 100 })
+  {
+    const Strays<Dimension> strays(
+      runForward(flow, seeds, with(FlowMaps::On, steps(count))), density);
+    EXPECT_EQ(strays.Outside, 0) << what << ", " << count;
+    EXPECT_EQ(strays.InEmptyCells, 0) << what << ", " << count;
+    const Points<Dimension> back = runBackward(flow, seeds, with(FlowMaps::On, steps(count)));
+    for (const Point<Dimension>& point : back)
+    {
+      ASSERT_TRUE(isInside<Dimension>(point, density.Size)) << what << ", " << count;
+    }
+  }
+}
+
+// Voids, isolated cells, a corner, and sizes that are small, odd, flat or long.
+TYPED_TEST(FlowMapRun, NoStrays)
+{
+  constexpr int D = TypeParam::value;
+  expectNoStrays<D>(discWithHole<D>(sizeFor<D>({ 1 }, { 150, 97 }, { 40, 60, 37 })), "disc");
+  TestDensity<D> few = randomCells<D>(sizeFor<D>({ 1 }, { 130, 90 }, { 30, 41, 26 }));
+  for (double& value : few.Values)
+  {
+    value = value < 0.97 ? 0.0 : value;
+  }
+  expectNoStrays<D>(few, "few cells");
+  expectNoStrays<D>(twoGaussians<D>(sizeFor<D>({ 1 }, { 16, 16 }, { 16, 16, 16 })), "small");
+  expectNoStrays<D>(twoGaussians<D>(sizeFor<D>({ 1 }, { 901, 17 }, { 301, 16, 5 })), "long");
+  expectNoStrays<D>(twoGaussians<D>(sizeFor<D>({ 1 }, { 1, 2000 }, { 1, 70, 300 })), "flat");
+  TestDensity<D> corner = randomCells<D>(sizeFor<D>({ 1 }, { 120, 80 }, { 30, 28, 40 }));
+  std::fill(corner.Values.begin() + 5, corner.Values.end(), 0.0);
+  expectNoStrays<D>(corner, "corner");
+}
+
+// A run that is cancelled while maps are made leaves none.
+TYPED_TEST(FlowMapRun, Cancelled)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 100);
+  Points<D> positions(seeds.size());
+  const SerialExecutor serial;
+  const std::int64_t tables = flow.MemorySize();
+  const Context cancelled(serial, {}, []() { return true; });
+  EXPECT_THROW(flow.Forward(seeds, positions, with(FlowMaps::On), cancelled), class Cancelled);
+  EXPECT_EQ(flow.MemorySize(), tables);
+  EXPECT_TRUE(sameBits<D>(runForward(flow, seeds, with(FlowMaps::On)),
+    runForward(makeFlow(density), seeds, with(FlowMaps::On))));
+}
+
+TYPED_TEST(FlowMapRun, Progress)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 100);
+  const SerialExecutor serial;
+  RecordingContext recording(serial);
+  runForward(flow, seeds, with(FlowMaps::On), recording.Context());
+  EXPECT_LT(recording.Reported.front(), 0.5);
+  recording.ExpectReported(0.0, 1.0);
+}
+
+// They commute with flips, where lattices are symmetric, up to the rounding of their records.
+TYPED_TEST(FlowMapRun, Flip)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  TestDensity<D> flipped = density;
+  std::reverse(flipped.Values.begin(), flipped.Values.end());
+  Points<D> seeds = randomPoints<D>(density.Size, 1000);
+  const auto flip = [&density](Points<D> points) {
+    for (Point<D>& point : points)
+    {
+      for (int axis = 0; axis < D; ++axis)
+      {
+        point[axis] = static_cast<double>(density.Size[axis]) - point[axis];
+      }
+    }
+    return points;
+  };
+  const FlowOptions exact = with(FlowMaps::On, steps(128));
+  const Points<D> expected = runForward(makeFlow(density), seeds, exact);
+  const Points<D> mirrored = flip(runForward(makeFlow(flipped), flip(seeds), exact));
+  EXPECT_LT(comparePositions<D>(expected, mirrored).Percentile95, 1e-3);
+}
+
+} // namespace
+} // namespace RectifiedTransport
