@@ -37,6 +37,10 @@ struct SplatSettings;
  * - Tolerance: the error that Adaptive allows, in cells of the density, above 0. Default 0.01.
  * - TableLookup. Interpolated (default) integrates the density exactly over every box (the paper's
  *   Algorithm 1). Nearest rounds boxes to whole cells (its Figure 4): coarser, for comparisons.
+ * - FlowMaps: lattices of seeds carry the smooth part of the flow, and particles take over by
+ *   interpolation for the last few steps. Auto (default): where that saves time, decided from the
+ *   size of the density, NumberOfSteps and the number of particles alone. On, Off. Only Multistep
+ *   with Interpolated in 2D and 3D uses them.
  */
 #define vtkFlowPropertiesMacro()                                                                   \
 public:                                                                                            \
@@ -46,6 +50,12 @@ public:                                                                         
     RUNGE_KUTTA_4 = 1,                                                                             \
     EULER = 2,                                                                                     \
     ADAPTIVE = 3                                                                                   \
+  };                                                                                               \
+  enum FlowMapsType                                                                                \
+  {                                                                                                \
+    FLOW_MAPS_AUTO = 0,                                                                            \
+    FLOW_MAPS_ON = 1,                                                                              \
+    FLOW_MAPS_OFF = 2                                                                              \
   };                                                                                               \
   enum TableLookupType                                                                             \
   {                                                                                                \
@@ -86,13 +96,29 @@ public:                                                                         
     this->SetTableLookup(NEAREST);                                                                 \
   }                                                                                                \
   const char* GetTableLookupAsString();                                                            \
+  vtkSetMacro(FlowMaps, int);                                                                      \
+  vtkGetMacro(FlowMaps, int);                                                                      \
+  void SetFlowMapsToAuto()                                                                         \
+  {                                                                                                \
+    this->SetFlowMaps(FLOW_MAPS_AUTO);                                                             \
+  }                                                                                                \
+  void SetFlowMapsToOn()                                                                           \
+  {                                                                                                \
+    this->SetFlowMaps(FLOW_MAPS_ON);                                                               \
+  }                                                                                                \
+  void SetFlowMapsToOff()                                                                          \
+  {                                                                                                \
+    this->SetFlowMaps(FLOW_MAPS_OFF);                                                              \
+  }                                                                                                \
+  const char* GetFlowMapsAsString();                                                               \
                                                                                                    \
 protected:                                                                                         \
   RectifiedTransport::FlowSettings GetFlowSettings();                                              \
   int Integrator = MULTISTEP;                                                                      \
   int NumberOfSteps = 32;                                                                          \
   double Tolerance = 0.01;                                                                         \
-  int TableLookup = INTERPOLATED
+  int TableLookup = INTERPOLATED;                                                                  \
+  int FlowMaps = FLOW_MAPS_AUTO
 
 /**
  * The uniform seeds that particles start from:

@@ -29,6 +29,7 @@ void drawFlowSettings(Settings& settings)
     { 1, 2, 3, 8, 16, 31, 33, 127, 128, 200 }, { 0, -5, 10001, std::numeric_limits<int>::max() });
   settings.Draw<T, double>("Tolerance", &T::SetTolerance, { 0.1, 1.0, 1e-4, 1e300, 1e-305 },
     { 0.0, -1.0, NaN, Infinity }, 0.3);
+  settings.Draw<T, int>("FlowMaps", &T::SetFlowMaps, { 0, 1, 2 }, { -1, 3 }, 0.5);
   settings.Draw<T, int>("TableLookup", &T::SetTableLookup, { 0, 1 }, { -1, 2 }, 0.3);
   drawThreading<T>(settings);
 }

@@ -30,6 +30,7 @@ CHOICES = {  # the first is the default
     "NegativeValues": ["Error", "Clamp"],
     "Integrator": ["Multistep", "RungeKutta4", "Euler", "Adaptive"],
     "TableLookup": ["Interpolated", "Nearest"],
+    "FlowMaps": ["Auto", "On", "Off"],
     "Threading": ["Auto", "VTK", "OpenMP", "Serial"],
     "Direction": ["UniformToDensity", "DensityToUniform"],
     "MassMode": ["Linear", "Geometric", "Source", "Normalize"],
@@ -38,7 +39,7 @@ CHOICES = {  # the first is the default
     "Association": ["Points", "Cells"],
 }
 ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
-INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "Threading"}
+INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"}
 # The property that decides whether another one is shown (or enabled), and two values that differ.
 DEPENDENT = {
     "NumberOfSteps": ({"Integrator"}, (32, 1)),

@@ -14,6 +14,7 @@ namespace
 
 const char* const IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 const char* const TableLookupTexts[] = { "Interpolated", "Nearest" };
+const char* const FlowMapsTexts[] = { "Auto", "On", "Off" };
 
 } // namespace
 
@@ -27,6 +28,11 @@ const char* FlowSettings::TableLookupText() const
   return choiceText(TableLookupTexts, this->TableLookup);
 }
 
+const char* FlowSettings::FlowMapsText() const
+{
+  return choiceText(FlowMapsTexts, this->FlowMaps);
+}
+
 FlowOptions FlowSettings::Options() const
 {
   requireChoice("Integrator", this->Integrator, IntegratorTexts);
@@ -35,11 +41,13 @@ FlowOptions FlowSettings::Options() const
   requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance", this->Tolerance,
     "a positive number of cells");
   requireChoice("TableLookup", this->TableLookup, TableLookupTexts);
+  requireChoice("FlowMaps", this->FlowMaps, FlowMapsTexts);
   FlowOptions options;
   options.Method = static_cast<RectifiedTransport::Integrator>(this->Integrator);
   options.NumberOfSteps = this->NumberOfSteps;
   options.Tolerance = this->Tolerance;
   options.Lookup = static_cast<RectifiedTransport::TableLookup>(this->TableLookup);
+  options.Maps = static_cast<RectifiedTransport::FlowMaps>(this->FlowMaps);
   return options;
 }
 
@@ -49,6 +57,7 @@ void FlowSettings::Print(std::ostream& os, vtkIndent indent) const
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TableLookup: " << this->TableLookupText() << "\n";
+  os << indent << "FlowMaps: " << this->FlowMapsText() << "\n";
 }
 
 } // namespace RectifiedTransport

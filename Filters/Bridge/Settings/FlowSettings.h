@@ -19,9 +19,11 @@ struct FlowSettings
   int NumberOfSteps;
   double Tolerance;
   int TableLookup;
+  int FlowMaps;
 
   const char* IntegratorText() const;
   const char* TableLookupText() const;
+  const char* FlowMapsText() const;
   void Print(std::ostream& os, vtkIndent indent) const;
 
   // Throws Failure for values out of range.
@@ -34,7 +36,8 @@ struct FlowSettings
 #define vtkImplementFlowPropertiesMacro(Class)                                                     \
   RectifiedTransport::FlowSettings Class::GetFlowSettings()                                        \
   {                                                                                                \
-    return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup };          \
+    return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup,            \
+      this->FlowMaps };                                                                            \
   }                                                                                                \
   const char* Class::GetIntegratorAsString()                                                       \
   {                                                                                                \
@@ -43,6 +46,10 @@ struct FlowSettings
   const char* Class::GetTableLookupAsString()                                                      \
   {                                                                                                \
     return this->GetFlowSettings().TableLookupText();                                              \
+  }                                                                                                \
+  const char* Class::GetFlowMapsAsString()                                                         \
+  {                                                                                                \
+    return this->GetFlowSettings().FlowMapsText();                                                 \
   }
 
 #endif

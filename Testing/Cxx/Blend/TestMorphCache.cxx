@@ -100,6 +100,7 @@ public:
     fresh->SetIntegrator(this->Morph->GetIntegrator());
     fresh->SetNumberOfSteps(this->Morph->GetNumberOfSteps());
     fresh->SetTableLookup(this->Morph->GetTableLookup());
+    fresh->SetFlowMaps(this->Morph->GetFlowMaps());
     fresh->SetInvertDensity(this->Morph->GetInvertDensity());
     const Values expected = runDensity(fresh);
     checks.That(!expected.empty() && densityValues(this->Morph) == expected, "as anew", line);
@@ -142,6 +143,8 @@ void checkProperties(Checks& checks)
   morph->SetNumberOfSteps(16);
   EXPECT_MAPS(test, true, true);
   morph->SetIntegratorToEuler();
+  EXPECT_MAPS(test, true, true);
+  morph->SetFlowMapsToOn();
   EXPECT_MAPS(test, true, true);
   morph->SetTableLookupToNearest();
   EXPECT_MAPS(test, true, true);

@@ -35,6 +35,7 @@ int TestSamplerCache(int, char*[])
       { "SamplesPerCell", [&]() { s->SetSamplesPerCell(2); } },
       { "RandomSeed", [&]() { s->SetRandomSeed(9); } },
       { "Integrator and Tolerance", setTolerance }, { "NumberOfSteps", setNumberOfSteps },
+      { "FlowMaps", [&]() { s->SetFlowMapsToOn(); } },
       { "TableLookup", [&]() { s->SetTableLookupToNearest(); } },
       { "Threading", [&]() { s->SetThreadingToSerial(); } },
       { "OutputPaths", [&]() { s->OutputPathsOn(); } },

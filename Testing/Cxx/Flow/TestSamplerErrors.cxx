@@ -69,6 +69,9 @@ void checkProperties(Checks& checks)
   s->SetTableLookup(2);
   test.Expect({ "TableLookup is 2", "0 (Interpolated) or 1 (Nearest)" }, __LINE__);
   s->SetTableLookup(0);
+  s->SetFlowMaps(3);
+  test.Expect({ "FlowMaps is 3", "0 (Auto)", "2 (Off)" }, __LINE__);
+  s->SetFlowMaps(0);
   s->SetThreading(4);
   test.Expect({ "Threading is 4", "0 (Auto)", "3 (Serial)" }, __LINE__);
   s->SetThreading(0);

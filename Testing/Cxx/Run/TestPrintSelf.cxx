@@ -38,9 +38,9 @@ int TestPrintSelf(int, char*[])
   vtkNew<vtkTransportSampler> sampler;
   expectLines(checks, sampler,
     { "Component: -1", "InvertDensity: Off", "NegativeValues: Error", "Integrator: Multistep",
-      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "Threading: Auto",
-      "TableBuildTime: 0", "NumberOfParticles: 8192", "SeedPattern: BlueNoise", "RandomSeed: 1",
-      "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off" });
+      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "FlowMaps: Auto",
+      "Threading: Auto", "TableBuildTime: 0", "NumberOfParticles: 8192", "SeedPattern: BlueNoise",
+      "RandomSeed: 1", "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off" });
   sampler->SetComponent(2);
   sampler->InvertDensityOn();
   sampler->SetNegativeValuesToClamp();
@@ -48,6 +48,7 @@ int TestPrintSelf(int, char*[])
   sampler->SetNumberOfSteps(7);
   sampler->SetTolerance(0.5);
   sampler->SetTableLookupToNearest();
+  sampler->SetFlowMapsToOff();
   sampler->SetThreadingToOpenMP();
   sampler->SetNumberOfParticles(12345678901);
   sampler->SetSeedPatternToLowDiscrepancy();
@@ -57,9 +58,9 @@ int TestPrintSelf(int, char*[])
   sampler->OutputPathsOn();
   expectLines(checks, sampler,
     { "Component: 2", "InvertDensity: On", "NegativeValues: Clamp", "Integrator: RungeKutta4",
-      "NumberOfSteps: 7", "Tolerance: 0.5", "TableLookup: Nearest", "Threading: OpenMP",
-      "NumberOfParticles: 12345678901", "SeedPattern: LowDiscrepancy", "RandomSeed: -4",
-      "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On" });
+      "NumberOfSteps: 7", "Tolerance: 0.5", "TableLookup: Nearest", "FlowMaps: Off",
+      "Threading: OpenMP", "NumberOfParticles: 12345678901", "SeedPattern: LowDiscrepancy",
+      "RandomSeed: -4", "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On" });
 
   const char* const integrators[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
   const char* const threadings[] = { "Auto", "VTK", "OpenMP", "Serial" };
@@ -90,7 +91,8 @@ int TestPrintSelf(int, char*[])
   vtkNew<vtkEqualMassCells> cells;
   expectLines(checks, cells,
     { "Resolution: 512", "NormExponent: 2", "CostExponent: 2", "Integrator: Multistep",
-      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "Threading: Auto" });
+      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "FlowMaps: Auto",
+      "Threading: Auto" });
   cells->SetResolution(77);
   cells->SetNormExponent(4.0);
   cells->SetCostExponent(1.5);
@@ -98,10 +100,12 @@ int TestPrintSelf(int, char*[])
   cells->SetNumberOfSteps(64);
   cells->SetTolerance(0.25);
   cells->SetTableLookupToNearest();
+  cells->SetFlowMapsToOff();
   cells->SetThreadingToVTK();
   expectLines(checks, cells,
     { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Integrator: Adaptive",
-      "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "Threading: VTK" });
+      "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "FlowMaps: Off",
+      "Threading: VTK" });
 
   vtkNew<vtkMassSplatter> splatter;
   expectLines(checks, splatter,
@@ -149,7 +153,7 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, surface,
     { "NumberOfParticles: 8192", "Resolution: 1024", "SeedPattern: BlueNoise", "RandomSeed: 1",
       "Corners: automatic", "Integrator: Multistep", "NumberOfSteps: 32", "Tolerance: 0.01",
-      "TableLookup: Interpolated", "Threading: Auto" });
+      "TableLookup: Interpolated", "FlowMaps: Auto", "Threading: Auto" });
   surface->SetNumberOfParticles(12345678901);
   surface->SetResolution(77);
   surface->SetSeedPatternToJittered();
@@ -159,11 +163,12 @@ int TestPrintSelf(int, char*[])
   surface->SetNumberOfSteps(7);
   surface->SetTolerance(0.5);
   surface->SetTableLookupToNearest();
+  surface->SetFlowMapsToOff();
   surface->SetThreadingToSerial();
   expectLines(checks, surface,
     { "NumberOfParticles: 12345678901", "Resolution: 77", "SeedPattern: Jittered", "RandomSeed: -4",
       "Corners: 12345678901", "Integrator: Euler", "NumberOfSteps: 7", "Tolerance: 0.5",
-      "TableLookup: Nearest", "Threading: Serial" });
+      "TableLookup: Nearest", "FlowMaps: Off", "Threading: Serial" });
 
   vtkNew<vtkTransportInterpolator> morph;
   expectLines(checks, morph,
