@@ -42,11 +42,11 @@ void fresh(benchmark::State& state)
 
 // In memory that earlier builds have left. The allocator needs some until a free block fits, how
 // many depends on what ran before.
-template <void (*Build)(std::int64_t)>
+template <void (*Build)(std::int64_t), int ThreadCount>
 void reused(benchmark::State& state)
 {
   const ReusedMemory memory;
-  const OpenMPThreads threads(1);
+  const OpenMPThreads threads(ThreadCount);
   constexpr int most = 100;
   std::size_t before = 0;
   for (int i = 0; i < most && (i < 3 || memory.Size() != before); ++i)
@@ -72,14 +72,22 @@ void sides3D(benchmark::internal::Benchmark* b)
 
 BENCHMARK(fresh<buildPaper<2>, 1>)->Name("Tables2D/paper")->Apply(sides2D);
 BENCHMARK(fresh<buildPaper<3>, 1>)->Name("Tables3D/paper")->Apply(sides3D);
-BENCHMARK(reused<buildPaper<2>>)->Name("Tables2D/paper_reused")->Apply(sides2D);
-BENCHMARK(reused<buildPaper<3>>)->Name("Tables3D/paper_reused")->Apply(sides3D);
-BENCHMARK(reused<buildCore<2>>)->Name("Tables2D/core_reused")->Apply(sides2D);
-BENCHMARK(reused<buildCore<3>>)->Name("Tables3D/core_reused")->Apply(sides3D);
+BENCHMARK(reused<buildPaper<2>, 1>)->Name("Tables2D/paper_reused")->Apply(sides2D);
+BENCHMARK(reused<buildPaper<3>, 1>)->Name("Tables3D/paper_reused")->Apply(sides3D);
+BENCHMARK(reused<buildCore<2>, 1>)->Name("Tables2D/core_reused")->Apply(sides2D);
+BENCHMARK(reused<buildCore<3>, 1>)->Name("Tables3D/core_reused")->Apply(sides3D);
 BENCHMARK(fresh<buildCore<2>, 1>)->Name("Tables2D/core")->Apply(sides2D);
 BENCHMARK(fresh<buildCore<3>, 1>)->Name("Tables3D/core")->Apply(sides3D);
 BENCHMARK(fresh<buildCore<2>, 2>)->Name("Tables2D/core_2_threads")->Apply(sides2D)->UseRealTime();
+BENCHMARK(reused<buildCore<2>, 2>)
+  ->Name("Tables2D/core_reused_2_threads")
+  ->Apply(sides2D)
+  ->UseRealTime();
 BENCHMARK(fresh<buildCore<3>, 2>)->Name("Tables3D/core_2_threads")->Apply(sides3D)->UseRealTime();
+BENCHMARK(reused<buildCore<3>, 2>)
+  ->Name("Tables3D/core_reused_2_threads")
+  ->Apply(sides3D)
+  ->UseRealTime();
 
 } // namespace
 } // namespace RectifiedTransport

@@ -6,59 +6,117 @@
 namespace RectifiedTransport
 {
 
+namespace
+{
+
+constexpr double cellsInCaches = 1 << 20; // 8 MB
+
+} // namespace
+
 template <int Dimension, class Real>
 void SlabPartition<Dimension, Real>::FindChunks(
   std::int64_t first, std::int64_t count, const Executor& executor)
 {
   const std::int64_t chunks = (count + splatChunk - 1) / splatChunk;
   this->Chunks.resize(static_cast<std::size_t>(chunks));
-  executor.For(chunks, 16, [&](std::int64_t begin, std::int64_t end) {
+  executor.For(chunks, 128, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t chunk = begin; chunk < end; ++chunk)
     {
       const std::int64_t start = chunk * splatChunk;
       const CellBox<Dimension> box =
         this->Reach(*this->Job, first + start, std::min(splatChunk, count - start));
+      double cells = 1.0;
+      for (int a = 0; a < Dimension; ++a)
+      {
+        cells *= box.High[a] - box.Low[a];
+      }
       this->Chunks[static_cast<std::size_t>(chunk)] = { box.Low[Dimension - 1],
-        box.High[Dimension - 1] };
+        box.High[Dimension - 1], cells > cellsInCaches };
     }
   });
+  this->SumPlanes();
+}
+
+template <int Dimension, class Real>
+void SlabPartition<Dimension, Real>::SumPlanes()
+{
+  // As differences from plane to plane at first.
+  const auto planes = static_cast<std::size_t>(this->Job->Size[Dimension - 1]);
+  this->Work.assign(planes + 1, 0.0);
+  this->Crossings.assign(planes + 1, 0);
+  std::int64_t scattered = 0;
+  for (const Chunk& chunk : this->Chunks)
+  {
+    const auto low = static_cast<std::size_t>(chunk.Low);
+    const auto high = static_cast<std::size_t>(chunk.High);
+    const double each = 1.0 / static_cast<double>(high - low);
+    this->Work[low] += each;
+    this->Work[high] -= each;
+    ++this->Crossings[low + 1];
+    --this->Crossings[high];
+    scattered += chunk.IsScattered ? 1 : 0;
+  }
+  this->Scattered = 2 * scattered > this->NumberOfChunks();
+  double work = 0.0;
+  double sum = 0.0;
+  std::int64_t crossings = 0;
+  for (std::size_t plane = 0; plane < planes; ++plane)
+  {
+    work += this->Work[plane];
+    sum += work;
+    this->Work[plane] = sum;
+    crossings += this->Crossings[plane];
+    this->Crossings[plane] = crossings;
+  }
 }
 
 template <int Dimension, class Real>
 double SlabPartition<Dimension, Real>::CutSlabs(std::int64_t wanted)
 {
-  // As differences from plane to plane.
   const std::int32_t planes = this->Job->Size[Dimension - 1];
-  this->Work.assign(static_cast<std::size_t>(planes) + 1, 0.0);
-  for (const Planes& chunk : this->Chunks)
-  {
-    const double each = 1.0 / (chunk.High - chunk.Low);
-    this->Work[static_cast<std::size_t>(chunk.Low)] += each;
-    this->Work[static_cast<std::size_t>(chunk.High)] -= each;
-  }
-  const double share = static_cast<double>(this->Chunks.size()) /
-    static_cast<double>(std::max<std::int64_t>(wanted, 1));
+  const auto chunks = static_cast<double>(this->Chunks.size());
+  const double share = chunks / static_cast<double>(std::max<std::int64_t>(wanted, 1));
   this->Cuts.assign(1, 0);
-  double work = 0.0;
-  double sum = 0.0;
-  for (std::int32_t plane = 0; plane + 1 < planes; ++plane)
+  std::int64_t visits = this->NumberOfChunks();
+  for (std::int32_t cut = 1; cut < planes && static_cast<std::int64_t>(this->Cuts.size()) < wanted;
+       ++cut)
   {
-    work += this->Work[static_cast<std::size_t>(plane)];
-    sum += work;
-    if (sum >= share * static_cast<double>(this->Cuts.size()))
+    const double work = this->Work[static_cast<std::size_t>(cut) - 1];
+    if (work >= share * static_cast<double>(this->Cuts.size()))
     {
-      this->Cuts.push_back(plane + 1);
+      this->Cuts.push_back(cut);
+      visits += this->Crossings[static_cast<std::size_t>(cut)];
     }
   }
   this->Cuts.push_back(planes);
-  double visits = 0.0;
-  for (const Planes& chunk : this->Chunks)
+  return static_cast<double>(visits) / chunks;
+}
+
+template <int Dimension, class Real>
+typename SlabPartition<Dimension, Real>::Run SlabPartition<Dimension, Real>::NextRun(
+  std::int64_t slab, std::int64_t chunk) const
+{
+  const std::int32_t low = this->Cuts[static_cast<std::size_t>(slab)];
+  const std::int32_t high = this->Cuts[static_cast<std::size_t>(slab) + 1];
+  const auto reaches = [&](std::int64_t c) {
+    const Chunk& planes = this->Chunks[static_cast<std::size_t>(c)];
+    return planes.Low < high && planes.High > low;
+  };
+  const auto isInside = [&](std::int64_t c) {
+    const Chunk& planes = this->Chunks[static_cast<std::size_t>(c)];
+    return planes.Low >= low && planes.High <= high;
+  };
+  const std::int64_t chunks = this->NumberOfChunks();
+  while (chunk < chunks && !reaches(chunk))
   {
-    const auto after = std::lower_bound(this->Cuts.begin(), this->Cuts.end(), chunk.High);
-    const auto before = std::upper_bound(this->Cuts.begin(), this->Cuts.end(), chunk.Low);
-    visits += static_cast<double>(after - before + 1);
+    ++chunk;
   }
-  return visits / static_cast<double>(this->Chunks.size());
+  Run run = { chunk, chunk, chunk < chunks && isInside(chunk) };
+  while (run.Last < chunks && reaches(run.Last) && isInside(run.Last) == run.IsInside)
+  {
+    ++run.Last;
+  }
+  return run;
 }
 
 template <int Dimension, class Real>

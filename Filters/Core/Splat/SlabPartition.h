@@ -12,17 +12,20 @@
 namespace RectifiedTransport
 {
 
-constexpr std::int64_t splatChunk = 4096; // particles
+// Particles. A chunk of a lattice that is splat in its own order is a few cells high: chunks that
+// reach two slabs, whose weights are computed twice, are few.
+constexpr std::int64_t splatChunk = 512;
 
 template <int Dimension, class Real>
 class SlabPartition
 {
 public:
-  // Planes [Low, High) across the last axis.
-  struct Planes
+  // Consecutive chunks [First, Last) that reach a slab.
+  struct Run
   {
-    std::int32_t Low;
-    std::int32_t High;
+    std::int64_t First;
+    std::int64_t Last;
+    bool IsInside; // they reach no other slab
   };
 
   SlabPartition() = default;
@@ -32,25 +35,39 @@ public:
   {
   }
 
-  // Finds the planes of the chunks of particles [first, first + count).
+  // Finds the planes that chunks of the particles [first, first + count), count > 0, may reach.
   void FindChunks(std::int64_t first, std::int64_t count, const Executor& executor);
 
-  std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
-  // The planes that a chunk may reach.
-  Planes Chunk(std::int64_t chunk) const { return this->Chunks[static_cast<std::size_t>(chunk)]; }
+  // Whether most chunks reach over more cells than caches hold, after FindChunks.
+  bool IsScattered() const { return this->Scattered; }
 
   // Cuts the grid into at most `wanted` slabs, after FindChunks. Returns the mean number of slabs
   // that a chunk reaches.
   double CutSlabs(std::int64_t wanted);
 
   std::int64_t NumberOfSlabs() const { return static_cast<std::int64_t>(this->Cuts.size()) - 1; }
+  // The next run from a chunk on; an empty one if there is none.
+  Run NextRun(std::int64_t slab, std::int64_t chunk) const;
   CellBox<Dimension> Slab(std::int64_t slab) const;
 
 private:
+  // Planes [Low, High) across the last axis.
+  struct Chunk
+  {
+    std::int32_t Low;
+    std::int32_t High;
+    bool IsScattered;
+  };
+
+  std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
+  void SumPlanes();
+
   const SplatJob<Dimension, Real>* Job = nullptr;
   BoxOfParticles<Dimension, Real> Reach = nullptr;
-  std::vector<Planes> Chunks;
-  std::vector<double> Work; // of every plane
+  std::vector<Chunk> Chunks;
+  bool Scattered = false;
+  std::vector<double> Work;            // of the planes up to each
+  std::vector<std::int64_t> Crossings; // chunks that reach both sides of each plane's lower face
   std::vector<std::int32_t> Cuts;
 };
 

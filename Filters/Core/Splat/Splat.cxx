@@ -26,8 +26,9 @@ constexpr double densestSlice = 0.25;     // particles a cell
 constexpr std::int64_t longestSlice = std::int64_t{ 1 } << 24;
 
 // How many slabs a chunk may reach in the mean, as its weights are computed for each: for more
-// slabs than tasks, and before sorting the particles into tiles is cheaper. (A single task gains
-// nothing from a sort: cache misses overlap.)
+// slabs than tasks, and before sorting the particles into tiles is cheaper. It is, too, if chunks
+// are scattered over more cells than caches hold. (A single task gains nothing from a sort: cache
+// misses overlap.)
 constexpr double fewVisits = 1.2;
 constexpr double mostVisits = 8.0;
 constexpr std::int64_t mostSlabs = 4; // a task
@@ -140,7 +141,8 @@ private:
         break;
       }
     }
-    if (visits > mostVisits && this->Job.Width <= widestSorted)
+    const bool isSortCheaper = visits > mostVisits || this->Slabs.IsScattered();
+    if (isSortCheaper && this->Job.Width <= widestSorted)
     {
       this->AddByTiles(first, count);
     }
@@ -166,20 +168,13 @@ private:
       {
         const CellBox<Dimension> box = this->Slabs.Slab(slab);
         std::int64_t outside = 0;
-        for (std::int64_t chunk = 0;
-             chunk < this->Slabs.NumberOfChunks() && !this->Work.IsCancelled(); ++chunk)
+        for (auto run = this->Slabs.NextRun(slab, 0);
+             run.First < run.Last && !this->Work.IsCancelled();
+             run = this->Slabs.NextRun(slab, run.Last))
         {
-          const typename SlabPartition<Dimension, Real>::Planes planes = this->Slabs.Chunk(chunk);
-          const std::int32_t low = box.Low[Dimension - 1];
-          const std::int32_t high = box.High[Dimension - 1];
-          if (planes.Low >= high || planes.High <= low)
-          {
-            continue;
-          }
-          const bool isInside = planes.Low >= low && planes.High <= high;
-          const std::int64_t number = std::min(splatChunk, count - chunk * splatChunk);
-          outside +=
-            this->AddRange(first + chunk * splatChunk, number, isInside ? nullptr : &box, slab);
+          const std::int64_t start = run.First * splatChunk;
+          const std::int64_t number = std::min(run.Last * splatChunk, count) - start;
+          outside += this->AddRange(first + start, number, run.IsInside ? nullptr : &box, slab);
         }
         this->Outside += outside;
       }

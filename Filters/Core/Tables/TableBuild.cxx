@@ -5,6 +5,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/Kernels/TableKernels.h"
+#include "Core/Tables/NewNodes.h"
 
 #include <algorithm>
 #include <vector>
@@ -18,7 +19,11 @@ namespace
 // Sums are taken over strips of fixed size, for every executor.
 constexpr std::int64_t stripCells = 256; // along axis 0, in 2D
 constexpr std::int64_t stripRows = 32;   // along axis 1, in 3D
-constexpr std::int64_t slabCells = std::int64_t{ 1 } << 16;
+constexpr std::int64_t rowsAtOnce = 8;   // in 2D
+
+// A slab has so many cells for each thread, of so many threads at most: few barriers, in caches.
+constexpr std::int64_t shareCells = std::int64_t{ 1 } << 16;
+constexpr std::int64_t mostShares = 8;
 
 // The number of a node on a level, -1 if the level does not have it.
 std::int64_t coarseNode(std::int64_t node, std::int64_t size, int level)
@@ -47,6 +52,13 @@ void copyToLevel(const double* nodes, std::int64_t first, std::int64_t count, st
   }
 }
 
+// The number of rows or slices in a slab, of so many cells each.
+std::int64_t slabOf(std::int64_t count, std::int64_t cellsOfEach, const Executor& threads)
+{
+  const std::int64_t shares = std::clamp<std::int64_t>(threads.Concurrency(), 1, mostShares);
+  return std::min(count, std::max<std::int64_t>(1, shares * shareCells / cellsOfEach));
+}
+
 // Slabs of rows: first the sums of each row's cells before every strip, then all strips in
 // parallel.
 class Builder2D
@@ -57,7 +69,8 @@ public:
     , Columns(build.Tables.Cells[0])
     , Rows(build.Tables.Cells[1])
     , Strips((this->Columns + stripCells - 1) / stripCells)
-    , Slab(std::min(this->Rows, std::max<std::int64_t>(1, slabCells / this->Columns)))
+    , Slab(slabOf(this->Rows, this->Columns, build.Work.Threads()))
+    , Untouched(build.Nodes)
     , Values(this->Slab * this->Columns)
     , Prefixes(this->Slab * this->Strips * 2)
     , Found(static_cast<std::size_t>(this->Slab))
@@ -76,13 +89,17 @@ public:
     {
       this->Count =
         std::min({ this->Slab, this->Rows - this->Begin, progress.NextSlice(this->Slab) });
-      threads.For(this->Count, 8, [&](std::int64_t first, std::int64_t last) {
-        const std::int64_t end = progress.ShouldStop() ? first : last;
-        for (std::int64_t j = first; j < end; ++j)
+      double* nodesEnd = this->Build.Nodes +
+        (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[1];
+      const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
+      const std::int64_t groups = (this->Count + rowsAtOnce - 1) / rowsAtOnce;
+      threads.For(pages + groups, 1, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
         {
-          this->SumRow(j);
+          task < pages ? this->Untouched.Touch(task) : this->SumRows(task - pages);
         }
       });
+      this->Untouched.Pass(nodesEnd);
       for (std::int64_t j = 0; j < this->Count; ++j)
       {
         merge(this->Found[j], this->Build.Found);
@@ -99,6 +116,15 @@ public:
   }
 
 private:
+  void SumRows(std::int64_t group)
+  {
+    const std::int64_t last = std::min((group + 1) * rowsAtOnce, this->Count);
+    for (std::int64_t j = group * rowsAtOnce; j < last; ++j)
+    {
+      this->SumRow(j);
+    }
+  }
+
   // Row j of the slab.
   void SumRow(std::int64_t j)
   {
@@ -165,8 +191,9 @@ private:
   const std::int64_t Rows;
   const std::int64_t Strips;
   const std::int64_t Slab; // rows, at most
-  std::int64_t Begin = 0;  // of the slab
-  std::int64_t Count = 0;  // rows in it
+  NewNodes Untouched;
+  std::int64_t Begin = 0; // of the slab
+  std::int64_t Count = 0; // rows in it
   LargeBuffer<double> Values;
   LargeBuffer<double> Prefixes;
   std::vector<DensitySummary> Found;
@@ -183,8 +210,8 @@ public:
     , Rows(build.Tables.Cells[1])
     , Slices(build.Tables.Cells[2])
     , Strips((this->Rows + stripRows - 1) / stripRows)
-    , Slab(
-        std::min(this->Slices, std::max<std::int64_t>(1, slabCells / (this->Columns * this->Rows))))
+    , Slab(slabOf(this->Slices, this->Columns * this->Rows, build.Work.Threads()))
+    , Untouched(build.Nodes)
     , Values(this->Slab * this->Columns * this->Rows)
     , Sums(this->Slab * this->Strips * this->Columns * 2)
     , Before(this->Slab * this->Strips * this->Columns * 4)
@@ -204,12 +231,17 @@ public:
     {
       this->Count =
         std::min({ this->Slab, this->Slices - this->Begin, progress.NextSlice(this->Slab) });
-      threads.For(this->Count * this->Strips, 1, [&](std::int64_t first, std::int64_t last) {
+      double* nodesEnd = this->Build.Nodes +
+        (this->Begin + this->Count + 1) * this->Build.Tables.Levels[0].Stride[2];
+      const std::int64_t pages = this->Untouched.PagesUpTo(nodesEnd, threads);
+      const std::int64_t tasks = pages + this->Count * this->Strips;
+      threads.For(tasks, 1, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t task = first; task < last && !progress.ShouldStop(); ++task)
         {
-          this->SumStrip(task);
+          task < pages ? this->Untouched.Touch(task) : this->SumStrip(task - pages);
         }
       });
+      this->Untouched.Pass(nodesEnd);
       for (std::int64_t task = 0; task < this->Count * this->Strips; ++task)
       {
         merge(this->Found[task], this->Build.Found);
@@ -343,8 +375,9 @@ private:
   const std::int64_t Slices;
   const std::int64_t Strips;
   const std::int64_t Slab; // slices, at most
-  std::int64_t Begin = 0;  // of the slab
-  std::int64_t Count = 0;  // slices in it
+  NewNodes Untouched;
+  std::int64_t Begin = 0; // of the slab
+  std::int64_t Count = 0; // slices in it
   LargeBuffer<double> Values;
   LargeBuffer<double> Sums;   // {f, f * centre 1} of the columns, a slice and strip together
   LargeBuffer<double> Before; // the records of the columns before each strip, within the slice

@@ -2,6 +2,8 @@
 // The summed-area tables, node by node.
 #include "TestFlow.h"
 
+#include "ThreadsExecutor.h"
+
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
 
@@ -226,6 +228,56 @@ TEST(Tables, Summary)
   const RectifiedFlow<3> flow = makeFlow(density);
   EXPECT_EQ(flow.Total(), summary.Total);
   EXPECT_EQ(flow.Size(), density.Size);
+}
+
+// All bits of the nodes of all levels, without what pads their rows.
+template <int Dimension>
+std::vector<double> allRecords(const SummedAreaTables<Dimension>& tables)
+{
+  const TableView<Dimension>& view = tables.View();
+  std::vector<double> all;
+  for (int level = 0; level < view.LevelCount; ++level)
+  {
+    GridSize<Dimension> nodes;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      nodes[axis] = ((view.Cells[axis] - 1) >> (level * levelShift)) + 2;
+    }
+    for (std::int64_t index = 0; index < cellCount<Dimension>(nodes); ++index)
+    {
+      const double* sums = record<Dimension>(view, level, cellAt<Dimension>(index, nodes));
+      all.insert(all.end(), sums, sums + TableView<Dimension>::Record);
+    }
+  }
+  return all;
+}
+
+// Slabs, and the pages that are touched before, depend on the number of threads.
+template <int Dimension>
+void checkSlabs(const GridSize<Dimension>& size)
+{
+  const TestDensity<Dimension> density = twoGaussians<Dimension>(size);
+  const auto buildWith = [&density](const Executor& threads, TableMemory memory) {
+    // What another density has left.
+    std::fill_n(memory.Nodes.data(), memory.Nodes.size(), -1.0);
+    Progress progress(threads);
+    return SummedAreaTables<Dimension>(density.Source(), progress, std::move(memory));
+  };
+  SummedAreaTables<Dimension> serial = buildWith(SerialExecutor(), {});
+  const std::vector<double> expected = allRecords(serial);
+  TableMemory memory = serial.ReleaseMemory();
+  for (const int threads : { 2, 3, 64 })
+  {
+    SummedAreaTables<Dimension> tables = buildWith(ThreadsExecutor(threads), std::move(memory));
+    EXPECT_EQ(allRecords(tables), expected) << Dimension << "D, " << threads << " threads";
+    memory = tables.ReleaseMemory();
+  }
+}
+
+TEST(Tables, SlabsOfEveryNumberOfThreads)
+{
+  checkSlabs<2>({ 700, 1000 });
+  checkSlabs<3>({ 60, 70, 150 });
 }
 
 // 32 bytes a node and a seventh for coarse levels in 3D: 256^3 stays below 650 MB.

@@ -165,12 +165,13 @@ RT_INLINE std::int64_t rowOffset(const std::int64_t* stride, int j, int k)
     (Dimension > 2 ? k * stride[Dimension - 1] : 0);
 }
 
-// Adds particle i to all cells that it reaches.
+// Adds particle i to the cells that it reaches, of numbers [begin, end) along the last axis.
 template <int Dimension, class Weights>
-RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass,
-  const std::int64_t* stride, double* cells)
+RT_INLINE void addLayers(const WeighedBlock<Weights>& weighed, int i, double mass,
+  const std::int64_t* stride, int begin, int end, double* cells)
 {
   constexpr int width = Weights::Width;
+  constexpr int last = Dimension - 1;
   double weight[Dimension][width];
   double* start = cells;
   for (int a = 0; a < Dimension; ++a)
@@ -178,22 +179,34 @@ RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass
     weighed.Spread(3 * i + a, weight[a]);
     start += weighed.First[3 * i + a] * stride[a];
   }
+  int first[3] = { 0, 0, 0 };
+  int after[3] = { width, Dimension > 1 ? width : 1, Dimension > 2 ? width : 1 };
+  first[last] = begin;
+  after[last] = end;
 #pragma GCC unroll 3
-  for (int k = 0; k < (Dimension > 2 ? width : 1); ++k)
+  for (int k = first[2]; k < after[2]; ++k)
   {
-    const double slice = Dimension > 2 ? mass * weight[Dimension - 1][k] : mass;
+    const double slice = Dimension > 2 ? mass * weight[last][k] : mass;
 #pragma GCC unroll 3
-    for (int j = 0; j < (Dimension > 1 ? width : 1); ++j)
+    for (int j = first[1]; j < after[1]; ++j)
     {
       const double row = Dimension > 1 ? slice * weight[Dimension > 1 ? 1 : 0][j] : slice;
       double* to = start + rowOffset<Dimension>(stride, j, k);
 #pragma GCC unroll 3
-      for (int l = 0; l < width; ++l)
+      for (int l = first[0]; l < after[0]; ++l)
       {
         to[l] += row * weight[0][l];
       }
     }
   }
+}
+
+// Adds particle i to all cells that it reaches.
+template <int Dimension, class Weights>
+RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass,
+  const std::int64_t* stride, double* cells)
+{
+  addLayers<Dimension>(weighed, i, mass, stride, 0, Weights::Width, cells);
 }
 
 // Adds particle i, which may be at the border, to the cells of a box.
@@ -385,8 +398,26 @@ private:
     }
   }
 
+  // A slab: the box is as wide as the grid along all axes but the last.
+  bool IsSlab() const
+  {
+    for (int a = 0; a + 1 < Dimension; ++a)
+    {
+      if (this->Box.Low[a] > 0 || this->Box.High[a] < this->Job.Size[a])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   void AddParts()
   {
+    if (this->IsInside && this->IsSlab())
+    {
+      this->AddPartsOfSlab();
+      return;
+    }
     for (int i = 0; i < this->Particles.Count; ++i)
     {
       CellBox<Dimension> reached;
@@ -405,6 +436,19 @@ private:
       {
         addPart(this->Job, this->Weighed, i, this->Particles.Mass[i], this->Box);
       }
+    }
+  }
+
+  void AddPartsOfSlab()
+  {
+    constexpr int last = Dimension - 1;
+    const std::int32_t low = this->Box.Low[last];
+    const std::int32_t high = this->Box.High[last];
+    for (int i = 0; i < this->Particles.Count; ++i)
+    {
+      const std::int32_t first = this->Weighed.First[3 * i + last];
+      addLayers<Dimension>(this->Weighed, i, this->Particles.Mass[i], this->Job.Stride,
+        larger(low - first, 0), smaller(high - first, Weights::Width), this->Job.Cells);
     }
   }
 
