@@ -39,8 +39,8 @@ struct SplatSettings;
  *   Algorithm 1). Nearest rounds boxes to whole cells (its Figure 4): coarser, for comparisons.
  * - FlowMaps: lattices of seeds carry the smooth part of the flow, and particles take over by
  *   interpolation for the last few steps. Auto (default): where that saves time, decided from the
- *   size of the density, NumberOfSteps and the number of particles alone. On, Off. Only Multistep
- *   with Interpolated in 2D and 3D uses them.
+ *   size of the density, NumberOfSteps and the number of particles alone (never for site cells).
+ *   On, Off. Only Multistep with Interpolated in 2D and 3D uses them.
  */
 #define vtkFlowPropertiesMacro()                                                                   \
 public:                                                                                            \

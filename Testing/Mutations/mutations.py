@@ -65,7 +65,7 @@ SURVIVED = [
       "std::lround(std::floor(resolution * (lengths[i] / longest)))"),
     E(BRIDGE + "Image/SolidGrid.cxx", "std::ceil(part * resolution - rounding)",
       "std::ceil(part * resolution)"),
-    T(CORE + "Flow/Kernels/FlowMultistep.txx", "constexpr double rounding = 1e-9;\n    alignas(64) Lanes mass;",
+    T(CORE + "Flow/Kernels/MultistepLanes.txx", "constexpr double rounding = 1e-9;\n    alignas(64) Lanes mass;",
       "const double rounding = MUTANT ? 1e-3 : 1e-9;\n    alignas(64) Lanes mass;"),
     S(CORE + "Flow/Kernels/FlowKernels.cxx", "c[0] = c[1] = 0.5;", "c[0] = 1.0; c[1] = 0.0;"),
     E(CORE + "Seeds/BlueNoise.cxx", "*last + 0.5 * (next - *last)", "*last + 0.999 * (next - *last)"),

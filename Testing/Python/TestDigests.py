@@ -25,6 +25,7 @@ import rectifiedtransport as rt
 HERE = os.path.dirname(os.path.abspath(__file__))
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
 INTEGRATORS = ["Multistep", "RungeKutta4", "Euler", "Adaptive"]
+MAPS = ["Auto", "On", "Off"]
 KERNELS = ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]
 TURN = (0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1)
 
@@ -198,6 +199,12 @@ def sampler_runs():
             yield f"sample {name} {dimension}D", sampler, [data], dict(
                 Integrator=integrator, NumberOfParticles=2000, Tolerance=0.003, NumberOfSteps=24)
     yield "sample Nearest", sampler, [plane], dict(TableLookup=1)
+    for maps, name in enumerate(MAPS):
+        for data, dimension in ((image((210, 160)), 2), (image((67, 80, 72)), 3)):
+            yield f"sample with maps {name} {dimension}D", sampler, [data], dict(
+                FlowMaps=maps, NumberOfParticles=30000, SeedPattern=4)
+    yield "sample FlowTime with maps", sampler, [image((210, 160))], dict(
+        FlowMaps=1, FlowTime=0.99, NumberOfParticles=2000)
     yield "sample many steps", sampler, [plane], dict(NumberOfSteps=160, NumberOfParticles=2000)
     yield "sample FlowTime", sampler, [space], dict(FlowTime=0.6, NumberOfParticles=2000)
     yield "sample paths", sampler, [plane], dict(OutputPaths=1, NumberOfParticles=500)
@@ -225,6 +232,9 @@ def map_runs():
     for direction, name in enumerate(["to the density", "to the uniform measure"]):
         for shape in ((200,), (61, 47), (23, 17, 19)):
             yield f"map {name} {len(shape)}D", transport, [image(shape)], dict(Direction=direction)
+        for shape in ((210, 160), (67, 80, 72)):
+            yield f"map {name} {len(shape)}D with maps", transport, [image(shape)], dict(
+                Direction=direction, FlowMaps=1)
     yield "map of points", transport, [image((23, 17, 19), cells=False)], {}
     yield "map of other samples", transport, [image()], dict(SampleDimensions=(30, 80, 1))
     yield "map turned 3D", transport, [image((23, 17, 19), direction=TURN)], {}

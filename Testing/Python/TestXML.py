@@ -44,6 +44,7 @@ INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowM
 DEPENDENT = {
     "NumberOfSteps": ({"Integrator"}, (32, 1)),
     "Tolerance": ({"Integrator"}, (0.01, 2.0)),
+    "FlowMaps": ({"Integrator"}, (1, 2)),
     "Radius": ({"Kernel"}, (1.0, 3.0)),
     "SamplesPerCell": ({"SeedPattern"}, (0, 2)),
     "RandomSeed": ({"SeedPattern", "Pattern"}, (1, 2)),
@@ -87,15 +88,18 @@ def is_shown(decorator, value):
 def result(proxy, values):
     """All that comes out with some properties set."""
     filter_ = instance(proxy)
-    connect_inputs(filter_)
+    # Flow maps need grids that are not too small for their lattices.
+    shape, number, resolution = \
+        ((260, 240), 20000, 512) if "FlowMaps" in values else ((4, 3), 50, 40)
+    connect_inputs(filter_, shape, number)
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(30)
     if hasattr(filter_, "SetNumberOfPoints"):
         filter_.SetNumberOfPoints(30)
     if hasattr(filter_, "SetResolution"):
-        filter_.SetResolution(40)
+        filter_.SetResolution(resolution)
     if hasattr(filter_, "SetTargetData"):
-        filter_.SetTargetData(density_image((4, 3), seed=5))
+        filter_.SetTargetData(density_image(shape, seed=5))
     for name, value in values.items():
         getattr(filter_, proxy.properties[name].command)(value)
     filter_.UpdateInformation()

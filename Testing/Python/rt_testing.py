@@ -83,16 +83,16 @@ def surface_for(algorithm):
     return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
 
 
-def connect_inputs(algorithm):
-    """Gives small data to the inputs that an algorithm requires."""
+def connect_inputs(algorithm, shape=(4, 3), number=50):
+    """Gives data to the inputs that an algorithm requires, small images by default."""
     for port in range(algorithm.GetNumberOfInputPorts()):
         information = algorithm.GetInputPortInformation(port)
         if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
-            image = density_image((4, 3))
+            image = density_image(shape)
             kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
             algorithm.SetInputData(port, image if kind == "vtkImageData" else
                                    surface_for(algorithm) if kind == "vtkPolyData" else
-                                   points_in(image))
+                                   points_in(image, number))
 
 
 def chain(*algorithms):

@@ -84,7 +84,8 @@ class AdvectionJob
 public:
   // Throws std::invalid_argument.
   AdvectionJob(const TableView<Dimension>& tables, AdvectionKind kind, const FlowOptions& options)
-    : LastPass(refinements - firstRefinement(options, kind))
+    : Kind(kind)
+    , Refinement(firstRefinement(options, kind))
   {
     check(options);
     this->Job.Tables = tables;
@@ -93,7 +94,7 @@ public:
     this->Job.Nearest = options.Lookup == TableLookup::Nearest;
     const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
     this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
-    this->Job.Steps = std::int64_t{ options.NumberOfSteps } << firstRefinement(options, kind);
+    this->Job.Steps = std::int64_t{ options.NumberOfSteps } << this->Refinement;
     this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
     if (options.Method == Integrator::Multistep)
     {
@@ -108,8 +109,12 @@ public:
   AdvectionJob(const AdvectionJob&) = delete;
   AdvectionJob& operator=(const AdvectionJob&) = delete;
 
+  // Of the unresolved particles, each with twice the steps.
+  int LastPass() const { return refinements - this->Refinement; }
+
   FlowJob<Dimension> Job;
-  const int LastPass; // of the unresolved particles, each with twice the steps
+  const AdvectionKind Kind;
+  const int Refinement; // of NumberOfSteps
 
 private:
   std::vector<StepWeights> Weights;

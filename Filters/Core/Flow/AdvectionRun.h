@@ -296,7 +296,7 @@ public:
   AdvectionRun(const AdvectionRun&) = delete;
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
-  const FlowJob<Dimension>& SharedJob() const { return this->Job; }
+  const AdvectionJob<Dimension>& SharedJob() const { return this->Shared; }
 
   // The context of work that comes before the advection and takes a share of its time.
   Context BeginPreparation(double share)
@@ -358,7 +358,7 @@ public:
       if (left >= enough || begin == chunkEnd)
       {
         UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Work)
-          .Run(unresolved, this->First + 1, this->Shared.LastPass);
+          .Run(unresolved, this->First + 1, this->Shared.LastPass());
         unresolved.clear();
         left = 0;
       }
@@ -378,7 +378,7 @@ public:
         RangeCells<Dimension> ends(lattice, this->Job);
         RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
         range.Fill(ends, first, length);
-        range.Run(this->First, this->Shared.LastPass);
+        range.Run(this->First, this->Shared.LastPass());
         if (!this->Work.ShouldStop())
         {
           this->Count.MovedToMass += ends.Write(length, cells);

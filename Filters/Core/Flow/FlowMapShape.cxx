@@ -215,11 +215,11 @@ private:
 
 template <int Dimension>
 FlowMapShape<Dimension>::FlowMapShape(
-  const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction)
-  : NumberOfSteps(numberOfSteps)
+  const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction, int refinement)
+  : NumberOfSteps(numberOfSteps << refinement)
   , Steps(direction == FlowDirection::Backward
         ? numberOfSteps
-        : static_cast<int>(std::ceil(constants<Dimension>.Steps * numberOfSteps)))
+        : static_cast<int>(std::ceil(constants<Dimension>.Steps * this->NumberOfSteps)))
   , Direction(direction)
 {
   if constexpr (Dimension > 1)

@@ -33,13 +33,16 @@ struct FlowMapShape
 
   // Empty where lattices do not serve: in 1D, for few steps, and where they would need more nodes
   // than the grid has cells.
-  FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction);
+  // With a refinement particles take 2^refinement times as many steps on lattices of the same
+  // accuracy.
+  FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
+    int refinement = 0);
 
   // Whether particles take less time with the map, that of making it included.
   bool PaysFor(double particles) const;
 
-  int NumberOfSteps;
-  int Steps; // of particles that hand over: fewer, as the lattices' are finer
+  int NumberOfSteps; // of particles without a map
+  int Steps;         // of particles that hand over: fewer, as the lattices' are finer
   FlowDirection Direction;
   std::vector<Level> Levels; // wider spacings first
   double Deviation = 0.0;    // in cells: cells of a lattice that deviate more from cubics are bad

@@ -149,20 +149,24 @@ struct RectifiedFlow<Dimension>::Internals
   void Prepare(AdvectionRun<Dimension>& run, const FlowOptions& options, double particles,
     double firstTime = 1.0)
   {
-    const FlowJob<Dimension>& job = run.SharedJob();
+    const AdvectionJob<Dimension>& shared = run.SharedJob();
+    const FlowJob<Dimension>& job = shared.Job;
     if (job.Method != Integrator::Multistep || job.Nearest || options.Maps == FlowMaps::Off)
     {
       return;
     }
-    const FlowMapShape<Dimension> shape(this->Size, static_cast<int>(job.Steps),
-      job.Backward ? FlowDirection::Backward : FlowDirection::Forward);
+    const FlowMapShape<Dimension> shape(this->Size, options.NumberOfSteps,
+      job.Backward ? FlowDirection::Backward : FlowDirection::Forward, shared.Refinement);
+    // Isolated cells leave most boxes empty before particles could take over.
+    const bool pays = shared.Kind != AdvectionKind::ForwardToCells && shape.PaysFor(particles);
     if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||
-      (options.Maps == FlowMaps::Auto && !shape.PaysFor(particles)))
+      (options.Maps == FlowMaps::Auto && !pays))
     {
       return;
     }
     KeptMap& kept = this->Maps[job.Backward ? 1 : 0];
-    std::shared_ptr<const FlowMap<Dimension>> map = kept.Get(shape.NumberOfSteps);
+    const Steps steps{ options.NumberOfSteps, shared.Refinement };
+    std::shared_ptr<const FlowMap<Dimension>> map = kept.Get(steps);
     const bool isNew = !map;
     if (isNew)
     {
@@ -170,7 +174,7 @@ struct RectifiedFlow<Dimension>::Internals
       const double particlesCost = particles * shape.Levels.back().HandOver;
       map = std::make_shared<const FlowMap<Dimension>>(
         shape, job, run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)));
-      kept.Set(shape.NumberOfSteps, map);
+      kept.Set(steps, map);
     }
     run.UseMap(std::move(map), isNew);
   }
@@ -180,19 +184,21 @@ struct RectifiedFlow<Dimension>::Internals
     return this->Tables.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
 
-  // The flow map of the last number of steps in one direction.
+  using Steps = std::pair<int, int>; // NumberOfSteps and its refinement
+
+  // The flow map of the last steps in one direction.
   class KeptMap
   {
   public:
-    std::shared_ptr<const FlowMap<Dimension>> Get(int steps)
+    std::shared_ptr<const FlowMap<Dimension>> Get(const Steps& steps)
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      return steps == this->Steps ? this->Map : nullptr;
+      return steps == this->Of ? this->Map : nullptr;
     }
-    void Set(int steps, std::shared_ptr<const FlowMap<Dimension>> map)
+    void Set(const Steps& steps, std::shared_ptr<const FlowMap<Dimension>> map)
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Steps = steps;
+      this->Of = steps;
       this->Map.swap(map);
     }
     std::int64_t MemorySize()
@@ -203,7 +209,7 @@ struct RectifiedFlow<Dimension>::Internals
 
   private:
     std::mutex Mutex;
-    int Steps = 0;
+    Steps Of;
     std::shared_ptr<const FlowMap<Dimension>> Map;
   };
 
