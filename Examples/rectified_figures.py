@@ -14,7 +14,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401, the text renderer needs it
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkImagingColor import vtkImageLuminance
 from vtkmodules.vtkImagingCore import (vtkImageExtractComponents, vtkImageInterpolator,
                                        vtkImageResize, vtkImageShiftScale, vtkImageShrink3D)
@@ -47,6 +47,17 @@ def polydata(points):
     data = vtkPolyData()
     data.SetPoints(vtkPoints())
     data.GetPoints().SetData(numpy_to_vtk(coordinates, deep=1))
+    return data
+
+
+def shape(points, sizes, kind="Lines"):
+    """Lines, polygons or vertices through points, so many points each."""
+    data = polydata(points)
+    cells, first = vtkCellArray(), 0
+    for size in sizes:
+        cells.InsertNextCell(size, range(first, first + size))
+        first += size
+    getattr(data, "Set" + kind)(cells)
     return data
 
 

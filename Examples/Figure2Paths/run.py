@@ -9,7 +9,7 @@ import rectified_example as example
 import rectified_figures as figures
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkImageData
 
 HEIGHT = 0.55  # of the paths' part of the picture, of its width; so are these:
 DENSITY = 0.16
@@ -39,20 +39,10 @@ def exact_ends(density, seeds):
     return np.interp(seeds / len(density) * sums[-1], sums, np.arange(len(sums)))
 
 
-def shape(points, sizes, kind="Lines"):
-    """Lines, polygons or vertices through points of the plane, so many points each."""
-    data = figures.polydata(points)
-    cells, first = vtkCellArray(), 0
-    for size in sizes:
-        cells.InsertNextCell(size, range(first, first + size))
-        first += size
-    getattr(data, "Set" + kind)(cells)
-    return data
-
-
 def seed_points(seeds):
     """Points on the line, as another input of Sample Density."""
-    return example.producer(shape(np.stack([seeds, 0 * seeds], axis=1), [1] * len(seeds), "Verts"))
+    points = np.stack([seeds, 0 * seeds], axis=1)
+    return example.producer(figures.shape(points, [1] * len(seeds), "Verts"))
 
 
 def ends_of(transport, **options):
@@ -111,12 +101,13 @@ def draw(density, number, start, pixels):
         for i in range(int(low), int(np.ceil(high))):
             a, b = max(low, i), min(high, i + 1)
             corners += [(a, top), (b, top), (b, heights[i]), (a, heights[i])]
-        return shape(corners, [4] * (len(corners) // 4), "Polys")
+        return figures.shape(corners, [4] * (len(corners) // 4), "Polys")
 
     grey, orange, purple = [0.75, 0.78, 0.82], [0.95, 0.55, 0.1], [0.5, 0.1, 0.7]
     view = example.picture_view([pixels, round(pixels * (HEIGHT + DENSITY + 2 * MARGIN)
                                                / (1 + 2 * MARGIN))], [1, 1, 1])
     flat = np.stack([x, top * t], axis=-1)
+    shape = figures.shape
     parts = [(area(0, cells), grey, 1), (area(left, right), [0.98, 0.82, 0.6], 1),
              (shape(flat[:-1].reshape(-1, 2), [x.shape[1]] * number), [0.35, 0.55, 0.75], 2),
              (shape([(0, 0), (right, top), (cells, 0), (left, top)], [2, 2]), orange, 4),

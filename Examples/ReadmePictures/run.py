@@ -137,6 +137,7 @@ def main():
                  "--resolution", "512", "--pixels", "1020")
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
+    draw_example(path("flow-maps"), "FlowMaps", "flow-maps.png")
     draw_map(path("map"))
     draw_paths(path("paths"))
     draw_example(path("morph"), "Morph2D", "morph-2d.png", "bunny", "camel+dinosaur",
@@ -150,8 +151,9 @@ def main():
                  "lion-head", "--panel", "240")
     draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
                  "--dots", "10000", "--panel", "420")
-    print("density, particles, volume, cartogram, cells, patterns, flow, map, paths, morph, "
-          "morph-3d, barycenters, splats, solid, parameterization, surface-dots: " + arguments.output)
+    print("density, particles, volume, cartogram, cells, patterns, flow, flow-maps, map, paths, "
+          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots: "
+          + arguments.output)
 
 
 if __name__ == "__main__":

@@ -35,6 +35,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
                             "--particles", "1000", "--repeats", "2", "--panel", "128"],
          "Figure11Parameterization": ["--resolution", "128", "--panel", "160"],
+         "FlowMaps": ["--size", "128", "--particles", "1500", "--panel", "160"],
          "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
          "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
          "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
@@ -182,6 +183,8 @@ class Examples(unittest.TestCase):
         self.assertIn("90 x 108 x 90 values; it must be a picture", printed)
 
     def test_not_a_number(self):
+        printed = self.refused("FlowMaps", "--time", "1")
+        self.assertIn("--time is 1; it must lie between 0 and 1", printed)
         for example, option in ("Figure2Paths", "--cells"), ("Figure8Samples", "--sizes"):
             printed = self.refused(example, option, "0")
             self.assertIn("argument %s: 0 is not a whole number of at least" % option, printed)
@@ -257,6 +260,16 @@ class Examples(unittest.TestCase):
         self.assertEqual([row[2] for row in whole], ["0.042, 0.048", "0.080", "0.12"])
         drawn = read(os.path.join(OUTPUT, "figure8-samples.png"))[0]
         self.assertTrue(50 < drawn.mean() < 205)
+
+    def test_flow_maps(self):
+        """Finer lattices are closer, and a flow map is as accurate as the steps it replaces."""
+        interpolation, (off, on) = tables(self.ran("FlowMaps"))
+        for column in 1, 2, 3:
+            self.check_falls(row[column] for row in interpolation)
+        self.assertLess(first(interpolation[-1][1]), 0.05)
+        self.assertNotEqual(on, off)
+        self.assertLess(first(on[1]), 1.1 * first(off[1]))
+        self.check_picture("flow-maps.png")
 
     @need_meshes
     def test_stipple_surface(self):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which lattices a flow map has: they follow from the grid, the number of steps and the direction
-// alone. Documentation/FlowMaps.md derives the formulas.
+// alone. Documentation/Flow.md gives the formulas.
 #ifndef RectifiedTransport_FlowMapShape_h
 #define RectifiedTransport_FlowMapShape_h
 
