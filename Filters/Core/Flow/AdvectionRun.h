@@ -24,6 +24,16 @@ namespace RectifiedTransport
 
 constexpr int rangeBlocks = 16;
 
+// The grains of a range, one by one: an executor may join several.
+template <class Kernel>
+void forGrains(std::int64_t first, std::int64_t last, std::int64_t grain, const Kernel& kernel)
+{
+  for (; first < last; first += grain)
+  {
+    kernel(first, std::min(first + grain, last));
+  }
+}
+
 // Counted over the ranges of one advection; sums of integers do not depend on their order.
 struct Counters
 {
@@ -176,7 +186,7 @@ private:
   void Pass(int pass)
   {
     const auto count = static_cast<std::int64_t>(this->Index.size());
-    this->Work.Threads().For(count, BlockSize, [this, pass](std::int64_t first, std::int64_t last) {
+    const auto advect = [this, pass](std::int64_t first, std::int64_t last) {
       if (this->Work.ShouldStop())
       {
         return;
@@ -185,6 +195,9 @@ private:
       this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
         this->Index.data() + first, static_cast<int>(last - first), pass, unresolved);
       std::copy(unresolved, unresolved + (last - first), this->IsUnresolved.data() + first);
+    };
+    this->Work.Threads().For(count, BlockSize, [&advect](std::int64_t first, std::int64_t last) {
+      forGrains(first, last, BlockSize, advect);
     });
     std::size_t left = 0;
     for (std::size_t i = 0; i < this->Index.size(); ++i)
@@ -313,7 +326,7 @@ public:
     this->Map = std::move(map);
     const bool hasLevels = this->Map->View().LevelCount > 0;
     this->Job.Map = hasLevels ? &this->Map->View() : nullptr;
-    this->First = hasLevels && !this->Job.Backward ? -this->Job.Map->LevelCount : 0;
+    this->First = hasLevels ? -this->Job.Map->LevelCount : 0;
   }
 
   // Advects the particles of a source chunk by chunk: source.Prepare(first) makes the chunk that
@@ -344,11 +357,14 @@ public:
         std::min(chunkEnd - begin, this->Work.NextSlice(this->Grain * threads.Concurrency()));
       const std::size_t before = unresolved.size();
       unresolved.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
-      threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+      const auto advect = [&](std::int64_t first, std::int64_t last) {
         RangeAdvection<Dimension> range(this->Job, this->Count, this->Work);
         range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
         range.Pass(this->First);
         unresolved[before + static_cast<std::size_t>(first / this->Grain)] = range.Unresolved();
+      };
+      threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
+        forGrains(first, last, this->Grain, advect);
       });
       for (std::size_t range = before; range < unresolved.size(); ++range)
       {
@@ -370,20 +386,21 @@ public:
   // Advects the samples of a lattice and writes the grid cell that each ends in. Throws Cancelled.
   FlowReport AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
   {
+    const auto advect = [&](std::int64_t first, std::int64_t last) {
+      const int length = static_cast<int>(last - first);
+      RangeCells<Dimension> ends(lattice, this->Job);
+      RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
+      range.Fill(ends, first, length);
+      range.Run(this->First, this->Shared.LastPass());
+      if (!this->Work.ShouldStop())
+      {
+        this->Count.MovedToMass += ends.Write(length, cells);
+      }
+    };
     this->Work.BeginStage(1.0);
     this->Work.For(
       lattice.Count(), this->Grain,
-      [&](std::int64_t first, std::int64_t last) {
-        const int length = static_cast<int>(last - first);
-        RangeCells<Dimension> ends(lattice, this->Job);
-        RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
-        range.Fill(ends, first, length);
-        range.Run(this->First, this->Shared.LastPass());
-        if (!this->Work.ShouldStop())
-        {
-          this->Count.MovedToMass += ends.Write(length, cells);
-        }
-      },
+      [&](std::int64_t first, std::int64_t last) { forGrains(first, last, this->Grain, advect); },
       this->Grain);
     return this->Report();
   }

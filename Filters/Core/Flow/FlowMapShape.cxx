@@ -73,7 +73,7 @@ public:
 
   double Deviation() const
   {
-    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.2) * this->Error;
+    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.3) * this->Error;
   }
 
   double WidestSpacing() const { return this->Mean / Fixed.LeastCells; }

@@ -58,9 +58,9 @@ struct FlowJob
 // Advects `count` <= BlockSize particles from `seeds` (interleaved) to the places `index` of the
 // output. Pass 0 takes Steps steps, pass p > 0 takes 2^p times as many (Adaptive: 4^-p times the
 // tolerance); forwards, pass -1 - l starts from level l of the map, and all times must lie after
-// its hand-over. Sets unresolved[i] if particle i met an empty box, ended in an empty cell, or may
-// not be interpolated. Returns the number of velocity evaluations. Once ShouldStop returned true,
-// positions are undefined.
+// its hand-over; backwards, it may leave particles there. Sets unresolved[i] if particle i met an
+// empty box, ended in an empty cell, may not be interpolated, or was left. Returns the number of
+// velocity evaluations. Once ShouldStop returned true, positions are undefined.
 template <int Dimension>
 using AdvectBlock = std::int64_t (*)(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int pass, bool* unresolved);

@@ -49,7 +49,7 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
   }
   if (job.Method == Integrator::Multistep)
   {
-    return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count)
+    return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count, pass, unresolved)
                         : multistepForward<Dimension>(job, seeds, index, count, pass, unresolved);
   }
   return advectUniformSteps<Dimension>(job, seeds, index, count, pass, unresolved);

@@ -320,10 +320,11 @@ RT_INLINE void finishWhole(const FlowJob<Dimension>& job, int count,
 }
 
 // Time 1 to 0 over the reversed graded steps of [0,1]; a particle is done once the flow map, if
-// there is one, gives its seed, or its box is the whole domain.
+// there is one, gives its seed, or its box is the whole domain. If level l leaves less than half of
+// a block in pass -1 - l, that is unresolved: it takes less time with what is left of other blocks.
 template <int Dimension>
-std::int64_t multistepBackward(
-  const FlowJob<Dimension>& job, const double* seeds, const std::int64_t* index, int count)
+std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seeds,
+  const std::int64_t* index, int count, int pass, bool* unresolved)
 {
   MultistepLanes<Dimension> lanes;
   loadPositions<Dimension>(job, seeds, count, lanes.Position);
@@ -363,6 +364,11 @@ std::int64_t multistepBackward(
     if (level >= 0 && step + 1 == job.Map->Levels[level].HandOver)
     {
       finishFromMap<Dimension>(job.Map->Levels[level], count, lanes.Position, active, left, write);
+      if (level == -1 - pass && 2 * left < count)
+      {
+        std::memcpy(unresolved, active, static_cast<std::size_t>(count) * sizeof(bool));
+        return evaluations;
+      }
       --level;
     }
     finishWhole<Dimension>(job, count, lanes.Position, time, active, left, write);
