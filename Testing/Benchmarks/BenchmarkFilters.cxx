@@ -1,32 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole updates of the filters that make maps and cells.
-#include "PhotographInput.h"
+// Whole updates of the filter that makes cells.
+#include "BenchmarkInputs.h"
+#include "FilterRuns.h"
 
 #include <vtkEqualMassCells.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkTransportMap.h>
-#include <vtkTransportSampler.h>
 
 namespace RectifiedTransport
 {
 namespace
 {
-
-// A map at one sample a pixel, and as many particles from the same seeds.
-void map(benchmark::State& state)
-{
-  vtkNew<vtkTransportMap> filter;
-  runOnPhotograph(state, filter);
-}
-
-void particles(benchmark::State& state)
-{
-  vtkNew<vtkTransportSampler> filter;
-  filter->SetSeedPatternToLattice();
-  filter->SetSamplesPerCell(1);
-  runOnPhotograph(state, filter);
-}
 
 // 1024 random sites.
 void cells(benchmark::State& state)
@@ -47,11 +31,9 @@ void cells(benchmark::State& state)
   filter->SetInputData(sites);
   filter->SetDomainData(domain);
   filter->SetResolution(static_cast<int>(state.range(0)));
-  timeUpdates(state, filter, points);
+  timeUpdates(state, filter, [&]() { points->Modified(); });
 }
 
-BENCHMARK(map)->Name("Filters/map")->Unit(benchmark::kMillisecond);
-BENCHMARK(particles)->Name("Filters/particles")->Unit(benchmark::kMillisecond);
 BENCHMARK(cells)
   ->Name("Filters/cells")
   ->Arg(512)

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow on tables that are there: cost a velocity and a particle, the sort, threads.
+// The flow on tables that are there: cost a velocity and a particle, the flow maps, the sort,
+// threads.
 #include "BenchmarkInputs.h"
 
 #include "Core/Flow/ParticleOrder.h"
 #include "PaperTransport.h"
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -36,39 +41,79 @@ void paperFlow(benchmark::State& state)
   reportCost(state, seeds.size(), 4.0 * PaperSteps * static_cast<double>(seeds.size()));
 }
 
-template <int Dimension, int ThreadCount>
-void coreFlow(benchmark::State& state)
+// With tables and flow maps that are there; of so many runs of 1024 particles.
+template <int Dimension>
+void coreFlow(benchmark::State& state, int threadCount, FlowMaps maps, std::int64_t runs)
 {
   const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
-  const RectifiedFlow<Dimension> flow(density.Source());
-  const Particles<Dimension> seeds = latticeParticles<Dimension>(density.Size, 4 * ShareRuns);
-  const OpenMPThreads threads(ThreadCount);
+  const Particles<Dimension> seeds = latticeParticles<Dimension>(density.Size, runs);
+  const OpenMPThreads threads(threadCount);
+  const OpenMPExecutor executor;
+  Particles<Dimension> particles;
   FlowReport report;
-  for (auto _ : state)
-  {
-    Particles<Dimension> particles = seeds;
-    report = moveForward(flow, particles, OpenMPExecutor());
-    benchmark::DoNotOptimize(particles.data());
-  }
+  timeFlow(state, density, Tables::Kept, executor, [&](const RectifiedFlow<Dimension>& flow) {
+    particles = seeds;
+    report = moveForward(flow, particles, executor, maps);
+  });
   reportCost(state, seeds.size(), static_cast<double>(report.Evaluations));
 }
 
-void sides2D(benchmark::internal::Benchmark* b)
+// The making of the flow maps for tables that are there: the flow of one particle, with the tables
+// made anew between the iterations, as the flow keeps its maps.
+template <int Dimension>
+void makeMaps(benchmark::State& state, int threadCount)
 {
-  b->RangeMultiplier(2)->Range(256, 4096)->Unit(benchmark::kMillisecond);
+  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
+  const OpenMPThreads threads(threadCount);
+  const OpenMPExecutor executor;
+  RectifiedFlow<Dimension> flow(density.Source(), executor);
+  const std::int64_t tableBytes = flow.MemorySize();
+  for (auto _ : state)
+  {
+    state.PauseTiming();
+    flow = RectifiedFlow<Dimension>(density.Source(), std::move(flow), executor);
+    Particles<Dimension> particle{ evenPoint<Dimension>(1.0) };
+    state.ResumeTiming();
+    moveForward(flow, particle, executor, FlowMaps::On);
+  }
+  state.counters["table_bytes"] = static_cast<double>(tableBytes);
+  state.counters["map_bytes"] = static_cast<double>(flow.MemorySize() - tableBytes);
 }
 
-void sides3D(benchmark::internal::Benchmark* b)
+// `few` particles are so many runs of 1024, fewer than flow maps pay for.
+template <int Dimension>
+void addAll(const std::vector<std::int64_t>& sides, std::int64_t sideOfFew, std::int64_t few)
 {
-  b->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond);
+  const std::string group = "Flow" + std::to_string(Dimension) + "D/";
+  addBenchmark(group + "paper", sides, paperFlow<Dimension>);
+  for (const int threads : { 1, 2 })
+  {
+    const auto add = [&](const std::string& kind, auto run) {
+      auto* added = addBenchmark(group + kind + (threads == 2 ? "_2_threads" : ""), sides, run);
+      if (threads == 2)
+      {
+        added->UseRealTime();
+      }
+    };
+    add("core", [threads](benchmark::State& state) {
+      coreFlow<Dimension>(state, threads, FlowMaps::On, 4 * ShareRuns);
+    });
+    add("core_off", [threads](benchmark::State& state) {
+      coreFlow<Dimension>(state, threads, FlowMaps::Off, 4 * ShareRuns);
+    });
+    add("maps", [threads](benchmark::State& state) { makeMaps<Dimension>(state, threads); });
+  }
+  addBenchmark(group + "few", { sideOfFew },
+    [few](benchmark::State& state) { coreFlow<Dimension>(state, 1, FlowMaps::Auto, few); });
+  addBenchmark(group + "few_off", { sideOfFew },
+    [few](benchmark::State& state) { coreFlow<Dimension>(state, 1, FlowMaps::Off, few); });
 }
 
-BENCHMARK(paperFlow<2>)->Name("Flow2D/paper")->Apply(sides2D);
-BENCHMARK(paperFlow<3>)->Name("Flow3D/paper")->Apply(sides3D);
-BENCHMARK(coreFlow<2, 1>)->Name("Flow2D/core")->Apply(sides2D);
-BENCHMARK(coreFlow<3, 1>)->Name("Flow3D/core")->Apply(sides3D);
-BENCHMARK(coreFlow<2, 2>)->Name("Flow2D/core_2_threads")->Apply(sides2D)->UseRealTime();
-BENCHMARK(coreFlow<3, 2>)->Name("Flow3D/core_2_threads")->Apply(sides3D)->UseRealTime();
+const bool added = []() {
+  addAll<2>({ 256, 512, 1024, 2048, 4096 }, 1024, 1);
+  addAll<3>({ 64, 128, 256 }, 256, 8);
+  return true;
+}();
 
 // Particles in random order, the hardest for the sort's memory traffic.
 template <int Dimension>

@@ -11,11 +11,15 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <map>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #ifdef _OPENMP
@@ -77,13 +81,49 @@ Particles<Dimension> latticeParticles(const GridSize<Dimension>& size, std::int6
   return particles;
 }
 
+inline FlowOptions withMaps(FlowMaps maps)
+{
+  FlowOptions options;
+  options.Maps = maps;
+  return options;
+}
+
 // Moves particles from time 0 to time 1 in place.
 template <int Dimension>
 FlowReport moveForward(const RectifiedFlow<Dimension>& flow,
   std::vector<std::array<double, static_cast<std::size_t>(Dimension)>>& particles,
-  const Executor& executor = SerialExecutor())
+  const Executor& executor = SerialExecutor(), FlowMaps maps = FlowMaps::Auto)
 {
-  return flow.Forward(particles, particles, {}, executor);
+  return flow.Forward(particles, particles, withMaps(maps), executor);
+}
+
+// Whether each iteration makes tables and flow maps, or finds them.
+enum class Tables
+{
+  New,
+  Kept
+};
+
+// Times move(flow), and the making of the flow where it is new. Memory is used once before the
+// clock starts, as in BenchmarkTables.cxx.
+template <int Dimension, class Move>
+void timeFlow(benchmark::State& state, const TestDensity<Dimension>& density, Tables tables,
+  const Executor& executor, const Move& move)
+{
+  std::optional<RectifiedFlow<Dimension>> flow(std::in_place, density.Source(), executor);
+  if (tables == Tables::Kept)
+  {
+    move(*flow);
+  }
+  for (auto _ : state)
+  {
+    if (tables == Tables::New)
+    {
+      flow.reset();
+      flow.emplace(density.Source(), executor);
+    }
+    move(*flow);
+  }
 }
 
 // Processor time of the process: other programs on the machine count little.
@@ -121,24 +161,68 @@ private:
 #endif
 };
 
+// Not outside and not NaN.
+template <int Dimension>
+bool isInside(const std::array<double, static_cast<std::size_t>(Dimension)>& particle,
+  const GridSize<Dimension>& size)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    if (!(particle[axis] >= 0.0 && particle[axis] <= static_cast<double>(size[axis])))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// A benchmark whose name and parameters are known at run time, for each side.
+template <class Run>
+benchmark::internal::Benchmark* addBenchmark(
+  const std::string& name, const std::vector<std::int64_t>& sides, Run run)
+{
+  benchmark::internal::Benchmark* added = benchmark::RegisterBenchmark(name.c_str(), run);
+  added->Unit(benchmark::kMillisecond);
+  for (const std::int64_t side : sides)
+  {
+    added->Arg(side);
+  }
+  return added;
+}
+
 // Where an evenly spaced sample of particles truly goes.
 template <int Dimension>
 class SampleTruth
 {
 public:
-  SampleTruth(
-    const TestDensity<Dimension>& density, const Particles<Dimension>& seeds, std::size_t count)
-    : Stride(seeds.size() / count)
-    , Truth(Oracle<Dimension>(density.Values, density.Size).Forward(this->Choose(seeds)))
+  SampleTruth(const TestDensity<Dimension>& density, const Particles<Dimension>& seeds,
+    std::size_t count, bool backward = false)
+    : Size(density.Size)
+    , Stride(std::max(seeds.size() / count, std::size_t{ 1 }))
   {
+    const Oracle<Dimension> oracle(density.Values, density.Size);
+    const Particles<Dimension> chosen = this->Choose(seeds);
+    this->Truth = backward ? oracle.Backward(chosen) : oracle.Forward(chosen);
   }
 
-  // States the errors of the positions of all particles, in cells.
+  // States the errors of the positions of all particles that are not lost, in cells.
   void Report(benchmark::State& state, const Particles<Dimension>& positions) const
   {
-    const PositionErrors errors = comparePositions<Dimension>(this->Choose(positions), this->Truth);
+    Particles<Dimension> found;
+    Particles<Dimension> truth;
+    const Particles<Dimension> chosen = this->Choose(positions);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+    {
+      if (isInside<Dimension>(chosen[i], this->Size))
+      {
+        found.push_back(chosen[i]);
+        truth.push_back(this->Truth[i]);
+      }
+    }
+    const PositionErrors errors = comparePositions<Dimension>(found, truth);
     state.counters["error_mean"] = errors.Mean;
     state.counters["error_95"] = errors.Percentile95;
+    state.counters["error_999"] = errors.Percentile999;
   }
 
 private:
@@ -152,6 +236,7 @@ private:
     return chosen;
   }
 
+  GridSize<Dimension> Size;
   std::size_t Stride;
   Particles<Dimension> Truth;
 };

@@ -2,13 +2,9 @@
 // Figures 1 and 12 of the paper: five steps between two shapes and 25 barycenters of four, all
 // included, at 256^2 with one particle a cell; and what a step costs when the maps are there.
 #include "BenchmarkInputs.h"
+#include "FilterRuns.h"
 #include "PaperMorph.h"
 
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
 #include <vtkTransportBarycenter.h>
 #include <vtkTransportInterpolator.h>
 
@@ -63,29 +59,9 @@ const std::vector<double>& shapeValues(int shape)
   return values;
 }
 
-template <int Dimension>
-vtkSmartPointer<vtkImageData> newImage(std::int64_t cells, const std::vector<double>& values)
-{
-  const int points = static_cast<int>(cells) + 1;
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("Density");
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(points, points, Dimension == 3 ? points : 1);
-  image->GetCellData()->SetScalars(array);
-  return image;
-}
-
 vtkSmartPointer<vtkImageData> newShape(int shape)
 {
-  return newImage<2>(side, shapeValues(shape));
-}
-
-void markChanged(vtkImageData* image)
-{
-  image->GetCellData()->GetScalars()->Modified();
-  image->Modified();
+  return newImage<2>(evenSize<2>(side), shapeValues(shape));
 }
 
 std::vector<double> bilinearWeights(int i, int j)
@@ -109,18 +85,21 @@ void paperMorph(benchmark::State& state)
   }
 }
 
-void filterMorph(benchmark::State& state)
+void filterMorph(benchmark::State& state, int maps)
 {
   const auto source = newShape(0);
   const auto target = newShape(1);
   vtkNew<vtkTransportInterpolator> filter;
   filter->SetInputData(source);
   filter->SetTargetData(target);
+  filter->SetFlowMaps(maps);
   filter->SetThreadingToSerial();
+  ChangingDensity changeSource(source->GetCellData()->GetScalars());
+  ChangingDensity changeTarget(target->GetCellData()->GetScalars());
   for (auto _ : state)
   {
-    markChanged(source);
-    markChanged(target);
+    changeSource();
+    changeTarget();
     for (int step = 0; step < stepsOfMorph; ++step)
     {
       filter->SetParameter(step / (stepsOfMorph - 1.0));
@@ -146,21 +125,23 @@ void paperBarycenters(benchmark::State& state)
   }
 }
 
-void filterBarycenters(benchmark::State& state)
+void filterBarycenters(benchmark::State& state, int maps)
 {
   vtkNew<vtkTransportBarycenter> filter;
+  filter->SetFlowMaps(maps);
   filter->SetThreadingToSerial();
-  std::vector<vtkSmartPointer<vtkImageData>> shapes;
+  std::vector<ChangingDensity> changes;
   for (int shape = 0; shape < 4; ++shape)
   {
-    shapes.push_back(newShape(shape));
-    filter->AddInputDataObject(0, shapes.back());
+    const auto image = newShape(shape);
+    changes.emplace_back(image->GetCellData()->GetScalars());
+    filter->AddInputDataObject(0, image);
   }
   for (auto _ : state)
   {
-    for (vtkImageData* shape : shapes)
+    for (ChangingDensity& change : changes)
     {
-      markChanged(shape);
+      change();
     }
     for (int j = 0; j < gridOfBarycenters; ++j)
     {
@@ -181,11 +162,10 @@ void filterBarycenters(benchmark::State& state)
 template <int Dimension>
 void filterStep(benchmark::State& state)
 {
-  const TestDensity<Dimension> first = texturedGaussians<Dimension>(state.range(0));
-  const TestDensity<Dimension> second =
-    discWithHole<Dimension>(evenSize<Dimension>(state.range(0)));
-  const auto source = newImage<Dimension>(state.range(0), first.Values);
-  const auto target = newImage<Dimension>(state.range(0), second.Values);
+  const auto size = evenSize<Dimension>(state.range(0));
+  const auto source =
+    newImage<Dimension>(size, texturedGaussians<Dimension>(state.range(0)).Values);
+  const auto target = newImage<Dimension>(size, discWithHole<Dimension>(size).Values);
   vtkNew<vtkTransportInterpolator> filter;
   filter->SetInputData(source);
   filter->SetTargetData(target);
@@ -202,9 +182,19 @@ void filterStep(benchmark::State& state)
 }
 
 BENCHMARK(paperMorph)->Name("Morph/paper")->Unit(benchmark::kMillisecond);
-BENCHMARK(filterMorph)->Name("Morph/filter")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filterMorph, on, vtkTransportBlend::FLOW_MAPS_AUTO)
+  ->Name("Morph/filter")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filterMorph, off, vtkTransportBlend::FLOW_MAPS_OFF)
+  ->Name("Morph/filter_off")
+  ->Unit(benchmark::kMillisecond);
 BENCHMARK(paperBarycenters)->Name("Barycenters/paper")->Unit(benchmark::kMillisecond);
-BENCHMARK(filterBarycenters)->Name("Barycenters/filter")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filterBarycenters, on, vtkTransportBlend::FLOW_MAPS_AUTO)
+  ->Name("Barycenters/filter")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filterBarycenters, off, vtkTransportBlend::FLOW_MAPS_OFF)
+  ->Name("Barycenters/filter_off")
+  ->Unit(benchmark::kMillisecond);
 BENCHMARK(filterStep<2>)->Name("Morph/step2D")->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(filterStep<3>)->Name("Morph/step3D")->Arg(128)->Unit(benchmark::kMillisecond);
 

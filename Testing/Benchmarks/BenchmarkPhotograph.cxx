@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stippling job: 40,000 blue-noise particles on a photograph of 1024^2 pixels, from the
 // transcription to the filter's whole update.
+#include "FilterRuns.h"
 #include "PaperTransport.h"
 #include "PhotographInput.h"
 
@@ -52,25 +53,29 @@ void paperSorted(benchmark::State& state)
   }
 }
 
-void core(benchmark::State& state, int threadCount)
+void core(benchmark::State& state, int threadCount, Tables tables, FlowMaps maps)
 {
   const Photograph& photograph = Photograph::Instance();
   const OpenMPThreads threads(threadCount);
+  const OpenMPExecutor executor;
   Particles<2> particles;
-  for (auto _ : state)
-  {
+  timeFlow(state, photograph.Density, tables, executor, [&](const RectifiedFlow<2>& flow) {
     particles = photograph.Seeds;
-    const RectifiedFlow<2> flow(photograph.Density.Source());
-    moveForward(flow, particles, OpenMPExecutor());
-  }
+    moveForward(flow, particles, executor, maps);
+  });
   truth().Report(state, particles);
 }
 
-void filter(benchmark::State& state)
+void filter(benchmark::State& state, int maps)
 {
+  vtkNew<vtkImageData> image;
+  image->DeepCopy(Photograph::Instance().Image);
   vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  sampler->InvertDensityOn();
   sampler->SetNumberOfParticles(PhotographParticles);
-  runOnPhotograph(state, sampler);
+  sampler->SetFlowMaps(maps);
+  timeUpdates(state, sampler, ChangingDensity(image->GetPointData()->GetScalars()));
   vtkPolyData* output = sampler->GetOutput();
   Particles<2> particles(static_cast<std::size_t>(output->GetNumberOfPoints()));
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -89,12 +94,25 @@ BENCHMARK_CAPTURE(paper, limit, Paper::FinalVelocity::Limit)
   ->Name("Photograph/paper_limit")
   ->Unit(benchmark::kMillisecond);
 BENCHMARK(paperSorted)->Name("Photograph/paper_sorted")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(core, one, 1)->Name("Photograph/core")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(core, two, 2)
+BENCHMARK_CAPTURE(core, new, 1, Tables::New, FlowMaps::Auto)
+  ->Name("Photograph/core")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(core, again, 1, Tables::Kept, FlowMaps::Auto)
+  ->Name("Photograph/core_again")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(core, off, 1, Tables::New, FlowMaps::Off)
+  ->Name("Photograph/core_off")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(core, two, 2, Tables::New, FlowMaps::Auto)
   ->Name("Photograph/core_2_threads")
   ->Unit(benchmark::kMillisecond)
   ->UseRealTime();
-BENCHMARK(filter)->Name("Photograph/filter")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filter, on, vtkTransportSampler::FLOW_MAPS_AUTO)
+  ->Name("Photograph/filter")
+  ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(filter, off, vtkTransportSampler::FLOW_MAPS_OFF)
+  ->Name("Photograph/filter_off")
+  ->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace RectifiedTransport

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How good the particles are: their distance from where the flow truly takes them, how well they
-// follow the density, and how many are where there is none. Each density once, with each
-// integrator.
+// How good the particles are: their distance from where the flow truly takes them, forward and
+// backward, how well they follow the density, and how many are where there is none. Each density
+// once, with each integrator.
+#include "FilterRuns.h"
 #include "PaperTransport.h"
 #include "PhotographInput.h"
 
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkTransportQuality.h>
 #include <vtkVariant.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 namespace RectifiedTransport
@@ -21,80 +22,67 @@ namespace RectifiedTransport
 namespace
 {
 
-// A density, its particles at time 0, and where some of them truly go.
+// A density, particles at time 0, those of them that are where there is mass, taken for particles
+// at time 1, and where some of both truly go.
 template <int Dimension>
 struct QualityCase
 {
   QualityCase(TestDensity<Dimension> density, std::int64_t particles)
     : Density(std::move(density))
-    , Seeds(static_cast<std::size_t>(particles))
+    , Seeds(this->Spread(particles))
+    , Truth(this->Density, this->Seeds, 10000)
+    , Points(this->WithMass(this->Seeds))
+    , BackwardTruth(this->Density, this->Points, 10000, true)
   {
+  }
+
+  TestDensity<Dimension> Density;
+  Particles<Dimension> Seeds;
+  SampleTruth<Dimension> Truth;
+  Particles<Dimension> Points;
+  SampleTruth<Dimension> BackwardTruth;
+
+private:
+  Particles<Dimension> Spread(std::int64_t particles) const
+  {
+    Particles<Dimension> seeds(static_cast<std::size_t>(particles));
     Point<Dimension> lengths;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       lengths[axis] = static_cast<double>(this->Density.Size[axis]);
     }
-    generateSeeds<Dimension>(SeedPattern::BlueNoise, lengths, 1, this->Seeds);
-    for (Point<Dimension>& seed : this->Seeds)
+    generateSeeds<Dimension>(SeedPattern::BlueNoise, lengths, 1, seeds);
+    for (Point<Dimension>& seed : seeds)
     {
       for (int axis = 0; axis < Dimension; ++axis)
       {
         seed[axis] *= lengths[axis];
       }
     }
-    const std::size_t stride = this->Seeds.size() / 2000;
-    Particles<Dimension> sample;
-    for (std::size_t i = stride / 2; i < this->Seeds.size(); i += stride)
-    {
-      this->Chosen.push_back(i);
-      sample.push_back(this->Seeds[i]);
-    }
-    this->Truth = Oracle<Dimension>(this->Density.Values, this->Density.Size).Forward(sample);
+    return seeds;
   }
 
-  TestDensity<Dimension> Density;
-  Particles<Dimension> Seeds;
-  std::vector<std::size_t> Chosen;
-  Particles<Dimension> Truth;
-};
-
-template <int Dimension>
-bool isLost(const Point<Dimension>& particle, const GridSize<Dimension>& size)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
+  Particles<Dimension> WithMass(const Particles<Dimension>& all) const
   {
-    if (!(particle[axis] >= 0.0 && particle[axis] <= static_cast<double>(size[axis])))
-    {
-      return true;
-    }
+    const RectifiedFlow<Dimension> flow(this->Density.Source());
+    Particles<Dimension> points;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(points),
+      [&](const Point<Dimension>& point) { return flow.HasMass(point); });
+    return points;
   }
-  return false;
-}
+};
 
 // What Transport Quality says of the particles that are not lost.
 template <int Dimension>
 void reportDensity(benchmark::State& state, const QualityCase<Dimension>& example,
   const Particles<Dimension>& particles)
 {
-  int dimensions[3] = { 1, 1, 1 };
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    dimensions[axis] = static_cast<int>(example.Density.Size[axis]) + 1;
-  }
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(dimensions);
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("Density");
-  for (const double value : example.Density.Values)
-  {
-    values->InsertNextValue(value);
-  }
-  image->GetCellData()->SetScalars(values);
+  const auto image = newImage<Dimension>(example.Density.Size, example.Density.Values);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const Point<Dimension>& particle : particles)
   {
-    if (!isLost<Dimension>(particle, example.Density.Size))
+    if (isInside<Dimension>(particle, example.Density.Size))
     {
       double x[3] = { 0.0, 0.0, 0.0 };
       std::copy(particle.begin(), particle.end(), x);
@@ -118,58 +106,58 @@ void reportDensity(benchmark::State& state, const QualityCase<Dimension>& exampl
   state.counters["particles"] = static_cast<double>(example.Seeds.size());
 }
 
+enum class Way
+{
+  Forward,
+  Backward
+};
+
 template <int Dimension>
-void report(benchmark::State& state, const QualityCase<Dimension>& example,
+void report(benchmark::State& state, const QualityCase<Dimension>& example, Way way,
   const Particles<Dimension>& particles, double evaluations)
 {
-  Particles<Dimension> found;
-  Particles<Dimension> truth;
-  for (std::size_t i = 0; i < example.Chosen.size(); ++i)
-  {
-    const Point<Dimension>& particle = particles[example.Chosen[i]];
-    if (!isLost<Dimension>(particle, example.Density.Size))
-    {
-      found.push_back(particle);
-      truth.push_back(example.Truth[i]);
-    }
-  }
-  const PositionErrors errors = comparePositions<Dimension>(found, truth);
-  state.counters["error_mean"] = errors.Mean;
-  state.counters["error_95"] = errors.Percentile95;
+  (way == Way::Forward ? example.Truth : example.BackwardTruth).Report(state, particles);
   state.counters["evaluations"] = evaluations;
-  reportDensity<Dimension>(state, example, particles);
+  if (way == Way::Forward)
+  {
+    reportDensity<Dimension>(state, example, particles);
+  }
 }
 
 template <int Dimension>
-void paper(benchmark::State& state, const QualityCase<Dimension>& example)
+void paper(benchmark::State& state, const QualityCase<Dimension>& example, Way way)
 {
   Particles<Dimension> particles;
   for (auto _ : state)
   {
-    particles = example.Seeds;
-    Paper::advect(Paper::buildTables(example.Density.Values, example.Density.Size), particles,
-      PaperSteps, Paper::FinalVelocity::Zero);
+    particles = way == Way::Forward ? example.Seeds : example.Points;
+    const auto tables = Paper::buildTables(example.Density.Values, example.Density.Size);
+    way == Way::Forward ? Paper::advect(tables, particles, PaperSteps, Paper::FinalVelocity::Zero)
+                        : Paper::retrace(tables, particles, PaperSteps);
   }
-  report<Dimension>(state, example, particles, 4.0 * PaperSteps);
+  report<Dimension>(state, example, way, particles, 4.0 * PaperSteps);
 }
 
 template <int Dimension>
-void core(benchmark::State& state, const QualityCase<Dimension>& example, FlowOptions options)
+void core(
+  benchmark::State& state, const QualityCase<Dimension>& example, Way way, FlowOptions options)
 {
   const RectifiedFlow<Dimension> flow(example.Density.Source());
-  Particles<Dimension> particles(example.Seeds.size());
+  const Particles<Dimension>& start = way == Way::Forward ? example.Seeds : example.Points;
+  Particles<Dimension> particles(start.size());
   FlowReport done;
   for (auto _ : state)
   {
-    done = flow.Forward(example.Seeds, particles, options);
+    done = way == Way::Forward ? flow.Forward(start, particles, options)
+                               : flow.Backward(start, particles, options);
   }
-  report<Dimension>(state, example, particles,
+  report<Dimension>(state, example, way, particles,
     static_cast<double>(done.Evaluations) / static_cast<double>(particles.size()));
 }
 
-FlowOptions multistep(int steps)
+FlowOptions multistep(int steps, FlowMaps maps)
 {
-  FlowOptions options;
+  FlowOptions options = withMaps(maps);
   options.NumberOfSteps = steps;
   return options;
 }
@@ -188,25 +176,29 @@ void addCase(const std::string& name, TestDensity<Dimension> (*make)(), std::int
   const auto example = [make, particles]() -> const QualityCase<Dimension>& {
     static std::map<TestDensity<Dimension> (*)(), QualityCase<Dimension>> cases;
     const auto found = cases.find(make);
-    return found != cases.end()
-      ? found->second
-      : cases.emplace(make, QualityCase<Dimension>(make(), particles)).first->second;
+    return found != cases.end() ? found->second
+                                : cases.try_emplace(make, make(), particles).first->second;
   };
-  const auto add = [&name](const std::string& method, auto run) {
-    benchmark::RegisterBenchmark(("Quality/" + name + "/" + method).c_str(), run)
-      ->Iterations(1)
-      ->Repetitions(1)
-      ->Unit(benchmark::kMillisecond);
-  };
-  add("paper", [example](benchmark::State& state) { paper<Dimension>(state, example()); });
-  for (const int steps : { 16, 32, 64 })
+  for (const Way way : { Way::Forward, Way::Backward })
   {
-    add("multistep_" + std::to_string(steps), [example, steps](benchmark::State& state) {
-      core<Dimension>(state, example(), multistep(steps));
-    });
+    const auto add = [&](const std::string& method, auto run) {
+      const std::string direction = way == Way::Forward ? "/forward/" : "/backward/";
+      addBenchmark("Quality/" + name + direction + method, {}, run)->Iterations(1)->Repetitions(1);
+    };
+    const auto addCore = [&](const std::string& method, const FlowOptions& options) {
+      add(method, [example, way, options](benchmark::State& state) {
+        core<Dimension>(state, example(), way, options);
+      });
+    };
+    add("paper",
+      [example, way](benchmark::State& state) { paper<Dimension>(state, example(), way); });
+    for (const int steps : { 16, 32, 64 })
+    {
+      addCore("multistep_" + std::to_string(steps), multistep(steps, FlowMaps::On));
+      addCore("multistep_" + std::to_string(steps) + "_off", multistep(steps, FlowMaps::Off));
+    }
+    addCore("adaptive", adaptive());
   }
-  add("adaptive",
-    [example](benchmark::State& state) { core<Dimension>(state, example(), adaptive()); });
 }
 
 const bool added = []() {

@@ -321,6 +321,15 @@ void retrace(const Tables<Dimension>& tables, Vector<Dimension>& x, int steps)
   }
 }
 
+template <std::size_t Dimension>
+void retrace(const Tables<Dimension>& tables, std::vector<Vector<Dimension>>& points, int steps)
+{
+  for (Vector<Dimension>& x : points)
+  {
+    retrace(tables, x, steps);
+  }
+}
+
 } // namespace RectifiedTransport::Paper
 
 #endif

@@ -4,11 +4,9 @@
 #define RectifiedTransport_PhotographInput_h
 
 #include "BenchmarkInputs.h"
-#include "FilterRuns.h"
 
 #include "Core/Seeds/Seeds.h"
 
-#include <vtkDensityAlgorithm.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
@@ -76,16 +74,6 @@ private:
     }
   }
 };
-
-// Whole updates of a filter whose input the photograph is.
-inline void runOnPhotograph(benchmark::State& state, vtkDensityAlgorithm* filter)
-{
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(Photograph::Instance().Image);
-  filter->SetInputData(image);
-  filter->InvertDensityOn();
-  timeUpdates(state, filter, image->GetPointData()->GetScalars());
-}
 
 } // namespace RectifiedTransport
 

@@ -42,7 +42,14 @@ class Results:
         return self.median(slow, what) / self.median(fast, what)
 
     def errors(self, name):
-        return f"{self.median(name, 'error_mean'):.2g} / {self.median(name, 'error_95'):.2g}"
+        return " / ".join(f"{self.median(name, what):.2g}"
+                          for what in ("error_mean", "error_95", "error_999"))
+
+    def timed(self, name, paper):
+        return f"{milliseconds(self.median(name))}, {self.ratio(paper, name):.1f}×"
+
+    def threads(self, name, side):
+        return f"{self.ratio(f'{name}/{side}', f'{name}_2_threads/{side}', 'real_time'):.2f}×"
 
 
 def milliseconds(value):
@@ -70,23 +77,28 @@ def machine(results):
             f"{context.get('instruction_set', '?')} kernels, gcc {context.get('compiler', '?')}")
 
 
+# Of one particle a cell: the text, the direction, the size and the filter.
+GRIDS = (("one particle a pixel, photograph of 1024²: Transport Map", "2D/forward", 1024, "map"),
+         ("the same backward", "2D/backward", 1024, "map"),
+         ("one particle a cell, 64³: Sample Density", "3D/forward", 64, "sampler"),
+         ("one particle a cell, 128³: Sample Density", "3D/forward", 128, "sampler"),
+         ("one particle a cell, 256³: Sample Density", "3D/forward", 256, "sampler"),
+         ("128³ backward: Transport Map", "3D/backward", 128, "map"))
+
+
 def whole_jobs(r):
-    rows = [["40,000 particles, photograph of 1024²",
-             milliseconds(r.median("Photograph/paper")),
-             milliseconds(r.median("Photograph/core")),
-             f"{r.ratio('Photograph/paper', 'Photograph/core'):.1f}×",
-             milliseconds(r.median("Photograph/filter")),
-             f"{r.ratio('Photograph/paper', 'Photograph/filter'):.1f}×",
-             r.errors("Photograph/paper"), r.errors("Photograph/core")]]
-    for side in (64, 128, 256):
-        paper, core, whole = (f"Volume/{kind}/{side}" for kind in ("paper", "core", "filter"))
-        overhead = r.median(whole) / r.median(core, "unscaled_ms")
-        rows.append([f"one particle a cell, {side}³",
-                     milliseconds(r.median(paper)), milliseconds(r.median(core)),
-                     f"{r.ratio(paper, core):.1f}×", f"core + {100 * (overhead - 1):.0f} %",
-                     f"{r.ratio(paper, core) / overhead:.1f}×", r.errors(paper), r.errors(core)])
-    print_table(["work", "paper", "core", "ratio", "filter's whole update", "ratio",
-                 "error in cells (mean / 95 %): paper", "core"], rows)
+    jobs = [("40,000 particles, photograph of 1024²: Sample Density", "Photograph/%s", "filter")]
+    jobs += [(text, f"OnePerCell{group}/%s/{side}", filter) for text, group, side, filter in GRIDS]
+    rows = []
+    for text, name, whole in jobs:
+        paper = name % "paper"
+        rows.append([text, milliseconds(r.median(paper))] +
+                    [r.timed(name % kind, paper) for kind in
+                     ("core", "core_again", "core_off", whole, f"{whole}_off")] +
+                    [r.errors(name % kind) for kind in ("paper", "core", "core_off")])
+    print_table(["work", "paper", "core, new density", "same density again",
+                 "new density, without maps", "filter's whole update, new density", "without maps",
+                 "error in cells (mean / 95 % / 99.9 %): paper", "core", "without maps"], rows)
 
 
 def tables(r):
@@ -104,21 +116,34 @@ def tables(r):
 
 
 def flows(r):
-    rows = []
+    costs, maps = [], []
     for group, sides, power in (("Flow2D", (256, 512, 1024, 2048, 4096), "²"),
                                 ("Flow3D", (64, 128, 256), "³")):
         for side in sides:
-            name = f"{group}/%s/{side}"
-            rows.append([f"{side}{power}"] +
-                        [f"{scale * r.median(name % kind, what):.3g} {unit}"
-                         for what, scale, unit in (("per_velocity", 1e9, "ns"),
-                                                   ("per_particle", 1e6, "µs"))
-                         for kind in ("paper", "core")] +
-                        [f"{r.ratio(name % 'core', name % 'core_2_threads', 'real_time'):.2f}×"])
-    print_table(["flow", "one velocity: paper", "core", "one particle: paper", "core",
-                 "two threads"], rows)
-    growth = r.ratio("Flow2D/core/4096", "Flow2D/core/256", "per_particle")
-    print(f"A particle costs {growth:.2f} times as much on 4096² as on 256².", end=" ")
+            def cost(kind, what, scale, unit):
+                return f"{scale * r.median(f'{group}/{kind}/{side}', what):.3g} {unit}"
+
+            costs.append([f"{side}{power}"] +
+                         [cost(kind, "per_velocity", 1e9, "ns") for kind in ("paper", "core_off")] +
+                         [cost(kind, "per_particle", 1e6, "µs")
+                          for kind in ("paper", "core_off", "core")] +
+                         [r.threads(f"{group}/{kind}", side) for kind in ("core_off", "core")])
+            made = f"{group}/maps/{side}"
+            maps.append([f"{side}{power}", milliseconds(r.median(made)),
+                         r.threads(f"{group}/maps", side),
+                         *(f"{r.median(made, f'{what}_bytes') / 1e6:.3g} MB"
+                           for what in ("map", "table"))])
+    print_table(["flow", "one velocity: paper", "core", "one particle: paper", "core without maps",
+                 "core with maps", "two threads: without maps", "with maps"], costs)
+    print_table(["flow maps", "making", "two threads", "memory", "of the tables"], maps)
+    growths = [f"{r.ratio(f'Flow2D/{kind}/4096', f'Flow2D/{kind}/256', 'per_particle'):.2f}"
+               for kind in ("core", "core_off")]
+    print(f"A particle costs {growths[0]} times as much on 4096² as on 256²; "
+          f"{growths[1]} times without maps.", end=" ")
+    for text, name in (("1,024 particles on 1024²", "Flow2D/%s/1024"),
+                       ("8,192 in 256³", "Flow3D/%s/256")):
+        print(f"{text}: {milliseconds(r.median(name % 'few'))} with Auto, "
+              f"{milliseconds(r.median(name % 'few_off'))} with Off.", end=" ")
     for group in ("Sort2D", "Sort3D"):
         each = r.median(f"{group}/core/1000000")  # ms a million: ns each
         print(f"{group[4:]} sort: {each:.2g} ns a particle.", end=" ")
@@ -126,10 +151,11 @@ def flows(r):
 
 
 def remarks(r):
-    memory = "Memory/core/256"
-    print(f"Memory at 256³, input and particles aside: "
-          f"{r.median(memory, 'peak_bytes') / 1e6:.0f} MB at most, "
-          f"{r.median(memory, 'table_bytes') / 1e6:.0f} MB of them tables.")
+    peak, table, made = (r.median("Memory/core/256", f"{what}_bytes") / 1e6
+                         for what in ("peak", "table", "map"))
+    without = r.median("Memory/core_off/256", "peak_bytes") / 1e6
+    print(f"Memory at 256³, input and particles aside: {peak:.0f} MB at most, {table:.0f} MB of "
+          f"them tables, {made:.0f} MB flow maps; {without:.0f} MB at most without maps.")
     for name, shape in (("Holes2D/%s/256", "256²"), ("Holes3D/%s/64", "64³")):
         counts = [", ".join(f"{r.median(name % kind, what):.0f} {text}"
                             for what, text in (("in_empty_cells", "in empty cells"),
@@ -143,13 +169,20 @@ def remarks(r):
           f"{milliseconds(r.median('Photograph/paper_sorted'))}.")
     print(f"Two threads on the photograph: "
           f"{r.ratio('Photograph/core', 'Photograph/core_2_threads', 'real_time'):.2f}×.")
+    particles, maps = (", ".join(
+        f"{milliseconds(r.median(f'OnePerCell{place}'))} ({text})" for place, text in places)
+        for places in ((("2D/forward/sampler/1024", "photograph"),),
+                       [(f"3D/forward/map/{side}", f"{side}³") for side in (64, 128, 256)]))
+    print(f"Sample Density with one particle a pixel: {particles}; Transport Map: {maps}.")
 
 
 QUALITY = (("photograph", "photograph, 1024²"), ("gaussians_1024", "two Gaussians, 1024²"),
            ("shape_256", "0/1 shape with a hole, 256²"), ("gaussians_128", "two Gaussians, 128³"),
            ("shape_64", "0/1 shape with a hole, 64³"))
-METHODS = (("paper", "paper, 50 steps of RK4"), ("multistep_16", "Multistep, 16"),
-           ("multistep_32", "**Multistep, 32**"), ("multistep_64", "Multistep, 64"),
+METHODS = (("paper", "paper, 50 steps of RK4"),
+           ("multistep_16", "Multistep, 16"), ("multistep_16_off", "without maps"),
+           ("multistep_32", "**Multistep, 32**"), ("multistep_32_off", "without maps"),
+           ("multistep_64", "Multistep, 64"), ("multistep_64_off", "without maps"),
            ("adaptive", "Adaptive, 0.01"))
 
 
@@ -157,21 +190,21 @@ def quality(r):
     rows = []
     for density, text in QUALITY:
         for method, label in METHODS:
-            name = f"Quality/{density}/{method}"
+            name, backward = (f"Quality/{density}/{way}/{method}" for way in ("forward", "backward"))
             rows.append([text if method == "paper" else "", label,
                          f"{r.median(name, 'evaluations'):.0f}", r.errors(name),
+                         r.errors(backward),
                          f"{r.median(name, 'density_error'):.3g}",
                          f"{r.median(name, 'in_empty_cells'):.0f}",
                          f"{r.median(name, 'lost'):.0f}"])
     print_table(["density", "integrator", "velocities a particle",
-                 "error in cells (mean / 95 %)", "density error", "in empty cells",
+                 "error in cells (mean / 95 % / 99.9 %)", "backward", "density error",
+                 "in empty cells",
                  "outside or NaN"], rows)
 
 
 def filters(r):
-    print(f"A map of the photograph at one sample a pixel: {milliseconds(r.median('Filters/map'))}; "
-          f"as many particles: {milliseconds(r.median('Filters/particles'))}. "
-          f"Cells of 1024 sites: {milliseconds(r.median('Filters/cells/512'))} at 512², "
+    print(f"Cells of 1024 sites: {milliseconds(r.median('Filters/cells/512'))} at 512², "
           f"{milliseconds(r.median('Filters/cells/1024'))} at 1024².")
     sides = ", ".join(f"{milliseconds(r.median(f'Solid/50000/{side}'))} at {side}"
                       for side in (64, 128, 256))
@@ -186,8 +219,8 @@ def morphs(r):
                        ("Barycenters", "5 × 5 barycenters of four shapes")):
         paper, whole = (f"{name}/{kind}" for kind in ("paper", "filter"))
         rows.append([f"{work}, 256², 65,536 particles", milliseconds(r.median(paper)),
-                     milliseconds(r.median(whole)), f"{r.ratio(paper, whole):.1f}×"])
-    print_table(["maps and all", "paper", "filter", "ratio"], rows)
+                     r.timed(whole, paper), r.timed(f"{whole}_off", paper)])
+    print_table(["transport and all", "paper", "filter", "without flow maps"], rows)
     print(f"A change of Parameter alone: {milliseconds(r.median('Morph/step2D/256'))} at 256², "
           f"{milliseconds(r.median('Morph/step3D/128'))} at 128³.\n")
     rows = []

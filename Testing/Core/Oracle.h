@@ -370,6 +370,7 @@ struct PositionErrors
 {
   double Mean = 0.0;
   double Percentile95 = 0.0;
+  double Percentile999 = 0.0; // 99.9 %
   double Largest = 0.0;
 };
 
@@ -390,8 +391,9 @@ PositionErrors comparePositions(const std::vector<Paper::Vector<Dimension>>& poi
     sum += distances[i];
   }
   std::sort(distances.begin(), distances.end());
-  return { sum / static_cast<double>(distances.size()),
-    distances[(distances.size() - 1) * 95 / 100], distances.back() };
+  const std::size_t last = distances.size() - 1;
+  return { sum / static_cast<double>(distances.size()), distances[last * 95 / 100],
+    distances[last * 999 / 1000], distances.back() };
 }
 
 } // namespace RectifiedTransport
