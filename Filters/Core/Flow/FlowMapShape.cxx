@@ -263,7 +263,10 @@ bool FlowMapShape<Dimension>::PaysFor(double particles) const
   {
     return false;
   }
-  const double saved = this->NumberOfSteps - this->Levels.back().HandOver - fixed.Interpolation;
+  // Backwards, boxes are whole and particles done before time 0.
+  const double part = this->Direction == FlowDirection::Backward ? 0.72 : 1.0;
+  const double saved =
+    part * this->NumberOfSteps - this->Levels.back().HandOver - fixed.Interpolation;
   return particles * saved > this->Cost;
 }
 
