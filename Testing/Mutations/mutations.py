@@ -219,7 +219,7 @@ OTHERS = [
     E(CORE + "Flow/Kernels/FlowMapNodes.txx", "second[i] = first[i] + «before» * lanes.Span[i]", "last"),
     E(CORE + "Flow/Kernels/FlowMultistep.txx",
       "return «smaller(larger(seed[axis], 0.0), level.Axes[axis].Size)»", "seed[axis]"),
-    E(CORE + "Flow/FlowMap.cxx", "(«largest > limit» ? isBent(axis) : 0)", "false"),
+    E(CORE + "Flow/FlowMap.cxx", "(«isStraight» ? 0 : isBent(axis))", "true"),
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
     E(CORE + "Flow/FlowMapShape.cxx", "return particles * saved > «this->Cost»", "0.0"),
     E(CORE + "Flow/PivotLattice.cxx", "positions.Part(place * each, each), «same», progress", "options"),

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -78,7 +79,8 @@ public:
 
   // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
   // stencils of an edge, forwards also of the ends of straight lines, deviate from cubics by more
-  // than `deviation`. Returns whether most may not; backwards most of those that have a past.
+  // than `deviation`. Returns whether most may not, forwards alone: backwards most of a domain may
+  // be empty.
   bool FindBad(double deviation, unsigned char* bad)
   {
     std::vector<float> bends(this->Marks.size()); // squared
@@ -91,16 +93,16 @@ public:
       });
       this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
         // The stencils of both cells that share the edge's ends, and its own.
-        float largest = 0.0f;
+        bool isStraight = true;
         for (std::int64_t first = place - 2; first <= place; ++first)
         {
           const std::int64_t inside =
             std::min(std::max(first, std::int64_t{ 0 }), this->Nodes[axis] - 4);
           const std::int64_t start = node + (inside - place) * this->Stride[axis];
-          largest = std::max(largest, bends[static_cast<std::size_t>(start)]);
+          isStraight = isStraight && bends[static_cast<std::size_t>(start)] <= limit;
         }
         unsigned char& mark = this->Marks[static_cast<std::size_t>(node)];
-        mark = static_cast<unsigned char>(mark | (largest > limit ? isBent(axis) : 0));
+        mark = static_cast<unsigned char>(mark | (isStraight ? 0 : isBent(axis)));
       });
     }
     return this->MarkCells(bad);
@@ -185,7 +187,7 @@ private:
         ahead += end * end;
       }
     }
-    return std::max(here, ahead) / 256.0f;
+    return here >= ahead ? here / 256.0f : ahead / 256.0f;
   }
 
   bool MarkCells(unsigned char* bad)
@@ -197,11 +199,9 @@ private:
       cells[axis] = this->Level.Axes[axis].Cells;
       count *= cells[axis];
     }
-    std::atomic<std::int64_t> bent{ 0 };
-    std::atomic<std::int64_t> met{ 0 };
+    std::atomic<std::int64_t> found{ 0 };
     this->Work.For(count, nodeGrain, [&](std::int64_t first, std::int64_t last) {
-      std::int64_t bentHere = 0;
-      std::int64_t troubledHere = 0;
+      std::int64_t marked = 0;
       for (std::int64_t cell = first; cell < last; ++cell)
       {
         std::int64_t node = 0;
@@ -211,19 +211,16 @@ private:
           node += rest % cells[axis] * this->Stride[axis];
           rest /= cells[axis];
         }
-        const int marks = this->MarksOfCell(node);
-        bad[cell] = marks != 0 ? 1 : 0;
-        troubledHere += marks & isTroubled ? 1 : 0;
-        bentHere += marks != 0 && !(marks & isTroubled) ? 1 : 0;
+        bad[cell] = this->IsBad(node) ? 1 : 0;
+        marked += bad[cell];
       }
-      bent += bentHere;
-      met += troubledHere;
+      found += marked;
     });
-    return !this->Job.Backward && 2 * (bent + met) > count;
+    return !this->Job.Backward && 2 * found > count;
   }
 
-  // Those of the corners and edges of the cell above a node.
-  int MarksOfCell(std::int64_t node) const
+  // Whether a corner of the cell above a node met an empty box, or an edge of it bends too much.
+  bool IsBad(std::int64_t node) const
   {
     int marks = 0;
     for (int corner = 0; corner < (1 << Dimension); ++corner)
@@ -238,7 +235,7 @@ private:
       }
       marks |= this->Marks[static_cast<std::size_t>(at)] & relevant;
     }
-    return marks;
+    return marks != 0;
   }
 
   const FlowJob<Dimension>& Job;

@@ -274,7 +274,9 @@ template <int Dimension>
 FlowOptions withFlowMaps(
   FlowOptions options, const GridSize<Dimension>& size, FlowDirection direction, double particles)
 {
-  if (options.Maps == FlowMaps::Auto)
+  const bool serve =
+    options.Method == Integrator::Multistep && options.Lookup == TableLookup::Interpolated;
+  if (options.Maps == FlowMaps::Auto && serve)
   {
     const FlowMapShape<Dimension> shape(size, options.NumberOfSteps, direction);
     options.Maps = shape.PaysFor(particles) ? FlowMaps::On : FlowMaps::Off;

@@ -49,7 +49,8 @@ struct FlowMapShape
   double Cost = 0.0;         // of all levels
 };
 
-// Options with Auto replaced by what it means for so many particles, On or Off.
+// Options, which must be valid, with Auto replaced by what it means for so many particles, On or
+// Off; as they are where no map serves.
 template <int Dimension>
 FlowOptions withFlowMaps(
   FlowOptions options, const GridSize<Dimension>& size, FlowDirection direction, double particles);

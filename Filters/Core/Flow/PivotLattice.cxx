@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/PivotLattice.h"
 
+#include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/LowDiscrepancy.h"
@@ -95,6 +96,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const auto places = static_cast<std::int64_t>(pivot.Places.size());
   const std::int64_t each = places > 0 ? particles / places : 0;
   // All places take the same way, as the particles of one run do.
+  check(options);
   const FlowOptions same = withFlowMaps<Dimension>(
     options, flow.Size(), FlowDirection::Forward, static_cast<double>(particles));
   Progress progress(context);

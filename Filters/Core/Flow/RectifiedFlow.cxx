@@ -151,7 +151,8 @@ struct RectifiedFlow<Dimension>::Internals
   {
     const AdvectionJob<Dimension>& shared = run.SharedJob();
     const FlowJob<Dimension>& job = shared.Job;
-    if (job.Method != Integrator::Multistep || job.Nearest || options.Maps == FlowMaps::Off)
+    if (job.Method != Integrator::Multistep || job.Nearest || options.Maps == FlowMaps::Off ||
+      particles == 0.0)
     {
       return;
     }

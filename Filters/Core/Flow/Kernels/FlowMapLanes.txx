@@ -127,7 +127,7 @@ public:
   }
 
 private:
-  // Along axes Axis, Axis - 1 ... 1.
+  // Along the last Axis axes, the last of them innermost.
   template <int Axis>
   RT_INLINE Vector<N, float> SumAxes(int lane, const float* record) const
   {
