@@ -160,13 +160,12 @@ public:
 
 private:
   static constexpr Constants Fixed = constants<Dimension>;
-  static constexpr double latticeSteps = 2.0;
 
   // 1 - t at a hand-over.
   double Rest(int handOver) const
   {
     const double graded = grading(handOver, this->Steps);
-    return this->Direction == FlowDirection::Forward ? 0.75 * graded : graded;
+    return this->Direction == FlowDirection::Forward ? (1.0 - commonStart) * graded : graded;
   }
 
   // Square roots alone: they have the same bits everywhere.
@@ -274,9 +273,7 @@ template <int Dimension>
 FlowOptions withFlowMaps(
   FlowOptions options, const GridSize<Dimension>& size, FlowDirection direction, double particles)
 {
-  const bool serve =
-    options.Method == Integrator::Multistep && options.Lookup == TableLookup::Interpolated;
-  if (options.Maps == FlowMaps::Auto && serve)
+  if (options.Maps == FlowMaps::Auto && takesFlowMaps(options))
   {
     const FlowMapShape<Dimension> shape(size, options.NumberOfSteps, direction);
     options.Maps = shape.PaysFor(particles) ? FlowMaps::On : FlowMaps::Off;

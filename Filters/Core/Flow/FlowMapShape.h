@@ -49,6 +49,12 @@ struct FlowMapShape
   double Cost = 0.0;         // of all levels
 };
 
+// Whether the method of the options can start from flow maps.
+inline bool takesFlowMaps(const FlowOptions& options)
+{
+  return options.Method == Integrator::Multistep && options.Lookup == TableLookup::Interpolated;
+}
+
 // Options, which must be valid, with Auto replaced by what it means for so many particles, On or
 // Off; as they are where no map serves.
 template <int Dimension>

@@ -151,8 +151,7 @@ struct RectifiedFlow<Dimension>::Internals
   {
     const AdvectionJob<Dimension>& shared = run.SharedJob();
     const FlowJob<Dimension>& job = shared.Job;
-    if (job.Method != Integrator::Multistep || job.Nearest || options.Maps == FlowMaps::Off ||
-      particles == 0.0)
+    if (!takesFlowMaps(options) || options.Maps == FlowMaps::Off || particles == 0.0)
     {
       return;
     }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a flow map's lattices. Included by FlowKernels.txx.
 
-// Steps of a lattice for each of its particles' steps: a lattice has few nodes, and its errors are
-// those of all particles.
-constexpr std::int64_t latticeSteps = 2;
-
 // Step `step` of the first `count` graded steps of `steps`, stretched to end at 1.
 inline StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
 {
@@ -15,15 +11,22 @@ inline StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::
   return weights;
 }
 
+// Marks the lanes whose box was empty at the last velocity.
 template <int Dimension>
-RT_INLINE void correctStep(
-  const FlowJob<Dimension>& job, const StepWeights& weights, MultistepLanes<Dimension>& lanes)
+RT_INLINE void markEmpty(MultistepLanes<Dimension>& lanes)
 {
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
     lanes.Unresolved[i] = larger(lanes.Unresolved[i], lanes.Field.Void[i]);
   }
+}
+
+template <int Dimension>
+RT_INLINE void correctStep(
+  const FlowJob<Dimension>& job, const StepWeights& weights, MultistepLanes<Dimension>& lanes)
+{
+  markEmpty<Dimension>(lanes);
   lanes.Advance(
     job, weights.Corrector, weights.Length, *lanes.V[3], *lanes.V[0], *lanes.V[1], lanes.Position);
   lanes.Rotate();
@@ -69,7 +72,6 @@ std::int64_t startNodes(
     lanes.Time[i] = start[i];
   }
   const std::int64_t steps = latticeSteps * (job.Map->Steps - handOver - 2);
-  StepWeights weights{};
   double last = 0.0; // lengths of the last two steps, in units of Span
   double before = 0.0;
   for (std::int64_t step = 0; step < steps; ++step)
@@ -78,7 +80,7 @@ std::int64_t startNodes(
     {
       return step * count;
     }
-    weights = stretchedWeights(step, steps, latticeSteps * job.Map->Steps);
+    const StepWeights weights = stretchedWeights(step, steps, latticeSteps * job.Map->Steps);
     predictStep<Dimension>(job, weights, start, count, nullptr, lanes);
     correctStep<Dimension>(job, weights, lanes);
     before = last;
@@ -119,11 +121,7 @@ std::int64_t startNodes(
     advanceByLane<Dimension>(
       job, predictor, length, v0, v1, *lanes.V[2], lanes.Position, lanes.Trial);
     evaluateVelocity<Dimension>(job, lanes.Field, count, lanes.Trial, lanes.Time, v0, newest);
-#pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
-    {
-      lanes.Unresolved[i] = larger(lanes.Unresolved[i], lanes.Field.Void[i]);
-    }
+    markEmpty<Dimension>(lanes);
     advanceByLane<Dimension>(
       job, corrector, length, newest, v0, v1, lanes.Position, lanes.Position);
     lanes.Rotate();
@@ -217,13 +215,12 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   };
   MultistepLanes<Dimension> lanes;
   loadPositions<Dimension>(job, block.Places, block.Count, lanes.Position);
-  std::memset(lanes.Velocities, 0, sizeof(lanes.Velocities));
   bool active[BlockSize];
   for (int i = 0; i < BlockSize; ++i)
   {
     active[i] = i < block.Count;
   }
-  const auto markEmpty = [&]() {
+  const auto markActive = [&]() {
     for (int i = 0; i < block.Count; ++i)
     {
       if (active[i])
@@ -250,7 +247,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
     evaluateVelocity<Dimension>(
       job, lanes.Field, block.Count, lanes.Position, lanes.Time, *lanes.V[0], *lanes.V[0], active);
     evaluations += left;
-    markEmpty();
+    markActive();
     for (std::int64_t step = 0; step < steps && left > 0; ++step)
     {
       if (shouldStop<Dimension>(job, step))
@@ -263,7 +260,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
       if (time > 0.0)
       {
         evaluations += left;
-        markEmpty();
+        markActive();
       }
       finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
     }

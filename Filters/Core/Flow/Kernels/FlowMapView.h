@@ -10,6 +10,14 @@ namespace RectifiedTransport
 
 struct StepWeights;
 
+// Forwards, from a hand-over on all particles have these times in common after step k of N:
+// commonStart + (1 - commonStart) sin^2(pi k / 2N).
+constexpr double commonStart = 0.25;
+
+// Steps of a lattice for each of its particles' steps: a lattice has few nodes, and its errors are
+// those of all particles.
+constexpr int latticeSteps = 2;
+
 // Nodes 0 ... Cells along one axis of a lattice on [0, Size]. They are evenly spaced in
 //   u = 2 sqrt(Layer x) if x < Layer,   x + Layer inside,   and mirrored at the other end,
 // which is denser towards both ends; evenly spaced in x if Layer is 0.

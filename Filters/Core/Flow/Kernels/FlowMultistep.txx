@@ -61,9 +61,6 @@ private:
   const StepWeights* Known;
 };
 
-// Common to all lanes from a hand-over on: time 1/4 + 3/4 sin^2(pi k / 2N) after step k of N.
-constexpr double commonStart = 0.25;
-
 // Takes the positions of the lanes to the end of a step: predictor, velocity there (left in V[3]),
 // and whether the box was empty. Lanes that are done have no velocity.
 template <int Dimension>
