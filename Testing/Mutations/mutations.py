@@ -216,7 +216,7 @@ OTHERS = [
     E(CORE + "Flow/Kernels/FlowMapLanes.txx", "fromEnd < nodes.Layer ? «nodes.Length - inLayer» : inside",
       "inside"),
     E(CORE + "Flow/Kernels/FlowMapLanes.txx", "«positions[axis][i] == positions[axis][i - 1]»", "true"),
-    E(CORE + "Flow/Kernels/FlowMapNodes.txx", "second[i] = first[i] + «before» * lanes.Span[i]", "last"),
+    E(CORE + "Flow/Kernels/FlowMapNodes.txx", "first[i] = «last * lanes.Span[i]»", "last"),
     E(CORE + "Flow/Kernels/FlowMultistep.txx",
       "return «smaller(larger(seed[axis], 0.0), level.Axes[axis].Size)»", "seed[axis]"),
     E(CORE + "Flow/FlowMap.cxx", "(«isStraight» ? 0 : isBent(axis))", "true"),

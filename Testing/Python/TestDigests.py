@@ -200,7 +200,7 @@ def sampler_runs():
                 Integrator=integrator, NumberOfParticles=2000, Tolerance=0.003, NumberOfSteps=24)
     yield "sample Nearest", sampler, [plane], dict(TableLookup=1)
     for maps, name in enumerate(MAPS):
-        for data, dimension in ((image((210, 160)), 2), (image((67, 80, 72)), 3)):
+        for data, dimension in ((image((210, 160)), 2), (image((84, 80, 72)), 3)):
             yield f"sample with maps {name} {dimension}D", sampler, [data], dict(
                 FlowMaps=maps, NumberOfParticles=30000, SeedPattern=4)
     yield "sample FlowTime with maps", sampler, [image((210, 160))], dict(
@@ -232,7 +232,7 @@ def map_runs():
     for direction, name in enumerate(["to the density", "to the uniform measure"]):
         for shape in ((200,), (61, 47), (23, 17, 19)):
             yield f"map {name} {len(shape)}D", transport, [image(shape)], dict(Direction=direction)
-        for shape in ((210, 160), (67, 80, 72)):
+        for shape in ((210, 160), (84, 80, 72)):
             yield f"map {name} {len(shape)}D with maps", transport, [image(shape)], dict(
                 Direction=direction, FlowMaps=1)
     yield "map of points", transport, [image((23, 17, 19), cells=False)], {}

@@ -16,7 +16,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -115,8 +114,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   progress.BeginStage(ends[2]);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
-  try
-  {
+  const double sort = count * sizeof(std::int64_t);
+  withMemory(purpose, sort, [&]() {
     if (times.back() == 0.0 && times.size() == 1)
     {
       progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
@@ -134,11 +133,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
                                 .ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage())
                                 .MovedToMass;
     }
-  }
-  catch (const std::bad_alloc&)
-  {
-    failOutOfMemory(purpose, count * sizeof(std::int64_t)); // of the sort
-  }
+  });
 
   if (given)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/ExceptionBarrier.h"
 
+#include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Context.h"
 
 #include "vtkAlgorithm.h"
@@ -158,6 +159,10 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
   catch (const Cancelled&)
   {
     return emptyOutputs(outputs) ? 1 : 0;
+  }
+  catch (const NoMemoryForFlowMap& map)
+  {
+    error = describeLack("a flow map (FlowMaps Off needs none)", map.Bytes);
   }
   catch (const std::bad_alloc&)
   {

@@ -8,7 +8,7 @@
 namespace RectifiedTransport
 {
 
-void failOutOfMemory(const std::string& purpose, double bytes)
+std::string describeLack(const std::string& purpose, double bytes)
 {
   const char* const units[] = { "bytes", "kB", "MB", "GB", "TB", "PB" };
   int unit = 0;
@@ -20,7 +20,12 @@ void failOutOfMemory(const std::string& purpose, double bytes)
   message.precision(3);
   message << "Not enough memory for " << purpose << ": " << bytes << " " << units[unit]
           << " were asked for";
-  throw Failure(message.str());
+  return message.str();
+}
+
+void failOutOfMemory(const std::string& purpose, double bytes)
+{
+  throw Failure(describeLack(purpose, bytes));
 }
 
 void requireMemory(const std::string& purpose, double bytes)

@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
+#include "Core/Flow/FlowOptions.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkAbstractArray.h"
@@ -16,19 +17,26 @@
 namespace RectifiedTransport
 {
 
+// What the error says.
+std::string describeLack(const std::string& purpose, double bytes);
+
 [[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);
 
 // Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
 // refuse single blocks that exceed it, not sums of blocks.
 void requireMemory(const std::string& purpose, double bytes);
 
-// Calls a function; its std::bad_alloc becomes a Failure.
+// Calls a function; its std::bad_alloc becomes a Failure, unless it names itself what it was for.
 template <class Function>
 auto withMemory(const std::string& purpose, double bytes, Function&& function)
 {
   try
   {
     return function();
+  }
+  catch (const NoMemoryForFlowMap&)
+  {
+    throw;
   }
   catch (const std::bad_alloc&)
   {

@@ -43,8 +43,9 @@ template <int Dimension>
 class LatticeBuild
 {
 public:
-  LatticeBuild(
-    const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level, Progress& progress)
+  // Edges may deviate from cubics by `deviation` along each axis.
+  LatticeBuild(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
+    const Point<Dimension>& deviation, Progress& progress)
     : Job(job)
     , Level(level)
     , Work(progress)
@@ -55,6 +56,7 @@ public:
       this->Nodes[axis] = level.Axes[axis].Cells + 1;
       this->Stride[axis] = stride;
       stride *= this->Nodes[axis];
+      this->InverseDeviation[axis] = static_cast<float>(1.0 / deviation[axis]);
       for (std::int64_t node = 0; node < this->Nodes[axis]; ++node)
       {
         this->Places[axis].push_back(placeOf(level.Axes[axis], node));
@@ -78,13 +80,11 @@ public:
   }
 
   // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
-  // stencils of an edge, forwards also of the ends of straight lines, deviate from cubics by more
-  // than `deviation`. Returns whether most may not, forwards alone: backwards most of a domain may
-  // be empty.
-  bool FindBad(double deviation, unsigned char* bad)
+  // stencils of an edge, forwards also of the ends of straight lines, deviate too much. Returns the
+  // share of those that may not.
+  double FindBad(unsigned char* bad)
   {
-    std::vector<float> bends(this->Marks.size()); // squared
-    const auto limit = static_cast<float>(deviation * deviation);
+    std::vector<float> bends(this->Marks.size()); // squared, 1 is the most
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->ForNodes(axis, [&](std::int64_t node, std::int64_t place) {
@@ -99,7 +99,7 @@ public:
           const std::int64_t inside =
             std::min(std::max(first, std::int64_t{ 0 }), this->Nodes[axis] - 4);
           const std::int64_t start = node + (inside - place) * this->Stride[axis];
-          isStraight = isStraight && bends[static_cast<std::size_t>(start)] <= limit;
+          isStraight = isStraight && bends[static_cast<std::size_t>(start)] <= 1.0f;
         }
         unsigned char& mark = this->Marks[static_cast<std::size_t>(node)];
         mark = static_cast<unsigned char>(mark | (isStraight ? 0 : isBent(axis)));
@@ -116,6 +116,16 @@ private:
   {
     const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
     std::vector<unsigned char> deferred(left.size());
+    std::vector<StepWeights> start;
+    if (parent < 0 && !this->Job.Backward)
+    {
+      const std::int64_t steps = this->Job.Map->Steps;
+      const std::int64_t count = startSteps(steps, this->Level.HandOver);
+      for (std::int64_t step = 0; step < count; ++step)
+      {
+        start.push_back(stretchedWeights(step, count, latticeSteps * steps));
+      }
+    }
     std::atomic<std::int64_t> evaluations{ 0 };
     this->Work.For(
       static_cast<std::int64_t>(left.size()), blocks * BlockSize,
@@ -136,7 +146,8 @@ private:
             }
           }
           evaluations += advance(this->Job, this->Level, parent,
-            { places, left.data() + first, count, deferred.data() + first, this->Marks.data() });
+            { places, left.data() + first, count, start.data(), deferred.data() + first,
+              this->Marks.data() });
         }
       },
       blocks * BlockSize);
@@ -163,7 +174,8 @@ private:
       });
   }
 
-  // The squared third difference from a node on, over 16: about what a cubic leaves out.
+  // The squared third difference from a node on, over 16, in deviations that are allowed: about
+  // what a cubic leaves out.
   float Bend(std::int64_t node, std::int64_t stride) const
   {
     constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
@@ -173,7 +185,8 @@ private:
     const auto difference = [&](int entry) {
       const float* r = first + entry;
       const std::int64_t s = stride * record;
-      return (r[3 * s] - r[0]) + 3.0f * (r[s] - r[2 * s]);
+      return ((r[3 * s] - r[0]) + 3.0f * (r[s] - r[2 * s])) *
+        this->InverseDeviation[entry % Dimension];
     };
     float here = 0.0f;
     float ahead = 0.0f;
@@ -190,7 +203,7 @@ private:
     return here >= ahead ? here / 256.0f : ahead / 256.0f;
   }
 
-  bool MarkCells(unsigned char* bad)
+  double MarkCells(unsigned char* bad)
   {
     GridSize<Dimension> cells;
     std::int64_t count = 1;
@@ -216,7 +229,7 @@ private:
       }
       found += marked;
     });
-    return !this->Job.Backward && 2 * found > count;
+    return static_cast<double>(found) / static_cast<double>(count);
   }
 
   // Whether a corner of the cell above a node met an empty box, or an edge of it bends too much.
@@ -243,6 +256,7 @@ private:
   Progress& Work;
   GridSize<Dimension> Nodes;
   GridSize<Dimension> Stride; // in nodes
+  float InverseDeviation[Dimension];
   std::vector<double> Places[Dimension];
   std::vector<unsigned char> Marks; // of the nodes
 };
@@ -293,13 +307,17 @@ FlowMap<Dimension>::FlowMap(
     level.Bad = lattice.Bad.data();
 
     constexpr double partOfAdvance = 0.9;
-    LatticeBuild<Dimension> build(nodes, level, progress);
+    LatticeBuild<Dimension> build(nodes, level, shape.Deviation, progress);
     progress.BeginStage(progress.StageEnd() + partOfAdvance * (done - progress.StageEnd()));
     this->Evaluated += build.Advance();
     progress.BeginStage(done);
-    if (build.FindBad(shape.Deviation, lattice.Bad.data()))
+    // Particles that may not start from it take its steps in vain. Finer ones would be no better.
+    // Backwards most of a domain may be empty, and has few particles then.
+    const double share = build.FindBad(lattice.Bad.data());
+    const double saved = 1.0 - static_cast<double>(planned.HandOver) / shape.NumberOfSteps;
+    if (!job.Backward && share > saved)
     {
-      break; // finer ones would be no better
+      break;
     }
     this->Lattices.push_back(std::move(lattice));
     this->Map.Levels[this->Map.LevelCount++] = level;

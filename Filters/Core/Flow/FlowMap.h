@@ -20,7 +20,8 @@ template <int Dimension>
 class FlowMap
 {
 public:
-  // Makes all levels of a shape, but none from the first on that may mostly not be interpolated.
+  // Makes all levels of a shape, but forwards none from the first on that may be interpolated in
+  // too little of the domain to save steps.
   // The job gives the tables, the direction, the steps and their weights. Throws std::bad_alloc and
   // Cancelled.
   FlowMap(

@@ -32,8 +32,14 @@ constexpr Constants constants = Dimension == 3 ? Constants{ 1.0, 1.9, 4.5, 22.0,
 // The narrowest box, in cells, that a lattice may serve: below, grid cells are not smoothed.
 constexpr double narrowest = 6.0;
 // Each lattice's spacing is at least this many times that of the next finer one.
-constexpr double refinement = 2.0;
+constexpr double coarsening = 2.0;
 constexpr std::int64_t fewestCells = 5; // along an axis of a lattice
+constexpr double mostNodes = 0.25;      // a grid cell, of all levels
+// The rounding of records, and what bends see of it, relative to the domain.
+constexpr double finestDeviation = 0x1p-20;
+// 1 - t two steps before the first hand-over. Straight starts last until t = 1/2: from there on a
+// node must get away from its start, or the velocities that it has known say little of those ahead.
+constexpr double mostRest = 0.4;
 
 template <int Dimension>
 double numberOfNodes(const GridSize<Dimension>& cells)
@@ -71,9 +77,16 @@ public:
     }
   }
 
-  double Deviation() const
+  bool IsAboveRounding() const { return this->Deviation() >= finestDeviation; }
+
+  Point<Dimension> Deviations() const
   {
-    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.3) * this->Error;
+    Point<Dimension> deviations;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      deviations[axis] = this->Deviation() * static_cast<double>(this->Size[axis]);
+    }
+    return deviations;
   }
 
   double WidestSpacing() const { return this->Mean / Fixed.LeastCells; }
@@ -104,10 +117,10 @@ public:
       width >= spacing * Fixed.LeastRatio;
   }
 
-  // The paths' straight starts, which end at time 1/2 at the latest, must be over.
+  // The paths' straight starts must be over.
   bool IsAfterStart(int handOver) const
   {
-    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= 0.5;
+    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= mostRest;
   }
 
   // The levels from the finest, whose hand-over is given, to the coarsest.
@@ -116,7 +129,7 @@ public:
     std::vector<int> handOvers = { finest };
     while (handOvers.size() < FlowMapView<Dimension>::MaximumLevels)
     {
-      const int next = this->FirstWith(refinement * this->Spacing(handOvers.back()));
+      const int next = this->FirstWith(coarsening * this->Spacing(handOvers.back()));
       if (!this->IsAfterStart(next) || this->Spacing(next) > this->WidestSpacing())
       {
         break;
@@ -160,6 +173,12 @@ public:
 
 private:
   static constexpr Constants Fixed = constants<Dimension>;
+
+  // Relative to the domain.
+  double Deviation() const
+  {
+    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.3) * this->Error / this->Mean;
+  }
 
   // 1 - t at a hand-over.
   double Rest(int handOver) const
@@ -225,7 +244,11 @@ FlowMapShape<Dimension>::FlowMapShape(
   {
     const int steps = this->Steps;
     const LevelChooser<Dimension> chooser(size, numberOfSteps, steps, direction);
-    this->Deviation = chooser.Deviation();
+    if (!chooser.IsAboveRounding())
+    {
+      return;
+    }
+    this->Deviation = chooser.Deviations();
     double least = chooser.TimeOfParticles(steps);
     for (int handOver = 1; handOver < steps; ++handOver)
     {
@@ -234,14 +257,16 @@ FlowMapShape<Dimension>::FlowMapShape(
         continue;
       }
       std::vector<Level> levels = chooser.Levels(handOver);
-      if (numberOfNodes<Dimension>(levels.front().Cells) > numberOfCells<Dimension>(size))
-      {
-        continue;
-      }
+      double nodes = 0.0;
       double cost = 0.0;
       for (const Level& level : levels)
       {
+        nodes += numberOfNodes<Dimension>(level.Cells);
         cost += level.Cost;
+      }
+      if (nodes > mostNodes * numberOfCells<Dimension>(size))
+      {
+        continue;
       }
       const double time = cost + chooser.TimeOfParticles(handOver);
       if (time < least || this->Levels.empty())
@@ -252,6 +277,21 @@ FlowMapShape<Dimension>::FlowMapShape(
       }
     }
   }
+}
+
+template <int Dimension>
+double FlowMapShape<Dimension>::MemorySize() const
+{
+  using View = FlowMapLevel<Dimension>;
+  const int record =
+    this->Direction == FlowDirection::Forward ? View::ForwardRecord : View::BackwardRecord;
+  double bytes = 0.0;
+  for (const Level& level : this->Levels)
+  {
+    bytes += numberOfNodes<Dimension>(level.Cells) * record * sizeof(float) +
+      numberOfCells<Dimension>(level.Cells);
+  }
+  return bytes;
 }
 
 template <int Dimension>

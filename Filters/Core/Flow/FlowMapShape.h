@@ -31,12 +31,14 @@ struct FlowMapShape
     double Cost;               // in velocity evaluations of particles
   };
 
-  // Empty where lattices do not serve: in 1D, for few steps, and where they would need more nodes
-  // than the grid has cells.
+  // Empty where lattices do not serve: in 1D, for few steps, for so many that records of float
+  // precision are too coarse, and where there would be more than one node for four cells.
   // With a refinement particles take 2^refinement times as many steps on lattices of the same
   // accuracy.
   FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
     int refinement = 0);
+
+  double MemorySize() const; // bytes of the map
 
   // Whether particles take less time with the map, that of making it included.
   bool PaysFor(double particles) const;
@@ -45,8 +47,9 @@ struct FlowMapShape
   int Steps;         // of particles that hand over: fewer, as the lattices' are finer
   FlowDirection Direction;
   std::vector<Level> Levels; // wider spacings first
-  double Deviation = 0.0;    // in cells: cells of a lattice that deviate more from cubics are bad
-  double Cost = 0.0;         // of all levels
+  // In cells, along each axis: cells of a lattice that deviate more from cubics are bad.
+  Point<Dimension> Deviation{};
+  double Cost = 0.0; // of all levels
 };
 
 // Whether the method of the options can start from flow maps.

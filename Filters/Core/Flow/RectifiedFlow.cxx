@@ -172,8 +172,15 @@ struct RectifiedFlow<Dimension>::Internals
     {
       // Not locked: other runs make their own meanwhile, of the same bits.
       const double particlesCost = particles * shape.Levels.back().HandOver;
-      map = std::make_shared<const FlowMap<Dimension>>(
-        shape, job, run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)));
+      const Context context = run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost));
+      try
+      {
+        map = std::make_shared<const FlowMap<Dimension>>(shape, job, context);
+      }
+      catch (const std::bad_alloc&)
+      {
+        throw NoMemoryForFlowMap(shape.MemorySize());
+      }
       kept.Set(steps, map);
     }
     run.UseMap(std::move(map), isNew);

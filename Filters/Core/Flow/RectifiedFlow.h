@@ -31,7 +31,8 @@ namespace RectifiedTransport
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
 // Every particle's result depends on its seed, the density and the options alone, to the last bit;
 // with FlowMaps::Auto also on how many particles there are, and with times on the first of them.
-// Throws InvalidDensity, std::invalid_argument (options, sizes), std::bad_alloc and Cancelled.
+// Throws InvalidDensity, std::invalid_argument (options, sizes), std::bad_alloc (NoMemoryForFlowMap
+// where FlowMaps::Off may do) and Cancelled.
 template <int Dimension>
 class RectifiedFlow
 {
@@ -50,7 +51,8 @@ public:
   double Total() const;              // sum of the density over the cells
   Point<Dimension> Centroid() const; // of the density
   std::int64_t MemorySize() const;   // bytes that the tables and the kept flow maps hold
-  // About the bytes of the tables of a density, before they are made.
+  // About the bytes of the tables of a density, before they are made. Flow maps are at most half as
+  // large in each direction.
   static double MemoryFor(const GridSize<Dimension>& size);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;

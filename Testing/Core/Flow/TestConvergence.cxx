@@ -68,12 +68,27 @@ TEST(Convergence, Multistep1D)
 
 TEST(Convergence, Multistep2D)
 {
-  expectConvergence(Truth<2>(twoGaussians<2>({ 160, 120 }), 400), 0.1);
+  expectConvergence(Truth<2>(twoGaussians<2>({ 640, 600 }), 400), 0.12);
 }
 
 TEST(Convergence, Multistep3D)
 {
   expectConvergence(Truth<3>(twoGaussians<3>({ 40, 33, 36 }), 200), 0.03);
+}
+
+// Large enough for flow maps of up to 64 steps.
+TEST(Convergence, FlowMaps3D)
+{
+  const Truth<3> truth(twoGaussians<3>({ 140, 151, 143 }), 200);
+  double before = 1.0;
+  for (const int count : { 16, 32, 64 })
+  {
+    const double direct = truth.Errors(with(FlowMaps::Off, steps(count))).Mean;
+    const double mapped = truth.Errors(with(FlowMaps::On, steps(count))).Mean;
+    EXPECT_LT(mapped, direct) << count;
+    EXPECT_GT(order(before, mapped), 1.0) << count;
+    before = mapped;
+  }
 }
 
 // Values that jump from cell to cell.

@@ -74,11 +74,29 @@ TYPED_TEST_SUITE(Invariance, Dimensions);
 template <int Dimension>
 TestDensity<Dimension> densityWithVoids()
 {
-  return discWithHole<Dimension>(sizeFor<Dimension>({ 1000 }, { 150, 97 }, { 40, 70, 37 }));
+  return discWithHole<Dimension>(sizeFor<Dimension>({ 1000 }, { 190, 137 }, { 80, 90, 71 }));
 }
 
 // Not a multiple of any block or slice.
 constexpr std::size_t ParticleCount = 2011;
+
+// Else the tests with flow maps would have none.
+TYPED_TEST(Invariance, HasFlowMaps)
+{
+  constexpr int Dimension = TypeParam::value;
+  const TestDensity<Dimension> density = densityWithVoids<Dimension>();
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  const Points<Dimension> seeds = randomPoints<Dimension>(density.Size, ParticleCount);
+  for (const int count : { 20, 32 })
+  {
+    const FlowOptions on = with(FlowMaps::On, steps(count));
+    const FlowOptions off = with(FlowMaps::Off, steps(count));
+    EXPECT_NE(Dimension == 1,
+      !sameBits<Dimension>(runForward(flow, seeds, on), runForward(flow, seeds, off)));
+    EXPECT_NE(Dimension == 1,
+      !sameBits<Dimension>(runBackward(flow, seeds, on), runBackward(flow, seeds, off)));
+  }
+}
 
 TYPED_TEST(Invariance, ExecutorsAndThreads)
 {

@@ -149,6 +149,35 @@ TEST(Executors, NoMemoryForTheFlow)
   expectBadAlloc("cells", [&]() { flow.ForwardLatticeToCells({ 60, 50 }, cells.data(), few); });
 }
 
+// What is made for a run alone is said to be so.
+TEST(Executors, NoMemoryForAFlowMap)
+{
+  if (!canRunOut)
+  {
+    GTEST_SKIP() << "Memory does not run out under a sanitizer";
+  }
+  const TestDensity<2> density = discWithHole<2>({ 160, 130 });
+  const Points<2> seeds = randomPoints<2>(density.Size, 10);
+  Points<2> positions(seeds.size());
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const std::int64_t tables = flow.MemorySize();
+  bool isNamed = false;
+  expectBadAlloc("with maps", [&]() {
+    try
+    {
+      flow.Forward(seeds, positions, with(FlowMaps::On));
+    }
+    catch (const NoMemoryForFlowMap& map)
+    {
+      EXPECT_EQ(flow.MemorySize(), tables);
+      EXPECT_GT(map.Bytes, 1e4);
+      isNamed = true;
+      throw;
+    }
+  });
+  EXPECT_TRUE(isNamed);
+}
+
 TEST(Executors, NoMemoryForTheRest)
 {
   if (!canRunOut)

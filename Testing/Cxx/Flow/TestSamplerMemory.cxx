@@ -87,6 +87,18 @@ void checkLimits(Checks& checks)
     sampler->SetNumberOfParticles(2000000);
     expectError(checks, sampler, "2000000 particles", __LINE__);
   }
+  {
+    sampler->SetNumberOfParticles(1000);
+    sampler->SetInputData(large);
+    sampler->SetFlowMapsToOff();
+    ErrorTest(checks, sampler).ExpectNone(__LINE__);
+    const MemoryLimit limit(8 << 20);
+    sampler->SetFlowMapsToOn();
+    expectError(checks, sampler, "a flow map (FlowMaps Off needs none)", __LINE__);
+    sampler->SetFlowMapsToOff();
+    ErrorTest(checks, sampler).ExpectNone(__LINE__);
+    sampler->SetFlowMapsToAuto();
+  }
   sampler->SetInputData(large);
   sampler->SetNumberOfParticles(1000);
   ErrorTest(checks, sampler).ExpectNone(__LINE__);

@@ -57,6 +57,15 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
   return weights;
 }
 
+StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
+{
+  const double end = grading(count, steps);
+  StepWeights weights = multistepWeights(step, steps);
+  weights.Time = step + 1 == count ? 1.0 : weights.Time / end;
+  weights.Length /= end;
+  return weights;
+}
+
 const FlowKernels& flowKernels([[maybe_unused]] InstructionSet set)
 {
 #ifdef RECTIFIEDTRANSPORT_X86

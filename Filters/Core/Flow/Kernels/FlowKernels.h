@@ -34,6 +34,9 @@ double grading(std::int64_t step, std::int64_t steps);
 // Weights of step `step` of `steps`.
 StepWeights multistepWeights(std::int64_t step, std::int64_t steps);
 
+// Weights of step `step` of the first `count` of `steps`, stretched to end at time 1.
+StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps);
+
 // The input and parameters that all blocks of one advection share.
 template <int Dimension>
 struct FlowJob
@@ -71,8 +74,9 @@ struct NodeBlock
   const double* Places; // interleaved coordinates
   const std::int64_t* Index;
   int Count;
-  unsigned char* Deferred; // a node of the block
-  unsigned char* Troubled; // a node of the lattice
+  const StepWeights* StartWeights; // forwards from scratch: of startSteps steps, else null
+  unsigned char* Deferred;         // a node of the block
+  unsigned char* Troubled;         // a node of the lattice
 };
 
 // Makes the records of nodes of a level from those of the level `parent` of the job's map, which is

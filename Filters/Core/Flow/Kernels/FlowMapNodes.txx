@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a flow map's lattices. Included by FlowKernels.txx.
 
-// Step `step` of the first `count` graded steps of `steps`, stretched to end at 1.
-inline StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
-{
-  const double end = grading(count, steps);
-  StepWeights weights = multistepWeights(step, steps);
-  weights.Time = step + 1 == count ? 1.0 : weights.Time / end;
-  weights.Length /= end;
-  return weights;
-}
-
 // Marks the lanes whose box was empty at the last velocity.
 template <int Dimension>
 RT_INLINE void markEmpty(MultistepLanes<Dimension>& lanes)
@@ -56,8 +46,8 @@ RT_INLINE void advanceByLane(const FlowJob<Dimension>& job, const double (&a)[3]
 // From the seeds in lanes.Position to the time of a hand-over: the straight start, graded steps to
 // two of the common steps before, and those two, at first with velocities of each lane's own times.
 template <int Dimension>
-std::int64_t startNodes(
-  const FlowJob<Dimension>& job, int handOver, int count, MultistepLanes<Dimension>& lanes)
+std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepWeights* graded,
+  int count, MultistepLanes<Dimension>& lanes)
 {
   const auto timeAt = [&](std::int64_t stepsLeft) {
     return commonStart + (1.0 - commonStart) * grading(job.Map->Steps - stepsLeft, job.Map->Steps);
@@ -71,22 +61,19 @@ std::int64_t startNodes(
     lanes.Span[i] = end - start[i];
     lanes.Time[i] = start[i];
   }
-  const std::int64_t steps = latticeSteps * (job.Map->Steps - handOver - 2);
-  double last = 0.0; // lengths of the last two steps, in units of Span
-  double before = 0.0;
+  const std::int64_t steps = startSteps(job.Map->Steps, handOver);
   for (std::int64_t step = 0; step < steps; ++step)
   {
     if (shouldStop<Dimension>(job, step))
     {
       return step * count;
     }
-    const StepWeights weights = stretchedWeights(step, steps, latticeSteps * job.Map->Steps);
-    predictStep<Dimension>(job, weights, start, count, nullptr, lanes);
-    correctStep<Dimension>(job, weights, lanes);
-    before = last;
-    last = weights.Length;
+    predictStep<Dimension>(job, graded[step], start, count, nullptr, lanes);
+    correctStep<Dimension>(job, graded[step], lanes);
   }
 
+  const double last = graded[steps - 1].Length; // in units of Span
+  const double before = graded[steps - 2].Length;
   alignas(64) Lanes first; // times since the last but one velocity and the one before it
   alignas(64) Lanes second;
 #pragma omp simd
@@ -166,7 +153,8 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
   std::int64_t evaluations = 0;
   if (parent < 0)
   {
-    evaluations = startNodes<Dimension>(job, level.HandOver, block.Count, lanes);
+    evaluations =
+      startNodes<Dimension>(job, level.HandOver, block.StartWeights, block.Count, lanes);
   }
   else
   {

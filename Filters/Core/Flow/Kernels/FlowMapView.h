@@ -18,6 +18,13 @@ constexpr double commonStart = 0.25;
 // those of all particles.
 constexpr int latticeSteps = 2;
 
+// Forwards, the steps of a node from the end of its straight start to two of the particles' steps
+// before a hand-over.
+constexpr std::int64_t startSteps(std::int64_t steps, int handOver)
+{
+  return latticeSteps * (steps - handOver - 2);
+}
+
 // Nodes 0 ... Cells along one axis of a lattice on [0, Size]. They are evenly spaced in
 //   u = 2 sqrt(Layer x) if x < Layer,   x + Layer inside,   and mirrored at the other end,
 // which is denser towards both ends; evenly spaced in x if Layer is 0.
