@@ -167,9 +167,17 @@ private:
   {
     this->Work.For(static_cast<std::int64_t>(this->Marks.size()), nodeGrain,
       [&](std::int64_t first, std::int64_t last) {
+        const std::int64_t stride = this->Stride[axis];
+        std::int64_t place = first / stride % this->Nodes[axis];
+        std::int64_t next = first - first % stride + stride;
         for (std::int64_t node = first; node < last; ++node)
         {
-          function(node, node / this->Stride[axis] % this->Nodes[axis]);
+          if (node == next)
+          {
+            place = place + 1 < this->Nodes[axis] ? place + 1 : 0;
+            next += stride;
+          }
+          function(node, place);
         }
       });
   }
@@ -212,23 +220,29 @@ private:
       cells[axis] = this->Level.Axes[axis].Cells;
       count *= cells[axis];
     }
+    const std::int64_t length = cells[0];
     std::atomic<std::int64_t> found{ 0 };
-    this->Work.For(count, nodeGrain, [&](std::int64_t first, std::int64_t last) {
-      std::int64_t marked = 0;
-      for (std::int64_t cell = first; cell < last; ++cell)
-      {
-        std::int64_t node = 0;
-        std::int64_t rest = cell;
-        for (int axis = 0; axis < Dimension; ++axis)
+    this->Work.For(
+      count / length, nodeGrain / length + 1, [&](std::int64_t first, std::int64_t last) {
+        std::int64_t marked = 0;
+        for (std::int64_t row = first; row < last; ++row)
         {
-          node += rest % cells[axis] * this->Stride[axis];
-          rest /= cells[axis];
+          std::int64_t node = 0;
+          std::int64_t rest = row;
+          for (int axis = 1; axis < Dimension; ++axis)
+          {
+            node += rest % cells[axis] * this->Stride[axis];
+            rest /= cells[axis];
+          }
+          for (std::int64_t i = 0; i < length; ++i)
+          {
+            unsigned char& cell = bad[row * length + i];
+            cell = this->IsBad(node + i) ? 1 : 0;
+            marked += cell;
+          }
         }
-        bad[cell] = this->IsBad(node) ? 1 : 0;
-        marked += bad[cell];
-      }
-      found += marked;
-    });
+        found += marked;
+      });
     return static_cast<double>(found) / static_cast<double>(count);
   }
 
