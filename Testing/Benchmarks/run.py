@@ -150,6 +150,52 @@ def flows(r):
     print()
 
 
+BANDWIDTHS = (("read", "reading"), ("write", "writing"), ("add", "adding in place"),
+              ("copy", "copying"), ("clear", "clearing"),
+              ("first_write", "writing new huge pages"), ("none", "sums within a cache"))
+
+
+def bandwidths(r):
+    rows = []
+    for kind, text in BANDWIDTHS:
+        one, two = f"Bandwidth/{kind}", f"Bandwidth/{kind}_2_threads"
+        speeds = [f"{r.median(name, 'bytes_per_second') / 1e9:.3g} GB/s" if kind != "none" else ""
+                  for name in (one, two)]
+        rows.append([text, *speeds, f"{r.ratio(one, two, 'real_time'):.2f}×"])
+    print_table(["memory", "one thread", "two threads", "ratio"], rows)
+
+
+# The work: its text, and the benchmarks of its tables, map, particles and filter; cells, particles,
+# coordinates of each, and bytes of the filter's output a particle.
+BREAKDOWNS = (("40,000 particles, photograph of 1024²: Sample Density", "Tables2D/core_reused/1024",
+               "Flow2D/maps/1024", "Photograph/core_again", "Photograph/filter",
+               1024 ** 2, 40000, 2, 104),
+              ("one particle a cell, 256³: Transport Map", "Tables3D/core_reused/256",
+               "Flow3D/maps/256", "OnePerCell3D/forward/core_again/256",
+               "OnePerCell3D/forward/map/256", 256 ** 3, 256 ** 3, 3, 40))
+
+
+def breakdown(r):
+    """Each part's time, and the time of its bytes alone at the machine's bandwidth."""
+    read, write, new = (r.median(f"Bandwidth/{kind}", "bytes_per_second") / 1000
+                        for kind in ("read", "write", "first_write"))  # bytes a ms
+    rows = []
+    for text, tables, maps, again, whole, cells, particles, dimension, output in BREAKDOWNS:
+        bytes_of = {what: r.median(maps, f"{what}_bytes") for what in ("table", "map")}
+        points = 8 * dimension * particles
+        floors = (8 * cells / read + bytes_of["table"] / write,
+                  bytes_of["table"] / read + bytes_of["map"] / new,
+                  (bytes_of["map"] + points) / read + points / write,
+                  points / read + output * particles / new)
+        times = [r.median(name) for name in (tables, maps, again)]
+        total = r.median(whole)
+        times.append(total - sum(times))
+        rows.append([text] + [f"{milliseconds(time)} ({milliseconds(floor)})"
+                              for time, floor in zip(times, floors)] + [milliseconds(total)])
+    print_table(["filter's update, new density: time (of the bytes alone)", "tables",
+                 "flow map", "particles", "input and output", "whole"], rows)
+
+
 def remarks(r):
     peak, table, made = (r.median("Memory/core/256", f"{what}_bytes") / 1e6
                          for what in ("peak", "table", "map"))
@@ -292,6 +338,8 @@ def main():
     whole_jobs(results)
     tables(results)
     flows(results)
+    breakdown(results)
+    bandwidths(results)
     remarks(results)
     filters(results)
     morphs(results)

@@ -18,16 +18,19 @@ struct Constants
 {
   double Steps;         // of particles that hand over, a NumberOfSteps
   double Error;         // interpolation error that is allowed, times NumberOfSteps^2 / size
-  double LeastRatio;    // width of the box over spacing
+  double LeastRatio;    // of the width of the box to the spacing
   double LeastCells;    // of the coarsest lattice: the start of the paths has kinks
   double Interpolation; // time of an interpolation, in velocity evaluations of particles
   double Node;          // time of a node's velocity evaluation: nodes lie far apart
-  double Particles;     // a grid cell, for which the number of nodes is chosen
+  double Particles;     // a grid cell, for which the number of nodes is chosen, forward
 };
 
 template <int Dimension>
-constexpr Constants constants = Dimension == 3 ? Constants{ 1.0, 1.9, 4.5, 22.0, 1.3, 1.8, 1.0 }
-                                               : Constants{ 0.95, 1.2, 5.0, 40.0, 1.2, 1.3, 0.25 };
+constexpr Constants constants = Dimension == 3 ? Constants{ 1.0, 1.9, 4.5, 22.0, 1.3, 1.8, 0.5 }
+                                               : Constants{ 0.95, 1.2, 5.0, 40.0, 1.2, 1.3, 0.1 };
+
+// Back go the samples of a map, forward anything.
+constexpr double particlesBackward = 1.0;
 
 // The narrowest box, in cells, that a lattice may serve: below, grid cells are not smoothed.
 constexpr double narrowest = 6.0;
@@ -69,7 +72,8 @@ public:
     const double cells = numberOfCells<Dimension>(size);
     // Rounded: roots other than the square root differ from one library to the next.
     this->Mean = std::round(Dimension == 3 ? std::cbrt(cells) : std::sqrt(cells));
-    this->Particles = cells * Fixed.Particles;
+    this->Particles =
+      cells * (direction == FlowDirection::Forward ? Fixed.Particles : particlesBackward);
     this->Error = Fixed.Error * this->Mean / (static_cast<double>(numberOfSteps) * numberOfSteps);
     for (int handOver = 0; handOver < steps; ++handOver)
     {
@@ -111,10 +115,7 @@ public:
 
   bool MayBeFinest(int handOver) const
   {
-    const double width = this->Width(handOver);
-    const double spacing = std::min(this->Spacing(handOver), this->WidestSpacing());
-    return this->IsAfterStart(handOver) && width >= narrowest &&
-      width >= spacing * Fixed.LeastRatio;
+    return this->IsAfterStart(handOver) && this->Width(handOver) >= narrowest;
   }
 
   // The paths' straight starts must be over.
@@ -193,7 +194,7 @@ private:
     const double width = this->Width(handOver);
     const double fourth = std::sqrt(std::sqrt(this->Error / std::max(width, 1e-300)));
     const double eighth = std::sqrt(fourth);
-    return width * (fourth * eighth * std::sqrt(eighth));
+    return width * std::min(fourth * eighth * std::sqrt(eighth), 1.0 / Fixed.LeastRatio);
   }
 
   double FromCoarser(int steps) const
