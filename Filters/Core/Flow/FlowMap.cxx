@@ -116,16 +116,7 @@ private:
   {
     const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
     std::vector<unsigned char> deferred(left.size());
-    std::vector<StepWeights> start;
-    if (parent < 0 && !this->Job.Backward)
-    {
-      const std::int64_t steps = this->Job.Map->Steps;
-      const std::int64_t count = startSteps(steps, this->Level.HandOver);
-      for (std::int64_t step = 0; step < count; ++step)
-      {
-        start.push_back(stretchedWeights(step, count, latticeSteps * steps));
-      }
-    }
+    const std::vector<StepWeights> weights = this->WeightsFrom(parent);
     std::atomic<std::int64_t> evaluations{ 0 };
     this->Work.For(
       static_cast<std::int64_t>(left.size()), blocks * BlockSize,
@@ -146,7 +137,7 @@ private:
             }
           }
           evaluations += advance(this->Job, this->Level, parent,
-            { places, left.data() + first, count, start.data(), deferred.data() + first,
+            { places, left.data() + first, count, weights.data(), deferred.data() + first,
               this->Marks.data() });
         }
       },
@@ -159,6 +150,29 @@ private:
     }
     left.resize(kept);
     return evaluations;
+  }
+
+  std::vector<StepWeights> WeightsFrom(int parent) const
+  {
+    std::vector<StepWeights> weights;
+    const std::int64_t all = this->Job.Map->Steps;
+    const auto add = [&weights](std::int64_t count, std::int64_t steps) {
+      for (std::int64_t step = 0; step < count; ++step)
+      {
+        weights.push_back(stretchedWeights(step, count, steps));
+      }
+    };
+    if (this->Job.Backward)
+    {
+      const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
+      const std::int64_t count = nodeSteps(this->Level.HandOver, to);
+      add(count, 2 * count);
+    }
+    else if (parent < 0)
+    {
+      add(startSteps(all, this->Level.HandOver), latticeSteps * all);
+    }
+    return weights;
   }
 
   // Calls function(node, its place along the axis) for all nodes.

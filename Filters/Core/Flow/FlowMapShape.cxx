@@ -36,13 +36,18 @@ constexpr double particlesBackward = 1.0;
 constexpr double narrowest = 6.0;
 // Each lattice's spacing is at least this many times that of the next finer one.
 constexpr double coarsening = 2.0;
+constexpr double leastCoarsening = 1.5; // where there are two alone
 constexpr std::int64_t fewestCells = 5; // along an axis of a lattice
 constexpr double mostNodes = 0.25;      // a grid cell, of all levels
 // The rounding of records, and what bends see of it, relative to the domain.
 constexpr double finestDeviation = 0x1p-20;
-// 1 - t two steps before the first hand-over. Straight starts last until t = 1/2: from there on a
-// node must get away from its start, or the velocities that it has known say little of those ahead.
-constexpr double mostRest = 0.4;
+// 1 - t two steps before the first hand-over. Forwards straight starts last until t = 1/2: from
+// there on a node must get away from its start, or the velocities that it has known say little of
+// those ahead. Backwards the way to the seeds is the less smooth the longer it is.
+constexpr double mostRest(FlowDirection direction)
+{
+  return direction == FlowDirection::Forward ? 0.4 : 0.3;
+}
 
 template <int Dimension>
 double numberOfNodes(const GridSize<Dimension>& cells)
@@ -118,34 +123,36 @@ public:
     return this->IsAfterStart(handOver) && this->Width(handOver) >= narrowest;
   }
 
-  // The paths' straight starts must be over.
   bool IsAfterStart(int handOver) const
   {
-    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= mostRest;
+    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= mostRest(this->Direction);
   }
 
   // The levels from the finest, whose hand-over is given, to the coarsest.
   std::vector<Level> Levels(int finest) const
   {
-    std::vector<int> handOvers = { finest };
-    while (handOvers.size() < FlowMapView<Dimension>::MaximumLevels)
-    {
-      const int next = this->FirstWith(coarsening * this->Spacing(handOvers.back()));
-      if (!this->IsAfterStart(next) || this->Spacing(next) > this->WidestSpacing())
-      {
-        break;
-      }
-      handOvers.push_back(next);
-    }
     // Nodes of the coarsest take the whole way from their seeds: as few as may be.
+    int coarsest = std::max(finest, this->FirstWith(this->WidestSpacing()) - 1);
+    while (!this->IsAfterStart(coarsest))
+    {
+      --coarsest;
+    }
+    std::vector<int> handOvers = { finest };
+    const auto isCoarser = [&](int handOver, double ratio) {
+      return this->Spacing(handOver) >= ratio * this->Spacing(handOvers.back());
+    };
+    while (isCoarser(coarsest, coarsening) &&
+      handOvers.size() + 1 < FlowMapView<Dimension>::MaximumLevels)
+    {
+      handOvers.push_back(this->FirstWith(coarsening * this->Spacing(handOvers.back())));
+    }
     if (handOvers.size() > 1)
     {
-      int& coarsest = handOvers.back();
-      coarsest = std::max(coarsest, this->FirstWith(this->WidestSpacing()) - 1);
-      while (!this->IsAfterStart(coarsest))
-      {
-        --coarsest;
-      }
+      handOvers.back() = coarsest;
+    }
+    else if (isCoarser(coarsest, leastCoarsening))
+    {
+      handOvers.push_back(coarsest);
     }
     std::vector<Level> levels;
     for (const int handOver : handOvers)
@@ -178,7 +185,7 @@ private:
   // Relative to the domain.
   double Deviation() const
   {
-    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.3) * this->Error / this->Mean;
+    return (this->Direction == FlowDirection::Forward ? 0.8 : 0.5) * this->Error / this->Mean;
   }
 
   // 1 - t at a hand-over.

@@ -74,15 +74,15 @@ struct NodeBlock
   const double* Places; // interleaved coordinates
   const std::int64_t* Index;
   int Count;
-  const StepWeights* StartWeights; // forwards from scratch: of startSteps steps, else null
-  unsigned char* Deferred;         // a node of the block
-  unsigned char* Troubled;         // a node of the lattice
+  const StepWeights* Weights; // forwards from scratch of startSteps, backwards of nodeSteps
+  unsigned char* Deferred;    // a node of the block
+  unsigned char* Troubled;    // a node of the lattice
 };
 
 // Makes the records of nodes of a level from those of the level `parent` of the job's map, which is
-// coarser; backwards with those before it; -1: from scratch. Sets Deferred to 1 where the parent
-// may not be interpolated: that node has no record then. Sets Troubled[Index[i]] to 1 for nodes
-// that met an empty box, else to 0. Returns the number of velocity evaluations.
+// coarser; -1: from scratch. Sets Deferred to 1 where the parent may not be interpolated: that node
+// has no record then. Sets Troubled[Index[i]] to 1 for nodes that met an empty box, else to 0.
+// Returns the number of velocity evaluations.
 template <int Dimension>
 using AdvanceNodes = std::int64_t (*)(const FlowJob<Dimension>& job,
   const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block);

@@ -153,8 +153,7 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
   std::int64_t evaluations = 0;
   if (parent < 0)
   {
-    evaluations =
-      startNodes<Dimension>(job, level.HandOver, block.StartWeights, block.Count, lanes);
+    evaluations = startNodes<Dimension>(job, level.HandOver, block.Weights, block.Count, lanes);
   }
   else
   {
@@ -184,8 +183,8 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
   return evaluations;
 }
 
-// From a level's time back to that of the next coarser level, which gives the seeds, and where its
-// cells are bad on to the one after it, at last to time 0.
+// From a level's time back to that of the parent, which gives the seeds where its cells are good,
+// or to time 0.
 template <int Dimension>
 std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block)
@@ -217,51 +216,46 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
       }
     }
   };
+  const std::int64_t to = parent < 0 ? job.Map->Steps : job.Map->Levels[parent].HandOver;
+  const std::int64_t steps = nodeSteps(level.HandOver, to);
+  const double begin = timeAt(level.HandOver);
+  const double end = timeAt(to);
   int left = block.Count;
-  std::int64_t evaluations = 0;
-  std::int64_t from = level.HandOver;
-  finishWhole<Dimension>(job, block.Count, lanes.Position, timeAt(from), active, left, write);
-  for (; left > 0; --parent)
-  {
-    const std::int64_t to = parent < 0 ? job.Map->Steps : job.Map->Levels[parent].HandOver;
-    const std::int64_t steps = latticeSteps * (to - from) + 1;
-    const double begin = timeAt(from);
+  finishWhole<Dimension>(job, block.Count, lanes.Position, begin, active, left, write);
 #pragma omp simd
-    for (int i = 0; i < BlockSize; ++i)
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    lanes.Time[i] = begin;
+    lanes.Span[i] = end - begin;
+  }
+  evaluateVelocity<Dimension>(
+    job, lanes.Field, block.Count, lanes.Position, lanes.Time, *lanes.V[0], *lanes.V[0], active);
+  std::int64_t evaluations = left;
+  markActive();
+  for (std::int64_t step = 0; step < steps && left > 0; ++step)
+  {
+    if (shouldStop<Dimension>(job, step))
     {
-      lanes.Time[i] = begin;
-      lanes.Span[i] = timeAt(to) - begin;
+      return evaluations;
     }
-    evaluateVelocity<Dimension>(
-      job, lanes.Field, block.Count, lanes.Position, lanes.Time, *lanes.V[0], *lanes.V[0], active);
-    evaluations += left;
-    markActive();
-    for (std::int64_t step = 0; step < steps && left > 0; ++step)
+    const StepWeights& weights = block.Weights[step];
+    const double time = step + 1 == steps ? end : begin + lanes.Span[0] * weights.Time;
+    stepBackward<Dimension>(job, weights, time, block.Count, active, lanes);
+    if (time > 0.0)
     {
-      if (shouldStop<Dimension>(job, step))
-      {
-        return evaluations;
-      }
-      const StepWeights weights = stretchedWeights(step, steps, 2 * steps);
-      const double time = step + 1 == steps ? timeAt(to) : begin + lanes.Span[0] * weights.Time;
-      stepBackward<Dimension>(job, weights, time, block.Count, active, lanes);
-      if (time > 0.0)
-      {
-        evaluations += left;
-        markActive();
-      }
-      finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
+      evaluations += left;
+      markActive();
     }
-    if (parent >= 0)
-    {
-      finishFromMap<Dimension>(
-        job.Map->Levels[parent], block.Count, lanes.Position, active, left, write);
-    }
-    from = to;
+    finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
+  }
+  if (parent >= 0)
+  {
+    finishFromMap<Dimension>(
+      job.Map->Levels[parent], block.Count, lanes.Position, active, left, write);
   }
   for (int i = 0; i < block.Count; ++i)
   {
-    block.Deferred[i] = 0;
+    block.Deferred[i] = active[i] ? 1 : 0;
     block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
   }
   return evaluations;

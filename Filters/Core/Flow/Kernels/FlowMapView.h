@@ -25,6 +25,12 @@ constexpr std::int64_t startSteps(std::int64_t steps, int handOver)
   return latticeSteps * (steps - handOver - 2);
 }
 
+// Backwards, those of a node from one hand-over to another, or to time 0.
+constexpr std::int64_t nodeSteps(std::int64_t from, std::int64_t to)
+{
+  return latticeSteps * (to - from) + 1;
+}
+
 // Nodes 0 ... Cells along one axis of a lattice on [0, Size]. They are evenly spaced in
 //   u = 2 sqrt(Layer x) if x < Layer,   x + Layer inside,   and mirrored at the other end,
 // which is denser towards both ends; evenly spaced in x if Layer is 0.
