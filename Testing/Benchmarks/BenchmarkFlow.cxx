@@ -7,7 +7,6 @@
 #include "PaperTransport.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -58,26 +57,11 @@ void coreFlow(benchmark::State& state, int threadCount, FlowMaps maps, std::int6
   reportCost(state, seeds.size(), static_cast<double>(report.Evaluations));
 }
 
-// The making of the flow maps for tables that are there: the flow of one particle, with the tables
-// made anew between the iterations, as the flow keeps its maps.
 template <int Dimension>
 void makeMaps(benchmark::State& state, int threadCount)
 {
-  const TestDensity<Dimension>& density = texturedGaussians<Dimension>(state.range(0));
   const OpenMPThreads threads(threadCount);
-  const OpenMPExecutor executor;
-  RectifiedFlow<Dimension> flow(density.Source(), executor);
-  const std::int64_t tableBytes = flow.MemorySize();
-  for (auto _ : state)
-  {
-    state.PauseTiming();
-    flow = RectifiedFlow<Dimension>(density.Source(), std::move(flow), executor);
-    Particles<Dimension> particle{ evenPoint<Dimension>(1.0) };
-    state.ResumeTiming();
-    moveForward(flow, particle, executor, FlowMaps::On);
-  }
-  state.counters["table_bytes"] = static_cast<double>(tableBytes);
-  state.counters["map_bytes"] = static_cast<double>(flow.MemorySize() - tableBytes);
+  timeMaps<Dimension>(state, texturedGaussians<Dimension>(state.range(0)));
 }
 
 // `few` particles are so many runs of 1024, fewer than flow maps pay for.

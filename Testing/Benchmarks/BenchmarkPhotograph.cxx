@@ -66,6 +66,12 @@ void core(benchmark::State& state, int threadCount, Tables tables, FlowMaps maps
   truth().Report(state, particles);
 }
 
+void maps(benchmark::State& state)
+{
+  const OpenMPThreads threads(1);
+  timeMaps<2>(state, Photograph::Instance().Density);
+}
+
 void filter(benchmark::State& state, int maps)
 {
   vtkNew<vtkImageData> image;
@@ -107,6 +113,7 @@ BENCHMARK_CAPTURE(core, two, 2, Tables::New, FlowMaps::Auto)
   ->Name("Photograph/core_2_threads")
   ->Unit(benchmark::kMillisecond)
   ->UseRealTime();
+BENCHMARK(maps)->Name("Photograph/maps")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(filter, on, vtkTransportSampler::FLOW_MAPS_AUTO)
   ->Name("Photograph/filter")
   ->Unit(benchmark::kMillisecond);

@@ -168,7 +168,7 @@ def bandwidths(r):
 # The work: its text, and the benchmarks of its tables, map, particles and filter; cells, particles,
 # coordinates of each, and bytes of the filter's output a particle.
 BREAKDOWNS = (("40,000 particles, photograph of 1024²: Sample Density", "Tables2D/core_reused/1024",
-               "Flow2D/maps/1024", "Photograph/core_again", "Photograph/filter",
+               "Photograph/maps", "Photograph/core_again", "Photograph/filter",
                1024 ** 2, 40000, 2, 104),
               ("one particle a cell, 256³: Transport Map", "Tables3D/core_reused/256",
                "Flow3D/maps/256", "OnePerCell3D/forward/core_again/256",

@@ -8,6 +8,7 @@
 #include "Core/SiteCells/EqualizeSiteCells.h"
 #include "Core/SiteCells/SplitSharedPixels.h"
 #include "SolidSurfaces.h"
+#include "TestDimensions.h"
 #include "TestFlow.h"
 #include "TestSplat.h"
 
@@ -53,6 +54,8 @@ void expectDigest(const std::string& what, const Digest& digest)
     { "2D Adaptive", 0x439f2ed3f211c1c9u },
     { "2D lattice", 0x6b9f96f2b51e6827u },
     { "3D Multistep", 0x71c72b1bcb4792f0u },
+    { "2D maps", 0x24abef1e9c3802cu },
+    { "3D maps", 0x17bb14a8520e643cu },
     { "3D RungeKutta4", 0xf6297220318b606du },
     { "3D Euler", 0x2770eb9ea33e134du },
     { "3D Adaptive", 0x19618df03942d44bu },
@@ -112,6 +115,22 @@ void expectFlow(const GridSize<Dimension>& size)
     flow.ForwardAt(seeds, { 0.25, 0.75, 1.0 }, paths, options);
     digest.Add(valuesOf(paths));
     expectDigest(name + nameOf(method), digest);
+  }
+
+  if constexpr (Dimension > 1)
+  {
+    const RectifiedFlow<Dimension> large =
+      makeFlow(patchyCells<Dimension>(sizeFor<Dimension>({}, { 190, 137 }, { 80, 90, 71 })));
+    const FlowOptions options = with(FlowMaps::On, steps(20));
+    Points<Dimension> places = randomPoints<Dimension>(large.Size(), count);
+    Digest digest;
+    digest.Add(valuesOf(runForward(large, places, options)));
+    digest.Add(valuesOf(runBackward(large, places, options)));
+    const auto samples = sizeFor<Dimension>({}, { 64, 32 }, { 13, 15, 7 });
+    places.resize(static_cast<std::size_t>(cellCount<Dimension>(samples)));
+    large.ForwardLattice(samples, places, options);
+    digest.Add(valuesOf(places));
+    expectDigest(name + "maps", digest);
   }
 
   const auto lattice = evenSize<Dimension>(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);

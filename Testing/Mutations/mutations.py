@@ -221,7 +221,7 @@ OTHERS = [
       "return «smaller(larger(seed[axis], 0.0), level.Axes[axis].Size)»", "seed[axis]"),
     E(CORE + "Flow/FlowMap.cxx", "(«isStraight» ? 0 : isBent(axis))", "true"),
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
-    E(CORE + "Flow/FlowMapShape.cxx", "return particles * saved > «this->Cost»", "0.0"),
+    E(CORE + "Flow/FlowMapShape.cxx", "return particles * share * saved > «this->Cost»", "0.0"),
     E(CORE + "Flow/PivotLattice.cxx", "positions.Part(place * each, each), «same», progress", "options"),
     E(CORE + "Flow/RectifiedFlow.cxx", "return «steps == this->Of» ?", "true"),
     E(CORE + "Flow/RectifiedFlow.cxx", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),

@@ -114,8 +114,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   progress.BeginStage(ends[2]);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
-  const double sort = count * sizeof(std::int64_t);
-  withMemory(purpose, sort, [&]() {
+  withMemory(purpose, count * sizeof(std::int64_t), [&]() { // of the sort
     if (times.back() == 0.0 && times.size() == 1)
     {
       progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {

@@ -162,7 +162,7 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
   }
   catch (const NoMemoryForFlowMap& map)
   {
-    error = describeLack("a flow map (FlowMaps Off needs none)", map.Bytes);
+    error = describeLack("a flow map (FlowMaps Off needs none)", map.MemorySize());
   }
   catch (const std::bad_alloc&)
   {

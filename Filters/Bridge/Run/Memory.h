@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
-#include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkAbstractArray.h"
@@ -17,7 +17,7 @@
 namespace RectifiedTransport
 {
 
-// What the error says.
+// The text of the error.
 std::string describeLack(const std::string& purpose, double bytes);
 
 [[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);

@@ -235,9 +235,11 @@ private:
       count *= cells[axis];
     }
     const std::int64_t length = cells[0];
+    const std::int64_t rows = nodeGrain / length + 1; // a range
     std::atomic<std::int64_t> found{ 0 };
     this->Work.For(
-      count / length, nodeGrain / length + 1, [&](std::int64_t first, std::int64_t last) {
+      count / length, rows,
+      [&](std::int64_t first, std::int64_t last) {
         std::int64_t marked = 0;
         for (std::int64_t row = first; row < last; ++row)
         {
@@ -256,7 +258,8 @@ private:
           }
         }
         found += marked;
-      });
+      },
+      rows);
     return static_cast<double>(found) / static_cast<double>(count);
   }
 
@@ -339,7 +342,7 @@ FlowMap<Dimension>::FlowMap(
     progress.BeginStage(progress.StageEnd() + partOfAdvance * (done - progress.StageEnd()));
     this->Evaluated += build.Advance();
     progress.BeginStage(done);
-    // Particles that may not start from it take its steps in vain. Finer ones would be no better.
+    // What may not start from it takes the whole way after all. Finer ones would be no better.
     // Backwards most of a domain may be empty, and has few particles then.
     const double share = build.FindBad(lattice.Bad.data());
     const double saved = 1.0 - static_cast<double>(planned.HandOver) / shape.NumberOfSteps;

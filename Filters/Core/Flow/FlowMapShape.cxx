@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace RectifiedTransport
 {
@@ -13,24 +14,39 @@ namespace RectifiedTransport
 namespace
 {
 
-// Measured constants, in 2D and 3D.
+// Measured.
+template <int Dimension>
 struct Constants
 {
-  double Steps;         // of particles that hand over, a NumberOfSteps
-  double Error;         // interpolation error that is allowed, times NumberOfSteps^2 / size
-  double LeastRatio;    // of the width of the box to the spacing
-  double LeastCells;    // of the coarsest lattice: the start of the paths has kinks
-  double Interpolation; // time of an interpolation, in velocity evaluations of particles
-  double Node;          // time of a node's velocity evaluation: nodes lie far apart
-  double Particles;     // a grid cell, for which the number of nodes is chosen, forward
+  static constexpr double Steps = 0.95;    // of particles that hand over, a NumberOfSteps
+  static constexpr double Error = 1.2;     // of the interpolation, times NumberOfSteps^2 / size
+  static constexpr double LeastRatio = 5;  // of the width of the box to the spacing
+  static constexpr double LeastCells = 40; // of the coarsest lattice: paths start with kinks
+  // Times, in velocity evaluations of particles: of an interpolation, and of an evaluation of a
+  // node, as nodes lie far apart.
+  static constexpr double Interpolation = 1.2;
+  static constexpr double Node = 1.3;
+  static constexpr double Particles = 0.1; // a grid cell, for which levels are chosen, forwards
 };
 
-template <int Dimension>
-constexpr Constants constants = Dimension == 3 ? Constants{ 1.0, 1.9, 4.5, 22.0, 1.3, 1.8, 0.5 }
-                                               : Constants{ 0.95, 1.2, 5.0, 40.0, 1.2, 1.3, 0.1 };
+template <>
+struct Constants<3>
+{
+  static constexpr double Steps = 1.0;
+  static constexpr double Error = 1.9;
+  static constexpr double LeastRatio = 4.5;
+  static constexpr double LeastCells = 22;
+  static constexpr double Interpolation = 1.3;
+  static constexpr double Node = 1.8;
+  static constexpr double Particles = 0.5;
+};
 
-// Back go the samples of a map, forward anything.
+// Particles a grid cell, for which levels are chosen, backwards: samples of a map.
 constexpr double particlesBackward = 1.0;
+// Steps that a particle takes backwards, a NumberOfSteps, before its box is the whole domain.
+constexpr double stepsBackward = 0.72;
+// Steps at which half of the cells of a photograph's lattices are bad.
+constexpr double stepsOfBad = 256.0;
 
 // The narrowest box, in cells, that a lattice may serve: below, grid cells are not smoothed.
 constexpr double narrowest = 6.0;
@@ -78,8 +94,8 @@ public:
     // Rounded: roots other than the square root differ from one library to the next.
     this->Mean = std::round(Dimension == 3 ? std::cbrt(cells) : std::sqrt(cells));
     this->Particles =
-      cells * (direction == FlowDirection::Forward ? Fixed.Particles : particlesBackward);
-    this->Error = Fixed.Error * this->Mean / (static_cast<double>(numberOfSteps) * numberOfSteps);
+      cells * (direction == FlowDirection::Forward ? Fixed::Particles : particlesBackward);
+    this->Error = Fixed::Error * this->Mean / (static_cast<double>(numberOfSteps) * numberOfSteps);
     for (int handOver = 0; handOver < steps; ++handOver)
     {
       this->Spacings.push_back(this->FindSpacing(handOver));
@@ -98,7 +114,7 @@ public:
     return deviations;
   }
 
-  double WidestSpacing() const { return this->Mean / Fixed.LeastCells; }
+  double WidestSpacing() const { return this->Mean / Fixed::LeastCells; }
 
   // The first hand-over with a spacing; the number of steps if there is none.
   int FirstWith(double spacing) const
@@ -163,9 +179,9 @@ public:
     {
       const int here = levels[i].HandOver;
       const double evaluations = i + 1 < levels.size()
-        ? Fixed.Interpolation + this->FromCoarser(levels[i + 1].HandOver - here)
+        ? Fixed::Interpolation + this->FromCoarser(levels[i + 1].HandOver - here)
         : latticeSteps * (this->Steps - here);
-      levels[i].Cost = numberOfNodes<Dimension>(levels[i].Cells) * evaluations * Fixed.Node;
+      levels[i].Cost = numberOfNodes<Dimension>(levels[i].Cells) * evaluations * Fixed::Node;
     }
     return levels;
   }
@@ -173,14 +189,14 @@ public:
   // Evaluations of a particle from a hand-over on.
   double Remaining(int handOver) const
   {
-    return this->Direction == FlowDirection::Forward ? handOver - 1 + Fixed.Interpolation
-                                                     : handOver + Fixed.Interpolation;
+    return this->Direction == FlowDirection::Forward ? handOver - 1 + Fixed::Interpolation
+                                                     : handOver + Fixed::Interpolation;
   }
 
   double TimeOfParticles(int finest) const { return this->Particles * this->Remaining(finest); }
 
 private:
-  static constexpr Constants Fixed = constants<Dimension>;
+  using Fixed = Constants<Dimension>;
 
   // Relative to the domain.
   double Deviation() const
@@ -201,7 +217,7 @@ private:
     const double width = this->Width(handOver);
     const double fourth = std::sqrt(std::sqrt(this->Error / std::max(width, 1e-300)));
     const double eighth = std::sqrt(fourth);
-    return width * std::min(fourth * eighth * std::sqrt(eighth), 1.0 / Fixed.LeastRatio);
+    return width * std::min(fourth * eighth * std::sqrt(eighth), 1.0 / Fixed::LeastRatio);
   }
 
   double FromCoarser(int steps) const
@@ -245,7 +261,7 @@ FlowMapShape<Dimension>::FlowMapShape(
   : NumberOfSteps(numberOfSteps << refinement)
   , Steps(direction == FlowDirection::Backward
         ? numberOfSteps
-        : static_cast<int>(std::ceil(constants<Dimension>.Steps * this->NumberOfSteps)))
+        : static_cast<int>(std::ceil(Constants<Dimension>::Steps * this->NumberOfSteps)))
   , Direction(direction)
 {
   if constexpr (Dimension > 1)
@@ -257,7 +273,7 @@ FlowMapShape<Dimension>::FlowMapShape(
       return;
     }
     this->Deviation = chooser.Deviations();
-    double least = chooser.TimeOfParticles(steps);
+    double least = std::numeric_limits<double>::infinity();
     for (int handOver = 1; handOver < steps; ++handOver)
     {
       if (!chooser.MayBeFinest(handOver))
@@ -277,7 +293,7 @@ FlowMapShape<Dimension>::FlowMapShape(
         continue;
       }
       const double time = cost + chooser.TimeOfParticles(handOver);
-      if (time < least || this->Levels.empty())
+      if (time < least)
       {
         least = time;
         this->Cost = cost;
@@ -305,16 +321,15 @@ double FlowMapShape<Dimension>::MemorySize() const
 template <int Dimension>
 bool FlowMapShape<Dimension>::PaysFor(double particles) const
 {
-  constexpr Constants fixed = constants<Dimension>;
   if (this->Levels.empty())
   {
     return false;
   }
-  // Backwards, boxes are whole and particles done before time 0.
-  const double part = this->Direction == FlowDirection::Backward ? 0.72 : 1.0;
+  const double part = this->Direction == FlowDirection::Backward ? stepsBackward : 1.0;
   const double saved =
-    part * this->NumberOfSteps - this->Levels.back().HandOver - fixed.Interpolation;
-  return particles * saved > this->Cost;
+    part * this->NumberOfSteps - this->Levels.back().HandOver - Constants<Dimension>::Interpolation;
+  const double share = 1.0 / (1.0 + this->NumberOfSteps / stepsOfBad);
+  return particles * share * saved > this->Cost;
 }
 
 template <int Dimension>

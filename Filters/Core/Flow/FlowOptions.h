@@ -4,7 +4,6 @@
 #define RectifiedTransport_FlowOptions_h
 
 #include <cstdint>
-#include <new>
 
 namespace RectifiedTransport
 {
@@ -52,25 +51,14 @@ struct FlowOptions
   }
 };
 
-// Thrown where the tables have memory, and a flow map has not.
-class NoMemoryForFlowMap : public std::bad_alloc
-{
-public:
-  explicit NoMemoryForFlowMap(double bytes)
-    : Bytes(bytes)
-  {
-  }
-  const char* what() const noexcept override { return "no memory for a flow map"; }
-
-  const double Bytes; // that it would have
-};
-
 struct FlowReport
 {
   // Particles that, on their way from the seed itself, met an empty box or ended in an empty cell.
   std::int64_t Redone = 0;
   std::int64_t MovedToMass = 0; // those still in an empty cell: put on the nearest mass
-  std::int64_t Evaluations = 0; // velocity evaluations, also of flow maps made for this run
+  // Velocity evaluations, also of flow maps made for this run: the cost. Particles that are taken
+  // up again together share some, so that it may differ a little from run to run.
+  std::int64_t Evaluations = 0;
 };
 
 } // namespace RectifiedTransport

@@ -172,6 +172,7 @@ struct RectifiedFlow<Dimension>::Internals
     {
       // Not locked: other runs make their own meanwhile, of the same bits.
       const double particlesCost = particles * shape.Levels.back().HandOver;
+      kept.Set(steps, nullptr); // old and new maps side by side would double the peak
       const Context context = run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost));
       try
       {

@@ -17,6 +17,7 @@
 #define RectifiedTransport_RectifiedFlow_h
 
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
 

@@ -58,6 +58,7 @@ public:
     // 256 no longer the integrator but the triangles' straight edges limit what the flow reaches.
     FlowOptions options;
     options.NumberOfSteps = 256;
+    options.Maps = FlowMaps::Off; // most of the time goes elsewhere
     flow.Backward(positions, positions, options, progress.Stage());
     progress.BeginStage(1.0);
     for (std::size_t i = 0; i < positions.size(); ++i)

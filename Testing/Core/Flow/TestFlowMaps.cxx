@@ -61,6 +61,7 @@ TEST(FlowMapShape, FollowsTheSteps)
 {
   const FlowMapShape<2> few = forwardShape<2>({ 500, 400 }, 32);
   const FlowMapShape<2> many = forwardShape<2>({ 500, 400 }, 64);
+  ASSERT_FALSE(few.Levels.empty() || many.Levels.empty());
   for (int axis = 0; axis < 2; ++axis)
   {
     EXPECT_DOUBLE_EQ(many.Deviation[axis], few.Deviation[axis] / 4.0);
@@ -192,6 +193,21 @@ TYPED_TEST(FlowMapRun, LatticeIsItsPoints)
   }
 }
 
+// The output may be the array of the seeds.
+TYPED_TEST(FlowMapRun, InPlace)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = densityWithMaps<D>();
+  const RectifiedFlow<D> flow = makeFlow(density);
+  const Points<D> seeds = randomPoints<D>(density.Size, 2011);
+  Points<D> points = seeds;
+  flow.Forward(points, points, with(FlowMaps::On));
+  const Points<D> positions = runForward(flow, seeds, with(FlowMaps::On));
+  EXPECT_TRUE(sameBits<D>(points, positions));
+  flow.Backward(points, points, with(FlowMaps::On));
+  EXPECT_TRUE(sameBits<D>(points, runBackward(flow, positions, with(FlowMaps::On))));
+}
+
 // All times after the last hand-over come from the maps, else none does.
 TYPED_TEST(FlowMapRun, Times)
 {
@@ -211,9 +227,18 @@ TYPED_TEST(FlowMapRun, Times)
   {
     EXPECT_EQ(late[2 * i + 1], ends[i]);
   }
-  const double error = comparePositions<D>(late, truth).Mean;
-  EXPECT_NE(error, comparePositions<D>(direct, truth).Mean);
-  EXPECT_LT(error, comparePositions<D>(direct, truth).Mean);
+  const auto errorAt = [&](const Points<D>& points, std::size_t time) {
+    Points<D> places;
+    Points<D> expected;
+    for (std::size_t i = time; i < points.size(); i += 2)
+    {
+      places.push_back(points[i]);
+      expected.push_back(truth[i]);
+    }
+    return comparePositions<D>(places, expected).Mean;
+  };
+  EXPECT_LT(errorAt(late, 0), errorAt(direct, 0));
+  EXPECT_LT(errorAt(late, 1), errorAt(direct, 1));
 
   Points<D> early(2 * seeds.size());
   flow.ForwardAt(seeds, { 0.9 * handOver, 1.0 }, early, with(FlowMaps::On));
@@ -233,7 +258,6 @@ TYPED_TEST(FlowMapRun, Errors)
   const Points<D> past = runBackward(flow, truth, with(FlowMaps::Off, steps(600)));
   for (const int count : stepsWithMaps<D>())
   {
-    ASSERT_FALSE(forwardShape<D>(density.Size, count).Levels.empty()) << count;
     const auto errors = [&](FlowMaps maps, bool back) {
       const FlowOptions options = with(maps, steps(count));
       return back ? comparePositions<D>(runBackward(flow, truth, options), past)
@@ -242,11 +266,7 @@ TYPED_TEST(FlowMapRun, Errors)
     for (const bool back : { false, true })
     {
       const FlowDirection direction = back ? FlowDirection::Backward : FlowDirection::Forward;
-      if (FlowMapShape<D>(density.Size, count, direction).Levels.empty())
-      {
-        ASSERT_TRUE(back);
-        continue;
-      }
+      ASSERT_FALSE(FlowMapShape<D>(density.Size, count, direction).Levels.empty()) << count;
       const PositionErrors direct = errors(FlowMaps::Off, back);
       const PositionErrors mapped = errors(FlowMaps::On, back);
       const std::string what = std::to_string(count) + (back ? ", backward" : ", forward");
@@ -293,10 +313,16 @@ TYPED_TEST(FlowMapRun, NoStrays)
   }
 }
 
-// Sizes that are small, long or flat, of which some have no maps.
+// Sizes that are long, flat or small.
 TYPED_TEST(FlowMapRun, Sizes)
 {
   constexpr int D = TypeParam::value;
+  for (const GridSize<D>& size : { sizeFor<D>({}, { 2000, 17 }, { 600, 40, 30 }),
+         sizeFor<D>({}, { 16, 3000 }, { 70, 16, 700 }) })
+  {
+    EXPECT_FALSE(forwardShape<D>(size, 20).Levels.empty());
+    expectNoStrays<D>(twoGaussians<D>(size), 20, "size " + std::to_string(size[0]));
+  }
   for (const int count : { 1, 8, 20, 100 })
   {
     for (const GridSize<D>& size : { sizeFor<D>({ 1 }, { 16, 16 }, { 16, 16, 16 }),
@@ -386,7 +412,7 @@ TYPED_TEST(FlowMapRun, Cancelled)
     }
     catch (const class Cancelled&)
     {
-      EXPECT_TRUE(flow.MemorySize() == tables || recording.Reported.back() > 0.5) << queries;
+      EXPECT_TRUE(flow.MemorySize() == tables || recording.Reported.back() > 0.9) << queries;
     }
     EXPECT_EQ(isComplete, recording.Queries <= queries ? 1 : 0);
   }
@@ -425,10 +451,10 @@ TYPED_TEST(FlowMapRun, Flip)
     }
     return points;
   };
-  const FlowOptions exact = with(FlowMaps::On);
+  const FlowOptions options = with(FlowMaps::On);
   ASSERT_FALSE(forwardShape<D>(density.Size).Levels.empty());
-  const Points<D> expected = runForward(makeFlow(density), seeds, exact);
-  const Points<D> mirrored = flip(runForward(makeFlow(flipped), flip(seeds), exact));
+  const Points<D> expected = runForward(makeFlow(density), seeds, options);
+  const Points<D> mirrored = flip(runForward(makeFlow(flipped), flip(seeds), options));
   EXPECT_LT(comparePositions<D>(expected, mirrored).Percentile95, 1e-3);
 }
 

@@ -87,9 +87,11 @@ void checkLimits(Checks& checks)
     sampler->SetNumberOfParticles(2000000);
     expectError(checks, sampler, "2000000 particles", __LINE__);
   }
+  sampler->SetInputData(large);
+  sampler->SetNumberOfParticles(1000);
+  ErrorTest(checks, sampler).ExpectNone(__LINE__);
+  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 1000);
   {
-    sampler->SetNumberOfParticles(1000);
-    sampler->SetInputData(large);
     sampler->SetFlowMapsToOff();
     ErrorTest(checks, sampler).ExpectNone(__LINE__);
     const MemoryLimit limit(8 << 20);
@@ -97,12 +99,9 @@ void checkLimits(Checks& checks)
     expectError(checks, sampler, "a flow map (FlowMaps Off needs none)", __LINE__);
     sampler->SetFlowMapsToOff();
     ErrorTest(checks, sampler).ExpectNone(__LINE__);
-    sampler->SetFlowMapsToAuto();
   }
-  sampler->SetInputData(large);
-  sampler->SetNumberOfParticles(1000);
+  sampler->SetFlowMapsToOn();
   ErrorTest(checks, sampler).ExpectNone(__LINE__);
-  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 1000);
 }
 #endif
 

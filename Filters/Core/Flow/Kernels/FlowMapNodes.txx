@@ -116,11 +116,18 @@ std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepW
   return (steps + 2) * count;
 }
 
-// Steps of particles from one hand-over to that of a finer level.
+// Steps of particles from one hand-over to that of a finer level, of lanes that are not deferred.
 template <int Dimension>
 std::int64_t continueNodes(const FlowJob<Dimension>& job, int from, int handOver, int count,
-  MultistepLanes<Dimension>& lanes)
+  const bool (&deferred)[BlockSize], MultistepLanes<Dimension>& lanes)
 {
+  bool active[BlockSize];
+  int left = 0;
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    active[i] = !deferred[i];
+    left += active[i] ? 1 : 0;
+  }
   alignas(64) Lanes start;
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
@@ -129,17 +136,17 @@ std::int64_t continueNodes(const FlowJob<Dimension>& job, int from, int handOver
     lanes.Span[i] = 1.0 - commonStart;
   }
   const RunWeights<Dimension> run(*job.Map);
-  for (std::int64_t left = from; left > handOver; --left)
+  for (std::int64_t stepsLeft = from; stepsLeft > handOver && left > 0; --stepsLeft)
   {
-    if (shouldStop<Dimension>(job, from - left))
+    if (shouldStop<Dimension>(job, from - stepsLeft))
     {
       break;
     }
-    const StepWeights weights = run[run.Steps - left];
-    predictStep<Dimension>(job, weights, start, count, nullptr, lanes);
+    const StepWeights weights = run[run.Steps - stepsLeft];
+    predictStep<Dimension>(job, weights, start, count, left < BlockSize ? active : nullptr, lanes);
     correctStep<Dimension>(job, weights, lanes);
   }
-  return static_cast<std::int64_t>(from - handOver) * count;
+  return static_cast<std::int64_t>(from - handOver) * left;
 }
 
 template <int Dimension>
@@ -160,11 +167,15 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
     const FlowMapLevel<Dimension>& coarser = job.Map->Levels[parent];
     loadFromMap<Dimension>(job, coarser, block.Count, lanes, deferred);
     evaluations =
-      continueNodes<Dimension>(job, coarser.HandOver, level.HandOver, block.Count, lanes);
+      continueNodes<Dimension>(job, coarser.HandOver, level.HandOver, block.Count, deferred, lanes);
   }
   for (int i = 0; i < block.Count; ++i)
   {
     block.Deferred[i] = deferred[i] ? 1 : 0;
+    if (deferred[i])
+    {
+      continue;
+    }
     block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
     float* state = level.Records + block.Index[i] * record;
     for (int axis = 0; axis < Dimension; ++axis)

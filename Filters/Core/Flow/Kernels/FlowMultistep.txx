@@ -141,7 +141,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
     std::memcpy(before, lanes.Time, sizeof(before));
     const bool* active = plateau.Left < BlockSize ? plateau.Active : nullptr;
     predictStep<Dimension>(job, weights, start, count, active, lanes);
-    evaluations += count;
+    evaluations += plateau.Left < count ? plateau.Left : count;
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
