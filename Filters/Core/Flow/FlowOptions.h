@@ -23,11 +23,11 @@ enum class TableLookup
 };
 
 // Lattices of seeds that carry the smooth part of the flow (FlowMap.h): of Multistep with
-// Interpolated, in 2D and 3D.
+// Interpolated, in 2D and 3D, where the density has cells enough for the steps (FlowMapShape.h).
 enum class FlowMaps
 {
   Auto, // where they take less time for so many particles, that of making them included
-  On,
+  On,   // where there are any
   Off
 };
 
