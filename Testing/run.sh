@@ -81,7 +81,7 @@ run_suites()
 }
 
 # Of the core, those that run on several threads.
-parallel_tests="Invariance*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*:PivotLattice*"
+parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*:PivotLattice*"
 parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
 
