@@ -81,8 +81,9 @@ run_suites()
 }
 
 # Of the core, those that run on several threads.
-parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*:PivotLattice*"
-parallel_tests="$parallel_tests:MapDerivatives*:NearestNeighbours*:SiteCells*:SolidCoverage*:Executors*"
+parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress*:Lattice*:Tables*"
+parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*:SiteCells*"
+parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
 
 # run_tests FOLDER CTEST-ARGUMENT...
