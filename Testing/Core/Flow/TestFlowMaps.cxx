@@ -137,7 +137,8 @@ TYPED_TEST(FlowMapRun, Auto)
 {
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = densityWithMaps<D>();
-  const FlowMapShape<D> shape = forwardShape<D>(density.Size);
+  const FlowOptions options = steps(16);
+  const FlowMapShape<D> shape = forwardShape<D>(density.Size, options.NumberOfSteps);
   ASSERT_FALSE(shape.Levels.empty());
   std::size_t enough = 1;
   while (!shape.PaysFor(static_cast<double>(enough)))
@@ -147,10 +148,13 @@ TYPED_TEST(FlowMapRun, Auto)
   const RectifiedFlow<D> flow = makeFlow(density);
   const Points<D> many = randomPoints<D>(density.Size, enough);
   const Points<D> few(many.begin(), many.begin() + static_cast<std::ptrdiff_t>(enough / 4));
-  const Points<D> withMaps = runForward(flow, many, with(FlowMaps::On));
-  EXPECT_TRUE(sameBits<D>(runForward(flow, many), withMaps));
-  EXPECT_TRUE(sameBits<D>(runForward(flow, few), runForward(flow, few, with(FlowMaps::Off))));
-  EXPECT_FALSE(sameBits<D>(withMaps, runForward(flow, many, with(FlowMaps::Off))));
+  const auto run = [&](const Points<D>& seeds, FlowMaps maps) {
+    return runForward(flow, seeds, with(maps, options));
+  };
+  const Points<D> withMaps = run(many, FlowMaps::On);
+  EXPECT_TRUE(sameBits<D>(run(many, FlowMaps::Auto), withMaps));
+  EXPECT_TRUE(sameBits<D>(run(few, FlowMaps::Auto), run(few, FlowMaps::Off)));
+  EXPECT_FALSE(sameBits<D>(withMaps, run(many, FlowMaps::Off)));
 }
 
 // Kept maps give the bits of new ones, also after those of another number of steps.
@@ -182,7 +186,8 @@ TYPED_TEST(FlowMapRun, LatticeIsItsPoints)
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = densityWithMaps<D>();
   const RectifiedFlow<D> flow = makeFlow(density);
-  for (const GridSize<D>& lattice : { density.Size, evenSize<D>(29) })
+  for (const GridSize<D>& lattice :
+    { sizeFor<D>({}, { 224, 208 }, { 48, 40, 45 }), evenSize<D>(29) })
   {
     const Points<D> centres = latticePoints<D>(density.Size, lattice);
     Points<D> positions(centres.size());
