@@ -147,7 +147,7 @@ def flows(r):
     for group in ("Sort2D", "Sort3D"):
         each = r.median(f"{group}/core/1000000")  # ms a million: ns each
         print(f"{group[4:]} sort: {each:.2g} ns a particle.", end=" ")
-    print()
+    print("\n")
 
 
 BANDWIDTHS = (("read", "reading"), ("write", "writing"), ("add", "adding in place"),
@@ -256,7 +256,7 @@ def filters(r):
                       for side in (64, 128, 256))
     print(f"The density of a solid of 50,000 triangles: {sides}; at 128 of 200,000: "
           f"{milliseconds(r.median('Solid/200000/128'))}, of 800,000: "
-          f"{milliseconds(r.median('Solid/800000/128'))}.")
+          f"{milliseconds(r.median('Solid/800000/128'))}.\n")
 
 
 def morphs(r):
