@@ -179,7 +179,7 @@ public:
     {
       const int here = levels[i].HandOver;
       const double evaluations = i + 1 < levels.size()
-        ? Fixed::Interpolation + this->FromCoarser(levels[i + 1].HandOver - here)
+        ? Fixed::Interpolation + this->FromCoarser(levels[i + 1].HandOver, here)
         : latticeSteps * (this->Steps - here);
       levels[i].Cost = numberOfNodes<Dimension>(levels[i].Cells) * evaluations * Fixed::Node;
     }
@@ -220,9 +220,12 @@ private:
     return width * std::min(fourth * eighth * std::sqrt(eighth), 1.0 / Fixed::LeastRatio);
   }
 
-  double FromCoarser(int steps) const
+  // Evaluations of a node between two hand-overs.
+  double FromCoarser(int coarser, int handOver) const
   {
-    return this->Direction == FlowDirection::Forward ? steps : latticeSteps * steps + 2;
+    return this->Direction == FlowDirection::Forward
+      ? coarser - handOver
+      : static_cast<double>(nodeSteps(handOver, coarser) + 1);
   }
 
   // The same number of spacings to the box's width on every axis.
