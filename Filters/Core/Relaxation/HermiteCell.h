@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tensor products of cubic Hermite polynomials on a box. The data at a corner are the function's
+// mixed derivatives, each of order 0 or 1 along each axis: entry b has those along the axes of the
+// bits of b. Boxes that share a face, and the data there, join with continuous derivatives.
+#ifndef RectifiedTransport_HermiteCell_h
+#define RectifiedTransport_HermiteCell_h
+
+#include "Core/Geometry/Points.h"
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+constexpr int hermiteCorners = 1 << Dimension;
+
+template <int Dimension>
+using HermiteData = std::array<double, hermiteCorners<Dimension>>;
+
+// The data at the place `at`, in [0, 1], of a box with such sides; corner c is at the upper end of
+// the axes of the bits of c.
+template <int Dimension>
+HermiteData<Dimension> interpolateHermite(
+  const std::array<const double*, hermiteCorners<Dimension>>& corners, const Point<Dimension>& at,
+  const Point<Dimension>& sides)
+{
+  constexpr int count = hermiteCorners<Dimension>;
+  double data[count][count]; // corner, derivative
+  for (int corner = 0; corner < count; ++corner)
+  {
+    for (int entry = 0; entry < count; ++entry)
+    {
+      data[corner][entry] = corners[corner][entry];
+    }
+  }
+  // Axis by axis, the last first: the corners below `half` then hold what is between both ends.
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const double t = at[axis];
+    const double u = 1.0 - t;
+    const double h = sides[axis];
+    const double value[4] = { u * u * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t), h * t * u * u,
+      -h * t * t * u };
+    const double rise = 6.0 * t * u / h;
+    const double slope[4] = { -rise, rise, u * (1.0 - 3.0 * t), t * (3.0 * t - 2.0) };
+    const int half = 1 << axis;
+    for (int corner = 0; corner < half; ++corner)
+    {
+      for (int entry = 0; entry < count; ++entry)
+      {
+        if (entry & half)
+        {
+          continue;
+        }
+        const double ends[4] = { data[corner][entry], data[corner + half][entry],
+          data[corner][entry | half], data[corner + half][entry | half] };
+        data[corner][entry] =
+          value[0] * ends[0] + value[1] * ends[1] + value[2] * ends[2] + value[3] * ends[3];
+        data[corner][entry | half] =
+          slope[0] * ends[0] + slope[1] * ends[1] + slope[2] * ends[2] + slope[3] * ends[3];
+      }
+    }
+  }
+  HermiteData<Dimension> result;
+  for (int entry = 0; entry < count; ++entry)
+  {
+    result[entry] = data[0][entry];
+  }
+  return result;
+}
+
+} // namespace RectifiedTransport
+
+#endif

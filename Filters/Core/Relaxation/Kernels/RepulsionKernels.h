@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of the Gaussian kernel of relaxByRepulsion, one set for each instruction set, and the choice
+// among them.
+#ifndef RectifiedTransport_RepulsionKernels_h
+#define RectifiedTransport_RepulsionKernels_h
+
+#include "Core/Parallel/InstructionSet.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// A mass with the spacing h of points at its place.
+template <int Dimension>
+struct ScaledPoint
+{
+  double X[Dimension];
+  double Spacing;
+  double Square; // of Spacing
+  double Mass;
+};
+
+// The kernel between points x and y with the spacings h and k,
+//   K = (2 h k / (h^2 + k^2))^(D/2) g(|x - y|^2 / (2 s^2 (h^2 + k^2))),  g(q) = exp(-q),
+// is the inner product of two Gaussians of unit norm and the standard deviations s h and s k, so
+// that its sums are squared norms, whatever the spacings. g has compact support: from exp(-q) its
+// tangent at `Cut` is subtracted, and it is 0 from there on.
+struct RepulsionShape
+{
+  double PerVariance; // 1 / (2 s^2)
+  double Cut;
+  double AtCut; // exp(-Cut) of these kernels
+};
+
+// Points [First, Last) of an array.
+struct PointRange
+{
+  std::int64_t First;
+  std::int64_t Last;
+};
+
+constexpr int repulsionTile = 8;
+
+// Places, and sums over the points y of m K(x, y) and its derivatives at each.
+template <int Dimension>
+struct RepulsionTile
+{
+  double X[Dimension][repulsionTile];
+  double Spacing[repulsionTile];
+  double Square[repulsionTile];
+
+  double Sum[repulsionTile];
+  double Gradient[Dimension][repulsionTile]; // by x, at constant spacing
+  double BySquare[repulsionTile];            // by Square
+};
+
+template <int Dimension>
+struct RepulsionKernels
+{
+  // Each place sums over the points of the ranges in their order.
+  void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
+    const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile);
+  double (*Exponential)(double); // exp(-q) for q in [0, 16]
+};
+
+template <int Dimension>
+RepulsionKernels<Dimension> repulsionKernelsSSE2();
+template <int Dimension>
+RepulsionKernels<Dimension> repulsionKernelsAVX2();
+template <int Dimension>
+RepulsionKernels<Dimension> repulsionKernelsAVX512();
+
+// All compute the same bits.
+template <int Dimension>
+RepulsionKernels<Dimension> repulsionKernels(InstructionSet set = instructionSet());
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one kernel source of the repulsion, compiled once per instruction set (RepulsionKernels*.cxx),
+// by the same rules as FlowKernels.txx: internal linkage, and nothing of the standard library.
+#include "Core/Relaxation/Kernels/RepulsionKernels.h"
+
+#define RT_INLINE inline __attribute__((always_inline))
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+#if defined(__AVX512F__)
+constexpr int lanes = 8;
+#elif defined(__AVX__)
+constexpr int lanes = 4;
+#else
+constexpr int lanes = 2;
+#endif
+
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+
+RT_INLINE Lanes load(const double* from)
+{
+  Lanes v;
+  __builtin_memcpy(&v, from, sizeof(v));
+  return v;
+}
+
+RT_INLINE void store(const Lanes& v, double* to)
+{
+  __builtin_memcpy(to, &v, sizeof(v));
+}
+
+RT_INLINE Lanes lesser(const Lanes& a, double b)
+{
+  const Lanes all = b - Lanes{};
+  return a < all ? a : all;
+}
+
+RT_INLINE double lesser(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+RT_INLINE double squareRoot(double a)
+{
+  return __builtin_sqrt(a);
+}
+
+RT_INLINE Lanes squareRoot(const Lanes& a)
+{
+  Lanes root;
+  for (int i = 0; i < lanes; ++i)
+  {
+    root[i] = __builtin_sqrt(a[i]);
+  }
+  return root;
+}
+
+// exp(-q) for q in [0, 16], to a few 1e-11 of it: the 16th power of the Taylor polynomial of
+// exp(-q / 16) about 1/2.
+template <class Value>
+RT_INLINE Value exponential(const Value& q)
+{
+  constexpr double middle = 0.60653065971263342; // exp(-1/2)
+  const Value t = 0.5 - q * 0.0625;
+  Value p = t * (middle / 3628800.0) + middle / 362880.0;
+  p = p * t + middle / 40320.0;
+  p = p * t + middle / 5040.0;
+  p = p * t + middle / 720.0;
+  p = p * t + middle / 120.0;
+  p = p * t + middle / 24.0;
+  p = p * t + middle / 6.0;
+  p = p * t + middle / 2.0;
+  p = p * t + middle;
+  p = p * t + middle;
+  p *= p;
+  p *= p;
+  p *= p;
+  p *= p;
+  return p;
+}
+
+template <int Dimension>
+RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
+  const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile, int lane)
+{
+  Lanes x[Dimension];
+  Lanes gradient[Dimension];
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    x[axis] = load(tile.X[axis] + lane);
+    gradient[axis] = Lanes{};
+  }
+  const Lanes twice = 2.0 * load(tile.Spacing + lane);
+  const Lanes square = load(tile.Square + lane);
+  Lanes sum = {};
+  Lanes bySquare = {};
+  for (const PointRange* range = ranges; range < ranges + count; ++range)
+  {
+    for (const auto* point = points + range->First; point < points + range->Last; ++point)
+    {
+      Lanes offset[Dimension];
+      Lanes squared = {};
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        offset[axis] = point->X[axis] - x[axis];
+        squared += offset[axis] * offset[axis];
+      }
+      const Lanes inverse = 1.0 / (square + point->Square);
+      const Lanes q = lesser(squared * inverse * shape.PerVariance, shape.Cut);
+      Lanes overlap = twice * point->Spacing * inverse;
+      if constexpr (Dimension == 3)
+      {
+        overlap *= squareRoot(overlap);
+      }
+      overlap *= point->Mass;
+      const Lanes e = exponential(q);
+      const Lanes g = e - shape.AtCut * ((1.0 + shape.Cut) - q);
+      const Lanes slope = (e - shape.AtCut) * inverse * overlap; // of -g
+      sum += overlap * g;
+      bySquare += slope * q - (0.5 * Dimension) * (overlap * inverse * g);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        gradient[axis] += slope * offset[axis];
+      }
+    }
+  }
+  store(sum, tile.Sum + lane);
+  store(bySquare + (0.25 * Dimension) * sum / square, tile.BySquare + lane);
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    store(gradient[axis] * (2.0 * shape.PerVariance), tile.Gradient[axis] + lane);
+  }
+}
+
+template <int Dimension>
+void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
+  const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile)
+{
+  for (int lane = 0; lane < repulsionTile; lane += lanes)
+  {
+    sumLanes<Dimension>(shape, points, ranges, count, tile, lane);
+  }
+}
+
+double exponentialOf(double q)
+{
+  return exponential(q);
+}
+
+} // namespace
+
+template <int Dimension>
+RepulsionKernels<Dimension> RECTIFIEDTRANSPORT_KERNELS()
+{
+  return { &sumTile<Dimension>, &exponentialOf };
+}
+
+template RepulsionKernels<2> RECTIFIEDTRANSPORT_KERNELS<2>();
+template RepulsionKernels<3> RECTIFIEDTRANSPORT_KERNELS<3>();
+
+} // namespace RectifiedTransport

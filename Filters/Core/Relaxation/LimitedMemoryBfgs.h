@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The direction of the limited-memory BFGS method (Nocedal, "Updating Quasi-Newton Matrices with
+// Limited Storage", Mathematics of Computation 35, 1980), with a diagonal first inverse Hessian.
+#ifndef RectifiedTransport_LimitedMemoryBfgs_h
+#define RectifiedTransport_LimitedMemoryBfgs_h
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// The inner product, with the same bits on any threads.
+double innerProduct(
+  const std::vector<double>& a, const std::vector<double>& b, Progress& progress);
+
+class LimitedMemoryBfgs
+{
+public:
+  explicit LimitedMemoryBfgs(std::size_t pairs)
+    : Most(pairs)
+  {
+  }
+
+  void Forget() { this->Pairs.clear(); }
+  bool IsEmpty() const { return this->Pairs.empty(); }
+  // Adds a step and the change of the gradient over it, if the curvature along it is positive.
+  void Add(std::vector<double> step, std::vector<double> change, Progress& progress);
+  // Minus the inverse Hessian times the gradient. `diagonal` is about that of the inverse Hessian,
+  // up to a factor.
+  std::vector<double> Direction(const std::vector<double>& gradient,
+    const std::vector<double>& diagonal, Progress& progress) const;
+
+private:
+  struct Pair
+  {
+    std::vector<double> Step;
+    std::vector<double> Change;
+    double Curvature; // their inner product
+  };
+
+  std::size_t Most;
+  std::vector<Pair> Pairs; // the oldest first
+};
+
+} // namespace RectifiedTransport
+
+#endif

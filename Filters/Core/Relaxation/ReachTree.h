@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tree of bounding boxes over points that reach as far as their spacings: finds those whose
+// kernels may overlap a box. Its leaves are tiles of `repulsionTile` points (the last may have
+// fewer), as the kernels take them.
+#ifndef RectifiedTransport_ReachTree_h
+#define RectifiedTransport_ReachTree_h
+
+#include "Core/Relaxation/Kernels/RepulsionKernels.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+template <int Dimension>
+class ReachTree
+{
+public:
+  // Reorders the points, in a way that depends on the set of them alone. Polls for cancellation.
+  void Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress);
+  // Finds the boxes again, after points have changed.
+  void Update();
+
+  std::int64_t Size() const { return static_cast<std::int64_t>(this->Sorted.size()); }
+  std::int64_t Tiles() const { return (this->Size() + repulsionTile - 1) / repulsionTile; }
+  ScaledPoint<Dimension>* Points() { return this->Sorted.data(); }
+  const ScaledPoint<Dimension>* Points() const { return this->Sorted.data(); }
+  // The places that the points of Build had.
+  const std::int64_t* Order() const { return this->Places.data(); }
+
+  // The points of a tile, the last of them repeated to fill it. Returns how many there are.
+  int Fill(std::int64_t tile, RepulsionTile<Dimension>& into) const;
+
+  // Adds the ranges of points y that places of a tile of `targets` may have closer than
+  // sqrt(reach * (the sum of both squared spacings)).
+  void FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
+    std::vector<PointRange>& ranges) const;
+
+private:
+  struct Box
+  {
+    double Low[Dimension];
+    double High[Dimension];
+    double Square;       // the largest squared spacing
+    std::int64_t First;  // tiles [First, Last)
+    std::int64_t Last;
+    std::int64_t Second; // the first child is the next box; -1 in a leaf
+  };
+
+  Box BoundsOf(std::int64_t firstPoint, std::int64_t lastPoint) const;
+
+  std::vector<ScaledPoint<Dimension>> Sorted;
+  std::vector<std::int64_t> Places;
+  std::vector<Box> Boxes;
+  std::vector<std::int64_t> TileBox;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isotropic coordinates on the domain of a relaxation, in units of the mean spacing of its points.
+#ifndef RectifiedTransport_RelaxationFrame_h
+#define RectifiedTransport_RelaxationFrame_h
+
+#include "Core/Geometry/GridSize.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+struct RelaxationFrame
+{
+  // Throws std::invalid_argument unless the sides of a grid cell are positive and finite.
+  RelaxationFrame(
+    const GridSize<Dimension>& size, const Point<Dimension>& spacing, std::int64_t points);
+
+  // The side of a cube with a measure in the domain, whose thin axes it covers.
+  double SideOf(double measure) const;
+  // Of a measure in grid cells.
+  double SideOfCells(double cells) const;
+
+  Point<Dimension> Sides;     // of the domain
+  Point<Dimension> CellSides; // of a grid cell
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Relaxation/RepulsionEnergy.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 256;
+constexpr std::int64_t tileGrain = 16;
+
+template <int Dimension>
+ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, double mass)
+{
+  ScaledPoint<Dimension> point;
+  std::copy_n(x.begin(), Dimension, point.X);
+  point.Spacing = spacing;
+  point.Square = spacing * spacing;
+  point.Mass = mass;
+  return point;
+}
+
+} // namespace
+
+template <int Dimension>
+RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow,
+  const RelaxationFrame<Dimension>& frame, const SpacingTree<Dimension>& tree, std::int64_t points,
+  const RepulsionWidth& width, Progress& progress)
+  : Flow(flow)
+  , Frame(frame)
+  , Tree(tree)
+  , Count(static_cast<double>(points))
+  , Kernels(repulsionKernels<Dimension>())
+{
+  this->Shape.PerVariance = 0.5 / (width.Deviation * width.Deviation);
+  this->Shape.Cut = width.Cut;
+  this->Shape.AtCut = this->Kernels.Exponential(width.Cut);
+  this->Reach = width.Cut / this->Shape.PerVariance;
+  this->FindSources(progress);
+  this->FindAttraction(progress);
+}
+
+// The masses of the leaves at their centroids, found from those of their halves along all axes.
+template <int Dimension>
+void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
+{
+  std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
+  progress.For(this->Tree.Leaves(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t leaf = first; leaf < last; ++leaf)
+    {
+      const Point<Dimension> low = this->Tree.LeafLow(leaf);
+      const Point<Dimension> sides = this->Tree.LeafSides(leaf);
+      double mass = 0.0;
+      Point<Dimension> centroid{};
+      for (int part = 0; part < hermiteCorners<Dimension>; ++part)
+      {
+        Point<Dimension> lowIndex;
+        Point<Dimension> highIndex;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
+          lowIndex[axis] = from / this->Frame.CellSides[axis];
+          highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
+        }
+        const double share = this->Flow.Share(lowIndex, highIndex);
+        mass += share;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
+        }
+      }
+      double spacing = 1.0;
+      if (mass > 0.0)
+      {
+        typename SpacingTree<Dimension>::Place place{ leaf, {} };
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          place.At[axis] = centroid[axis] / mass;
+          centroid[axis] = low[axis] + place.At[axis] * sides[axis];
+        }
+        spacing = this->Tree.Evaluate(this->Tree.Spacing(), place)[0];
+      }
+      sources[static_cast<std::size_t>(leaf)] =
+        scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
+    }
+  });
+  sources.erase(std::remove_if(sources.begin(), sources.end(),
+                  [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
+    sources.end());
+  this->Sources.Build(std::move(sources), progress);
+}
+
+template <int Dimension>
+void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
+{
+  std::vector<ScaledPoint<Dimension>> nodes(static_cast<std::size_t>(this->Tree.Nodes()));
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+  {
+    nodes[node] = scaledPoint<Dimension>(
+      this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
+  }
+  ReachTree<Dimension> targets;
+  targets.Build(std::move(nodes), progress);
+  this->Attraction.assign(static_cast<std::size_t>(this->Tree.Nodes()), {});
+  progress.For(
+    targets.Tiles(), tileGrain,
+    [&](std::int64_t first, std::int64_t last) {
+      std::vector<PointRange> ranges;
+      RepulsionTile<Dimension> tile;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        this->Sources.FindInReach(targets, i, this->Reach, ranges);
+        const int count = targets.Fill(i, tile);
+        this->Kernels.Sum(this->Shape, this->Sources.Points(), ranges.data(),
+          static_cast<std::int64_t>(ranges.size()), tile);
+        for (int lane = 0; lane < count; ++lane)
+        {
+          const auto node =
+            static_cast<std::size_t>(targets.Order()[i * repulsionTile + lane]);
+          HermiteData<Dimension>& data = this->Attraction[node];
+          const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
+          data[0] = tile.Sum[lane];
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            const auto entry = std::size_t{ 1 } << axis;
+            data[entry] = tile.Gradient[axis][lane] +
+              2.0 * spacing[0] * spacing[entry] * tile.BySquare[lane];
+          }
+        }
+      }
+    },
+    tileGrain);
+  this->Tree.FindMixed(this->Attraction, false, progress);
+  const ScaledPoint<Dimension>* sources = this->Sources.Points();
+  this->Constant = reduceChunks(
+    progress, this->Sources.Size(), grain, 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        Point<Dimension> x;
+        std::copy_n(sources[i].X, Dimension, x.begin());
+        sum += sources[i].Mass * this->Tree.Evaluate(this->Attraction, this->Tree.Locate(x))[0];
+      }
+      return sum;
+    },
+    [](double a, double b) { return a + b; });
+}
+
+template <int Dimension>
+void RepulsionEnergy<Dimension>::Sort(ConstPointSpan<Dimension> points, Progress& progress)
+{
+  std::vector<ScaledPoint<Dimension>> particles(static_cast<std::size_t>(points.size()));
+  for (std::int64_t i = 0; i < points.size(); ++i)
+  {
+    Point<Dimension> x;
+    std::copy_n(points[i], Dimension, x.begin());
+    particles[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, 1.0, 1.0);
+  }
+  this->Particles.Build(std::move(particles), progress);
+}
+
+template <int Dimension>
+double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
+  PointSpan<Dimension> gradient, double* spacings, Progress& progress)
+{
+  using Data = HermiteData<Dimension>;
+  const std::int64_t count = points.size();
+  const std::int64_t* order = this->Particles.Order();
+  ScaledPoint<Dimension>* particles = this->Particles.Points();
+  std::vector<Data> spacing(static_cast<std::size_t>(count));
+  std::vector<Data> attraction(static_cast<std::size_t>(count));
+  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      Point<Dimension> x;
+      std::copy_n(points[order[i]], Dimension, x.begin());
+      const auto place = this->Tree.Locate(x);
+      const auto at = static_cast<std::size_t>(i);
+      spacing[at] = this->Tree.Evaluate(this->Tree.Spacing(), place);
+      attraction[at] = this->Tree.Evaluate(this->Attraction, place);
+      particles[i] = scaledPoint<Dimension>(x, spacing[at][0], 1.0);
+      spacings[order[i]] = spacing[at][0];
+    }
+  });
+  this->Particles.Update();
+  const double scale = 2.0 / this->Count;
+  std::vector<double> energies(static_cast<std::size_t>(this->Particles.Tiles()));
+  progress.For(
+    this->Particles.Tiles(), tileGrain,
+    [&](std::int64_t first, std::int64_t last) {
+      std::vector<PointRange> ranges;
+      RepulsionTile<Dimension> tile;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        this->Particles.FindInReach(this->Particles, i, this->Reach, ranges);
+        const int filled = this->Particles.Fill(i, tile);
+        this->Kernels.Sum(this->Shape, particles, ranges.data(),
+          static_cast<std::int64_t>(ranges.size()), tile);
+        double sum = 0.0;
+        for (int lane = 0; lane < filled; ++lane)
+        {
+          const std::int64_t point = i * repulsionTile + lane;
+          const Data& h = spacing[static_cast<std::size_t>(point)];
+          const Data& a = attraction[static_cast<std::size_t>(point)];
+          sum += tile.Sum[lane] - 2.0 * a[0];
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            const auto entry = std::size_t{ 1 } << axis;
+            gradient[order[point]][axis] = scale *
+              (tile.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * tile.BySquare[lane] -
+                a[entry]);
+          }
+        }
+        energies[static_cast<std::size_t>(i)] = sum;
+      }
+    },
+    tileGrain);
+  double sum = this->Constant;
+  for (const double energy : energies)
+  {
+    sum += energy;
+  }
+  return sum / this->Count;
+}
+
+template class RepulsionEnergy<2>;
+template class RepulsionEnergy<3>;
+
+} // namespace RectifiedTransport

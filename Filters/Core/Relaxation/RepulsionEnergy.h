@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The energy that relaxByRepulsion lowers, and its gradient.
+#ifndef RectifiedTransport_RepulsionEnergy_h
+#define RectifiedTransport_RepulsionEnergy_h
+
+#include "Core/Relaxation/ReachTree.h"
+#include "Core/Relaxation/SpacingTree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+struct RepulsionWidth
+{
+  double Deviation; // of the Gaussians, in spacings
+  double Cut;       // exp(-Cut) is where the kernel ends
+};
+
+// The points x and the density n, whose mass is their number N, are blurred by Gaussians; the
+// energy is the squared norm of the difference,
+//   E = 1/N (sum over points of K(x, y) - 2 sum of A(x) + integral of n A),  A(x) = integral of n K,
+// with K of RepulsionShape: 1 on the average for independent random points, 0 at best. A does not
+// depend on the points and is interpolated in the tree. Coordinates are those of a RelaxationFrame.
+template <int Dimension>
+class RepulsionEnergy
+{
+public:
+  RepulsionEnergy(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
+    const SpacingTree<Dimension>& tree, std::int64_t points, const RepulsionWidth& width,
+    Progress& progress);
+
+  // Sorts the points for Evaluate; again after large displacements, for speed.
+  void Sort(ConstPointSpan<Dimension> points, Progress& progress);
+  // Returns the energy and writes its gradient by the coordinates of the points, and their
+  // spacings.
+  double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient,
+    double* spacings, Progress& progress);
+
+private:
+  void FindSources(Progress& progress);
+  void FindAttraction(Progress& progress);
+
+  const RectifiedFlow<Dimension>& Flow;
+  const RelaxationFrame<Dimension> Frame;
+  const SpacingTree<Dimension>& Tree;
+  const double Count;
+  const RepulsionKernels<Dimension> Kernels;
+  RepulsionShape Shape;
+  double Reach; // squared distance a sum of squared spacings
+  ReachTree<Dimension> Sources;
+  typename SpacingTree<Dimension>::Field Attraction; // A
+  double Constant = 0.0;
+  ReachTree<Dimension> Particles;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Relaxation/SpacingTree.h"
+
+#include "Core/Geometry/ReproducibleMath.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <unordered_map>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 256;
+constexpr double rootSide = 4.0; // spacings
+
+template <int Dimension>
+struct NodeHash
+{
+  std::size_t operator()(const std::array<std::int64_t, Dimension>& node) const
+  {
+    std::uint64_t hash = 0;
+    for (const std::int64_t coordinate : node)
+    {
+      hash = mixBits(hash ^ static_cast<std::uint64_t>(coordinate));
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+} // namespace
+
+template <int Dimension>
+SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
+  const RelaxationFrame<Dimension>& frame, std::int64_t points, double finest, Progress& progress)
+  : Flow(flow)
+  , Frame(frame)
+  , Points(points)
+{
+  const double widest = *std::max_element(frame.CellSides.begin(), frame.CellSides.end());
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    this->Aspect[axis] = widest / frame.CellSides[axis];
+    this->Roots[axis] =
+      std::max<std::int64_t>(1, std::llround(std::floor(frame.Sides[axis] / rootSide)));
+    this->RootSides[axis] = frame.Sides[axis] / static_cast<double>(this->Roots[axis]);
+  }
+  this->Divide(finest, progress);
+  this->Number(progress);
+  this->FindSpacing(progress);
+}
+
+template <int Dimension>
+double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
+{
+  Point<Dimension> index;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    index[axis] = std::clamp(x[axis] / this->Frame.CellSides[axis], 0.0,
+      static_cast<double>(this->Flow.Size()[axis]));
+  }
+  return this->Frame.SideOfCells(
+    this->Flow.MeasureOfShare(index, this->Aspect, 1.0 / static_cast<double>(this->Points)));
+}
+
+// Level by level.
+template <int Dimension>
+void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
+{
+  const auto roots = static_cast<std::int64_t>(numberOfCells<Dimension>(this->Roots));
+  for (std::int64_t root = 0; root < roots; ++root)
+  {
+    std::int64_t rest = root;
+    Box box{};
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      box.Low[axis] = rest % this->Roots[axis] * this->Width(0);
+      rest /= this->Roots[axis];
+    }
+    this->Boxes.push_back(box);
+  }
+  std::size_t first = 0;
+  for (int depth = 0; first < this->Boxes.size(); ++depth)
+  {
+    const std::size_t last = this->Boxes.size();
+    std::vector<char> divided(last - first, 0);
+    const double part = std::ldexp(1.0, -depth);
+    const double widest =
+      part * *std::max_element(this->RootSides.begin(), this->RootSides.end());
+    if (depth < DeepestLevel)
+    {
+      progress.For(static_cast<std::int64_t>(divided.size()), grain,
+        [&](std::int64_t begin, std::int64_t end) {
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            Point<Dimension> centre =
+              this->PointOf(this->Boxes[first + static_cast<std::size_t>(i)].Low);
+            for (int axis = 0; axis < Dimension; ++axis)
+            {
+              centre[axis] += 0.5 * part * this->RootSides[axis];
+            }
+            divided[static_cast<std::size_t>(i)] = widest > finest * this->ExactSpacing(centre);
+          }
+        },
+        4 * grain);
+    }
+    for (std::size_t i = first; i < last; ++i)
+    {
+      if (!divided[i - first])
+      {
+        this->Boxes[i].First = -1 - static_cast<std::int64_t>(this->LeafBoxes.size());
+        this->LeafBoxes.push_back(static_cast<std::int64_t>(i));
+        continue;
+      }
+      this->Boxes[i].First = static_cast<std::int64_t>(this->Boxes.size());
+      for (int child = 0; child < hermiteCorners<Dimension>; ++child)
+      {
+        Box box = this->Boxes[i];
+        ++box.Depth;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          box.Low[axis] += (child >> axis & 1) * this->Width(box.Depth);
+        }
+        this->Boxes.push_back(box);
+      }
+    }
+    first = last;
+  }
+}
+
+template <int Dimension>
+void SpacingTree<Dimension>::Number(Progress& progress)
+{
+  std::unordered_map<Node, std::int32_t, NodeHash<Dimension>> numbers;
+  numbers.reserve(2 * this->LeafBoxes.size());
+  this->LeafNodes.resize(this->LeafBoxes.size());
+  for (std::int64_t leaf = 0; leaf < this->Leaves(); ++leaf)
+  {
+    const Box& box = this->LeafBox(leaf);
+    for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
+    {
+      Node node = box.Low;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        node[axis] += (corner >> axis & 1) * this->Width(box.Depth);
+      }
+      const auto [at, isNew] =
+        numbers.try_emplace(node, static_cast<std::int32_t>(this->NodePlaces.size()));
+      if (isNew)
+      {
+        if (this->NodePlaces.size() >= std::size_t{ 1 } << 31)
+        {
+          throw std::bad_alloc();
+        }
+        this->NodePlaces.push_back(node);
+      }
+      this->LeafNodes[static_cast<std::size_t>(leaf)][static_cast<std::size_t>(corner)] =
+        at->second;
+    }
+    progress.Add(1);
+  }
+  this->NodeLeaf.resize(this->NodePlaces.size());
+  progress.For(this->Nodes(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t node = first; node < last; ++node)
+    {
+      this->NodeLeaf[static_cast<std::size_t>(node)] =
+        this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
+    }
+  });
+  for (std::int64_t i = 0; i < this->Nodes(); ++i)
+  {
+    const auto node = static_cast<std::size_t>(i);
+    const std::int64_t width = this->Width(this->LeafBox(this->NodeLeaf[node]).Depth);
+    for (const std::int64_t coordinate : this->NodePlaces[node])
+    {
+      if (coordinate % width != 0)
+      {
+        this->Constrained.push_back(static_cast<std::int32_t>(i));
+        break;
+      }
+    }
+  }
+  std::stable_sort(
+    this->Constrained.begin(), this->Constrained.end(), [this](std::int32_t a, std::int32_t b) {
+      return this->LeafBox(this->NodeLeaf[static_cast<std::size_t>(a)]).Depth <
+        this->LeafBox(this->NodeLeaf[static_cast<std::size_t>(b)]).Depth;
+    });
+}
+
+template <int Dimension>
+std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
+{
+  std::int64_t widest = -1;
+  for (int side = 0; side < hermiteCorners<Dimension>; ++side)
+  {
+    std::int64_t root = 0;
+    bool isInside = true;
+    for (int axis = Dimension; axis-- > 0;)
+    {
+      // The root above or below the node.
+      const std::int64_t at =
+        (side >> axis & 1) ? node[axis] / this->Width(0) : (node[axis] - 1) / this->Width(0);
+      isInside = isInside && at < this->Roots[axis] && (node[axis] > 0 || (side >> axis & 1));
+      root = root * this->Roots[axis] + at;
+    }
+    if (!isInside)
+    {
+      continue;
+    }
+    const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
+    while (box->First >= 0)
+    {
+      int child = 0;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const std::int64_t middle = box->Low[axis] + this->Width(box->Depth + 1);
+        const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
+        child |= isUpper ? 1 << axis : 0;
+      }
+      box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+    }
+    const std::int64_t leaf = -1 - box->First;
+    if (widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth)
+    {
+      widest = leaf;
+    }
+  }
+  return widest;
+}
+
+template <int Dimension>
+Point<Dimension> SpacingTree<Dimension>::PointOf(const Node& node) const
+{
+  Point<Dimension> point;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double roots =
+      static_cast<double>(node[axis]) / static_cast<double>(this->Width(0));
+    point[axis] = std::min(roots * this->RootSides[axis], this->Frame.Sides[axis]);
+  }
+  return point;
+}
+
+template <int Dimension>
+Point<Dimension> SpacingTree<Dimension>::NodePoint(std::int64_t node) const
+{
+  return this->PointOf(this->NodePlaces[static_cast<std::size_t>(node)]);
+}
+
+template <int Dimension>
+Point<Dimension> SpacingTree<Dimension>::LeafLow(std::int64_t leaf) const
+{
+  return this->PointOf(this->LeafBox(leaf).Low);
+}
+
+template <int Dimension>
+Point<Dimension> SpacingTree<Dimension>::LeafSides(std::int64_t leaf) const
+{
+  Point<Dimension> sides = this->RootSides;
+  for (double& side : sides)
+  {
+    side = std::ldexp(side, -this->LeafBox(leaf).Depth);
+  }
+  return sides;
+}
+
+template <int Dimension>
+typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
+  const Point<Dimension>& x) const
+{
+  Place place{};
+  std::int64_t root = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const double roots = std::max(x[axis] / this->RootSides[axis], 0.0);
+    const std::int64_t at =
+      std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
+    place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
+    root = root * this->Roots[axis] + at;
+  }
+  const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
+  while (box->First >= 0)
+  {
+    int child = 0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double twice = 2.0 * place.At[axis];
+      const bool isUpper = twice >= 1.0;
+      place.At[axis] = isUpper ? twice - 1.0 : twice;
+      child |= isUpper ? 1 << axis : 0;
+    }
+    box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+  }
+  place.Leaf = -1 - box->First;
+  return place;
+}
+
+template <int Dimension>
+HermiteData<Dimension> SpacingTree<Dimension>::Evaluate(
+  const Field& field, const Place& place) const
+{
+  std::array<const double*, hermiteCorners<Dimension>> corners;
+  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
+  for (std::size_t corner = 0; corner < corners.size(); ++corner)
+  {
+    corners[corner] = field[static_cast<std::size_t>(nodes[corner])].data();
+  }
+  return interpolateHermite<Dimension>(corners, place.At, this->LeafSides(place.Leaf));
+}
+
+template <int Dimension>
+double SpacingTree<Dimension>::Linear(
+  const Field& field, int entry, const Point<Dimension>& x) const
+{
+  const Place place = this->Locate(x);
+  const auto& nodes = this->LeafNodes[static_cast<std::size_t>(place.Leaf)];
+  double sum = 0.0;
+  for (int corner = 0; corner < hermiteCorners<Dimension>; ++corner)
+  {
+    double weight = 1.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      weight *= (corner >> axis & 1) ? place.At[axis] : 1.0 - place.At[axis];
+    }
+    const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(corner)]);
+    sum += weight * field[node][static_cast<std::size_t>(entry)];
+  }
+  return sum;
+}
+
+template <int Dimension>
+void SpacingTree<Dimension>::Join(Field& field) const
+{
+  for (const std::int32_t i : this->Constrained)
+  {
+    const auto node = static_cast<std::size_t>(i);
+    Place place{ this->NodeLeaf[node], {} };
+    const Box& box = this->LeafBox(place.Leaf);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      place.At[axis] = static_cast<double>(this->NodePlaces[node][axis] - box.Low[axis]) /
+        static_cast<double>(this->Width(box.Depth));
+    }
+    field[node] = this->Evaluate(field, place);
+  }
+}
+
+template <int Dimension>
+void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progress) const
+{
+  const Field given = field;
+  progress.For(this->Nodes(), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const auto node = static_cast<std::size_t>(i);
+      const Point<Dimension> x = this->NodePoint(i);
+      const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
+      // The difference of an entry along an axis, one-sided at the border.
+      const auto difference = [&](int entry, int axis) {
+        Point<Dimension> low = x;
+        Point<Dimension> high = x;
+        low[axis] = std::max(x[axis] - sides[axis], 0.0);
+        high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
+        return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
+          (high[axis] - low[axis]);
+      };
+      for (int axis = 0; axis < Dimension && first; ++axis)
+      {
+        field[node][std::size_t{ 1 } << axis] = difference(0, axis);
+      }
+      if (!first)
+      {
+        for (int a = 0; a < Dimension; ++a)
+        {
+          for (int b = 0; b < a; ++b)
+          {
+            field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
+              0.5 * (difference(1 << a, b) + difference(1 << b, a));
+          }
+        }
+      }
+    }
+  });
+  if (!first)
+  {
+    this->Join(field);
+  }
+}
+
+template <int Dimension>
+void SpacingTree<Dimension>::FindSpacing(Progress& progress)
+{
+  Field& field = this->SpacingField;
+  field.assign(this->NodePlaces.size(), {});
+  progress.For(
+    this->Nodes(), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t node = first; node < last; ++node)
+      {
+        field[static_cast<std::size_t>(node)][0] = this->ExactSpacing(this->NodePoint(node));
+      }
+    },
+    4 * grain);
+  this->FindMixed(field, true, progress);
+  this->FindMixed(field, false, progress);
+  // Bounds of the control values of the interpolation (value and derivatives times a third of the
+  // side for each order) that keep it positive.
+  for (std::int64_t i = 0; i < this->Nodes(); ++i)
+  {
+    const auto node = static_cast<std::size_t>(i);
+    const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
+    for (int entry = 1; entry < hermiteCorners<Dimension>; ++entry)
+    {
+      double bound = field[node][0];
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        bound *= (entry >> axis & 1) ? 0.6 / sides[axis] : 1.0;
+      }
+      double& value = field[node][static_cast<std::size_t>(entry)];
+      value = std::clamp(value, -bound, bound);
+    }
+  }
+  this->Join(field);
+}
+
+template class SpacingTree<2>;
+template class SpacingTree<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tree of boxes that divides the domain as finely as a density wants its points to be spaced, and
+// smooth functions on it.
+#ifndef RectifiedTransport_SpacingTree_h
+#define RectifiedTransport_SpacingTree_h
+
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Relaxation/HermiteCell.h"
+#include "Core/Relaxation/RelaxationFrame.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
+// smallest cube about it that holds a point's share of the mass; it changes by at most twice the
+// distance (the largest along an axis). A leaf is at most `finest` times the spacing at its centre
+// wide: there is a bounded number of leaves a point.
+template <int Dimension>
+class SpacingTree
+{
+public:
+  using Node = std::array<std::int64_t, Dimension>; // in units of the finest leaf possible
+  using Field = std::vector<HermiteData<Dimension>>; // data at the nodes
+
+  SpacingTree(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
+    std::int64_t points, double finest, Progress& progress);
+
+  // The corners of the leaves.
+  std::int64_t Nodes() const { return static_cast<std::int64_t>(this->NodePlaces.size()); }
+  Point<Dimension> NodePoint(std::int64_t node) const;
+
+  std::int64_t Leaves() const { return static_cast<std::int64_t>(this->LeafBoxes.size()); }
+  Point<Dimension> LeafLow(std::int64_t leaf) const;
+  Point<Dimension> LeafSides(std::int64_t leaf) const;
+
+  // A place in a leaf.
+  struct Place
+  {
+    std::int64_t Leaf;
+    Point<Dimension> At; // in [0, 1]
+  };
+  Place Locate(const Point<Dimension>& x) const;
+
+  // A function at a place: its value and derivatives, see HermiteData.
+  HermiteData<Dimension> Evaluate(const Field& field, const Place& place) const;
+
+  // Of nodes that are within a face of a larger leaf, replaces the data by its interpolation, so
+  // that the function has continuous derivatives.
+  void Join(Field& field) const;
+  // Finds the derivatives of second order from differences of those of first order, or those of
+  // first order, too, from differences of values; then as Join.
+  void FindMixed(Field& field, bool first, Progress& progress) const;
+
+  // The spacing.
+  const Field& Spacing() const { return this->SpacingField; }
+  // Evaluates the definition.
+  double ExactSpacing(const Point<Dimension>& x) const;
+
+private:
+  struct Box
+  {
+    Node Low;
+    int Depth;
+    std::int64_t First; // of its children, which follow each other; -1 - leaf in a leaf
+  };
+
+  void Divide(double finest, Progress& progress);
+  void Number(Progress& progress);
+  void FindSpacing(Progress& progress);
+  std::int64_t Width(int depth) const { return std::int64_t{ 1 } << (DeepestLevel - depth); }
+  Point<Dimension> PointOf(const Node& node) const;
+  const Box& LeafBox(std::int64_t leaf) const
+  {
+    return this->Boxes[static_cast<std::size_t>(this->LeafBoxes[static_cast<std::size_t>(leaf)])];
+  }
+  // The widest leaf that touches a node.
+  std::int64_t WidestLeafAt(const Node& node) const;
+  // Multilinear interpolation of one entry of the data.
+  double Linear(const Field& field, int entry, const Point<Dimension>& x) const;
+
+  static constexpr int DeepestLevel = 24;
+
+  const RectifiedFlow<Dimension>& Flow;
+  const RelaxationFrame<Dimension> Frame;
+  const std::int64_t Points;
+  Node Roots;
+  Point<Dimension> RootSides;
+  Point<Dimension> Aspect;
+  std::vector<Box> Boxes;
+  std::vector<std::int64_t> LeafBoxes;
+  std::vector<std::array<std::int32_t, hermiteCorners<Dimension>>> LeafNodes;
+  std::vector<Node> NodePlaces;
+  std::vector<std::int64_t> NodeLeaf;   // the widest leaf that touches a node
+  std::vector<std::int32_t> Constrained; // nodes within faces, those of the widest leaves first
+  Field SpacingField;
+};
+
+} // namespace RectifiedTransport
+
+#endif
