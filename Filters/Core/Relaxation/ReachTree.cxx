@@ -130,7 +130,10 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
     sortAlong(task, axis, middle);
     tasks.push_back({ middle, task.Last, at });
     tasks.push_back({ task.First, middle, -1 });
-    progress.Check();
+    if (task.Last - task.First > 64)
+    {
+      progress.Check();
+    }
   }
   this->Places.resize(this->Sorted.size());
   for (std::size_t i = 0; i < sort.size(); ++i)
@@ -191,12 +194,22 @@ int ReachTree<Dimension>::Fill(std::int64_t tile, RepulsionTile<Dimension>& into
 
 template <int Dimension>
 void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
-  std::vector<PointRange>& ranges) const
+  std::vector<ScaledPoint<Dimension>>& found) const
 {
   const Box& target =
     targets.Boxes[static_cast<std::size_t>(targets.TileBox[static_cast<std::size_t>(tile)])];
-  ranges.clear();
-  std::int64_t stack[64];
+  const auto isInReach = [&](const double* low, const double* high, double square) {
+    double squared = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double gap =
+        std::max({ low[axis] - target.High[axis], target.Low[axis] - high[axis], 0.0 });
+      squared += gap * gap;
+    }
+    return squared < reach * (square + target.Square);
+  };
+  found.clear();
+  std::int64_t stack[64]; // more than the tree's depth
   int depth = 0;
   if (!this->Boxes.empty())
   {
@@ -206,14 +219,7 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t ti
   {
     const std::int64_t at = stack[--depth];
     const Box& box = this->Boxes[static_cast<std::size_t>(at)];
-    double squared = 0.0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const double gap = std::max(
-        { box.Low[axis] - target.High[axis], target.Low[axis] - box.High[axis], 0.0 });
-      squared += gap * gap;
-    }
-    if (squared > reach * (box.Square + target.Square))
+    if (!isInReach(box.Low, box.High, box.Square))
     {
       continue;
     }
@@ -224,14 +230,13 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t ti
       continue;
     }
     const std::int64_t first = box.First * repulsionTile;
-    const std::int64_t last = std::min(box.Last * repulsionTile, this->Size());
-    if (!ranges.empty() && ranges.back().Last == first)
+    const std::int64_t last = std::min(first + repulsionTile, this->Size());
+    for (const auto* point = this->Points() + first; point < this->Points() + last; ++point)
     {
-      ranges.back().Last = last;
-    }
-    else
-    {
-      ranges.push_back({ first, last });
+      if (isInReach(point->X, point->X, point->Square))
+      {
+        found.push_back(*point);
+      }
     }
   }
 }

@@ -5,8 +5,10 @@
 #ifndef RectifiedTransport_ReachTree_h
 #define RectifiedTransport_ReachTree_h
 
+#include "Core/Geometry/Points.h"
 #include "Core/Relaxation/Kernels/RepulsionKernels.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +16,17 @@ namespace RectifiedTransport
 {
 
 class Progress;
+
+template <int Dimension>
+ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, double mass)
+{
+  ScaledPoint<Dimension> point;
+  std::copy_n(x.begin(), Dimension, point.X);
+  point.Spacing = spacing;
+  point.Square = spacing * spacing;
+  point.Mass = mass;
+  return point;
+}
 
 template <int Dimension>
 class ReachTree
@@ -34,10 +47,10 @@ public:
   // The points of a tile, the last of them repeated to fill it. Returns how many there are.
   int Fill(std::int64_t tile, RepulsionTile<Dimension>& into) const;
 
-  // Adds the ranges of points y that places of a tile of `targets` may have closer than
+  // Finds the points y to which places of a tile of `targets` may be closer than
   // sqrt(reach * (the sum of both squared spacings)).
   void FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
-    std::vector<PointRange>& ranges) const;
+    std::vector<ScaledPoint<Dimension>>& found) const;
 
 private:
   struct Box

@@ -15,17 +15,6 @@ namespace
 constexpr std::int64_t grain = 256;
 constexpr std::int64_t tileGrain = 16;
 
-template <int Dimension>
-ScaledPoint<Dimension> scaledPoint(const Point<Dimension>& x, double spacing, double mass)
-{
-  ScaledPoint<Dimension> point;
-  std::copy_n(x.begin(), Dimension, point.X);
-  point.Spacing = spacing;
-  point.Square = spacing * spacing;
-  point.Mass = mass;
-  return point;
-}
-
 } // namespace
 
 template <int Dimension>
@@ -41,7 +30,7 @@ RepulsionEnergy<Dimension>::RepulsionEnergy(const RectifiedFlow<Dimension>& flow
   this->Shape.PerVariance = 0.5 / (width.Deviation * width.Deviation);
   this->Shape.Cut = width.Cut;
   this->Shape.AtCut = this->Kernels.Exponential(width.Cut);
-  this->Reach = width.Cut / this->Shape.PerVariance;
+  this->Reach = width.Reach();
   this->FindSources(progress);
   this->FindAttraction(progress);
 }
@@ -111,14 +100,14 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   progress.For(
     targets.Tiles(), tileGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<PointRange> ranges;
+      std::vector<ScaledPoint<Dimension>> found;
       RepulsionTile<Dimension> tile;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Sources.FindInReach(targets, i, this->Reach, ranges);
+        this->Sources.FindInReach(targets, i, this->Reach, found);
         const int count = targets.Fill(i, tile);
-        this->Kernels.Sum(this->Shape, this->Sources.Points(), ranges.data(),
-          static_cast<std::int64_t>(ranges.size()), tile);
+        this->Kernels.Sum(
+          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
         for (int lane = 0; lane < count; ++lane)
         {
           const auto node =
@@ -195,14 +184,14 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   progress.For(
     this->Particles.Tiles(), tileGrain,
     [&](std::int64_t first, std::int64_t last) {
-      std::vector<PointRange> ranges;
+      std::vector<ScaledPoint<Dimension>> found;
       RepulsionTile<Dimension> tile;
       for (std::int64_t i = first; i < last; ++i)
       {
-        this->Particles.FindInReach(this->Particles, i, this->Reach, ranges);
+        this->Particles.FindInReach(this->Particles, i, this->Reach, found);
         const int filled = this->Particles.Fill(i, tile);
-        this->Kernels.Sum(this->Shape, particles, ranges.data(),
-          static_cast<std::int64_t>(ranges.size()), tile);
+        this->Kernels.Sum(
+          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {

@@ -16,6 +16,9 @@ struct RepulsionWidth
 {
   double Deviation; // of the Gaussians, in spacings
   double Cut;       // exp(-Cut) is where the kernel ends
+
+  // The squared distance there, for each unit of the sum of two squared spacings.
+  double Reach() const { return 2.0 * this->Cut * this->Deviation * this->Deviation; }
 };
 
 // The points x and the density n, whose mass is their number N, are blurred by Gaussians; the
@@ -48,7 +51,7 @@ private:
   const double Count;
   const RepulsionKernels<Dimension> Kernels;
   RepulsionShape Shape;
-  double Reach; // squared distance a sum of squared spacings
+  double Reach;
   ReachTree<Dimension> Sources;
   typename SpacingTree<Dimension>::Field Attraction; // A
   double Constant = 0.0;

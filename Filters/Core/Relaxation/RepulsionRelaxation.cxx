@@ -2,16 +2,17 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/BlueNoiseRelaxation.h"
-#include "Core/Relaxation/LimitedMemoryBfgs.h"
-#include "Core/Relaxation/RepulsionEnergy.h"
+#include "Core/Relaxation/RepulsionDescent.h"
+#include "Core/Relaxation/SpacingLimit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace RectifiedTransport
 {
@@ -25,9 +26,6 @@ double tune(const char* name, double value)
   return text ? std::atof(text) : value;
 }
 
-constexpr std::int64_t grain = 1024;
-constexpr double setUp = 0.2; // its part of the progress
-
 void check(const RelaxationOptions& options)
 {
   if (options.MaximumIterations < 0)
@@ -39,6 +37,29 @@ void check(const RelaxationOptions& options)
   {
     throw std::invalid_argument("Tolerance is " + std::to_string(options.Tolerance) +
       ", it must be at least 0 and below 1");
+  }
+}
+
+// Sorts in pieces, between which it polls for cancellation.
+template <class Less>
+void sortInPieces(std::vector<std::int64_t>& values, const Less& less, Progress& progress)
+{
+  const auto count = static_cast<std::ptrdiff_t>(values.size());
+  const auto begin = values.begin();
+  std::ptrdiff_t piece = std::ptrdiff_t{ 1 } << 15;
+  for (std::ptrdiff_t first = 0; first < count; first += piece)
+  {
+    std::sort(begin + first, begin + std::min(first + piece, count), less);
+    progress.Check();
+  }
+  for (; piece < count; piece *= 2)
+  {
+    for (std::ptrdiff_t first = 0; first + piece < count; first += 2 * piece)
+    {
+      std::inplace_merge(
+        begin + first, begin + first + piece, begin + std::min(first + 2 * piece, count), less);
+      progress.Check();
+    }
   }
 }
 
@@ -61,29 +82,45 @@ public:
     {
       return { { 0.0 } };
     }
-    this->Work.BeginStage(setUp);
+    this->Work.BeginStage(0.05);
     this->Read();
-    const SpacingTree<Dimension> tree(this->Flow, this->Frame, this->Points.size(),
-      tune("RT_FINEST", Dimension == 2 ? 0.5 : 1.0), this->Work);
-    this->Separate(tree);
-    RepulsionEnergy<Dimension> energy(this->Flow, this->Frame, tree, this->Points.size(),
-      { tune("RT_S", 0.6), tune("RT_CUT", 13.8) }, this->Work);
-    energy.Sort(this->Span(this->X), this->Work);
-    RelaxationReport report{ this->Minimize(energy, options) };
+    const RepulsionWidth width{ tune("RT_S", Dimension == 2 ? 0.5 : 0.45), tune("RT_CUT", 13.8) };
+    this->MakeTree(std::numeric_limits<double>::infinity());
+    this->Separate();
+    const double limit = affordableSpacing<Dimension>(
+      *this->Tree, { this->X.data(), this->Points.size() }, width.Reach(), this->Work);
+    if (!std::isinf(limit))
+    {
+      this->MakeTree(limit);
+    }
+    this->Arrange();
+    this->Work.BeginStage(0.2);
+    RepulsionEnergy<Dimension> energy(
+      this->Flow, this->Frame, *this->Tree, this->Points.size(), width, this->Work);
+    RepulsionDescent<Dimension> descent(energy, this->Frame, this->X, this->Work);
+    RelaxationReport report{ { descent.Energy() } };
+    const int most = options.MaximumIterations;
+    for (int iteration = 0; iteration < most; ++iteration)
+    {
+      this->Work.BeginStage(0.2 + 0.8 * (iteration + 1) / most);
+      const double before = descent.Energy();
+      if (!descent.Step())
+      {
+        break;
+      }
+      report.Energy.push_back(descent.Energy());
+      if (before - descent.Energy() <= options.Tolerance * std::abs(before))
+      {
+        break;
+      }
+    }
     this->Write();
+    this->Work.BeginStage(1.0);
+    this->Work.EndSlice(1);
     return report;
   }
 
 private:
-  using Vector = std::vector<double>;
-
-  PointSpan<Dimension> Span(Vector& vector) const
-  {
-    return { vector.data(), this->Points.size() };
-  }
-
-  double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
-
   void Read()
   {
     this->X.resize(static_cast<std::size_t>(this->Points.size()) * Dimension);
@@ -92,188 +129,100 @@ private:
       const double index = this->Points.data()[i];
       if (!std::isfinite(index))
       {
-        throw std::invalid_argument(
-          "point " + std::to_string(i / Dimension) + " is not finite");
+        throw std::invalid_argument("point " + std::to_string(i / Dimension) + " is not finite");
       }
+      const std::size_t axis = i % Dimension;
       this->X[i] =
-        std::clamp(index * this->Frame.CellSides[i % Dimension], 0.0, this->Side(i));
+        std::clamp(index * this->Frame.CellSides[axis], 0.0, this->Frame.Sides[axis]);
     }
-    this->Start = this->X;
+    this->Given = this->X;
   }
 
-  // Moves all but one of coincident points, in directions that depend on their number alone.
-  void Separate(const SpacingTree<Dimension>& tree)
+  void MakeTree(double largest)
   {
-    const Point<Dimension>* points = reinterpret_cast<const Point<Dimension>*>(this->X.data());
+    this->Tree.reset();
+    this->Tree = std::make_unique<SpacingTree<Dimension>>(this->Flow, this->Frame,
+      this->Points.size(), tune("RT_FINEST", Dimension == 2 ? 0.5 : 0.75), largest, this->Work);
+  }
+
+  Point<Dimension> At(std::int64_t point) const
+  {
+    Point<Dimension> x;
+    std::copy_n(this->X.data() + point * Dimension, Dimension, x.begin());
+    return x;
+  }
+
+  // Moves all but one of coincident points, in directions that depend on how many there are alone.
+  void Separate()
+  {
     std::vector<std::int64_t> order(static_cast<std::size_t>(this->Points.size()));
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [points](std::int64_t a, std::int64_t b) {
-      return points[a] < points[b] || (points[a] == points[b] && a < b);
-    });
+    sortInPieces(
+      order,
+      [this](std::int64_t a, std::int64_t b) {
+        const auto first = this->At(a);
+        const auto second = this->At(b);
+        return first < second || (first == second && a < b);
+      },
+      this->Work);
     std::uint64_t ordinal = 0;
     Point<Dimension> last{};
     for (std::size_t i = 0; i < order.size(); ++i)
     {
-      const std::int64_t point = order[i];
-      const bool repeats = i > 0 && points[point] == last;
-      last = points[point];
-      ordinal = repeats ? ordinal + 1 : 0;
-      if (!repeats)
+      const Point<Dimension> x = this->At(order[i]);
+      ordinal = i > 0 && x == last ? ordinal + 1 : 0;
+      last = x;
+      if (ordinal > 0)
       {
-        continue;
-      }
-      constexpr double part = 1.0 / 64;
-      const double reach = part * tree.Evaluate(tree.Spacing(), tree.Locate(last))[0];
-      for (std::size_t axis = 0; axis < Dimension; ++axis)
-      {
-        const std::size_t at = static_cast<std::size_t>(point) * Dimension + axis;
-        const double side = 2.0 * unitReal(randomWord(axis, ordinal)) - 1.0;
-        this->X[at] = std::clamp(this->X[at] + reach * side, 0.0, this->Side(at));
+        this->MoveAside(order[i], x, ordinal);
       }
     }
   }
 
-  Vector Minimize(RepulsionEnergy<Dimension>& energy, const RelaxationOptions& options)
+  void MoveAside(std::int64_t point, const Point<Dimension>& x, std::uint64_t ordinal)
   {
-    const std::size_t size = this->X.size();
-    LimitedMemoryBfgs hessian(static_cast<std::size_t>(tune("RT_PAIRS", 6)));
-    Vector gradient(size);
-    Vector spacings(size / Dimension);
-    Vector next(size);
-    Vector nextGradient(size);
-    Vector nextSpacings(size / Dimension);
-    Vector diagonal(size);
-    double best =
-      energy.Evaluate(this->Span(this->X), this->Span(gradient), spacings.data(), this->Work);
-    Vector energies{ best };
-    for (int iteration = 0; iteration < options.MaximumIterations; ++iteration)
+    constexpr double part = 1.0 / 64;
+    const double spacing = this->Tree->Evaluate(this->Tree->Spacing(), this->Tree->Locate(x))[0];
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      this->Work.BeginStage(setUp + (1.0 - setUp) * (iteration + 1) / options.MaximumIterations);
-      const double before = best;
-      for (const bool isFresh : { hessian.IsEmpty(), true })
-      {
-        if (isFresh)
-        {
-          hessian.Forget();
-        }
-        for (std::size_t i = 0; i < size; ++i)
-        {
-          const double h = spacings[i / Dimension];
-          diagonal[i] = h * h;
-        }
-        Vector direction = this->Direction(hessian, gradient, diagonal, spacings);
-        double factor = 1.0;
-        for (int tries = 0; tries < 12 && best == before; ++tries)
-        {
-          double slope = 0.0;
-          for (std::size_t i = 0; i < size; ++i)
-          {
-            next[i] = std::clamp(this->X[i] + factor * direction[i], 0.0, this->Side(i));
-            slope += gradient[i] * (next[i] - this->X[i]);
-          }
-          if (!(slope < 0.0))
-          {
-            break;
-          }
-          const double found = energy.Evaluate(
-            this->Span(next), this->Span(nextGradient), nextSpacings.data(), this->Work);
-          ++this->Evaluations;
-          if (found <= before + 1e-4 * slope && found < before)
-          {
-            best = found;
-            break;
-          }
-          factor *= std::clamp(0.5 * -slope / (found - before - slope), 0.1, 0.5);
-        }
-        if (best < before || isFresh)
-        {
-          break;
-        }
-      }
-      if (!(best < before))
-      {
-        break;
-      }
-      Vector step(size);
-      Vector change(size);
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        step[i] = next[i] - this->X[i];
-        change[i] = nextGradient[i] - gradient[i];
-      }
-      hessian.Add(std::move(step), std::move(change), this->Work);
-      this->X.swap(next);
-      gradient.swap(nextGradient);
-      spacings.swap(nextSpacings);
-      energies.push_back(best);
-      if (before - best <= options.Tolerance * before)
-      {
-        break;
-      }
-      if (iteration % 8 == 7)
-      {
-        energy.Sort(this->Span(this->X), this->Work);
-      }
+      const auto stream = static_cast<std::uint64_t>(axis);
+      const double side = 2.0 * unitReal(randomWord(stream, ordinal)) - 1.0;
+      this->X[static_cast<std::size_t>(point * Dimension + axis)] =
+        std::clamp(x[axis] + part * spacing * side, 0.0, this->Frame.Sides[axis]);
     }
-    if (std::getenv("RT_VERBOSE"))
-    {
-      fprintf(stderr, "evaluations %d\n", this->Evaluations);
-    }
-    return energies;
   }
-  int Evaluations = 0;
 
-  // The descent of each point, at most a part of its spacing.
-  Vector Direction(const LimitedMemoryBfgs& hessian, const Vector& gradient,
-    const Vector& diagonal, const Vector& spacings)
+  // Puts the points into an order that depends on the set of them alone; so do all sums then.
+  void Arrange()
   {
-    const std::size_t size = this->X.size();
-    Vector free = gradient;
-    const auto isHeld = [&](std::size_t i) {
-      return gradient[i] > 0.0 ? this->X[i] <= 0.0 : this->X[i] >= this->Side(i);
-    };
-    for (std::size_t i = 0; i < size; ++i)
+    std::vector<ScaledPoint<Dimension>> points(static_cast<std::size_t>(this->Points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      free[i] = isHeld(i) ? 0.0 : free[i];
+      points[i] = scaledPoint<Dimension>(this->At(static_cast<std::int64_t>(i)), 1.0, 1.0);
     }
-    Vector direction = hessian.Direction(free, diagonal, this->Work);
-    double scale = 1.0;
-    if (hessian.IsEmpty())
+    ReachTree<Dimension> sorted;
+    sorted.Build(std::move(points), this->Work);
+    this->Order.assign(sorted.Order(), sorted.Order() + sorted.Size());
+    for (std::int64_t i = 0; i < sorted.Size(); ++i)
     {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        sum += direction[i] * direction[i] / diagonal[i];
-      }
-      scale = sum > 0.0 ? 0.1 / std::sqrt(sum / static_cast<double>(size)) : 0.0;
+      std::copy_n(sorted.Points()[i].X, Dimension, this->X.data() + i * Dimension);
     }
-    static const double longest = tune("RT_LONGEST", 0.3);
-    for (std::size_t point = 0; point < spacings.size(); ++point)
-    {
-      double squared = 0.0;
-      for (std::size_t i = point * Dimension; i < (point + 1) * Dimension; ++i)
-      {
-        direction[i] = isHeld(i) ? 0.0 : scale * direction[i];
-        squared += direction[i] * direction[i];
-      }
-      const double length = std::sqrt(squared) / spacings[point];
-      for (std::size_t i = point * Dimension; i < (point + 1) * Dimension && length > longest; ++i)
-      {
-        direction[i] *= longest / length;
-      }
-    }
-    return direction;
   }
 
+  // Points that have not moved keep their bits.
   void Write()
   {
-    for (std::size_t i = 0; i < this->X.size(); ++i)
+    for (std::int64_t i = 0; i < this->Points.size(); ++i)
     {
-      const std::size_t axis = i % Dimension;
-      const double size = static_cast<double>(this->Flow.Size()[axis]);
-      double& index = this->Points.data()[i];
-      index = this->X[i] == this->Start[i] ? index : this->X[i] / this->Frame.CellSides[axis];
-      index = std::clamp(index, 0.0, size);
+      const std::int64_t point = this->Order[static_cast<std::size_t>(i)];
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const double x = this->X[static_cast<std::size_t>(i * Dimension + axis)];
+        const bool isMoved = x != this->Given[static_cast<std::size_t>(point * Dimension + axis)];
+        double& index = this->Points[point][axis];
+        index = std::clamp(isMoved ? x / this->Frame.CellSides[axis] : index, 0.0,
+          static_cast<double>(this->Flow.Size()[axis]));
+      }
     }
   }
 
@@ -281,8 +230,10 @@ private:
   const PointSpan<Dimension> Points;
   const RelaxationFrame<Dimension> Frame;
   Progress Work;
-  Vector X;
-  Vector Start;
+  std::unique_ptr<SpacingTree<Dimension>> Tree;
+  std::vector<double> X;
+  std::vector<double> Given;
+  std::vector<std::int64_t> Order;
 };
 
 } // namespace

@@ -36,10 +36,11 @@ struct NodeHash
 
 template <int Dimension>
 SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
-  const RelaxationFrame<Dimension>& frame, std::int64_t points, double finest, Progress& progress)
+  const RelaxationFrame<Dimension>& frame, std::int64_t points, double finest, double largest, Progress& progress)
   : Flow(flow)
   , Frame(frame)
   , Points(points)
+  , Largest(largest)
 {
   const double widest = *std::max_element(frame.CellSides.begin(), frame.CellSides.end());
   for (int axis = 0; axis < Dimension; ++axis)
@@ -63,8 +64,9 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
     index[axis] = std::clamp(x[axis] / this->Frame.CellSides[axis], 0.0,
       static_cast<double>(this->Flow.Size()[axis]));
   }
-  return this->Frame.SideOfCells(
+  const double side = this->Frame.SideOfCells(
     this->Flow.MeasureOfShare(index, this->Aspect, 1.0 / static_cast<double>(this->Points)));
+  return std::min(side, this->Largest);
 }
 
 // Level by level.

@@ -17,7 +17,7 @@ namespace RectifiedTransport
 class Progress;
 
 // All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
-// smallest cube about it that holds a point's share of the mass; it changes by at most twice the
+// smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at most twice the
 // distance (the largest along an axis). A leaf is at most `finest` times the spacing at its centre
 // wide: there is a bounded number of leaves a point.
 template <int Dimension>
@@ -28,7 +28,7 @@ public:
   using Field = std::vector<HermiteData<Dimension>>; // data at the nodes
 
   SpacingTree(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
-    std::int64_t points, double finest, Progress& progress);
+    std::int64_t points, double finest, double largest, Progress& progress);
 
   // The corners of the leaves.
   std::int64_t Nodes() const { return static_cast<std::int64_t>(this->NodePlaces.size()); }
@@ -88,6 +88,7 @@ private:
   const RectifiedFlow<Dimension>& Flow;
   const RelaxationFrame<Dimension> Frame;
   const std::int64_t Points;
+  const double Largest;
   Node Roots;
   Point<Dimension> RootSides;
   Point<Dimension> Aspect;

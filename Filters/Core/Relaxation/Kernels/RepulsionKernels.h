@@ -33,13 +33,6 @@ struct RepulsionShape
   double AtCut; // exp(-Cut) of these kernels
 };
 
-// Points [First, Last) of an array.
-struct PointRange
-{
-  std::int64_t First;
-  std::int64_t Last;
-};
-
 constexpr int repulsionTile = 8;
 
 // Places, and sums over the points y of m K(x, y) and its derivatives at each.
@@ -58,9 +51,9 @@ struct RepulsionTile
 template <int Dimension>
 struct RepulsionKernels
 {
-  // Each place sums over the points of the ranges in their order.
+  // Each place sums over the points in their order.
   void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-    const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile);
+    std::int64_t count, RepulsionTile<Dimension>& tile);
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
 };
 

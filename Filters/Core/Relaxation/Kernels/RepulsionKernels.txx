@@ -85,7 +85,7 @@ RT_INLINE Value exponential(const Value& q)
 
 template <int Dimension>
 RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-  const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile, int lane)
+  std::int64_t count, RepulsionTile<Dimension>& tile, int lane)
 {
   Lanes x[Dimension];
   Lanes gradient[Dimension];
@@ -98,34 +98,31 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
   const Lanes square = load(tile.Square + lane);
   Lanes sum = {};
   Lanes bySquare = {};
-  for (const PointRange* range = ranges; range < ranges + count; ++range)
+  for (const auto* point = points; point < points + count; ++point)
   {
-    for (const auto* point = points + range->First; point < points + range->Last; ++point)
+    Lanes offset[Dimension];
+    Lanes squared = {};
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      Lanes offset[Dimension];
-      Lanes squared = {};
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        offset[axis] = point->X[axis] - x[axis];
-        squared += offset[axis] * offset[axis];
-      }
-      const Lanes inverse = 1.0 / (square + point->Square);
-      const Lanes q = lesser(squared * inverse * shape.PerVariance, shape.Cut);
-      Lanes overlap = twice * point->Spacing * inverse;
-      if constexpr (Dimension == 3)
-      {
-        overlap *= squareRoot(overlap);
-      }
-      overlap *= point->Mass;
-      const Lanes e = exponential(q);
-      const Lanes g = e - shape.AtCut * ((1.0 + shape.Cut) - q);
-      const Lanes slope = (e - shape.AtCut) * inverse * overlap; // of -g
-      sum += overlap * g;
-      bySquare += slope * q - (0.5 * Dimension) * (overlap * inverse * g);
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        gradient[axis] += slope * offset[axis];
-      }
+      offset[axis] = point->X[axis] - x[axis];
+      squared += offset[axis] * offset[axis];
+    }
+    const Lanes inverse = 1.0 / (square + point->Square);
+    const Lanes q = lesser(squared * inverse * shape.PerVariance, shape.Cut);
+    Lanes overlap = twice * point->Spacing * inverse;
+    if constexpr (Dimension == 3)
+    {
+      overlap *= squareRoot(overlap);
+    }
+    overlap *= point->Mass;
+    const Lanes e = exponential(q);
+    const Lanes g = e - shape.AtCut * ((1.0 + shape.Cut) - q);
+    const Lanes slope = (e - shape.AtCut) * inverse * overlap; // of -g
+    sum += overlap * g;
+    bySquare += slope * q - (0.5 * Dimension) * (overlap * inverse * g);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      gradient[axis] += slope * offset[axis];
     }
   }
   store(sum, tile.Sum + lane);
@@ -138,11 +135,11 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
 
 template <int Dimension>
 void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-  const PointRange* ranges, std::int64_t count, RepulsionTile<Dimension>& tile)
+  std::int64_t count, RepulsionTile<Dimension>& tile)
 {
   for (int lane = 0; lane < repulsionTile; lane += lanes)
   {
-    sumLanes<Dimension>(shape, points, ranges, count, tile, lane);
+    sumLanes<Dimension>(shape, points, count, tile, lane);
   }
 }
 

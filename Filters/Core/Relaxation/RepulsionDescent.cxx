@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Relaxation/RepulsionDescent.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::size_t pairsKept = 6;
+constexpr double longestStep = 0.3;  // spacings
+constexpr double firstStep = 0.1;    // spacings, root mean square
+constexpr int mostEvaluations = 12;  // along a direction
+constexpr double sufficient = 1e-4;  // Armijo's part of the change to first order
+constexpr int stepsBetweenSorts = 8; // in which points move little against each other
+
+} // namespace
+
+template <int Dimension>
+RepulsionDescent<Dimension>::RepulsionDescent(RepulsionEnergy<Dimension>& energy,
+  const RelaxationFrame<Dimension>& frame, std::vector<double>& x, Progress& progress)
+  : Function(energy)
+  , Frame(frame)
+  , Work(progress)
+  , X(x)
+  , Gradient(x.size())
+  , Spacings(x.size() / Dimension)
+  , Hessian(pairsKept)
+  , Next(x.size())
+  , NextGradient(x.size())
+  , NextSpacings(x.size() / Dimension)
+{
+  this->Function.Sort({ x.data(), static_cast<std::int64_t>(x.size()) / Dimension }, progress);
+  this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings);
+}
+
+template <int Dimension>
+double RepulsionDescent<Dimension>::Evaluate(const Vector& x, Vector& gradient, Vector& spacings)
+{
+  const auto count = static_cast<std::int64_t>(spacings.size());
+  return this->Function.Evaluate(
+    { x.data(), count }, { gradient.data(), count }, spacings.data(), this->Work);
+}
+
+template <int Dimension>
+bool RepulsionDescent<Dimension>::Step()
+{
+  const bool isFresh = this->Hessian.IsEmpty();
+  if (!this->Search(this->Direction()))
+  {
+    this->Hessian.Forget();
+    if (isFresh || !this->Search(this->Direction()))
+    {
+      return false;
+    }
+  }
+  if (++this->Steps % stepsBetweenSorts == 0)
+  {
+    this->Function.Sort(
+      { this->X.data(), static_cast<std::int64_t>(this->Spacings.size()) }, this->Work);
+  }
+  return true;
+}
+
+template <int Dimension>
+bool RepulsionDescent<Dimension>::IsHeld(std::size_t i) const
+{
+  return this->Gradient[i] > 0.0 ? this->X[i] <= 0.0 : this->X[i] >= this->Side(i);
+}
+
+template <int Dimension>
+std::vector<double> RepulsionDescent<Dimension>::Direction()
+{
+  Vector free = this->Gradient;
+  Vector diagonal(free.size());
+  for (std::size_t i = 0; i < free.size(); ++i)
+  {
+    const double h = this->Spacings[i / Dimension];
+    diagonal[i] = h * h;
+    free[i] = this->IsHeld(i) ? 0.0 : free[i];
+  }
+  Vector direction = this->Hessian.Direction(free, diagonal, this->Work);
+  double scale = 1.0;
+  if (this->Hessian.IsEmpty())
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < free.size(); ++i)
+    {
+      sum += direction[i] * direction[i] / diagonal[i];
+    }
+    scale = sum > 0.0 ? firstStep / std::sqrt(sum / static_cast<double>(free.size())) : 0.0;
+  }
+  for (std::size_t i = 0; i < free.size(); ++i)
+  {
+    direction[i] = this->IsHeld(i) ? 0.0 : scale * direction[i];
+  }
+  this->Shorten(direction);
+  return direction;
+}
+
+template <int Dimension>
+void RepulsionDescent<Dimension>::Shorten(Vector& direction) const
+{
+  for (std::size_t point = 0; point < this->Spacings.size(); ++point)
+  {
+    double* step = direction.data() + point * Dimension;
+    double squared = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      squared += step[axis] * step[axis];
+    }
+    const double length = std::sqrt(squared) / this->Spacings[point];
+    for (int axis = 0; axis < Dimension && length > longestStep; ++axis)
+    {
+      step[axis] *= longestStep / length;
+    }
+  }
+}
+
+template <int Dimension>
+bool RepulsionDescent<Dimension>::Search(const Vector& direction)
+{
+  double part = 1.0;
+  for (int tries = 0; tries < mostEvaluations; ++tries)
+  {
+    const double slope = this->Move(direction, part);
+    if (!(slope < 0.0))
+    {
+      return false;
+    }
+    const double found = this->Evaluate(this->Next, this->NextGradient, this->NextSpacings);
+    if (found <= this->Value + sufficient * slope && found < this->Value)
+    {
+      this->Accept(found);
+      return true;
+    }
+    // The minimum of the parabola through what is known, within bounds.
+    part *= std::clamp(-0.5 * slope / (found - this->Value - slope), 0.1, 0.5);
+  }
+  return false;
+}
+
+template <int Dimension>
+double RepulsionDescent<Dimension>::Move(const Vector& direction, double part)
+{
+  // The least part of the distance to the border that stays: points that met at a corner would
+  // never leave each other.
+  constexpr double rest = 0.125;
+  double slope = 0.0;
+  for (std::size_t i = 0; i < direction.size(); ++i)
+  {
+    const double x = this->X[i];
+    const double side = this->Side(i);
+    this->Next[i] =
+      std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
+    slope += this->Gradient[i] * (this->Next[i] - x);
+  }
+  return slope;
+}
+
+template <int Dimension>
+void RepulsionDescent<Dimension>::Accept(double found)
+{
+  Vector step(this->X.size());
+  Vector change(this->X.size());
+  for (std::size_t i = 0; i < step.size(); ++i)
+  {
+    step[i] = this->Next[i] - this->X[i];
+    change[i] = this->NextGradient[i] - this->Gradient[i];
+  }
+  this->Hessian.Add(std::move(step), std::move(change), this->Work);
+  this->X.swap(this->Next);
+  this->Gradient.swap(this->NextGradient);
+  this->Spacings.swap(this->NextSpacings);
+  this->Value = found;
+}
+
+template class RepulsionDescent<2>;
+template class RepulsionDescent<3>;
+
+} // namespace RectifiedTransport

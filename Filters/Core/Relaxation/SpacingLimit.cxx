@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Relaxation/SpacingLimit.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Relaxation/ReachTree.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = 256;
+
+// Neighbours of a point: about 20 times as many as points have that are distributed like the
+// density, and any number if that makes few pairs.
+template <int Dimension>
+double affordableNeighbours(std::int64_t points)
+{
+  constexpr double pairs = 1e8;
+  return std::max(Dimension == 2 ? 2000.0 : 10000.0, pairs / static_cast<double>(points));
+}
+
+// The mean over a sample of tiles.
+template <int Dimension>
+double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& progress)
+{
+  constexpr std::int64_t most = 64;
+  const std::int64_t taken = std::min(most, tree.Tiles());
+  std::vector<ScaledPoint<Dimension>> found;
+  double sum = 0.0;
+  for (std::int64_t i = 0; i < taken; ++i)
+  {
+    tree.FindInReach(tree, i * tree.Tiles() / taken, reach, found);
+    sum += static_cast<double>(found.size());
+    progress.Check();
+  }
+  return sum / static_cast<double>(taken);
+}
+
+} // namespace
+
+template <int Dimension>
+double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dimension> points,
+  double reach, Progress& progress)
+{
+  const double affordable = affordableNeighbours<Dimension>(points.size());
+  if (static_cast<double>(points.size()) <= affordable)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  std::vector<ScaledPoint<Dimension>> scaled(static_cast<std::size_t>(points.size()));
+  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      Point<Dimension> x;
+      std::copy_n(points[i], Dimension, x.begin());
+      const double spacing = tree.Evaluate(tree.Spacing(), tree.Locate(x))[0];
+      scaled[static_cast<std::size_t>(i)] = scaledPoint<Dimension>(x, spacing, 1.0);
+    }
+  });
+  ReachTree<Dimension> neighbours;
+  neighbours.Build(std::move(scaled), progress);
+  double limit = std::numeric_limits<double>::infinity();
+  while (limit > 1.0 && meanNeighbours(neighbours, reach, progress) > affordable)
+  {
+    ScaledPoint<Dimension>* all = neighbours.Points();
+    double largest = 0.0;
+    for (std::int64_t i = 0; i < neighbours.Size(); ++i)
+    {
+      largest = std::max(largest, all[i].Spacing);
+    }
+    limit = std::max(0.7 * largest, 1.0);
+    for (std::int64_t i = 0; i < neighbours.Size(); ++i)
+    {
+      all[i].Spacing = std::min(all[i].Spacing, limit);
+      all[i].Square = all[i].Spacing * all[i].Spacing;
+    }
+    neighbours.Update();
+  }
+  return limit;
+}
+
+template double affordableSpacing<2>(
+  const SpacingTree<2>&, ConstPointSpan<2>, double, Progress&);
+template double affordableSpacing<3>(
+  const SpacingTree<3>&, ConstPointSpan<3>, double, Progress&);
+
+} // namespace RectifiedTransport
