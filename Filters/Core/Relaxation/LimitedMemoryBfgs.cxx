@@ -45,8 +45,7 @@ double weightedSquare(
 
 } // namespace
 
-double innerProduct(
-  const std::vector<double>& a, const std::vector<double>& b, Progress& progress)
+double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress)
 {
   return reduceChunks(
     progress, static_cast<std::int64_t>(a.size()), grain, 0.0,

@@ -13,8 +13,7 @@ namespace RectifiedTransport
 class Progress;
 
 // The inner product, with the same bits on any threads.
-double innerProduct(
-  const std::vector<double>& a, const std::vector<double>& b, Progress& progress);
+double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress);
 
 class LimitedMemoryBfgs
 {

@@ -153,8 +153,8 @@ void ReachTree<Dimension>::Update()
     Box found{};
     if (box.Second < 0)
     {
-      found = this->BoundsOf(
-        box.First * repulsionTile, std::min(box.Last * repulsionTile, this->Size()));
+      found =
+        this->BoundsOf(box.First * repulsionTile, std::min(box.Last * repulsionTile, this->Size()));
     }
     else
     {

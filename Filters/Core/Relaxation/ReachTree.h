@@ -57,8 +57,8 @@ private:
   {
     double Low[Dimension];
     double High[Dimension];
-    double Square;       // the largest squared spacing
-    std::int64_t First;  // tiles [First, Last)
+    double Square;      // the largest squared spacing
+    std::int64_t First; // tiles [First, Last)
     std::int64_t Last;
     std::int64_t Second; // the first child is the next box; -1 in a leaf
   };

@@ -157,8 +157,7 @@ double RepulsionDescent<Dimension>::Move(const Vector& direction, double part)
   {
     const double x = this->X[i];
     const double side = this->Side(i);
-    this->Next[i] =
-      std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
+    this->Next[i] = std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
     slope += this->Gradient[i] * (this->Next[i] - x);
   }
   return slope;

@@ -106,20 +106,18 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       {
         this->Sources.FindInReach(targets, i, this->Reach, found);
         const int count = targets.Fill(i, tile);
-        this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
+        this->Kernels.Sum(this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
         for (int lane = 0; lane < count; ++lane)
         {
-          const auto node =
-            static_cast<std::size_t>(targets.Order()[i * repulsionTile + lane]);
+          const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionTile + lane]);
           HermiteData<Dimension>& data = this->Attraction[node];
           const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
           data[0] = tile.Sum[lane];
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto entry = std::size_t{ 1 } << axis;
-            data[entry] = tile.Gradient[axis][lane] +
-              2.0 * spacing[0] * spacing[entry] * tile.BySquare[lane];
+            data[entry] =
+              tile.Gradient[axis][lane] + 2.0 * spacing[0] * spacing[entry] * tile.BySquare[lane];
           }
         }
       }
@@ -190,8 +188,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
       {
         this->Particles.FindInReach(this->Particles, i, this->Reach, found);
         const int filled = this->Particles.Fill(i, tile);
-        this->Kernels.Sum(
-          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
+        this->Kernels.Sum(this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {
@@ -203,8 +200,7 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
           {
             const auto entry = std::size_t{ 1 } << axis;
             gradient[order[point]][axis] = scale *
-              (tile.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * tile.BySquare[lane] -
-                a[entry]);
+              (tile.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * tile.BySquare[lane] - a[entry]);
           }
         }
         energies[static_cast<std::size_t>(i)] = sum;

@@ -23,7 +23,8 @@ struct RepulsionWidth
 
 // The points x and the density n, whose mass is their number N, are blurred by Gaussians; the
 // energy is the squared norm of the difference,
-//   E = 1/N (sum over points of K(x, y) - 2 sum of A(x) + integral of n A),  A(x) = integral of n K,
+//   E = 1/N (sum over points of K(x, y) - 2 sum of A(x) + integral of n A),  A(x) = integral of n
+//   K,
 // with K of RepulsionShape: 1 on the average for independent random points, 0 at best. A does not
 // depend on the points and is interpolated in the tree. Coordinates are those of a RelaxationFrame.
 template <int Dimension>
@@ -38,8 +39,8 @@ public:
   void Sort(ConstPointSpan<Dimension> points, Progress& progress);
   // Returns the energy and writes its gradient by the coordinates of the points, and their
   // spacings.
-  double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient,
-    double* spacings, Progress& progress);
+  double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient, double* spacings,
+    Progress& progress);
 
 private:
   void FindSources(Progress& progress);

@@ -84,9 +84,7 @@ double affordableSpacing(const SpacingTree<Dimension>& tree, ConstPointSpan<Dime
   return limit;
 }
 
-template double affordableSpacing<2>(
-  const SpacingTree<2>&, ConstPointSpan<2>, double, Progress&);
-template double affordableSpacing<3>(
-  const SpacingTree<3>&, ConstPointSpan<3>, double, Progress&);
+template double affordableSpacing<2>(const SpacingTree<2>&, ConstPointSpan<2>, double, Progress&);
+template double affordableSpacing<3>(const SpacingTree<3>&, ConstPointSpan<3>, double, Progress&);
 
 } // namespace RectifiedTransport

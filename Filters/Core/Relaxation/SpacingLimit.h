@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bound of the spacings, and so of the widths of kernels, for points that are far from distributed
-// like the density: many of them in a place that should have few would all be neighbours.
+// A bound of the spacings, and so of the widths of kernels, for points that are far from
+// distributed like the density: many of them in a place that should have few would all be
+// neighbours.
 #ifndef RectifiedTransport_SpacingLimit_h
 #define RectifiedTransport_SpacingLimit_h
 

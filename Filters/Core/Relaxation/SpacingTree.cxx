@@ -16,7 +16,9 @@ namespace
 {
 
 constexpr std::int64_t grain = 256;
-constexpr double rootSide = 4.0; // spacings
+// A little less than the width of leaves where the spacing is the mean, times a power of two: then
+// rounding does not divide those of a uniform density once more.
+constexpr double rootSide = 0.97 * 8; // times the finest
 
 template <int Dimension>
 struct NodeHash
@@ -36,7 +38,8 @@ struct NodeHash
 
 template <int Dimension>
 SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
-  const RelaxationFrame<Dimension>& frame, std::int64_t points, double finest, double largest, Progress& progress)
+  const RelaxationFrame<Dimension>& frame, std::int64_t points, double finest, double largest,
+  Progress& progress)
   : Flow(flow)
   , Frame(frame)
   , Points(points)
@@ -47,7 +50,7 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   {
     this->Aspect[axis] = widest / frame.CellSides[axis];
     this->Roots[axis] =
-      std::max<std::int64_t>(1, std::llround(std::floor(frame.Sides[axis] / rootSide)));
+      std::max<std::int64_t>(1, std::llround(std::ceil(frame.Sides[axis] / (rootSide * finest))));
     this->RootSides[axis] = frame.Sides[axis] / static_cast<double>(this->Roots[axis]);
   }
   this->Divide(finest, progress);
@@ -61,8 +64,8 @@ double SpacingTree<Dimension>::ExactSpacing(const Point<Dimension>& x) const
   Point<Dimension> index;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    index[axis] = std::clamp(x[axis] / this->Frame.CellSides[axis], 0.0,
-      static_cast<double>(this->Flow.Size()[axis]));
+    index[axis] = std::clamp(
+      x[axis] / this->Frame.CellSides[axis], 0.0, static_cast<double>(this->Flow.Size()[axis]));
   }
   const double side = this->Frame.SideOfCells(
     this->Flow.MeasureOfShare(index, this->Aspect, 1.0 / static_cast<double>(this->Points)));
@@ -91,11 +94,11 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     const std::size_t last = this->Boxes.size();
     std::vector<char> divided(last - first, 0);
     const double part = std::ldexp(1.0, -depth);
-    const double widest =
-      part * *std::max_element(this->RootSides.begin(), this->RootSides.end());
+    const double widest = part * *std::max_element(this->RootSides.begin(), this->RootSides.end());
     if (depth < DeepestLevel)
     {
-      progress.For(static_cast<std::int64_t>(divided.size()), grain,
+      progress.For(
+        static_cast<std::int64_t>(divided.size()), grain,
         [&](std::int64_t begin, std::int64_t end) {
           for (std::int64_t i = begin; i < end; ++i)
           {
@@ -240,8 +243,7 @@ Point<Dimension> SpacingTree<Dimension>::PointOf(const Node& node) const
   Point<Dimension> point;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double roots =
-      static_cast<double>(node[axis]) / static_cast<double>(this->Width(0));
+    const double roots = static_cast<double>(node[axis]) / static_cast<double>(this->Width(0));
     point[axis] = std::min(roots * this->RootSides[axis], this->Frame.Sides[axis]);
   }
   return point;
@@ -279,8 +281,7 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   for (int axis = Dimension; axis-- > 0;)
   {
     const double roots = std::max(x[axis] / this->RootSides[axis], 0.0);
-    const std::int64_t at =
-      std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
+    const std::int64_t at = std::min(static_cast<std::int64_t>(roots), this->Roots[axis] - 1);
     place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
     root = root * this->Roots[axis] + at;
   }

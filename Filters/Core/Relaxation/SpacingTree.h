@@ -17,14 +17,14 @@ namespace RectifiedTransport
 class Progress;
 
 // All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
-// smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at most twice the
-// distance (the largest along an axis). A leaf is at most `finest` times the spacing at its centre
-// wide: there is a bounded number of leaves a point.
+// smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at
+// most twice the distance (the largest along an axis). A leaf is at most `finest` times the spacing
+// at its centre wide: there is a bounded number of leaves a point.
 template <int Dimension>
 class SpacingTree
 {
 public:
-  using Node = std::array<std::int64_t, Dimension>; // in units of the finest leaf possible
+  using Node = std::array<std::int64_t, Dimension>;  // in units of the finest leaf possible
   using Field = std::vector<HermiteData<Dimension>>; // data at the nodes
 
   SpacingTree(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
@@ -96,7 +96,7 @@ private:
   std::vector<std::int64_t> LeafBoxes;
   std::vector<std::array<std::int32_t, hermiteCorners<Dimension>>> LeafNodes;
   std::vector<Node> NodePlaces;
-  std::vector<std::int64_t> NodeLeaf;   // the widest leaf that touches a node
+  std::vector<std::int64_t> NodeLeaf;    // the widest leaf that touches a node
   std::vector<std::int32_t> Constrained; // nodes within faces, those of the widest leaves first
   Field SpacingField;
 };

@@ -52,8 +52,8 @@ template <int Dimension>
 struct RepulsionKernels
 {
   // Each place sums over the points in their order.
-  void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-    std::int64_t count, RepulsionTile<Dimension>& tile);
+  void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
+    RepulsionTile<Dimension>& tile);
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one kernel source of the repulsion, compiled once per instruction set (RepulsionKernels*.cxx),
-// by the same rules as FlowKernels.txx: internal linkage, and nothing of the standard library.
+// The one kernel source of the repulsion, compiled once per instruction set
+// (RepulsionKernels*.cxx), by the same rules as FlowKernels.txx: internal linkage, and nothing of
+// the standard library.
 #include "Core/Relaxation/Kernels/RepulsionKernels.h"
 
 #define RT_INLINE inline __attribute__((always_inline))
@@ -134,8 +135,8 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
 }
 
 template <int Dimension>
-void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-  std::int64_t count, RepulsionTile<Dimension>& tile)
+void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
+  RepulsionTile<Dimension>& tile)
 {
   for (int lane = 0; lane < repulsionTile; lane += lanes)
   {
