@@ -33,12 +33,16 @@ struct RelaxationReport
 // Points are in index space, where grid cell i is [i, i + 1], and `spacing` has the lengths of a
 // grid cell's sides. Points outside of the domain are moved to its border first, and of coincident
 // points all but one by a small part of the mean spacing. The results have the same bits for any
-// number of threads. Throws InvalidDensity, std::invalid_argument (options, spacing), std::bad_alloc
-// and Cancelled; the points are then undefined.
+// number of threads. Throws InvalidDensity, std::invalid_argument (options, spacing),
+// std::bad_alloc and Cancelled; the points are then undefined.
 
 // Gaussian blue noise (Ahmed, Ren and Wonka, "Gaussian Blue Noise", ACM TOG 41(6), 2022): points
 // repel each other by Gaussians as wide as their distance at the local density, and the density
 // attracts them, so that its mass and theirs cancel. `flow` has the tables of `density`. 2D and 3D.
+// The energy is the squared norm of the difference of both, blurred: 1 on the average for
+// independent random points of the density, near 0 at best. Points that are far from distributed
+// like the density, such as uniform ones for one with large holes, take many iterations: start from
+// those of the flow. Also throws std::invalid_argument for points that are not finite.
 template <int Dimension>
 RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
   const RectifiedFlow<Dimension>& flow, const Point<Dimension>& spacing,

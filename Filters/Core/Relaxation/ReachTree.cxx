@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
-#include "Core/Parallel/Progress.h"
+#include "Core/Relaxation/Polls.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,78 +13,100 @@ namespace RectifiedTransport
 namespace
 {
 
-// Whether a is before b along an axis; equal coordinates are compared along the next ones.
 template <int Dimension>
-bool isBefore(const ScaledPoint<Dimension>& a, const ScaledPoint<Dimension>& b, int axis)
+struct NumberedPoint
+{
+  ScaledPoint<Dimension> Point;
+  std::int64_t Number;
+};
+
+// Whether a is before b along an axis. Equal coordinates are compared along the next ones, and
+// coincident points by their numbers.
+template <int Dimension>
+bool isBefore(const NumberedPoint<Dimension>& a, const NumberedPoint<Dimension>& b, int axis)
 {
   for (int step = 0; step < Dimension; ++step)
   {
     const int at = (axis + step) % Dimension;
-    if (a.X[at] != b.X[at])
+    if (a.Point.X[at] != b.Point.X[at])
     {
-      return a.X[at] < b.X[at];
+      return a.Point.X[at] < b.Point.X[at];
     }
   }
-  return false;
+  return a.Number < b.Number;
+}
+
+template <int Dimension>
+int widestAxis(const NumberedPoint<Dimension>* first, const NumberedPoint<Dimension>* last)
+{
+  int widest = 0;
+  double most = -1.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const auto [low, high] = std::minmax_element(first, last,
+      [axis](const auto& a, const auto& b) { return a.Point.X[axis] < b.Point.X[axis]; });
+    const double width = high->Point.X[axis] - low->Point.X[axis];
+    widest = width > most ? axis : widest;
+    most = std::max(width, most);
+  }
+  return widest;
 }
 
 } // namespace
 
 template <int Dimension>
-typename ReachTree<Dimension>::Box ReachTree<Dimension>::BoundsOf(
-  std::int64_t firstPoint, std::int64_t lastPoint) const
+void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress)
 {
-  Box box{};
-  std::fill_n(box.Low, Dimension, std::numeric_limits<double>::infinity());
-  std::fill_n(box.High, Dimension, -std::numeric_limits<double>::infinity());
-  for (std::int64_t i = firstPoint; i < lastPoint; ++i)
+  this->Sorted = std::move(points);
+  std::vector<NumberedPoint<Dimension>> numbered;
+  numbered.reserve(this->Sorted.size());
+  for (const auto& point : this->Sorted)
   {
-    const ScaledPoint<Dimension>& point = this->Sorted[static_cast<std::size_t>(i)];
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      box.Low[axis] = std::min(box.Low[axis], point.X[axis]);
-      box.High[axis] = std::max(box.High[axis], point.X[axis]);
-    }
-    box.Square = std::max(box.Square, point.Square);
+    numbered.push_back({ point, static_cast<std::int64_t>(numbered.size()) });
   }
-  return box;
+  this->MakeBoxes();
+  // Parents are before their children.
+  Polls polls(progress);
+  for (const Box& box : this->Boxes)
+  {
+    auto* first = numbered.data() + box.First * repulsionTile;
+    auto* last = numbered.data() + std::min(box.Last * repulsionTile, this->Size());
+    const int axis = box.Second < 0 ? 0 : widestAxis<Dimension>(first, last);
+    const auto before = [&polls, axis](const auto& a, const auto& b) {
+      polls.Count();
+      return isBefore<Dimension>(a, b, axis);
+    };
+    if (box.Second < 0)
+    {
+      std::sort(first, last, before);
+      continue;
+    }
+    const std::int64_t middle = this->Boxes[static_cast<std::size_t>(box.Second)].First;
+    std::nth_element(first, numbered.data() + middle * repulsionTile, last, before);
+  }
+  this->Places.resize(this->Sorted.size());
+  for (std::size_t i = 0; i < numbered.size(); ++i)
+  {
+    this->Sorted[i] = numbered[i].Point;
+    this->Places[i] = numbered[i].Number;
+  }
+  this->Update();
 }
 
+// The tree of halves of the tiles, without places yet.
 template <int Dimension>
-void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress)
+void ReachTree<Dimension>::MakeBoxes()
 {
   struct Task
   {
-    std::int64_t First; // tiles
+    std::int64_t First;
     std::int64_t Last;
     std::int64_t Parent; // of a second child, else -1
   };
-  this->Sorted = std::move(points);
   this->Boxes.clear();
-  const std::int64_t count = this->Size();
-  std::vector<std::pair<ScaledPoint<Dimension>, std::int64_t>> sort;
-  sort.reserve(this->Sorted.size());
-  for (const auto& point : this->Sorted)
-  {
-    sort.emplace_back(point, static_cast<std::int64_t>(sort.size()));
-  }
-  const auto sortAlong = [&](const Task& task, int axis, std::int64_t middle) {
-    const auto before = [axis](const auto& a, const auto& b) {
-      return isBefore<Dimension>(a.first, b.first, axis) ||
-        (!isBefore<Dimension>(b.first, a.first, axis) && a.second < b.second);
-    };
-    const auto begin = sort.begin() + task.First * repulsionTile;
-    const auto end = sort.begin() + std::min(task.Last * repulsionTile, count);
-    if (middle < 0)
-    {
-      std::sort(begin, end, before);
-      return;
-    }
-    std::nth_element(begin, sort.begin() + middle * repulsionTile, end, before);
-  };
   this->TileBox.assign(static_cast<std::size_t>(this->Tiles()), 0);
   std::vector<Task> tasks;
-  if (count > 0)
+  if (this->Tiles() > 0)
   {
     tasks.push_back({ 0, this->Tiles(), -1 });
   }
@@ -105,43 +127,32 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
     if (task.Last - task.First == 1)
     {
       this->TileBox[static_cast<std::size_t>(task.First)] = at;
-      sortAlong(task, 0, -1);
       continue;
     }
-    double low[Dimension];
-    double high[Dimension];
-    std::fill_n(low, Dimension, std::numeric_limits<double>::infinity());
-    std::fill_n(high, Dimension, -std::numeric_limits<double>::infinity());
-    for (std::int64_t i = task.First * repulsionTile;
-         i < std::min(task.Last * repulsionTile, count); ++i)
-    {
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        low[axis] = std::min(low[axis], sort[static_cast<std::size_t>(i)].first.X[axis]);
-        high[axis] = std::max(high[axis], sort[static_cast<std::size_t>(i)].first.X[axis]);
-      }
-    }
-    int axis = 0;
-    for (int r = 1; r < Dimension; ++r)
-    {
-      axis = high[r] - low[r] > high[axis] - low[axis] ? r : axis;
-    }
     const std::int64_t middle = (task.First + task.Last) / 2;
-    sortAlong(task, axis, middle);
     tasks.push_back({ middle, task.Last, at });
     tasks.push_back({ task.First, middle, -1 });
-    if (task.Last - task.First > 64)
-    {
-      progress.Check();
-    }
+    this->Boxes.back().Second = 0; // known once the first child's boxes are made
   }
-  this->Places.resize(this->Sorted.size());
-  for (std::size_t i = 0; i < sort.size(); ++i)
+}
+
+template <int Dimension>
+void ReachTree<Dimension>::Bound(Box& box) const
+{
+  const std::int64_t first = box.First * repulsionTile;
+  const std::int64_t last = std::min(box.Last * repulsionTile, this->Size());
+  std::fill_n(box.Low, Dimension, std::numeric_limits<double>::infinity());
+  std::fill_n(box.High, Dimension, -std::numeric_limits<double>::infinity());
+  box.Square = 0.0;
+  for (const auto* point = this->Points() + first; point < this->Points() + last; ++point)
   {
-    this->Sorted[i] = sort[i].first;
-    this->Places[i] = sort[i].second;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      box.Low[axis] = std::min(box.Low[axis], point->X[axis]);
+      box.High[axis] = std::max(box.High[axis], point->X[axis]);
+    }
+    box.Square = std::max(box.Square, point->Square);
   }
-  this->Update();
 }
 
 template <int Dimension>
@@ -150,27 +161,19 @@ void ReachTree<Dimension>::Update()
   for (std::size_t i = this->Boxes.size(); i-- > 0;)
   {
     Box& box = this->Boxes[i];
-    Box found{};
     if (box.Second < 0)
     {
-      found =
-        this->BoundsOf(box.First * repulsionTile, std::min(box.Last * repulsionTile, this->Size()));
+      this->Bound(box);
+      continue;
     }
-    else
+    const Box& a = this->Boxes[i + 1];
+    const Box& b = this->Boxes[static_cast<std::size_t>(box.Second)];
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      const Box& a = this->Boxes[i + 1];
-      const Box& b = this->Boxes[static_cast<std::size_t>(box.Second)];
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        found.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
-        found.High[axis] = std::max(a.High[axis], b.High[axis]);
-      }
-      found.Square = std::max(a.Square, b.Square);
+      box.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
+      box.High[axis] = std::max(a.High[axis], b.High[axis]);
     }
-    found.First = box.First;
-    found.Last = box.Last;
-    found.Second = box.Second;
-    box = found;
+    box.Square = std::max(a.Square, b.Square);
   }
 }
 

@@ -63,7 +63,8 @@ private:
     std::int64_t Second; // the first child is the next box; -1 in a leaf
   };
 
-  Box BoundsOf(std::int64_t firstPoint, std::int64_t lastPoint) const;
+  void MakeBoxes();
+  void Bound(Box& leaf) const;
 
   std::vector<ScaledPoint<Dimension>> Sorted;
   std::vector<std::int64_t> Places;

@@ -2,6 +2,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/BlueNoiseRelaxation.h"
+#include "Core/Relaxation/Polls.h"
 #include "Core/Relaxation/RepulsionDescent.h"
 #include "Core/Relaxation/SpacingLimit.h"
 
@@ -27,7 +28,7 @@ constexpr RepulsionWidth repulsionWidth = { Dimension == 2 ? 0.5 : 0.45, 13.8 };
 // The widest leaves, in spacings: the interpolation then changes energies by about 1e-4
 // (2D) and 1e-3 (3D).
 template <int Dimension>
-constexpr double finestLeaf = Dimension == 2 ? 0.5 : 0.75;
+constexpr double finestLeaf = Dimension == 2 ? 0.6 : 0.75;
 
 void check(const RelaxationOptions& options)
 {
@@ -40,29 +41,6 @@ void check(const RelaxationOptions& options)
   {
     throw std::invalid_argument(
       "Tolerance is " + std::to_string(options.Tolerance) + ", it must be at least 0 and below 1");
-  }
-}
-
-// Sorts in pieces, between which it polls for cancellation.
-template <class Less>
-void sortInPieces(std::vector<std::int64_t>& values, const Less& less, Progress& progress)
-{
-  const auto count = static_cast<std::ptrdiff_t>(values.size());
-  const auto begin = values.begin();
-  std::ptrdiff_t piece = std::ptrdiff_t{ 1 } << 15;
-  for (std::ptrdiff_t first = 0; first < count; first += piece)
-  {
-    std::sort(begin + first, begin + std::min(first + piece, count), less);
-    progress.Check();
-  }
-  for (; piece < count; piece *= 2)
-  {
-    for (std::ptrdiff_t first = 0; first + piece < count; first += 2 * piece)
-    {
-      std::inplace_merge(
-        begin + first, begin + first + piece, begin + std::min(first + 2 * piece, count), less);
-      progress.Check();
-    }
   }
 }
 
@@ -159,14 +137,13 @@ private:
   {
     std::vector<std::int64_t> order(static_cast<std::size_t>(this->Points.size()));
     std::iota(order.begin(), order.end(), 0);
-    sortInPieces(
-      order,
-      [this](std::int64_t a, std::int64_t b) {
-        const auto first = this->At(a);
-        const auto second = this->At(b);
-        return first < second || (first == second && a < b);
-      },
-      this->Work);
+    Polls polls(this->Work);
+    std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+      polls.Count();
+      const auto first = this->At(a);
+      const auto second = this->At(b);
+      return first < second || (first == second && a < b);
+    });
     std::uint64_t ordinal = 0;
     Point<Dimension> last{};
     for (std::size_t i = 0; i < order.size(); ++i)

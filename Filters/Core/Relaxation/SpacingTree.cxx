@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <unordered_map>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -20,18 +20,72 @@ constexpr std::int64_t grain = 256;
 // rounding does not divide those of a uniform density once more.
 constexpr double rootSide = 0.97 * 8; // times the finest
 
+// Numbers nodes in the order in which they are first asked for. Open addressing: the nodes of large
+// trees in a std::unordered_map take several times the time.
 template <int Dimension>
-struct NodeHash
+class NodeNumbers
 {
-  std::size_t operator()(const std::array<std::int64_t, Dimension>& node) const
+public:
+  using Node = std::array<std::int64_t, Dimension>;
+
+  explicit NodeNumbers(std::size_t expected)
+  {
+    std::size_t slots = 64;
+    while (slots < 4 * expected)
+    {
+      slots *= 2;
+    }
+    this->Slots.assign(slots, -1);
+  }
+
+  // Throws std::bad_alloc past 2^31 nodes.
+  std::int32_t operator[](const Node& node)
+  {
+    std::int32_t& slot = this->SlotOf(node);
+    if (slot >= 0)
+    {
+      return slot;
+    }
+    const std::size_t number = this->Nodes.size();
+    if (number >= std::size_t{ 1 } << 31)
+    {
+      throw std::bad_alloc();
+    }
+    slot = static_cast<std::int32_t>(number);
+    this->Nodes.push_back(node);
+    if (2 * this->Nodes.size() > this->Slots.size())
+    {
+      this->Slots.assign(2 * this->Slots.size(), -1);
+      for (std::size_t i = 0; i < this->Nodes.size(); ++i)
+      {
+        this->SlotOf(this->Nodes[i]) = static_cast<std::int32_t>(i);
+      }
+    }
+    return static_cast<std::int32_t>(number);
+  }
+
+  std::vector<Node> Release() { return std::move(this->Nodes); }
+
+private:
+  // The slot of the node, or the free one for it.
+  std::int32_t& SlotOf(const Node& node)
   {
     std::uint64_t hash = 0;
     for (const std::int64_t coordinate : node)
     {
       hash = mixBits(hash ^ static_cast<std::uint64_t>(coordinate));
     }
-    return static_cast<std::size_t>(hash);
+    const std::size_t last = this->Slots.size() - 1;
+    std::size_t at = static_cast<std::size_t>(hash) & last;
+    while (this->Slots[at] >= 0 && this->Nodes[static_cast<std::size_t>(this->Slots[at])] != node)
+    {
+      at = (at + 1) & last;
+    }
+    return this->Slots[at];
   }
+
+  std::vector<std::int32_t> Slots; // numbers, -1 in free ones
+  std::vector<Node> Nodes;
 };
 
 } // namespace
@@ -140,8 +194,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
 template <int Dimension>
 void SpacingTree<Dimension>::Number(Progress& progress)
 {
-  std::unordered_map<Node, std::int32_t, NodeHash<Dimension>> numbers;
-  numbers.reserve(2 * this->LeafBoxes.size());
+  NodeNumbers<Dimension> numbers(this->LeafBoxes.size());
   this->LeafNodes.resize(this->LeafBoxes.size());
   for (std::int64_t leaf = 0; leaf < this->Leaves(); ++leaf)
   {
@@ -153,21 +206,12 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       {
         node[axis] += (corner >> axis & 1) * this->Width(box.Depth);
       }
-      const auto [at, isNew] =
-        numbers.try_emplace(node, static_cast<std::int32_t>(this->NodePlaces.size()));
-      if (isNew)
-      {
-        if (this->NodePlaces.size() >= std::size_t{ 1 } << 31)
-        {
-          throw std::bad_alloc();
-        }
-        this->NodePlaces.push_back(node);
-      }
       this->LeafNodes[static_cast<std::size_t>(leaf)][static_cast<std::size_t>(corner)] =
-        at->second;
+        numbers[node];
     }
     progress.Add(1);
   }
+  this->NodePlaces = numbers.Release();
   this->NodeLeaf.resize(this->NodePlaces.size());
   progress.For(this->Nodes(), grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t node = first; node < last; ++node)
@@ -176,24 +220,28 @@ void SpacingTree<Dimension>::Number(Progress& progress)
         this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
     }
   });
+  this->FindConstrained();
+}
+
+template <int Dimension>
+void SpacingTree<Dimension>::FindConstrained()
+{
+  std::array<std::vector<std::int32_t>, DeepestLevel + 1> ofDepth;
   for (std::int64_t i = 0; i < this->Nodes(); ++i)
   {
     const auto node = static_cast<std::size_t>(i);
-    const std::int64_t width = this->Width(this->LeafBox(this->NodeLeaf[node]).Depth);
-    for (const std::int64_t coordinate : this->NodePlaces[node])
+    const int depth = this->LeafBox(this->NodeLeaf[node]).Depth;
+    const Node& place = this->NodePlaces[node];
+    if (std::any_of(place.begin(), place.end(),
+          [&](std::int64_t coordinate) { return coordinate % this->Width(depth) != 0; }))
     {
-      if (coordinate % width != 0)
-      {
-        this->Constrained.push_back(static_cast<std::int32_t>(i));
-        break;
-      }
+      ofDepth[static_cast<std::size_t>(depth)].push_back(static_cast<std::int32_t>(i));
     }
   }
-  std::stable_sort(
-    this->Constrained.begin(), this->Constrained.end(), [this](std::int32_t a, std::int32_t b) {
-      return this->LeafBox(this->NodeLeaf[static_cast<std::size_t>(a)]).Depth <
-        this->LeafBox(this->NodeLeaf[static_cast<std::size_t>(b)]).Depth;
-    });
+  for (const auto& nodes : ofDepth)
+  {
+    this->Constrained.insert(this->Constrained.end(), nodes.begin(), nodes.end());
+  }
 }
 
 template <int Dimension>

@@ -71,6 +71,7 @@ private:
 
   void Divide(double finest, Progress& progress);
   void Number(Progress& progress);
+  void FindConstrained();
   void FindSpacing(Progress& progress);
   std::int64_t Width(int depth) const { return std::int64_t{ 1 } << (DeepestLevel - depth); }
   Point<Dimension> PointOf(const Node& node) const;

@@ -3,6 +3,7 @@
 #include "Core/Relaxation/RepulsionEnergy.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Relaxation/SpacingLimit.h"
 
 #include "TestFlow.h"
 
@@ -234,6 +235,30 @@ TEST(RepulsionEnergy, SpacingIsSmooth)
   expectSmooth<2>(twoGaussians<2>({ 40, 30 }), 300);
   expectSmooth<2>(discWithHole<2>({ 40, 40 }), 100);
   expectSmooth<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
+}
+
+// Points all over a domain whose density is in a small part of it would nearly all be neighbours.
+TEST(RepulsionEnergy, NeighboursAreBounded)
+{
+  constexpr std::int64_t count = 12000;
+  const auto limitFor = [](const TestDensity<2>& density) {
+    const RectifiedFlow<2> flow(density.Source());
+    Progress work{ Context() };
+    const RelaxationFrame<2> frame(density.Size, { 1.0, 1.0 }, count);
+    const SpacingTree<2> tree(flow, frame, count, 0.6, infinity, work);
+    Points<2> points = randomPoints<2>(density.Size, count);
+    for (Point<2>& point : points)
+    {
+      point[0] *= frame.CellSides[0];
+      point[1] *= frame.CellSides[1];
+    }
+    return affordableSpacing<2>(tree, points, width.Reach(), work);
+  };
+  EXPECT_EQ(limitFor(uniformDensity<2>({ 64, 64 })), infinity);
+  EXPECT_EQ(limitFor(twoGaussians<2>({ 64, 64 })), infinity);
+  const double limit = limitFor(dirac<2>({ 64, 64 }, { 9, 30 }));
+  EXPECT_GE(limit, 1.0);
+  EXPECT_LT(limit, 50.0);
 }
 
 TEST(RepulsionEnergy, ExponentialOfTheKernels)
