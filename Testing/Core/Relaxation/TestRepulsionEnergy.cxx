@@ -94,8 +94,9 @@ double sumOfPairs(
         squared += (a.X[axis] - b.X[axis]) * (a.X[axis] - b.X[axis]);
       }
       const double q = squared / (2.0 * width.Deviation * width.Deviation * squares);
-      sum += a.Weight * b.Weight * std::exp(-q) *
-        std::pow(2.0 * a.Spacing * b.Spacing / squares, 0.5 * Dimension);
+      const double ratio = 2.0 * a.Spacing * b.Spacing / squares;
+      const double overlap = Dimension == 2 ? ratio : ratio * std::sqrt(ratio);
+      sum += a.Weight * b.Weight * overlap * std::exp(-q);
     }
   }
   return sum;
