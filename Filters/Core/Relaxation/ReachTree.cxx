@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
+#include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/Polls.h"
 
 #include <algorithm>
@@ -64,7 +65,9 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
   {
     numbered.push_back({ point, static_cast<std::int64_t>(numbered.size()) });
   }
+  progress.Check();
   this->MakeBoxes();
+  progress.Check();
   // Parents are before their children.
   Polls polls(progress);
   for (const Box& box : this->Boxes)
@@ -90,7 +93,9 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
     this->Sorted[i] = numbered[i].Point;
     this->Places[i] = numbered[i].Number;
   }
+  progress.Check();
   this->Update();
+  progress.Check();
 }
 
 // The tree of halves of the tiles, without places yet.

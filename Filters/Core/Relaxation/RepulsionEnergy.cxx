@@ -2,9 +2,9 @@
 #include "Core/Relaxation/RepulsionEnergy.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::int64_t grain = 256;
+constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
 constexpr std::int64_t tileGrain = 16;
 
 } // namespace
@@ -40,48 +41,52 @@ template <int Dimension>
 void RepulsionEnergy<Dimension>::FindSources(Progress& progress)
 {
   std::vector<ScaledPoint<Dimension>> sources(static_cast<std::size_t>(this->Tree.Leaves()));
-  progress.For(this->Tree.Leaves(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t leaf = first; leaf < last; ++leaf)
-    {
-      const Point<Dimension> low = this->Tree.LeafLow(leaf);
-      const Point<Dimension> sides = this->Tree.LeafSides(leaf);
-      double mass = 0.0;
-      Point<Dimension> centroid{};
-      for (int part = 0; part < hermiteCorners<Dimension>; ++part)
+  progress.For(
+    this->Tree.Leaves(), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t leaf = first; leaf < last; ++leaf)
       {
-        Point<Dimension> lowIndex;
-        Point<Dimension> highIndex;
-        for (int axis = 0; axis < Dimension; ++axis)
+        const Point<Dimension> low = this->Tree.LeafLow(leaf);
+        const Point<Dimension> sides = this->Tree.LeafSides(leaf);
+        double mass = 0.0;
+        Point<Dimension> centroid{};
+        for (int part = 0; part < hermiteCorners<Dimension>; ++part)
         {
-          const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
-          lowIndex[axis] = from / this->Frame.CellSides[axis];
-          highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
+          Point<Dimension> lowIndex;
+          Point<Dimension> highIndex;
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            const double from = low[axis] + ((part >> axis & 1) ? 0.5 : 0.0) * sides[axis];
+            lowIndex[axis] = from / this->Frame.CellSides[axis];
+            highIndex[axis] = (from + 0.5 * sides[axis]) / this->Frame.CellSides[axis];
+          }
+          const double share = this->Flow.Share(lowIndex, highIndex);
+          mass += share;
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
+          }
         }
-        const double share = this->Flow.Share(lowIndex, highIndex);
-        mass += share;
-        for (int axis = 0; axis < Dimension; ++axis)
+        double spacing = 1.0;
+        if (mass > 0.0)
         {
-          centroid[axis] += share * ((part >> axis & 1) ? 0.75 : 0.25);
+          typename SpacingTree<Dimension>::Place place{ leaf, {} };
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            place.At[axis] = centroid[axis] / mass;
+            centroid[axis] = low[axis] + place.At[axis] * sides[axis];
+          }
+          spacing = this->Tree.Evaluate(this->Tree.Spacing(), place)[0];
         }
+        sources[static_cast<std::size_t>(leaf)] =
+          scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
       }
-      double spacing = 1.0;
-      if (mass > 0.0)
-      {
-        typename SpacingTree<Dimension>::Place place{ leaf, {} };
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          place.At[axis] = centroid[axis] / mass;
-          centroid[axis] = low[axis] + place.At[axis] * sides[axis];
-        }
-        spacing = this->Tree.Evaluate(this->Tree.Spacing(), place)[0];
-      }
-      sources[static_cast<std::size_t>(leaf)] =
-        scaledPoint<Dimension>(centroid, spacing, mass * this->Count);
-    }
-  });
+    },
+    firstSlice);
   sources.erase(std::remove_if(sources.begin(), sources.end(),
                   [](const ScaledPoint<Dimension>& source) { return !(source.Mass > 0.0); }),
     sources.end());
+  progress.Check();
   this->Sources.Build(std::move(sources), progress);
 }
 
@@ -94,6 +99,7 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
     nodes[node] = scaledPoint<Dimension>(
       this->Tree.NodePoint(static_cast<std::int64_t>(node)), this->Tree.Spacing()[node][0], 0.0);
   }
+  progress.Check();
   ReachTree<Dimension> targets;
   targets.Build(std::move(nodes), progress);
   this->Attraction.assign(static_cast<std::size_t>(this->Tree.Nodes()), {});
@@ -123,21 +129,24 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
       }
     },
     tileGrain);
+  progress.Check();
   this->Tree.FindMixed(this->Attraction, false, progress);
+  progress.Check();
   const ScaledPoint<Dimension>* sources = this->Sources.Points();
-  this->Constant = reduceChunks(
-    progress, this->Sources.Size(), grain, 0.0,
+  std::vector<double> parts(static_cast<std::size_t>(this->Sources.Size()));
+  progress.For(
+    this->Sources.Size(), grain,
     [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
       for (std::int64_t i = first; i < last; ++i)
       {
         Point<Dimension> x;
         std::copy_n(sources[i].X, Dimension, x.begin());
-        sum += sources[i].Mass * this->Tree.Evaluate(this->Attraction, this->Tree.Locate(x))[0];
+        parts[static_cast<std::size_t>(i)] =
+          sources[i].Mass * this->Tree.Evaluate(this->Attraction, this->Tree.Locate(x))[0];
       }
-      return sum;
     },
-    [](double a, double b) { return a + b; });
+    firstSlice);
+  this->Constant = std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 template <int Dimension>
@@ -163,19 +172,22 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
   ScaledPoint<Dimension>* particles = this->Particles.Points();
   std::vector<Data> spacing(static_cast<std::size_t>(count));
   std::vector<Data> attraction(static_cast<std::size_t>(count));
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-    {
-      Point<Dimension> x;
-      std::copy_n(points[order[i]], Dimension, x.begin());
-      const auto place = this->Tree.Locate(x);
-      const auto at = static_cast<std::size_t>(i);
-      spacing[at] = this->Tree.Evaluate(this->Tree.Spacing(), place);
-      attraction[at] = this->Tree.Evaluate(this->Attraction, place);
-      particles[i] = scaledPoint<Dimension>(x, spacing[at][0], 1.0);
-      spacings[order[i]] = spacing[at][0];
-    }
-  });
+  progress.For(
+    count, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        Point<Dimension> x;
+        std::copy_n(points[order[i]], Dimension, x.begin());
+        const auto place = this->Tree.Locate(x);
+        const auto at = static_cast<std::size_t>(i);
+        spacing[at] = this->Tree.Evaluate(this->Tree.Spacing(), place);
+        attraction[at] = this->Tree.Evaluate(this->Attraction, place);
+        particles[i] = scaledPoint<Dimension>(x, spacing[at][0], 1.0);
+        spacings[order[i]] = spacing[at][0];
+      }
+    },
+    firstSlice);
   this->Particles.Update();
   const double scale = 2.0 / this->Count;
   std::vector<double> energies(static_cast<std::size_t>(this->Particles.Tiles()));

@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr std::int64_t grain = 256;
+constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
 // A little less than the width of leaves where the spacing is the mean, times a power of two: then
 // rounding does not divide those of a uniform density once more.
 constexpr double rootSide = 0.97 * 8; // times the finest
@@ -142,14 +143,18 @@ void SpacingTree<Dimension>::Number(Progress& progress)
     progress.Add(1);
   }
   this->NodePlaces = numbers.Release();
+  progress.Check();
   this->NodeLeaf.resize(this->NodePlaces.size());
-  progress.For(this->Nodes(), grain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t node = first; node < last; ++node)
-    {
-      this->NodeLeaf[static_cast<std::size_t>(node)] =
-        this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
-    }
-  });
+  progress.For(
+    this->Nodes(), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t node = first; node < last; ++node)
+      {
+        this->NodeLeaf[static_cast<std::size_t>(node)] =
+          this->WidestLeafAt(this->NodePlaces[static_cast<std::size_t>(node)]);
+      }
+    },
+    firstSlice);
   this->FindConstrained();
 }
 
@@ -334,38 +339,41 @@ template <int Dimension>
 void SpacingTree<Dimension>::FindMixed(Field& field, bool first, Progress& progress) const
 {
   const Field given = field;
-  progress.For(this->Nodes(), grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      const auto node = static_cast<std::size_t>(i);
-      const Point<Dimension> x = this->NodePoint(i);
-      const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
-      // The difference of an entry along an axis, one-sided at the border.
-      const auto difference = [&](int entry, int axis) {
-        Point<Dimension> low = x;
-        Point<Dimension> high = x;
-        low[axis] = std::max(x[axis] - sides[axis], 0.0);
-        high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
-        return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
-          (high[axis] - low[axis]);
-      };
-      for (int axis = 0; axis < Dimension && first; ++axis)
+  progress.For(
+    this->Nodes(), grain,
+    [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        field[node][std::size_t{ 1 } << axis] = difference(0, axis);
-      }
-      if (!first)
-      {
-        for (int a = 0; a < Dimension; ++a)
+        const auto node = static_cast<std::size_t>(i);
+        const Point<Dimension> x = this->NodePoint(i);
+        const Point<Dimension> sides = this->LeafSides(this->NodeLeaf[node]);
+        // The difference of an entry along an axis, one-sided at the border.
+        const auto difference = [&](int entry, int axis) {
+          Point<Dimension> low = x;
+          Point<Dimension> high = x;
+          low[axis] = std::max(x[axis] - sides[axis], 0.0);
+          high[axis] = std::min(x[axis] + sides[axis], this->Frame.Sides[axis]);
+          return (this->Linear(given, entry, high) - this->Linear(given, entry, low)) /
+            (high[axis] - low[axis]);
+        };
+        for (int axis = 0; axis < Dimension && first; ++axis)
         {
-          for (int b = 0; b < a; ++b)
+          field[node][std::size_t{ 1 } << axis] = difference(0, axis);
+        }
+        if (!first)
+        {
+          for (int a = 0; a < Dimension; ++a)
           {
-            field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
-              0.5 * (difference(1 << a, b) + difference(1 << b, a));
+            for (int b = 0; b < a; ++b)
+            {
+              field[node][static_cast<std::size_t>(1 << a | 1 << b)] =
+                0.5 * (difference(1 << a, b) + difference(1 << b, a));
+            }
           }
         }
       }
-    }
-  });
+    },
+    firstSlice);
   if (!first)
   {
     this->Join(field);
@@ -386,7 +394,9 @@ void SpacingTree<Dimension>::FindSpacing(Progress& progress)
       }
     },
     4 * grain);
+  progress.Check();
   this->FindMixed(field, true, progress);
+  progress.Check();
   this->FindMixed(field, false, progress);
   // Bounds of the control values of the interpolation (value and derivatives times a third of the
   // side for each order) that keep it positive.
