@@ -17,10 +17,12 @@ namespace Cost
 {
 
 constexpr double Seed = 20.0;
-constexpr double Write = 50.0;        // of a particle with its arrays
-constexpr double MassShare = 150.0;   // of a sample in 3D, with the sample's other arrays
-constexpr double MeanAndSplat = 60.0; // of a particle of a blend
-constexpr double Comparison = 4000.0; // of a particle with a density
+constexpr double Write = 50.0;         // of a particle with its arrays
+constexpr double MassShare = 150.0;    // of a sample in 3D, with the sample's other arrays
+constexpr double MeanAndSplat = 60.0;  // of a particle of a blend
+constexpr double Comparison = 4000.0;  // of a particle with a density
+constexpr double Relaxation = 20000.0; // of a point, in each iteration
+constexpr double Reading = 2.0;        // of a cell's value
 
 inline double tables(const FlowCache& cache, const DensityImage& density)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/SeedInput.h"
 
+#include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 
 #include <algorithm>
@@ -13,40 +14,23 @@ namespace RectifiedTransport
 namespace
 {
 
+// Writes the nearest point of the domain, in index and in physical space. Returns whether the point
+// was moved.
 template <int D>
-class PlaceSeed
+bool placeSeed(const ImageGrid& grid, const double* x, double* index, double* seed)
 {
-public:
-  PlaceSeed(const ImageGrid& geometry, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
-    : Geometry(geometry)
-    , IndexSeeds(indexSeeds)
-    , PhysicalSeeds(physicalSeeds)
+  grid.ToIndex<D>(x, index);
+  const bool inside = grid.ClampToDomain<D>(index);
+  grid.ToPhysical<D>(index, seed);
+  const double distance = std::hypot(x[0] - seed[0], x[1] - seed[1], x[2] - seed[2]);
+  const double rounding =
+    1e-12 * (grid.Diagonal() + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+  if (inside && distance <= rounding)
   {
+    std::copy_n(x, 3, seed);
   }
-
-  // Returns whether the seed was moved.
-  bool operator()(std::int64_t i, const double* x) const
-  {
-    double* index = this->IndexSeeds[i];
-    double* seed = this->PhysicalSeeds[i];
-    this->Geometry.template ToIndex<D>(x, index);
-    const bool inside = this->Geometry.template ClampToDomain<D>(index);
-    this->Geometry.template ToPhysical<D>(index, seed);
-    const double distance = std::hypot(x[0] - seed[0], x[1] - seed[1], x[2] - seed[2]);
-    const double rounding =
-      1e-12 * (this->Geometry.Diagonal() + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
-    if (inside && distance <= rounding)
-    {
-      std::copy_n(x, 3, seed);
-    }
-    return distance > this->Geometry.BorderTolerance();
-  }
-
-private:
-  const ImageGrid& Geometry;
-  PointSpan<D> IndexSeeds;
-  PointSpan<3> PhysicalSeeds;
-};
+  return distance > grid.BorderTolerance();
+}
 
 } // namespace
 
@@ -54,12 +38,37 @@ template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
   Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
 {
-  const PlaceSeed<D> place(grid, indexSeeds, physicalSeeds);
   std::atomic<std::int64_t> moved{ 0 };
   visitPoints(points, what, progress, [&](std::int64_t i, const double* x) {
-    if (place(i, x))
+    if (placeSeed<D>(grid, x, indexSeeds[i], physicalSeeds[i]))
     {
       ++moved;
+    }
+  });
+  return moved;
+}
+
+template <int D>
+std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
+  const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
+{
+  if (counted.Count() == points->GetNumberOfPoints())
+  {
+    return readSeeds<D>(points, what, grid, progress, indexSeeds, physicalSeeds);
+  }
+  visitPoints(points, what, progress,
+    [&](std::int64_t i, const double* x) { std::copy_n(x, 3, physicalSeeds[i]); });
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+  std::atomic<std::int64_t> moved{ 0 };
+  progress.For(counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t number = first; number < last; ++number)
+    {
+      double* seed = physicalSeeds[counted.Point(number)];
+      const double x[3] = { seed[0], seed[1], seed[2] };
+      if (placeSeed<D>(grid, x, indexSeeds[number], seed))
+      {
+        ++moved;
+      }
     }
   });
   return moved;
@@ -71,5 +80,9 @@ template std::int64_t readSeeds<2>(
   vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<2>, PointSpan<3>);
 template std::int64_t readSeeds<3>(
   vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<3>, PointSpan<3>);
+template std::int64_t readSeeds<2>(vtkPointSet*, const CountedPoints&, const std::string&,
+  const ImageGrid&, Progress&, PointSpan<2>, PointSpan<3>);
+template std::int64_t readSeeds<3>(vtkPointSet*, const CountedPoints&, const std::string&,
+  const ImageGrid&, Progress&, PointSpan<3>, PointSpan<3>);
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A single number in the field data of an output.
+// Numbers in the field data of an output.
 #ifndef RectifiedTransport_FieldValue_h
 #define RectifiedTransport_FieldValue_h
 
@@ -8,15 +8,27 @@
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 
+#include <vector>
+
 namespace RectifiedTransport
 {
 
-inline void addFieldValue(vtkDataObject* output, const char* name, double value)
+// An array of several numbers, which replaces one of the same name.
+inline void addFieldValues(
+  vtkDataObject* output, const char* name, const std::vector<double>& values)
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
-  array->InsertNextValue(value);
+  for (const double value : values)
+  {
+    array->InsertNextValue(value);
+  }
   output->GetFieldData()->AddArray(array);
+}
+
+inline void addFieldValue(vtkDataObject* output, const char* name, double value)
+{
+  addFieldValues(output, name, { value });
 }
 
 } // namespace RectifiedTransport

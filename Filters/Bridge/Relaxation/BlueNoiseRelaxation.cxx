@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Relaxation/BlueNoiseRelaxation.h"
+
+#include "Bridge/Density/CostModel.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/SeedInput.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Reduction.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
+// The bytes that the core takes while it runs.
+double coreMemory(bool byTransport, double cells, double points)
+{
+  constexpr double rowMoments = 32.0; // a cell of the density
+  constexpr double diagram = 2048.0;  // a point
+  constexpr double neighbours = 1024.0;
+  return byTransport ? rowMoments * cells + diagram * points : neighbours * points;
+}
+
+// The points of a set in index space, where they are no ghosts, and all of them in physical space.
+template <int D>
+class RelaxedPoints
+{
+public:
+  RelaxedPoints(const ImageGrid& grid, const CountedPoints& counted, Progress& progress)
+    : Grid(grid)
+    , Counted(counted)
+    , Work(progress)
+  {
+  }
+
+  // Returns how many points were moved to the domain.
+  std::int64_t Read(vtkPointSet* input, const std::string& purpose)
+  {
+    const vtkIdType count = input->GetNumberOfPoints();
+    const std::int64_t coordinates = this->Counted.Count() * D;
+    this->Points = newArray<vtkDoubleArray>("Points", 3, count);
+    withMemory(purpose, static_cast<double>(coordinates) * sizeof(double),
+      [&]() { this->Index = LargeBuffer<double>(coordinates); });
+    return readSeeds<D>(input, this->Counted, "input point set", this->Grid, this->Work,
+      this->Relaxed(), { this->Points->GetPointer(0), count });
+  }
+
+  PointSpan<D> Relaxed() { return { this->Index.data(), this->Counted.Count() }; }
+
+  // Points that are where they were keep their coordinates to the last bit.
+  void Write(vtkPointSet* output)
+  {
+    double* points = this->Points->GetPointer(0);
+    const PointSpan<D> relaxed = this->Relaxed();
+    this->Work.For(relaxed.size(), grain, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        double* x = points + 3 * this->Counted.Point(i);
+        double before[D];
+        this->Grid.template ToIndex<D>(x, before);
+        this->Grid.template ClampToDomain<D>(before);
+        if (!std::equal(before, before + D, relaxed[i]))
+        {
+          this->Grid.template ToPhysical<D>(relaxed[i], x);
+        }
+      }
+    });
+    vtkNew<vtkPoints> moved;
+    moved->SetDataTypeToDouble();
+    moved->SetData(this->Points);
+    output->SetPoints(moved);
+  }
+
+private:
+  const ImageGrid& Grid;
+  const CountedPoints& Counted;
+  Progress& Work;
+  vtkSmartPointer<vtkDoubleArray> Points;
+  LargeBuffer<double> Index;
+};
+
+// A physical mass that is no double is an error, also where no tables are built, which would find
+// it.
+template <int D>
+void requireMass(const DensityImage& density, Progress& progress)
+{
+  const DensitySource<D> source = density.Source<D>();
+  const auto sumOf = [&](std::int64_t first, std::int64_t last) {
+    std::vector<double> values(static_cast<std::size_t>(last - first));
+    source.Values.Read(first, last - first, values.data());
+    double sum = 0.0;
+    for (const double value : values)
+    {
+      sum += value;
+    }
+    return sum;
+  };
+  DensitySummary found;
+  const double sum =
+    reduceChunks(progress, density.Grid().NumberOfCells(), grain, 0.0, sumOf, std::plus<>());
+  found.Total = sum * density.Grid().CellMeasure();
+  // The core counts the values that are wrong where there is no sum.
+  if (sum > 0.0 && std::isfinite(sum) && (!(found.Total > 0.0) || std::isinf(found.Total)))
+  {
+    density.ThrowInvalid(found);
+  }
+}
+
+// The lengths of a cell's sides in the longest of them: squares of the lengths may be no doubles,
+// and only ratios matter.
+template <int D>
+Point<D> cellLengths(const ImageGrid& grid)
+{
+  Point<D> lengths = grid.Lengths<D>();
+  const GridSize<D> size = grid.Size<D>();
+  for (std::size_t a = 0; a < D; ++a)
+  {
+    lengths[a] /= static_cast<double>(size[a]);
+  }
+  const double longest = *std::max_element(lengths.begin(), lengths.end());
+  for (double& length : lengths)
+  {
+    length /= longest;
+  }
+  return lengths;
+}
+
+template <int D>
+RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const DensityImage& density,
+  const SharedFlow* flow, PointSpan<D> points, const Context& context)
+{
+  const Point<D> spacing = cellLengths<D>(density.Grid());
+  try
+  {
+    if constexpr (D == 2)
+    {
+      if (settings.ByTransport)
+      {
+        return relaxByTransport(density.Source<2>(), spacing, points, settings.Options, context);
+      }
+    }
+    return relaxByRepulsion<D>(
+      density.Source<D>(), flow->Flow<D>(), spacing, points, settings.Options, context);
+  }
+  catch (const InvalidDensity& invalid)
+  {
+    density.ThrowInvalid(invalid.Summary());
+  }
+}
+
+template <int D>
+BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityImage& density,
+  vtkPointSet* input, const CountedPoints& counted, FlowCache& cache, Progress& progress,
+  vtkPointSet* output)
+{
+  const auto cells = static_cast<double>(density.Grid().NumberOfCells());
+  const auto count = static_cast<double>(counted.Count());
+  const double all = static_cast<double>(input->GetNumberOfPoints());
+  const auto ends = stageEnds({ settings.ByTransport ? 0.0 : Cost::tables(cache, density),
+    Cost::Reading * cells, Cost::Seed * all,
+    Cost::Relaxation * count * (settings.Options.MaximumIterations + 1.0), Cost::Seed * count });
+  const std::string purpose = "the relaxation of " + std::to_string(counted.Count()) +
+    " points in " + std::to_string(density.Grid().NumberOfCells()) + " cells of the density";
+  const double bytes = coreMemory(settings.ByTransport, cells, count);
+  requireMemory(purpose, bytes + sizeof(double) * (3.0 * all + D * count));
+
+  const SharedFlow* flow = nullptr;
+  if (!settings.ByTransport)
+  {
+    flow = &cache.Update(density, progress, ends[0]);
+  }
+  else if (cache.IsOutdated(density))
+  {
+    cache.Release();
+  }
+  progress.BeginStage(ends[1]);
+  density.Prepare(progress);
+  if (settings.ByTransport)
+  {
+    requireMass<D>(density, progress);
+  }
+  progress.BeginStage(ends[2]);
+  RelaxedPoints<D> points(density.Grid(), counted, progress);
+  BlueNoiseRelaxation::Report report;
+  report.PointsMoved = points.Read(input, purpose);
+  progress.BeginStage(ends[3]);
+  if (counted.Count() > 0)
+  {
+    withMemory(purpose, bytes, [&]() {
+      report.Energy =
+        relaxPoints<D>(settings, density, flow, points.Relaxed(), progress.Stage()).Energy;
+    });
+  }
+  progress.BeginStage(1.0);
+  points.Write(output);
+  return report;
+}
+
+} // namespace
+
+BlueNoiseRelaxation::Report BlueNoiseRelaxation::Run(DensityImage& density, vtkPointSet* input,
+  const CountedPoints& counted, FlowCache& cache, Progress& progress, vtkPointSet* output) const
+{
+  const int dimension = density.Grid().Dimension();
+  if (dimension == 1)
+  {
+    throw Failure("The density has 1 dimension; Relax Blue Noise needs 2 or 3");
+  }
+  if (this->ByTransport && dimension == 3)
+  {
+    throw Failure(
+      "The density has 3 dimensions; Method OptimalTransport needs 2 (use GaussianBlueNoise)");
+  }
+  return dimension == 2 ? relax<2>(*this, density, input, counted, cache, progress, output)
+                        : relax<3>(*this, density, input, counted, cache, progress, output);
+}
+
+} // namespace RectifiedTransport

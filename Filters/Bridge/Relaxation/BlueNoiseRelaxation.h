@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Spaces points evenly for a density: the worker of vtkBlueNoiseRelaxation.
+#ifndef RectifiedTransport_BridgeBlueNoiseRelaxation_h
+#define RectifiedTransport_BridgeBlueNoiseRelaxation_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Relaxation/BlueNoiseRelaxation.h"
+
+#include <cstdint>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class CountedPoints;
+class DensityImage;
+class FlowCache;
+class Progress;
+
+// The members are the properties of that class.
+struct BlueNoiseRelaxation
+{
+  bool ByTransport; // else by repulsion
+  RelaxationOptions Options;
+
+  struct Report
+  {
+    std::int64_t PointsMoved = 0; // to the domain
+    std::vector<double> Energy;   // none where all points are ghosts
+  };
+
+  // Sets the points of an output that has the rest of the input already; those that are ghosts stay
+  // where they are. Tables are kept in the cache; relaxation by transport needs none. Throws
+  // Failure and Cancelled.
+  Report Run(DensityImage& density, vtkPointSet* input, const CountedPoints& counted,
+    FlowCache& cache, Progress& progress, vtkPointSet* output) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

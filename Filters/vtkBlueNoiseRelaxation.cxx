@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkBlueNoiseRelaxation.h"
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Relaxation/BlueNoiseRelaxation.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/FieldValue.h"
+#include "Bridge/Run/PropertyCheck.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <memory>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkBlueNoiseRelaxation);
+
+namespace
+{
+const char* const MethodTexts[] = { "GaussianBlueNoise", "OptimalTransport" };
+} // namespace
+
+using namespace RectifiedTransport;
+
+//------------------------------------------------------------------------------
+vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
+  : vtkDensityAlgorithm(1)
+  , Method(GAUSSIAN_BLUE_NOISE)
+  , MaximumIterations(50)
+  , Tolerance(0.0)
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(1);
+}
+
+//------------------------------------------------------------------------------
+vtkBlueNoiseRelaxation::~vtkBlueNoiseRelaxation() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkBlueNoiseRelaxation::GetMethodAsString()
+{
+  return choiceText(MethodTexts, this->Method);
+}
+
+//------------------------------------------------------------------------------
+void vtkBlueNoiseRelaxation::SetDensityConnection(vtkAlgorithmOutput* density)
+{
+  this->SetInputConnection(1, density);
+}
+
+//------------------------------------------------------------------------------
+void vtkBlueNoiseRelaxation::SetDensityData(vtkDataObject* density)
+{
+  this->SetInputData(1, density);
+}
+
+//------------------------------------------------------------------------------
+vtkPointSet* vtkBlueNoiseRelaxation::GetOutput()
+{
+  return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkBlueNoiseRelaxation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkBlueNoiseRelaxation::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkBlueNoiseRelaxation::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkBlueNoiseRelaxation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  requireChoice("Method", this->Method, MethodTexts);
+  requireThat(
+    this->MaximumIterations >= 0, "MaximumIterations", this->MaximumIterations, "at least 0");
+  requireThat(this->Tolerance >= 0.0 && this->Tolerance < 1.0, "Tolerance", this->Tolerance,
+    "at least 0 and less than 1");
+  AlgorithmProgress progress(this, this->Threading);
+  // All points are in piece 0, whatever pieces are requested.
+  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  {
+    return 1;
+  }
+  vtkPointSet* input = pointSetOf(inputVector[0]);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  if (!density || !input || input->GetNumberOfPoints() == 0)
+  {
+    return 1;
+  }
+  const CountedPoints counted(input, "input point set");
+  vtkPointSet* output = vtkPointSet::GetData(outputVector);
+  output->CopyStructure(input);
+  output->GetPointData()->PassData(input->GetPointData());
+  output->GetCellData()->PassData(input->GetCellData());
+  const BlueNoiseRelaxation relaxation{ this->Method == OPTIMAL_TRANSPORT,
+    { this->MaximumIterations, this->Tolerance } };
+  const BlueNoiseRelaxation::Report report =
+    relaxation.Run(*density, input, counted, this->GetFlowCache(), progress, output);
+  addFieldValues(output, "Energy", report.Energy);
+  if (report.PointsMoved > 0)
+  {
+    vtkWarningMacro(<< report.PointsMoved << " of " << counted.Count()
+                    << " points outside the domain of the density moved to its border");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkBlueNoiseRelaxation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->GetMethodAsString() << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+}
+VTK_ABI_NAMESPACE_END
