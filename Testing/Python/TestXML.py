@@ -23,6 +23,7 @@ PUBLIC = {
     "Uniform Seeds": ("vtkUniformSeedSource", [], []),
     "Density-Equalizing Warp": ("vtkDensityEqualizingWarp", ["Input", "Density"], []),
     "Transport Quality": ("vtkTransportQuality", ["Input", "Density"], []),
+    "Relax Blue Noise": ("vtkBlueNoiseRelaxation", ["Input", "Density"], []),
 }
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
 CHOICES = {  # the first is the default
@@ -37,6 +38,7 @@ CHOICES = {  # the first is the default
     "Kernel": ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"],
     "Boundary": ["Renormalize", "Drop"],
     "Association": ["Points", "Cells"],
+    "Method": ["GaussianBlueNoise", "OptimalTransport"],
 }
 ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
 INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"}
@@ -52,6 +54,7 @@ DEPENDENT = {
     "Parameter": ({"PublishTime"}, (0.5, 0.25)),
     "Component": ({"DensityArray"}, (-1, 0)),
 }
+ALWAYS_SHOWN = {("Relax Blue Noise", "Tolerance")}  # of another meaning than that of flows
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
 SECOND_OUTPUT = [("View", {"type": "None", "port": "1"}),
                  ("RepresentationType", {**POINTS, "port": "1"})]
@@ -59,6 +62,7 @@ SHOWN = {  # how an output is shown at first, where it is not as ParaView shows 
     "Sample Density": [("RepresentationType", POINTS)],
     "Sample Surface": [("RepresentationType", POINTS)],
     "Uniform Seeds": [("RepresentationType", POINTS)],
+    "Relax Blue Noise": [("RepresentationType", POINTS)],
     "Morph Densities": SECOND_OUTPUT,
     "Density Barycenter": SECOND_OUTPUT,
     "Equal-Mass Cells": [("RepresentationType",
@@ -129,6 +133,13 @@ class XML(unittest.TestCase):
                 self.assertEqual(names, PUBLIC[proxy.label][1])
                 self.assertEqual(proxy.menu, "filters" if found else "sources")
                 self.assertEqual(proxy.element.get("multiprocess_support"), "single_process")
+
+    def test_nothing_is_overridden(self):
+        """ParaView applies an override once, to the first proxy of a base before another plugin is
+        loaded."""
+        for case, _, prop in self.each_property():
+            with case:
+                self.assertIsNone(prop.element.get("override"))
 
     def test_choices(self):
         for case, _, prop in self.each_property():
@@ -239,7 +250,8 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 found = decorators(prop)
-                self.assertEqual(len(found), 1 if prop.name in DEPENDENT else 0)
+                depends = prop.name in DEPENDENT and (proxy.label, prop.name) not in ALWAYS_SHOWN
+                self.assertEqual(len(found), 1 if depends else 0)
                 for decorator in found:
                     self.assertEqual(decorator.get("type"), "GenericDecorator")
                     self.assertEqual(
