@@ -3,6 +3,7 @@
 // what Transport Quality measures is that of the particles that are no ghosts.
 #include "QualityTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkMassSplatter.h"
 #include "vtkUnsignedCharArray.h"
@@ -46,12 +47,16 @@ void checkLengths(Checks& checks)
   quality->SetInputData(points);
   auto density = makeImage(5, 4, 1, true, bumpy);
   quality->SetDensityData(density);
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetInputData(points);
+  relaxation->SetDensityData(density);
   const std::string tooFew =
     "The ghost array 'vtkGhostType' of the points of the input point set "
     "has 7 values, but there are 100000 points; there must be one for each";
   setGhosts(points->GetPointData(), std::vector<unsigned char>(7, 0));
   expectError(checks, splatter, tooFew, __LINE__);
   expectError(checks, quality, tooFew, __LINE__);
+  expectError(checks, relaxation, tooFew, __LINE__);
   setGhosts(points->GetPointData(), std::vector<unsigned char>(200000, 0), 2);
   expectError(checks, splatter, "has 200000 values, but there are 100000 points", __LINE__);
   points->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
@@ -63,6 +68,7 @@ void checkLengths(Checks& checks)
     "of the cells of the input image has 11 values, but there are 12 cells; there must be one for";
   expectError(checks, sampler, cells, __LINE__);
   expectError(checks, quality, cells, __LINE__);
+  expectError(checks, relaxation, cells, __LINE__);
   density->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   setGhosts(density->GetPointData(), std::vector<unsigned char>(21, 0));
   expectError(

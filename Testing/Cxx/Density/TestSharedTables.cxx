@@ -6,6 +6,7 @@
 #include "QualityTest.h"
 #include "WarpTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFloatArray.h"
 #include "vtkSOADataArrayTemplate.h"
@@ -85,13 +86,18 @@ std::vector<Reader> makeReaders(vtkImageData* image)
   auto warp = vtkSmartPointer<vtkDensityEqualizingWarp>::New();
   warp->SetInputData(points);
   warp->SetDensityData(image);
+  auto relaxation = vtkSmartPointer<vtkBlueNoiseRelaxation>::New();
+  relaxation->SetInputData(points);
+  relaxation->SetDensityData(image);
+  relaxation->SetMaximumIterations(2);
   const auto mapped = [map]() {
     map->Update();
     return imageValues(map->GetOutput(), "Displacement");
   };
   return { { sampler, [sampler]() { return sampleCoordinates(sampler); } }, { map, mapped },
     { quality, [quality]() { return runQuality(quality); } },
-    { warp, [warp]() { return displacements(warp); } } };
+    { warp, [warp]() { return displacements(warp); } },
+    { relaxation, [relaxation]() { return coordinates(relaxation->GetOutput()); } } };
 }
 
 // What they make, each of them executed again.

@@ -3,6 +3,7 @@
 #include "TestSource.h"
 #include "WarpTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkEqualMassCells.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
@@ -135,6 +136,27 @@ void checkQuality(Checks& checks)
   }
 }
 
+void checkRelaxation(Checks& checks)
+{
+  auto images = makeTimedImages();
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetInputData(makePoints({ 3, 2, 0, 4, 2, 0, 5, 4, 0 }));
+  relaxation->SetDensityConnection(images->GetOutputPort());
+  relaxation->SetMaximumIterations(3);
+  expectTimes(checks, relaxation, { 0.0, 1.0, 3.0 }, __LINE__);
+  Values last;
+  for (const double time : { 0.0, 1.0, 3.0 })
+  {
+    relaxation->UpdateTimeStep(time);
+    const Values found = coordinates(relaxation->GetOutput());
+    CHECK(checks, found != last);
+    last = found;
+  }
+  auto points = makeTimedPoints();
+  relaxation->SetInputConnection(points->GetOutputPort());
+  expectTimes(checks, relaxation, { 0.0, 0.5, 1.0, 3.0 }, __LINE__);
+}
+
 // Seeds that move sample a density that stays.
 void checkSampler(Checks& checks)
 {
@@ -178,5 +200,5 @@ void checkOutputs(Checks& checks)
 
 int TestInputTimes(int, char*[])
 {
-  return runChecks({ checkWarp, checkQuality, checkSampler, checkOutputs });
+  return runChecks({ checkWarp, checkQuality, checkRelaxation, checkSampler, checkOutputs });
 }

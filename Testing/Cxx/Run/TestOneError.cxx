@@ -3,6 +3,7 @@
 #include "BlendTest.h"
 #include "CellsTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkMassSplatter.h"
 #include "vtkTable.h"
 #include "vtkTransportMap.h"
@@ -53,6 +54,10 @@ int TestOneError(int, char*[])
   quality->SetInputData(points);
   quality->SetDensityData(image);
   checkAssociations(checks, quality, 0, 1, __LINE__);
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetInputData(points);
+  relaxation->SetDensityData(image);
+  checkAssociations(checks, relaxation, 0, 1, __LINE__);
   auto morph = makeMorph(image, image);
   checkAssociations(checks, morph, 0, 0, __LINE__);
   checkAssociations(checks, morph, 1, 1, __LINE__);

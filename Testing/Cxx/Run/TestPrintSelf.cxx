@@ -4,6 +4,7 @@
 #include "TestData.h"
 
 #include "vtkAreaPreservingParameterization.h"
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
@@ -200,6 +201,18 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 8", "TableBuildTime: 0" });
   quality->SetBlockSize(5);
   expectLines(checks, quality, { "BlockSize: 5" });
+
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  expectLines(checks, relaxation,
+    { "DensityPort: 1", "TableBuildTime: 0", "Method: GaussianBlueNoise", "MaximumIterations: 50",
+      "Tolerance: 0" });
+  relaxation->SetMethodToOptimalTransport();
+  relaxation->SetMaximumIterations(7);
+  relaxation->SetTolerance(0.25);
+  expectLines(
+    checks, relaxation, { "Method: OptimalTransport", "MaximumIterations: 7", "Tolerance: 0.25" });
+  relaxation->SetMethod(2);
+  CHECK(checks, relaxation->GetMethodAsString() == std::string("Unknown"));
 
   vtkNew<vtkUniformSeedSource> source;
   expectLines(checks, source,

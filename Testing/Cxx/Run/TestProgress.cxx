@@ -8,6 +8,7 @@
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkMassSplatter.h"
 #include "vtkTransportMap.h"
 #include "vtkTransportQuality.h"
@@ -68,6 +69,17 @@ void checkFlows(Checks& checks, int depth)
   quality->SetInputData(points);
   quality->SetDensityData(image);
   expectRising(checks, quality, image, __LINE__);
+
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetInputData(points);
+  relaxation->SetDensityData(image);
+  relaxation->SetMaximumIterations(3);
+  expectRising(checks, relaxation, image, __LINE__);
+  if (depth == 1)
+  {
+    relaxation->SetMethodToOptimalTransport();
+    expectRising(checks, relaxation, image, __LINE__);
+  }
 
   vtkNew<vtkMassSplatter> splatter;
   splatter->SetInputData(points);

@@ -4,6 +4,7 @@
 #include "TestSource.h"
 #include "WarpTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -108,5 +109,6 @@ int TestUpstreamRequest(int, char*[])
   checkFilter(checks, vtkNew<vtkMassSplatter>(), true, true);
   checkFilter(checks, vtkNew<vtkDensityEqualizingWarp>(), true, true);
   checkFilter(checks, vtkNew<vtkTransportQuality>(), true, true);
+  checkFilter(checks, vtkNew<vtkBlueNoiseRelaxation>(), true, true);
   return checks.Result();
 }

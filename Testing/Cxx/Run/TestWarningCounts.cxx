@@ -4,6 +4,7 @@
 #include "BlendTest.h"
 #include "CellsTest.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkMassSplatter.h"
 
 namespace
@@ -80,6 +81,20 @@ void checkSeeds(Checks& checks, double unit)
   checkOutside(
     checks, sampler, [&](vtkPolyData* seeds) { sampler->SetSeedsData(seeds); }, "seeds outside",
     unit);
+}
+
+void checkRelaxation(Checks& checks, double unit)
+{
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetDensityData(makeSmall(unit));
+  relaxation->SetMaximumIterations(1);
+  for (int method = 0; method < 2; ++method)
+  {
+    relaxation->SetMethod(method);
+    checkOutside(
+      checks, relaxation, [&](vtkPolyData* points) { relaxation->SetInputData(points); },
+      "points outside", unit);
+  }
 }
 
 void checkSites(Checks& checks, double unit)
@@ -266,6 +281,7 @@ int TestWarningCounts(int, char*[])
   for (const double unit : { 1.0, 1e-3, 500.0 })
   {
     checkSeeds(checks, unit);
+    checkRelaxation(checks, unit);
     checkSites(checks, unit);
     checkSplat(checks, unit);
   }
