@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sample Density, Transport Map, Density-Equalizing Warp and Transport Quality.
+// Sample Density, Transport Map, Density-Equalizing Warp, Transport Quality and Relax Blue Noise.
 #include "DrawnInputs.h"
 #include "Kinds.h"
 #include "OutputChecks.h"
 
+#include "vtkBlueNoiseRelaxation.h"
 #include "vtkCellData.h"
 #include "vtkDensityEqualizingWarp.h"
 #include "vtkPointData.h"
@@ -337,6 +338,66 @@ void checkQuality(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   }
 }
 
+//------------------------------------------------------------------------------
+using Relaxation = vtkBlueNoiseRelaxation;
+
+void drawRelaxation(Settings& settings)
+{
+  settings.Draw<Relaxation, int>("Method", &Relaxation::SetMethod, { 0, 1 }, { -1, 2 }, 0.6);
+  settings.Draw<Relaxation, int>("MaximumIterations", &Relaxation::SetMaximumIterations,
+    { 0, 1, 2, 3 }, { -1, std::numeric_limits<int>::min() }, 1.0);
+  settings.Draw<Relaxation, double>("Tolerance", &Relaxation::SetTolerance,
+    { 0.0, 0.1, 0.999, 5e-324 }, { -0.1, 1.0, NaN, Infinity }, 0.4);
+  drawDensitySettings(settings);
+  drawThreading<Relaxation>(settings);
+}
+
+Inputs drawRelaxationInputs(RandomSource& random, Settings& settings)
+{
+  Inputs inputs(2);
+  inputs[1] = { drawDensityOn(random, settings, 1) };
+  inputs[0] = { drawPoints(
+    random, vtkImageData::SafeDownCast(inputs[1][0].Data), settings.IsLarge() ? 3000 : 300) };
+  return inputs;
+}
+
+State expectRelaxation(vtkAlgorithm* filter, const Inputs& inputs)
+{
+  const int dimension = vtkImageData::SafeDownCast(inputs[1][0].Data)->GetDataDimension();
+  const int highest =
+    Relaxation::SafeDownCast(filter)->GetMethod() == Relaxation::OPTIMAL_TRANSPORT ? 2 : 3;
+  return worse(expectWarp(filter, inputs),
+    dimension >= 2 && dimension <= highest ? State::Sound : State::Faulty);
+}
+
+void checkRelaxation(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
+{
+  auto* relaxation = Relaxation::SafeDownCast(filter);
+  vtkPointSet* output = relaxation->GetOutput();
+  auto* input = vtkPointSet::SafeDownCast(inputs[0][0].Data);
+  requireFinitePoints(output, findings);
+  findings.That(output->GetNumberOfPoints() == input->GetNumberOfPoints() &&
+      output->GetNumberOfCells() == input->GetNumberOfCells() &&
+      output->GetDataObjectType() == input->GetDataObjectType(),
+    "as many points and cells as before");
+  requirePassed(input->GetPointData(), output->GetPointData(), {}, findings);
+  if (!input->GetPointGhostArray() && densityState(filter, inputs[1][0]) == State::Sound)
+  {
+    requireInside(output, inputs[1][0], findings);
+  }
+  vtkDataArray* energy = output->GetFieldData()->GetArray("Energy");
+  findings.That(energy && energy->GetNumberOfComponents() == 1 &&
+      energy->GetNumberOfTuples() <= relaxation->GetMaximumIterations() + 1 &&
+      (energy->GetNumberOfTuples() > 0 || input->GetPointGhostArray()),
+    "the number of energies");
+  for (vtkIdType i = 0; energy && i < energy->GetNumberOfTuples(); ++i)
+  {
+    const double value = energy->GetComponent(i, 0);
+    findings.That(std::isfinite(value), "a finite energy");
+    findings.That(i == 0 || value <= energy->GetComponent(i - 1, 0), "no greater energy");
+  }
+}
+
 } // namespace
 
 void addTransportKinds(std::vector<FilterKind>& kinds)
@@ -348,6 +409,8 @@ void addTransportKinds(std::vector<FilterKind>& kinds)
     { "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp });
   kinds.push_back({ "Quality", make<Quality>, drawQuality, drawPointsAndDensityInputs,
     expectQuality, checkQuality });
+  kinds.push_back({ "Relaxation", make<Relaxation>, drawRelaxation, drawRelaxationInputs,
+    expectRelaxation, checkRelaxation });
 }
 
 } // namespace Campaign

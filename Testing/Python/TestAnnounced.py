@@ -102,7 +102,8 @@ class Announced(unittest.TestCase):
                 (rt.vtkTransportInterpolator, 1, {0: whole}),
                 (rt.vtkTransportBarycenter, 0, {}),
                 (rt.vtkMassSplatter, 1, {0: points}), (rt.vtkEqualMassCells, 1, {0: points}),
-                (rt.vtkDensityEqualizingWarp, 1, {0: points})):
+                (rt.vtkDensityEqualizingWarp, 1, {0: points}),
+                (rt.vtkBlueNoiseRelaxation, 1, {0: points})):
             filter_ = make()
             for other, data in others.items():
                 filter_.SetInputDataObject(other, data)

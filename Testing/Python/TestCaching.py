@@ -5,8 +5,8 @@ import unittest
 import numpy as np
 from rt_testing import density_image, digest, main, points_in
 
-from rectifiedtransport import (vtkDensityEqualizingWarp, vtkTransportMap, vtkTransportQuality,
-                                vtkTransportSampler, vtkUniformSeedSource)
+from rectifiedtransport import (vtkBlueNoiseRelaxation, vtkDensityEqualizingWarp, vtkTransportMap,
+                                vtkTransportQuality, vtkTransportSampler, vtkUniformSeedSource)
 
 
 class Caching(unittest.TestCase):
@@ -122,6 +122,10 @@ class OtherFilters(unittest.TestCase):
             lambda f: f.SetBlockSize(3),
             lambda f: f.SetInputData(0, points_in(f.GetInputDataObject(1, 0), seed=4)),
         ],
+        vtkBlueNoiseRelaxation: [
+            lambda f: f.SetMaximumIterations(3),
+            lambda f: f.SetInputData(0, points_in(f.GetInputDataObject(1, 0), seed=4)),
+        ],
     }
 
     def check(self, kind, port):
@@ -177,6 +181,9 @@ class OtherFilters(unittest.TestCase):
 
     def test_quality(self):
         self.check(vtkTransportQuality, 1)
+
+    def test_relaxation(self):
+        self.check(vtkBlueNoiseRelaxation, 1)
 
 
 def density_sampler(filter_of_two):

@@ -119,6 +119,31 @@ class Errors(unittest.TestCase):
         quality.BlockSize = 3
         self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
 
+    def test_relaxation(self):
+        relaxed = simple.RelaxBlueNoise(Input=simple.Plane(Point1=[0.5, -0.5, 0]),
+                                        Density=producer(simple, density_image((4, 1))))
+        for settings, message in (
+                ({"MaximumIterations": -1}, "MaximumIterations is -1; it must be at least 0"),
+                ({"MaximumIterations": 2, "Tolerance": 1.0},
+                 "Tolerance is 1; it must be at least 0 and less than 1"),
+                ({"Tolerance": 0.0, "Method": "OptimalTransport",
+                  "Density": producer(simple, density_image((4, 3, 2)))},
+                 "The density has 3 dimensions; Method OptimalTransport needs 2 (use"),
+                ({"Density": producer(simple, density_image((4,)))},
+                 "The density has 1 dimension; Relax Blue Noise needs 2 or 3")):
+            with self.subTest(message=message):
+                for name, value in settings.items():
+                    setattr(relaxed, name, value)
+                self.check(relaxed, message)
+        relaxed.Density = producer(simple, density_image((4, 3)))
+        reported = Listener(relaxed.GetClientSideObject())
+        output = output_of(relaxed)
+        self.assertEqual(output.GetNumberOfPoints(), 4)
+        self.assertEqual(output.GetFieldData().GetArray("Energy").GetNumberOfTuples(), 3)
+        self.assertEqual(len(reported.warnings), 1)
+        self.assertIn("3 of 4 points outside the domain of the density moved to its border",
+                      reported.warnings[0])
+
     def test_solid(self):
         solid = simple.SolidDensity(Input=simple.Plane(XResolution=3))
         reported = Listener(solid.GetClientSideObject())

@@ -103,6 +103,17 @@ class Gui(unittest.TestCase):
         self.assertEqual(input_of("TransportQuality", "Density"), photograph)
         self.assertIn("SpreadSheetView", found)
 
+    def test_relaxation(self):
+        """Of particles, shown as they are; the density is asked for."""
+        saved = self.state_after("gui-relaxation.png", choose("Filters", "TransportSampler"), APPLY,
+                                 choose("Filters", "BlueNoiseRelaxation"), *DENSITY, APPLY,
+                                 script_text=OPEN + "ResetCamera()\n")
+        kinds = [proxy.get("type") for proxy in saved.iter("Proxy")]
+        self.assertIn("BlueNoiseRelaxation", kinds)
+        styles = [element.get("value") for prop in saved.iter("Property")
+                  if prop.get("name") == "Representation" for element in prop.iter("Element")]
+        self.assertEqual(styles.count("Point Gaussian"), 2)
+
     def test_cells_of_seeds(self):
         """The domain is optional: nothing is asked, and all three outputs are shown."""
         saved = self.state_after("gui-cells.png", choose("Sources", "UniformSeedSource"), APPLY,

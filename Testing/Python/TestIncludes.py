@@ -15,6 +15,7 @@ CORE = {
     "Flow": {"Parallel", "Geometry", "Tables"},
     "SiteCells": {"Parallel", "Geometry", "Tables", "Flow"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
+    "Relaxation": {"Parallel", "Geometry", "Tables", "Flow"},
     "Seeds": {"Parallel", "Geometry"},
     "Splat": {"Parallel", "Geometry"},
     "Solid": {"Parallel", "Geometry", "Mesh"},
@@ -32,7 +33,7 @@ BRIDGE = {
     "Surface": RUN | {"Points"},
     "Density": RUN | {"Image", "Points"},
     "Blend": WORKERS | {"Splat"},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Seeds", "SiteCells", "Splat")},
+    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "SiteCells", "Splat")},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }

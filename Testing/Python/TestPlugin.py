@@ -22,7 +22,7 @@ class Plugin(unittest.TestCase):
                 proxy.menu, proxy.element.get("name")).FindNestedElementByName("Hints")
             self.assertEqual(
                 hints.FindNestedElementByName("ShowInMenu").GetAttribute("category"), "Transport")
-            if proxy.label in ("Sample Density", "Uniform Seeds"):
+            if proxy.label in ("Sample Density", "Uniform Seeds", "Relax Blue Noise"):
                 self.assertEqual(
                     hints.FindNestedElementByName("RepresentationType").GetAttribute("type"),
                     "Point Gaussian")
@@ -116,17 +116,36 @@ class Plugin(unittest.TestCase):
             self.assertEqual(choice.Get(vtkAlgorithm.INPUT_PORT()), 1)
             self.assertTrue(warp.GetProperty("Blend").SMProperty.GetAnimateable())
 
+    def test_particles_are_relaxed(self):
+        """Of a reader that has not run, in the plane that the particles are in."""
+        photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
+                                                                    "ascent.png")])
+        sampler = simple.SampleDensity(Input=photograph, NumberOfParticles=300, InvertDensity=1)
+        for method in ("GaussianBlueNoise", "OptimalTransport"):
+            relaxed = simple.RelaxBlueNoise(Input=sampler, Density=photograph, InvertDensity=1,
+                                            Method=method, MaximumIterations=4)
+            particles = output_of(relaxed)
+            self.assertEqual(particles.GetNumberOfVerts(), 300)
+            self.assertEqual(particles.GetPointData().GetArray("SeedId").GetTuple1(299), 299)
+            energy = particles.GetFieldData().GetArray("Energy")
+            values = [energy.GetValue(i) for i in range(energy.GetNumberOfTuples())]
+            self.assertTrue(1 < len(values) <= 5)
+            self.assertEqual(values, sorted(values, reverse=True))
+            self.assertLess(values[-1], values[0])
+            self.assertEqual(relaxed.GetProperty("Tolerance").GetPanelVisibility(), "advanced")
+
     def test_second_inputs_accept_images_alone(self):
         image = producer(simple, density_image())
         sphere = simple.Sphere()
         sphere.UpdatePipeline()
-        warp = simple.DensityEqualizingWarp(Input=sphere, Density=image)
-        for name, right, wrong in (("Input", sphere, image), ("Density", image, sphere)):
-            accepted = warp.SMProxy.GetProperty(name)
-            accepted.SetUncheckedInputConnection(0, right.SMProxy, 0)
-            self.assertTrue(accepted.IsInDomains())
-            accepted.SetUncheckedInputConnection(0, wrong.SMProxy, 0)
-            self.assertFalse(accepted.IsInDomains())
+        for make in (simple.DensityEqualizingWarp, simple.RelaxBlueNoise):
+            filter_ = make(Input=sphere, Density=image)
+            for name, right, wrong in (("Input", sphere, image), ("Density", image, sphere)):
+                accepted = filter_.SMProxy.GetProperty(name)
+                accepted.SetUncheckedInputConnection(0, right.SMProxy, 0)
+                self.assertTrue(accepted.IsInDomains())
+                accepted.SetUncheckedInputConnection(0, wrong.SMProxy, 0)
+                self.assertFalse(accepted.IsInDomains())
 
     def test_solid_is_a_density(self):
         """Points are active for Contour and volume rendering, and a density for other filters."""

@@ -16,14 +16,16 @@ LARGE = {("Area-Preserving Parameterization", "Resolution"), ("Sample Surface", 
 
 
 class Range(NamedTuple):
-    """From a lowest number, which may itself be excluded, to a highest one."""
+    """From a lowest to a highest number, either of which may itself be excluded."""
     lowest: float = -math.inf
     excluded: bool = False
     highest: float = math.inf
+    below: bool = False
 
 
 def range_of(text):
-    """The range that words give: «0 to 1», «2 or 3», «1 and more», «above 0, at most 10000»."""
+    """The range that words give: «0 to 1», «2 or 3», «0 to less than 1», «1 and more», «above 0, at
+    most 10000»."""
     number = r"(-?\d+(?:\.\d+)?)"
     found = re.match("any integer$", text)
     if found:
@@ -31,6 +33,9 @@ def range_of(text):
     found = re.match("%s (?:to|or) %s(?=$|,)" % (number, number), text)
     if found:
         return Range(float(found[1]), False, float(found[2]))
+    found = re.match("%s to less than %s(?=$|,)" % (number, number), text)
+    if found:
+        return Range(float(found[1]), False, float(found[2]), True)
     found = re.match("(?:above|greater than) %s(?:, at most %s)?(?=$|,)" % (number, number), text)
     if found:
         return Range(float(found[1]), True, float(found[2] or math.inf))
@@ -133,7 +138,10 @@ class Ranges(unittest.TestCase):
                 elif allowed.lowest > -math.inf:
                     self.assert_taken(proxy, prop, number(allowed.lowest, whole))
                     self.assert_refused(proxy, prop, beside(allowed.lowest, whole, -math.inf))
-                if allowed.highest < math.inf:
+                if allowed.below:
+                    self.assert_taken(proxy, prop, beside(allowed.highest, whole, -math.inf))
+                    self.assert_refused(proxy, prop, allowed.highest)
+                elif allowed.highest < math.inf:
                     if (proxy.label, prop.name) not in LARGE:
                         self.assert_taken(proxy, prop, number(allowed.highest, whole))
                     self.assert_refused(proxy, prop, beside(allowed.highest, whole, math.inf))

@@ -22,7 +22,8 @@ class Ranks(unittest.TestCase):
              SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=140)
         gave = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
         expected = {}
-        for filter_ in ("splat", "cells", "seeds", "quality", "reference", "domain", "block"):
+        for filter_ in ("splat", "cells", "seeds", "quality", "relaxation", "reference", "domain",
+                        "block"):
             for kind in ("whole", "gathered"):
                 expected["%s %s" % (filter_, kind)] = "some"
             expected["%s shared" % filter_] = "none error"

@@ -11,7 +11,7 @@ simple = load_plugin()
 
 KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
          "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
-         "MassSplatter", "AreaPreservingParameterization", "SurfaceSampler")
+         "MassSplatter", "AreaPreservingParameterization", "SurfaceSampler", "BlueNoiseRelaxation")
 
 
 def pipeline():
@@ -30,6 +30,9 @@ def pipeline():
                                  InvertDensity=1, Blend=0.25, NumberOfSteps=9)
     simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
                             InvertDensity=1, BlockSize=32)
+    simple.RelaxBlueNoise(registrationName="Relaxation", Input=sampler, Density=photograph,
+                          InvertDensity=1, Method="OptimalTransport", MaximumIterations=3,
+                          Tolerance=0.001)
     simple.SplatMass(registrationName="Splat", Input=sampler, Dimensions=[30, 20, 1],
                      MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
                      Boundary="Drop", Association="Cells")
@@ -91,6 +94,9 @@ class State(unittest.TestCase):
         self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
         self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
         self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
+        relaxed = simple.FindSource("Relaxation")
+        self.assertEqual((relaxed.Method, relaxed.MaximumIterations, relaxed.Tolerance),
+                         ("OptimalTransport", 3, 0.001))
         splat = simple.FindSource("Splat")
         self.assertEqual((splat.Radius, splat.Boundary, list(splat.MassArray)),
                          (1.5, "Drop", ["POINTS", "Mass"]))
@@ -138,7 +144,8 @@ class State(unittest.TestCase):
         for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
                      "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
                      "DensityBarycenter(",
-                     "SplatMass(", "AreaPreservingParameterization(", "SampleSurface("):
+                     "SplatMass(", "AreaPreservingParameterization(", "SampleSurface(",
+                     "RelaxBlueNoise("):
             self.assertIn(call, script)
 
 

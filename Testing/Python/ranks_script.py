@@ -50,6 +50,8 @@ for kind, points in (("whole", whole_points), ("shared", shared_points),
         simple.SampleDensity(Input=image(), Seeds=points(), **SHORT))
     run("quality %s" % kind, simple.TransportQuality(Input=points(), Density=image(),
                                                      NegativeValues="Clamp"))
+    run("relaxation %s" % kind, simple.RelaxBlueNoise(
+        Input=points(), Density=image(), MaximumIterations=2, NegativeValues="Clamp"))
     run("reference %s" % kind, simple.SplatMass(Input=points(), Reference=image()))
     run("domain %s" % kind, simple.EqualMassCells(Input=points(), Domain=image(), Resolution=16))
     run("block %s" % kind, simple.SplatMass(Input=simple.GroupDatasets(Input=[points()]),
