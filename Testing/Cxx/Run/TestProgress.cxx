@@ -71,7 +71,7 @@ void checkFlows(Checks& checks, int depth)
   expectRising(checks, quality, image, __LINE__);
 
   vtkNew<vtkBlueNoiseRelaxation> relaxation;
-  relaxation->SetInputData(points);
+  relaxation->SetInputData(makePoints(randomCoordinates(bounds, 300)));
   relaxation->SetDensityData(image);
   relaxation->SetMaximumIterations(3);
   expectRising(checks, relaxation, image, __LINE__);
