@@ -7,8 +7,8 @@ apt_log="$build/apt.log"
 packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
   libopenmpi-dev"
 packages_render="xvfb xauth"
-packages_examples="python3-scipy python-matplotlib-data"
-packages_test="libgtest-dev libbenchmark-dev $packages_examples"
+packages_examples="python3-scipy python3-reportlab python-matplotlib-data"
+packages_test="libgtest-dev libbenchmark-dev poppler-utils $packages_examples"
 packages_gui="libqt5svg5 imagemagick xdotool"
 packages_vtk="libtbb-dev"
 

@@ -151,8 +151,10 @@ def main():
                  "lion-head", "--panel", "240")
     draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
                  "--dots", "10000", "--panel", "420")
+    draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
+                 "--panel", "360")
     print("density, particles, volume, cartogram, cells, patterns, flow, flow-maps, map, paths, "
-          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots: "
+          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots, print: "
           + arguments.output)
 
 

@@ -5,7 +5,9 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
+import numpy as np
 import rectified_example as example
+import rectified_print as pages
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -19,17 +21,6 @@ def stipple(image, number, **options):
     array = example.fetch(image).GetPointData().GetArray(0)
     black = 255.0 if array.GetDataTypeSize() == 1 else array.GetRange(-1)[1]
     return dots, math.sqrt(mass / black / math.pi)
-
-
-def write_svg(path, points, bounds, radius):
-    """The dots as circles; SVG's y runs downwards."""
-    x0, x1, y0, y1 = bounds
-    with open(path, "w", encoding="utf-8") as file:
-        file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %g %g">\n'
-                   '<rect width="100%%" height="100%%" fill="white"/>\n' % (x1 - x0, y1 - y0))
-        for x, y in points:
-            file.write('<circle cx="%.2f" cy="%.2f" r="%.2f"/>\n' % (x - x0, y1 - y, radius))
-        file.write("</svg>\n")
 
 
 def write_png(path, dots, bounds, radius, longest):
@@ -60,7 +51,9 @@ def main():
 
     path = example.output(arguments, "stipple-" + example.stem(arguments.image))
     points = vtk_to_numpy(example.fetch(dots).GetPoints().GetData())
-    write_svg(path + ".svg", points[:, :2], bounds, radius)
+    x0, x1, y0, y1 = bounds
+    pages.write_svg(path + ".svg", pages.Discs((x1 - x0, y1 - y0), points[:, :2] - [x0, y0],
+                                               np.full(len(points), radius)))
     write_png(path + ".png", dots, bounds, radius, arguments.pixels)
     print("%d dots of radius %.2f pixels: %s.png, %s.svg" % (len(points), radius, path, path))
 

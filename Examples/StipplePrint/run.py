@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a photograph with dots for print: SVG and PDF, dots of one size or many, black or not."""
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
+import numpy as np
+import rectified_example as example
+import rectified_figures as figures
+import rectified_print as pages
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+STYLES = ["equal", "sizes", "colours", "inks"]
+LUMINANCE = [0.2126, 0.7152, 0.0722]  # Rec. 709
+DETAIL = 6  # times that the picture's lower row enlarges the middle
+
+
+def colours_of(image):
+    """The colours of a photograph, 0 to 1, as rows, columns and RGB; alpha lies over white."""
+    values = figures.values_of(image).astype(float)
+    values = values.reshape(*values.shape[:2], -1)
+    values /= 255 if image.GetScalarSize() == 1 else values.max() or 1
+    if values.shape[2] in (2, 4):
+        values = 1 - values[..., -1:] * (1 - values[..., :-1])
+    return values if values.shape[2] == 3 else values[..., :1].repeat(3, axis=2)
+
+
+def dots(colours, style, number, exponent):
+    """The dots of a photograph, and the ink that they have to have, in pixels."""
+    ink = 1 - (colours.min(axis=2) if style == "inks" else colours @ LUMINANCE)
+    density = ink if style == "equal" else ink ** exponent
+    source = example.producer(figures.image_of(density))
+    sampler = simple.SampleDensity(Input=source, NumberOfParticles=number)
+    data = example.result(sampler)
+    points = vtk_to_numpy(data.GetPoints().GetData())[:, :2].copy()
+    share = data.GetPointData().GetArray("Mass").GetValue(0)
+    simple.Delete(sampler)
+    simple.Delete(source)
+
+    height, width = ink.shape
+    column, row = np.clip(points.astype(int), 0, [width - 1, height - 1]).T
+    # Dots have equal shares of the density. A dot's ink is its share times ink over density there.
+    weight = np.divide(ink, density, out=np.zeros_like(ink), where=density > 0)[row, column]
+    drawn = colours[row, column]
+    if style == "inks":  # the light that the pixel lacks, taken away by as little area as can be
+        drawn = 1 - (1 - drawn) / np.maximum(ink[row, column], 1e-9)[:, None]
+    drawn = None if style in ("equal", "sizes") else (255 * drawn.clip(0, 1)).round().astype(np.uint8)
+    return pages.Discs((width, height), points, np.sqrt(share * weight / np.pi), drawn), ink.sum()
+
+
+def pictures(discs, pixels):
+    """Discs as ParaView draws them: all of them, and the middle enlarged."""
+    width, height = discs.size
+    data = figures.shape(discs.points, [1] * len(discs.points), "Verts")
+    colours = np.zeros((len(discs.points), 3), np.uint8) if discs.colours is None else discs.colours
+    for name, values in ("Radius", discs.radii), ("Colour", colours):
+        array = numpy_to_vtk(values, deep=1)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    view = example.picture_view([pixels, max(1, round(pixels * height / width))], [1, 1, 1])
+    source = example.producer(data)
+    shown = simple.Show(source, view, "GeometryRepresentation")
+    shown.SetRepresentationType("Point Gaussian")
+    shown.ShaderPreset = "Plain circle"
+    shown.GaussianRadius = 1
+    shown.ScaleByArray, shown.UseScaleFunction = 1, 0
+    shown.SetScaleArray = ["POINTS", "Radius"]
+    shown.ColorArrayName, shown.MapScalars = ["POINTS", "Colour"], 0
+    drawn = []
+    for enlarged in 1, DETAIL:
+        example.look_down(view, [width / 2, height / 2], height / enlarged, max(width, height))
+        drawn.append(figures.drawn(example.save_picture, view))
+    simple.Delete(view)
+    simple.Delete(source)
+    return drawn
+
+
+def main():
+    parser = example.parser(
+        __doc__, image=example.file(), particles=example.number(40000, "number of dots"),
+        width=dict(type=float, default=200, help="of the page, in mm (default: %(default)s)"),
+        styles=dict(nargs="+", choices=STYLES, default=STYLES, metavar="STYLE",
+                    help="of dots: " + ", ".join(STYLES) + " (default: all of them)"),
+        exponent=dict(type=float, default=0.5,
+                      help="the density is ink to this power, the dots' sizes do the rest; not of "
+                           "equal (default: %(default)s)"),
+        panel=480)
+    arguments = parser.parse_args()
+    if not 0 < arguments.width <= pages.LARGEST:
+        parser.error("--width is %g; it must be more than 0 and at most %d mm"
+                     % (arguments.width, pages.LARGEST))
+    if not 0 < arguments.exponent <= 1:
+        parser.error("--exponent is %g; it must be more than 0 and at most 1" % arguments.exponent)
+
+    example.load_plugin()
+    colours = colours_of(figures.photograph(arguments.image))
+    name = "print-" + example.stem(arguments.image)
+    rows, panels = [], []
+    for style in arguments.styles:
+        discs, ink = dots(colours, style, arguments.particles, arguments.exponent)
+        path = example.output(arguments, name + "-" + style)
+        pages.write_svg(path + ".svg", discs, arguments.width)
+        pages.write_pdf(path + ".pdf", discs, arguments.width, os.path.basename(path))
+        panels.append(pictures(discs, arguments.panel))
+        unit = arguments.width / discs.size[0]
+        rows.append([style, "%d" % len(discs.points),
+                     "%.3f to %.3f" % tuple(2 * unit * np.quantile(discs.radii, [0, 1])),
+                     "%.4f" % (discs.area() / ink),
+                     *("%.2f" % (os.path.getsize(path + end) / 1e6) for end in (".svg", ".pdf"))])
+    height = arguments.width * colours.shape[0] / colours.shape[1]
+    figures.table("%s on pages of %.1f x %.1f mm" % (arguments.image, arguments.width, height),
+                  ["style", "dots", "diameters, mm", "their area over the ink", "SVG, MB", "PDF, MB"],
+                  rows)
+    print("\n" + figures.write_montage(arguments, name + ".png", [
+        [(style, whole) for style, (whole, _) in zip(arguments.styles, panels)],
+        [("", detail) for _, detail in panels]]))
+
+
+if __name__ == "__main__":
+    main()
