@@ -21,6 +21,8 @@ from vtkmodules.vtkImagingCore import (vtkImageExtractComponents, vtkImageInterp
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkTextProperty, vtkTextRenderer
 
+LUMINANCE = [0.2126, 0.7152, 0.0722]  # of red, green and blue, Rec. 709
+
 
 def table(title, headings, rows):
     """Prints lines of texts under headings, two spaces or more between the columns."""
@@ -129,6 +131,16 @@ def photograph(path, flat=True):
     return image
 
 
+def colours_of(image):
+    """The colours of a photograph, 0 to 1, as rows, columns and RGB; alpha lies over white."""
+    values = values_of(image).astype(float)
+    values = values.reshape(*values.shape[:2], -1)
+    values /= 255 if image.GetScalarSize() == 1 else values.max() or 1
+    if values.shape[2] in (2, 4):
+        values = 1 - values[..., -1:] * (1 - values[..., :-1])
+    return values if values.shape[2] == 3 else values[..., :1].repeat(3, axis=2)
+
+
 def seconds(proxy):
     """The processor's time that a filter needs to come up to date."""
     start = time.process_time()
@@ -189,6 +201,11 @@ def coloured_vectors(vectors, longest):
     picture = np.full((*vectors.shape[:2], 3), 128, np.uint8)
     picture[..., :2] = np.clip(127.5 * (1 + vectors / longest), 0, 255).round()
     return picture
+
+
+def bytes_of(values):
+    """Numbers from 0 to 1 as bytes; what lies outside is cut."""
+    return (255 * values.clip(0, 1)).round().astype(np.uint8)
 
 
 def grey(values):

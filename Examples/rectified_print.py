@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Discs on pages of a size in millimetres: SVG with a circle for each, and PDF."""
+"""Discs in pictures and on pages of a size in millimetres: SVG with a circle for each, and PDF."""
 import sys
 from dataclasses import dataclass
 
 import numpy as np
+import rectified_example as example
+import rectified_figures as figures
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
 
 MILLIMETRE = 72 / 25.4  # points of PDF
 LARGEST = 5080  # millimetres, 14400 points: what readers of PDF take
@@ -37,8 +41,8 @@ def write_svg(path, discs, width=None):
 
 
 def write_pdf(path, discs, width, title):
-    """Writes discs on a page of a width in millimetres. One outline serves all: a disc takes tens of
-    bytes. Black is grey of the value 0, which is printed with black ink alone."""
+    """Writes discs on a page of a width in millimetres. One outline serves all: a disc takes tens
+    of bytes. Black is grey of the value 0, which is printed with black ink alone."""
     try:
         from reportlab.pdfgen.canvas import Canvas  # only who writes PDF needs it
     except ImportError:
@@ -61,3 +65,30 @@ def write_pdf(path, discs, width, title):
         canvas.doForm("disc")
         canvas.restoreState()
     canvas.save()
+
+
+def pictures(discs, pixels, enlarged=(1,)):
+    """Pages as ParaView draws them, so many pixels wide: the middle, enlarged by factors."""
+    width, height = discs.size
+    data = figures.shape(discs.points, [1] * len(discs.points), "Verts")
+    colours = np.zeros((len(discs.points), 3), np.uint8) if discs.colours is None else discs.colours
+    for name, values in ("Radius", discs.radii), ("Colour", colours):
+        array = numpy_to_vtk(values, deep=1)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    view = example.picture_view([pixels, max(1, round(pixels * height / width))], [1, 1, 1])
+    source = example.producer(data)
+    shown = simple.Show(source, view, "GeometryRepresentation")
+    shown.SetRepresentationType("Point Gaussian")
+    shown.ShaderPreset = "Plain circle"
+    shown.GaussianRadius = 1
+    shown.ScaleByArray, shown.UseScaleFunction = 1, 0
+    shown.SetScaleArray = ["POINTS", "Radius"]
+    shown.ColorArrayName, shown.MapScalars = ["POINTS", "Colour"], 0
+    drawn = []
+    for times in enlarged:
+        example.look_down(view, [width / 2, height / 2], height / times, max(width, height))
+        drawn.append(figures.drawn(example.save_picture, view))
+    simple.Delete(view)
+    simple.Delete(source)
+    return drawn

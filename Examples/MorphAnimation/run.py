@@ -9,8 +9,8 @@ import numpy as np
 import rectified_example as example
 import rectified_figures as figures
 import rectified_shapes as shapes
+import rectified_video as video
 from paraview import simple
-from PIL import Image
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 
@@ -78,9 +78,8 @@ def main():
             frames.append(figures.drawn(example.save_picture, view))
 
     path = example.output(arguments, "morph-animation")
-    film = [Image.fromarray(frame[::-1]) for frame in frames + frames[-2:0:-1]]
-    film[0].save(path + ".gif", save_all=True, append_images=film[1:], loop=0,
-                 duration=round(1000 * arguments.seconds / (arguments.frames - 1)))
+    video.write_film(path + ".gif", frames + frames[-2:0:-1],
+                     arguments.seconds / (arguments.frames - 1))
     chosen = np.linspace(0, arguments.frames - 1, arguments.pictures).round().astype(int)
     figures.montage(path + ".png",
                     [[("%s, t = %.2f" % (words, morph.TimestepValues[i]), frames[i][:, part])

@@ -152,10 +152,11 @@ def main():
     draw_example(path("surface-dots"), "StippleSurface", "stipple-surface-lion-head.png",
                  "--dots", "10000", "--panel", "420")
     draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
-                 "--panel", "360")
+                 "--panel", "280")
+    draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
     print("density, particles, volume, cartogram, cells, patterns, flow, flow-maps, map, paths, "
-          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots, print: "
-          + arguments.output)
+          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots, print, "
+          "video: " + arguments.output)
 
 
 if __name__ == "__main__":

@@ -9,26 +9,16 @@ import rectified_example as example
 import rectified_figures as figures
 import rectified_print as pages
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 STYLES = ["equal", "sizes", "colours", "inks"]
-LUMINANCE = [0.2126, 0.7152, 0.0722]  # Rec. 709
 DETAIL = 6  # times that the picture's lower row enlarges the middle
-
-
-def colours_of(image):
-    """The colours of a photograph, 0 to 1, as rows, columns and RGB; alpha lies over white."""
-    values = figures.values_of(image).astype(float)
-    values = values.reshape(*values.shape[:2], -1)
-    values /= 255 if image.GetScalarSize() == 1 else values.max() or 1
-    if values.shape[2] in (2, 4):
-        values = 1 - values[..., -1:] * (1 - values[..., :-1])
-    return values if values.shape[2] == 3 else values[..., :1].repeat(3, axis=2)
 
 
 def dots(colours, style, number, exponent):
     """The dots of a photograph, and the ink that they have to have, in pixels."""
-    ink = 1 - (colours.min(axis=2) if style == "inks" else colours @ LUMINANCE)
+    light = colours.min(axis=2) if style == "inks" else colours @ figures.LUMINANCE
+    ink = (1 - light).clip(0)
     density = ink if style == "equal" else ink ** exponent
     source = example.producer(figures.image_of(density))
     sampler = simple.SampleDensity(Input=source, NumberOfParticles=number)
@@ -45,35 +35,9 @@ def dots(colours, style, number, exponent):
     drawn = colours[row, column]
     if style == "inks":  # the light that the pixel lacks, taken away by as little area as can be
         drawn = 1 - (1 - drawn) / np.maximum(ink[row, column], 1e-9)[:, None]
-    drawn = None if style in ("equal", "sizes") else (255 * drawn.clip(0, 1)).round().astype(np.uint8)
-    return pages.Discs((width, height), points, np.sqrt(share * weight / np.pi), drawn), ink.sum()
-
-
-def pictures(discs, pixels):
-    """Discs as ParaView draws them: all of them, and the middle enlarged."""
-    width, height = discs.size
-    data = figures.shape(discs.points, [1] * len(discs.points), "Verts")
-    colours = np.zeros((len(discs.points), 3), np.uint8) if discs.colours is None else discs.colours
-    for name, values in ("Radius", discs.radii), ("Colour", colours):
-        array = numpy_to_vtk(values, deep=1)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
-    view = example.picture_view([pixels, max(1, round(pixels * height / width))], [1, 1, 1])
-    source = example.producer(data)
-    shown = simple.Show(source, view, "GeometryRepresentation")
-    shown.SetRepresentationType("Point Gaussian")
-    shown.ShaderPreset = "Plain circle"
-    shown.GaussianRadius = 1
-    shown.ScaleByArray, shown.UseScaleFunction = 1, 0
-    shown.SetScaleArray = ["POINTS", "Radius"]
-    shown.ColorArrayName, shown.MapScalars = ["POINTS", "Colour"], 0
-    drawn = []
-    for enlarged in 1, DETAIL:
-        example.look_down(view, [width / 2, height / 2], height / enlarged, max(width, height))
-        drawn.append(figures.drawn(example.save_picture, view))
-    simple.Delete(view)
-    simple.Delete(source)
-    return drawn
+    black = style in ("equal", "sizes")
+    return pages.Discs((width, height), points, np.sqrt(share * weight / np.pi),
+                       None if black else figures.bytes_of(drawn)), ink.sum()
 
 
 def main():
@@ -94,7 +58,7 @@ def main():
         parser.error("--exponent is %g; it must be more than 0 and at most 1" % arguments.exponent)
 
     example.load_plugin()
-    colours = colours_of(figures.photograph(arguments.image))
+    colours = figures.colours_of(figures.photograph(arguments.image))
     name = "print-" + example.stem(arguments.image)
     rows, panels = [], []
     for style in arguments.styles:
@@ -102,7 +66,7 @@ def main():
         path = example.output(arguments, name + "-" + style)
         pages.write_svg(path + ".svg", discs, arguments.width)
         pages.write_pdf(path + ".pdf", discs, arguments.width, os.path.basename(path))
-        panels.append(pictures(discs, arguments.panel))
+        panels.append(pages.pictures(discs, arguments.panel, [1, DETAIL]))
         unit = arguments.width / discs.size[0]
         rows.append([style, "%d" % len(discs.points),
                      "%.3f to %.3f" % tuple(2 * unit * np.quantile(discs.radii, [0, 1])),
@@ -110,8 +74,8 @@ def main():
                      *("%.2f" % (os.path.getsize(path + end) / 1e6) for end in (".svg", ".pdf"))])
     height = arguments.width * colours.shape[0] / colours.shape[1]
     figures.table("%s on pages of %.1f x %.1f mm" % (arguments.image, arguments.width, height),
-                  ["style", "dots", "diameters, mm", "their area over the ink", "SVG, MB", "PDF, MB"],
-                  rows)
+                  ["style", "dots", "diameters, mm", "their area over the ink", "SVG, MB",
+                   "PDF, MB"], rows)
     print("\n" + figures.write_montage(arguments, name + ".png", [
         [(style, whole) for style, (whole, _) in zip(arguments.styles, panels)],
         [("", detail) for _, detail in panels]]))

@@ -21,6 +21,9 @@ from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
 
 DATA = os.path.join(SOURCE, "Testing", "Data")
 SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
+         "StipplePrint": ["--particles", "3000", "--panel", "160"],
+         "VideoStippling": ["--size", "160", "--frames", "8", "--particles", "1000",
+                            "--panel", "160"],
          "Cartogram": ["--pixels", "480"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -87,7 +90,9 @@ def first(cell):
     return float(cell.split()[0])
 
 
-class Examples(unittest.TestCase):
+class ExampleTest(unittest.TestCase):
+    """What tests of examples check; those of stippling are in TestStippling.py."""
+
     def ran(self, example, *arguments):
         """The output of an example that runs."""
         printed, code = run(example, *arguments)
@@ -100,6 +105,19 @@ class Examples(unittest.TestCase):
         self.assertNotEqual(code, 0)
         return printed
 
+    def check_picture(self, name):
+        reference = os.path.join(DATA, "Baseline", name)
+        drawn = os.path.join(OUTPUT, name)
+        if "--update" in sys.argv:
+            shutil.copy(drawn, reference)
+        expected, found = read(reference)[0], read(drawn)[0]
+        self.assertEqual(found.shape, expected.shape)
+        difference = np.abs(blurred(found) - blurred(expected))
+        self.assertLess(difference.mean(), 1, drawn)
+        self.assertLess((difference > 40).mean(), 0.002, drawn)
+
+
+class Examples(ExampleTest):
     def check_falls(self, numbers):
         """Numbers become less from one to the next."""
         numbers = [first(cell) for cell in numbers]
@@ -111,17 +129,6 @@ class Examples(unittest.TestCase):
         for row in times:
             self.assertRegex(row[1], r"^\d+\.\d\d$")
         return [row[0] for row in times]
-
-    def check_picture(self, name):
-        reference = os.path.join(DATA, "Baseline", name)
-        drawn = os.path.join(OUTPUT, name)
-        if "--update" in sys.argv:
-            shutil.copy(drawn, reference)
-        expected, found = read(reference)[0], read(drawn)[0]
-        self.assertEqual(found.shape, expected.shape)
-        difference = np.abs(blurred(found) - blurred(expected))
-        self.assertLess(difference.mean(), 1, drawn)
-        self.assertLess((difference > 40).mean(), 0.002, drawn)
 
     def test_stipple_image(self):
         self.ran("StippleImage")
