@@ -162,10 +162,10 @@ def compare(stippling, camera):
     sampler.SeedPattern = "Random"
     random = stippling.play(prepare=stippling.reseed)[0]
 
-    cases = {"the same seeds": (same, video.same(ids)),
-             "seeds that go with the picture": (moving, video.same(numbers)),
+    cases = {"same seeds": (same, video.same(ids)),
+             "seeds moved along": (moving, video.same(numbers)),
              "others each frame": (redrawn, video.nearest(redrawn, camera.follow)),
-             "random ones each frame": (random, video.nearest(random, camera.follow))}
+             "random each frame": (random, video.nearest(random, camera.follow))}
     rows = []
     for words, case in cases.items():
         picture, *found, new = video.steadiness(*case, camera.follow, size)
@@ -262,14 +262,14 @@ def main():
     stippling.close()
 
     chosen = [i * arguments.frames // arguments.pictures for i in range(arguments.pictures)]
-    lines = [("paths, " + words, picture_of_paths(path_, size, arguments.panel))
+    lines = [("paths: " + words, picture_of_paths(path_, size, arguments.panel))
              for words, path_ in paths.items()]
     figures.montage(path + ".png", [
         [("frame %d" % (i + 1), figures.grey(frames[i])) for i in chosen],
-        [("the same seeds" * (i == 0), pictures[0][i]) for i in chosen],
-        [("seeds that go with the picture" * (i == 0), pictures[1][i]) for i in chosen],
-        [*lines, ("motion by a disc: red is %d pixels" % LONGEST,
-                  picture_of_motion(dots[half], dots[half + 1], size, radius, arguments.panel))]],
+        [("same seeds" * (i == 0), pictures[0][i]) for i in chosen],
+        [("seeds moved along" * (i == 0), pictures[1][i]) for i in chosen],
+        [*lines, ("dots moved by a disc", picture_of_motion(dots[half], dots[half + 1], size, radius,
+                                                            arguments.panel))]],
         arguments.panel)
     print("\n%d frames: %s.gif\n%d of them: %s.png\nthe series: %s%sframe-*.png"
           % (arguments.frames, path, len(chosen), path, path, os.sep))
