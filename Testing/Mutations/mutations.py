@@ -117,7 +117,7 @@ OTHERS = [
     E(CORE + "Parameterization/SquareCorners.cxx",
       "«places.Steps(arc.From, next->first) + next->second > steps»", "true"),
     E(CORE + "Parameterization/IntrinsicDelaunay.cxx", "{ side / 3, «other / 3» }", "side / 3"),
-    S(CORE + "Parameterization/SparseCholesky.cxx", "  «Current = nullptr;»\n}", ";"),
+    S(CORE + "Algebra/SparseCholesky.cxx", "  «Current = nullptr;»\n}", ";"),
     E(CORE + "Parameterization/ConformalMap.cxx", "dirichletEnergy(triangles, «values[1]»)", "values[0]"),
     E(CORE + "Parameterization/MassRaster.cxx", "polygon.Area() > «accuracy * cells * length»", "1e-14"),
     E(CORE + "Parameterization/MassRaster.cxx", "if («rows[0] < firstRow»)", "false"),

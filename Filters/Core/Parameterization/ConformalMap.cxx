@@ -3,7 +3,7 @@
 
 #include "Core/Parallel/Progress.h"
 #include "Core/Parameterization/IntrinsicDelaunay.h"
-#include "Core/Parameterization/SparseCholesky.h"
+#include "Core/Algebra/SparseCholesky.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_LocalSystem_h
 #define RectifiedTransport_LocalSystem_h
 
-#include "Core/Parameterization/SparseCholesky.h"
+#include "Core/Algebra/SparseCholesky.h"
 
 #include <array>
 #include <vector>

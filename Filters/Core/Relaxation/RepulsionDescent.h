@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_RepulsionDescent_h
 #define RectifiedTransport_RepulsionDescent_h
 
-#include "Core/Relaxation/LimitedMemoryBfgs.h"
+#include "Core/Algebra/LimitedMemoryBfgs.h"
 #include "Core/Relaxation/RepulsionEnergy.h"
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Relaxation/LimitedMemoryBfgs.h"
+#include "Core/Algebra/LimitedMemoryBfgs.h"
 
 #include "Core/Parallel/Reduction.h"
 

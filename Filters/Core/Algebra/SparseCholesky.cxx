@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parameterization/SparseCholesky.h"
+#include "Core/Algebra/SparseCholesky.h"
 
 #include "Core/Parallel/Progress.h"
 

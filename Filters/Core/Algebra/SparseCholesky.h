@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SparseCholesky_h
 #define RectifiedTransport_SparseCholesky_h
 
-#include "Core/Parameterization/InterruptibleReal.h"
+#include "Core/Algebra/InterruptibleReal.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
