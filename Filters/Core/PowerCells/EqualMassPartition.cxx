@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/PowerCells/EqualMassPartition.h"
+
+#include "Core/Algebra/SparseCholesky.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t firstSlice = 1 << 10;
+// Of Newton's method: quadratic convergence makes the last step much better than this.
+constexpr double solvedTo = 1e-7;
+constexpr int mostSteps = 500;
+// Of a density that is partly even, on the way to the given one.
+constexpr double nearlySolved = 0.1;
+constexpr int mostStepsOnTheWay = 100;
+constexpr double smallestDamping = 1e-13;
+
+double squaredDistance(const Point<2>& a, const Point<2>& b)
+{
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
+
+} // namespace
+
+EqualMassPartition::EqualMassPartition(RowMoments density, std::int64_t sites)
+  : Rows(std::move(density))
+  , Cells(Rows.Lengths())
+  , Weights(static_cast<std::size_t>(sites), 0.0)
+  , SolvedWeights(Weights)
+  , Masses(Weights)
+  , FirstSide(static_cast<std::size_t>(sites))
+{
+}
+
+bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
+{
+  this->Steps = 0;
+  this->SetSites(sites, progress);
+  this->Rows.SetEvenShare(0.0);
+  if (!this->SolveFromHere(progress) && !this->SolveFromEvenDensity(progress))
+  {
+    return false;
+  }
+  this->SolvedSites = this->Sites;
+  this->SolvedWeights = this->Weights;
+  this->FindMoments(progress);
+  return true;
+}
+
+// The weights for new sites at which the potential |x - site|^2 - weight stays as it was at the
+// centroids of the cells.
+void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
+{
+  this->Sites.resize(static_cast<std::size_t>(sites.size()));
+  for (std::int64_t i = 0; i < sites.size(); ++i)
+  {
+    this->Sites[static_cast<std::size_t>(i)] = { sites[i][0], sites[i][1] };
+  }
+  this->Weights = this->SolvedWeights;
+  for (std::size_t i = 0; i < this->SolvedSites.size(); ++i)
+  {
+    const Point<2> centroid = this->Centroid(static_cast<std::int64_t>(i));
+    this->Weights[i] +=
+      squaredDistance(centroid, this->Sites[i]) - squaredDistance(centroid, this->SolvedSites[i]);
+  }
+  this->Cells.SetSites(sites, progress);
+}
+
+bool EqualMassPartition::SolveFromHere(Progress& progress)
+{
+  constexpr double tooLittle = 1e-3;
+  if (this->Evaluate(this->Weights, progress).Least < tooLittle)
+  {
+    std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
+    this->Evaluate(this->Weights, progress);
+  }
+  constexpr double none = 1e-9;
+  return this->Found.Least > none && this->Ascend(solvedTo, mostSteps, progress);
+}
+
+// The cells of an even density have mass without any weights, and where the even part of a density
+// is reduced to a part of it, no mass is reduced to less than that part. So the way from the even
+// density to the given one may be gone in steps, which are as long as they succeed.
+bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
+{
+  constexpr double smallestRatio = 1.001;
+  constexpr double largestRatio = 64.0;
+  // So little changes no cell's mass by more than a part of the tolerance.
+  const double smallest = 0.4 * massTolerance / static_cast<double>(this->Sites.size());
+  std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
+  Vector solved;
+  double share = 1.0;
+  double ratio = 1.0;
+  double next = 1.0;
+  while (ratio == 1.0 || share > smallest)
+  {
+    solved = this->Weights;
+    this->Rows.SetEvenShare(next);
+    const bool isLast = next == smallest;
+    if (this->Evaluate(this->Weights, progress).Least > 0.0 &&
+      this->Ascend(isLast ? solvedTo : nearlySolved, mostStepsOnTheWay, progress))
+    {
+      share = next;
+      ratio = std::clamp(2.0 * ratio, 4.0, largestRatio);
+    }
+    else
+    {
+      this->Weights = solved;
+      ratio = std::sqrt(ratio);
+      if (ratio < smallestRatio)
+      {
+        return false;
+      }
+    }
+    next = share / ratio;
+    next = next < 1e3 * smallest ? smallest : next;
+  }
+  return true;
+}
+
+EqualMassPartition::Deviation EqualMassPartition::Evaluate(
+  const Vector& weights, Progress& progress)
+{
+  this->Cells.Update(weights.data(), progress);
+  this->SideStrengths.resize(static_cast<std::size_t>(this->Cells.NumberOfChunks()));
+  progress.For(
+    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
+    [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t place = first; place < last; ++place)
+      {
+        Vector& strengths =
+          this->SideStrengths[static_cast<std::size_t>(place / PowerDiagram::cellsOfChunk)];
+        if (place % PowerDiagram::cellsOfChunk == 0)
+        {
+          strengths.clear();
+        }
+        this->EvaluateCell(place, strengths);
+      }
+    },
+    firstSlice);
+  double squares = 0.0;
+  this->Found = { 0.0, 0.0, std::numeric_limits<double>::infinity() };
+  for (const double mass : this->Masses)
+  {
+    squares += (mass - 1.0) * (mass - 1.0);
+    this->Found.Largest = std::max(this->Found.Largest, std::abs(mass - 1.0));
+    this->Found.Least = std::min(this->Found.Least, mass);
+  }
+  this->Found.Norm = std::sqrt(squares);
+  return this->Found;
+}
+
+// The mass of a cell, and the derivatives by the weights of its neighbours, with the opposite sign:
+// the density along the side over twice the distance of the sites.
+void EqualMassPartition::EvaluateCell(std::int64_t place, Vector& strengths)
+{
+  const std::int64_t site = this->Cells.SiteAt(place);
+  const auto i = static_cast<std::size_t>(site);
+  const PowerDiagram::Cell cell = this->Cells[site];
+  this->FirstSide[i] = static_cast<std::int64_t>(strengths.size());
+  double mass = 0.0;
+  for (std::int64_t k = 0; k < cell.Count; ++k)
+  {
+    const double along = this->Rows.AddSideMass(cell[k].X, cell.After(k).X, mass);
+    const std::int64_t j = cell[k].Neighbour;
+    const double distance = j < 0
+      ? 1.0
+      : std::sqrt(squaredDistance(this->Sites[i], this->Sites[static_cast<std::size_t>(j)]));
+    strengths.push_back(along / (2.0 * distance));
+  }
+  this->Masses[i] = mass;
+}
+
+// From weights that were evaluated. A step along which the function rises to its end is as good as
+// one that brings the masses nearer to 1, and the only kind where parts of the density do not
+// touch: their potentials may then be far from each other's. Damping shortens such steps.
+bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
+{
+  constexpr double shortest = 1.0 / 64;
+  constexpr double leastGain = 1e-3;
+  constexpr double firstDamping = 1e-7;
+  const double floor = 0.5 * std::min(1.0, this->Found.Least);
+  Vector trial(this->Weights.size());
+  double damping = smallestDamping;
+  bool isRetry = false;
+  for (int step = 0; this->Found.Largest > tolerance; ++step)
+  {
+    if (step == most || !this->FindDirection(damping, progress))
+    {
+      return false;
+    }
+    ++this->Steps;
+    const Deviation before = this->Found;
+    double part = 1.0;
+    bool isAccepted = false;
+    for (; part >= shortest && !isAccepted; part *= 0.5)
+    {
+      for (std::size_t i = 0; i < trial.size(); ++i)
+      {
+        trial[i] = this->Weights[i] + part * this->Direction[i];
+      }
+      const Deviation now = this->Evaluate(trial, progress);
+      isAccepted = now.Least > floor &&
+        (now.Norm < (1.0 - std::max(0.5 * part, leastGain)) * before.Norm || this->Slope() >= 0.0);
+    }
+    if (!isAccepted)
+    {
+      damping = std::max(damping, firstDamping) * 10.0;
+      this->Evaluate(this->Weights, progress);
+      isRetry = true;
+      continue;
+    }
+    this->Weights.swap(trial);
+    const bool isGood = this->Found.Norm < 0.25 * before.Norm;
+    damping = std::max(smallestDamping, damping * (isGood ? 0.01 : isRetry ? 1.0 : 0.1));
+    isRetry = false;
+  }
+  return true;
+}
+
+// The derivative of the function along the direction, at the weights that were evaluated.
+double EqualMassPartition::Slope() const
+{
+  double slope = 0.0;
+  for (std::size_t i = 0; i < this->Masses.size(); ++i)
+  {
+    slope += (1.0 - this->Masses[i]) * this->Direction[i];
+  }
+  return slope;
+}
+
+// Minus the second derivatives are a graph's Laplacian: the sides of the cells with their
+// strengths. Weights are determined up to a constant; damping determines it.
+bool EqualMassPartition::FindDirection(double damping, Progress& progress)
+{
+  using Real = InterruptibleReal;
+  const auto count = static_cast<Eigen::Index>(this->Masses.size());
+  std::vector<Eigen::Triplet<Real>> values;
+  values.reserve(this->Masses.size() * 8);
+  for (std::int64_t place = 0; place < this->Cells.NumberOfCells(); ++place)
+  {
+    const std::int64_t i = this->Cells.SiteAt(place);
+    const PowerDiagram::Cell cell = this->Cells[i];
+    const double* strengths =
+      this->SideStrengths[static_cast<std::size_t>(place / PowerDiagram::cellsOfChunk)].data() +
+      this->FirstSide[static_cast<std::size_t>(i)];
+    values.emplace_back(i, i, damping);
+    for (std::int64_t k = 0; k < cell.Count; ++k)
+    {
+      const std::int64_t j = cell[k].Neighbour;
+      if (j >= 0 && j < i)
+      {
+        values.emplace_back(i, i, strengths[k]);
+        values.emplace_back(j, j, strengths[k]);
+        values.emplace_back(i, j, -strengths[k]);
+      }
+    }
+  }
+  progress.Check();
+  SparseCholesky::Matrix lower(count, count);
+  lower.setFromTriplets(values.begin(), values.end());
+  SparseCholesky system;
+  system.Analyze(lower);
+  progress.Check();
+  if (!system.Factorize(lower, progress))
+  {
+    return false;
+  }
+  SparseCholesky::Vector lacking(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    lacking[i] = 1.0 - this->Masses[static_cast<std::size_t>(i)];
+  }
+  const SparseCholesky::Vector direction = system.Solve(lacking);
+  this->Direction.resize(this->Masses.size());
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    this->Direction[static_cast<std::size_t>(i)] = direction[i].Value;
+  }
+  return std::all_of(this->Direction.begin(), this->Direction.end(),
+    [](double value) { return std::isfinite(value); });
+}
+
+void EqualMassPartition::FindMoments(Progress& progress)
+{
+  this->CellMoments.assign(this->Sites.size(), PolygonMoments());
+  progress.For(
+    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
+    [this](std::int64_t first, std::int64_t last) {
+      for (std::int64_t place = first; place < last; ++place)
+      {
+        const std::int64_t site = this->Cells.SiteAt(place);
+        const PowerDiagram::Cell cell = this->Cells[site];
+        for (std::int64_t k = 0; k < cell.Count; ++k)
+        {
+          this->Rows.AddSide(
+            cell[k].X, cell.After(k).X, this->CellMoments[static_cast<std::size_t>(site)]);
+        }
+      }
+    },
+    firstSlice);
+}
+
+double EqualMassPartition::Cost(std::int64_t site) const
+{
+  const PolygonMoments& cell = this->CellMoments[static_cast<std::size_t>(site)];
+  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+  return cell.Second - 2.0 * (x[0] * cell.First[0] + x[1] * cell.First[1]) +
+    (x[0] * x[0] + x[1] * x[1]) * cell.Mass;
+}
+
+Point<2> EqualMassPartition::Centroid(std::int64_t site) const
+{
+  const PolygonMoments& cell = this->CellMoments[static_cast<std::size_t>(site)];
+  return { cell.First[0] / cell.Mass, cell.First[1] / cell.Mass };
+}
+
+} // namespace RectifiedTransport

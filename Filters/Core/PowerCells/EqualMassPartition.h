@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The power diagram whose cells have equal masses of a density: the optimal transport, for the
+// squared distance, from the density to equal masses at its sites (Aurenhammer, Hoffmann and
+// Aronov, "Minkowski-Type Theorems and Least-Squares Clustering", Algorithmica 20, 1998).
+#ifndef RectifiedTransport_EqualMassPartition_h
+#define RectifiedTransport_EqualMassPartition_h
+
+#include "Core/PowerCells/PowerDiagram.h"
+#include "Core/PowerCells/RowMoments.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// The weights of the diagram are the maximum of a concave function, whose gradient has the masses
+// that the cells lack. They are found by Newton's method with steps that leave no cell without mass
+// (Kitagawa, Merigot and Thibert, "Convergence of a Newton algorithm for semi-discrete optimal
+// transport", J. Eur. Math. Soc. 21(9), 2019), damped where the density falls apart.
+class EqualMassPartition
+{
+public:
+  // The mass of the density is the number of sites: each cell is to have 1.
+  EqualMassPartition(RowMoments density, std::int64_t sites);
+
+  // Sets the sites, at least one and no two at one point, and finds the weights, beginning from
+  // those of the last solution. Returns false if some mass is not 1 to `massTolerance`; the next
+  // call then begins from the solution before. As the work of the current stage. Throws
+  // std::bad_alloc and Cancelled.
+  bool Solve(ConstPointSpan<2> sites, Progress& progress);
+  static constexpr double massTolerance = 5e-7;
+
+  // After a solution:
+  const RowMoments& Density() const { return this->Rows; }
+  const PowerDiagram& Diagram() const { return this->Cells; }
+  // The integrals over the cells, in the order of the sites.
+  const std::vector<PolygonMoments>& Moments() const { return this->CellMoments; }
+  // The integral of |x - site|^2 over a cell.
+  double Cost(std::int64_t site) const;
+  Point<2> Centroid(std::int64_t site) const;
+  // How many linear systems the last call solved.
+  int NewtonSteps() const { return this->Steps; }
+
+private:
+  using Vector = std::vector<double>;
+  // How far the masses are from 1.
+  struct Deviation
+  {
+    double Norm;    // Euclidean
+    double Largest; // absolute value
+    double Least;   // mass
+  };
+
+  void SetSites(ConstPointSpan<2> sites, Progress& progress);
+  Deviation Evaluate(const Vector& weights, Progress& progress);
+  void EvaluateCell(std::int64_t place, Vector& strengths);
+  bool SolveFromHere(Progress& progress);
+  bool SolveFromEvenDensity(Progress& progress);
+  bool Ascend(double tolerance, int mostSteps, Progress& progress);
+  bool FindDirection(double damping, Progress& progress);
+  double Slope() const;
+  void FindMoments(Progress& progress);
+
+  RowMoments Rows;
+  PowerDiagram Cells;
+  std::vector<Point<2>> Sites;
+  Vector Weights;
+  std::vector<Point<2>> SolvedSites; // of the last solution, with CellMoments
+  Vector SolvedWeights;
+  std::vector<PolygonMoments> CellMoments;
+
+  Deviation Found{};                   // of the weights that were evaluated last
+  Vector Masses;                       // as well
+  std::vector<Vector> SideStrengths;   // as well, by the diagram's chunks
+  std::vector<std::int64_t> FirstSide; // of each site, in its chunk
+  Vector Direction;
+  int Steps = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/PowerCells/RowMoments.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/Tables/DensityInspection.h"
+#include "Core/Tables/NearestMass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+RowMoments::RowMoments(
+  const DensitySource<2>& density, const Point<2>& scale, double total, Progress& progress)
+  : Size(density.Size)
+  , Scale(scale)
+  , MeanMass(total / numberOfCells<2>(density.Size))
+  , Entries(density.Size[0] * density.Size[1])
+  , Occupied(WordsPerRow() * density.Size[1])
+{
+  const DensitySummary found = this->ReadValues(density.Values, progress);
+  if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
+  {
+    throw InvalidDensity(found);
+  }
+  this->Accumulate(total, found, progress);
+}
+
+Point<2> RowMoments::Lengths() const
+{
+  return { this->Scale[0] * static_cast<double>(this->Size[0]),
+    this->Scale[1] * static_cast<double>(this->Size[1]) };
+}
+
+DensitySummary RowMoments::ReadValues(const DensityValues& values, Progress& progress)
+{
+  const std::int64_t columns = this->Size[0];
+  struct Part
+  {
+    DensitySummary Summary;
+    bool Empty = false;
+  };
+  const auto read = [&](std::int64_t first, std::int64_t last) {
+    Part part;
+    std::vector<double> row(static_cast<std::size_t>(columns));
+    for (std::int64_t j = first; j < last; ++j)
+    {
+      values.Read(j * columns, columns, row.data());
+      const RowInspection inspection = inspectCells(row.data(), columns, j * columns,
+        this->Occupied.data() + j * this->WordsPerRow(), part.Summary);
+      part.Summary.Total += inspection.Sum;
+      part.Empty = part.Empty || !(inspection.Smallest > 0.0);
+      Entry* entries = this->Entries.data() + j * columns;
+      for (std::int64_t i = 0; i < columns; ++i)
+      {
+        entries[i].Density = row[static_cast<std::size_t>(i)];
+      }
+    }
+    return part;
+  };
+  const auto combine = [](Part all, const Part& part) {
+    merge(part.Summary, all.Summary);
+    all.Empty = all.Empty || part.Empty;
+    return all;
+  };
+  const Part all = reduceChunks(progress, this->Size[1], 1, Part(), read, combine);
+  this->Empty = all.Empty;
+  return all.Summary;
+}
+
+void RowMoments::Accumulate(double total, const DensitySummary& found, Progress& progress)
+{
+  // Sums of values in [0,1] neither overflow nor lose bits; a power of two does not round.
+  const double unit = std::ldexp(1.0, -std::clamp(std::ilogb(found.Maximum), -1000, 1000));
+  const std::int64_t columns = this->Size[0];
+  const auto sum = [&](std::int64_t first, std::int64_t last) {
+    double mass = 0.0;
+    for (std::int64_t i = first * columns; i < last * columns; ++i)
+    {
+      mass += this->Entries.data()[i].Density * unit;
+    }
+    return mass;
+  };
+  const double all =
+    reduceChunks(progress, this->Size[1], 1, 0.0, sum, [](double a, double b) { return a + b; });
+  const double scale = total / all;
+  progress.For(this->Size[1], 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t j = first; j < last; ++j)
+    {
+      Entry next{};
+      for (std::int64_t i = 0; i < columns; ++i)
+      {
+        Entry& entry = this->Entries.data()[j * columns + i];
+        const double mass = entry.Density * unit * scale;
+        entry = next;
+        entry.Density = mass;
+        const auto x = static_cast<double>(i);
+        next.Mass += mass;
+        next.First += mass * (x + 0.5);
+        next.Second += mass * (x * x + x + 1.0 / 3.0);
+      }
+    }
+  });
+}
+
+Point<2> RowMoments::NearestMass(const Point<2>& point) const
+{
+  TableView<2> cells{};
+  cells.Occupied = this->Empty ? this->Occupied.data() : nullptr;
+  cells.WordsPerRow = this->WordsPerRow();
+  Point<2> index;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    cells.Cells[a] = this->Size[a];
+    index[a] = point[a] / this->Scale[a];
+  }
+  if (hasMass<2>(cells, index))
+  {
+    return point;
+  }
+  const Point<2> nearest = nearestMass<2>(cells, index);
+  return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
+}
+
+RowMoments::Entry RowMoments::At(std::int64_t column, std::int64_t row) const
+{
+  Entry entry = this->Entries.data()[row * this->Size[0] + column];
+  if (this->EvenShare > 0.0)
+  {
+    const double rest = 1.0 - this->EvenShare;
+    const double even = this->EvenShare * this->MeanMass;
+    const auto x = static_cast<double>(column);
+    entry.Mass = rest * entry.Mass + even * x;
+    entry.First = rest * entry.First + even * x * x / 2.0;
+    entry.Second = rest * entry.Second + even * x * x * x / 3.0;
+    entry.Density = rest * entry.Density + even;
+  }
+  return entry;
+}
+
+// The way of a side through the cells along one axis.
+struct RowMoments::Way
+{
+  // In cells, from `start` by `length`, of which there are `count`.
+  Way(double start, double end, std::int64_t count)
+  {
+    // A side along a face belongs to the cells on either side of it.
+    const auto cellOf = [count](double x, bool below) {
+      const double floor = std::floor(x);
+      const auto cell = static_cast<std::int64_t>(floor) - (below && x == floor ? 1 : 0);
+      return std::clamp<std::int64_t>(cell, 0, count - 1);
+    };
+    const double length = end - start;
+    this->Cell = cellOf(start, length < 0.0);
+    this->Faces = std::abs(cellOf(end, length > 0.0) - this->Cell);
+    this->Direction = length < 0.0 ? -1 : 1;
+    if (this->Faces > 0)
+    {
+      this->Between = 1.0 / std::abs(length);
+      this->Next = (static_cast<double>(this->Cell + (length < 0.0 ? 0 : 1)) - start) / length;
+    }
+  }
+
+  void Cross()
+  {
+    this->Cell += this->Direction;
+    this->Next = --this->Faces > 0 ? this->Next + this->Between : never;
+  }
+
+  static constexpr double never = 2.0;
+  std::int64_t Cell;
+  std::int64_t Direction;
+  std::int64_t Faces;   // that are left to cross
+  double Next = never;  // the part of the side before the next face
+  double Between = 0.0; // faces, as a part of the side
+};
+
+template <class Visit>
+void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visit& visit) const
+{
+  const Point<2> start = { from[0] / this->Scale[0], from[1] / this->Scale[1] };
+  const Point<2> end = { to[0] / this->Scale[0], to[1] / this->Scale[1] };
+  Way x(start[0], end[0], this->Size[0]);
+  Way y(start[1], end[1], this->Size[1]);
+  double done = 0.0;
+  Point<2> at = start;
+  while (x.Faces + y.Faces > 0)
+  {
+    Way& next = y.Next < x.Next ? y : x;
+    const double part = std::clamp(next.Next, done, 1.0);
+    const Point<2> face = { start[0] + part * (end[0] - start[0]),
+      start[1] + part * (end[1] - start[1]) };
+    visit(this->At(x.Cell, y.Cell), x.Cell, at, face, part - done);
+    next.Cross();
+    at = face;
+    done = part;
+  }
+  visit(this->At(x.Cell, y.Cell), x.Cell, at, end, 1.0 - done);
+}
+
+void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, PolygonMoments& moments) const
+{
+  // The moments along the row are cubic in x, so that two points integrate them without error.
+  constexpr double place = 0.57735026918962576451; // sqrt(1/3)
+  double mass = 0.0;
+  double first[2] = { 0.0, 0.0 };
+  double second[2] = { 0.0, 0.0 };
+  this->VisitCells(from, to,
+    [&](const Entry& entry, std::int64_t column, const Point<2>& a, const Point<2>& b, double) {
+      const auto low = static_cast<double>(column);
+      const double half = (b[1] - a[1]) / 2.0;
+      for (const double side : { -place, place })
+      {
+        const double x = (a[0] + b[0]) / 2.0 + side * (b[0] - a[0]) / 2.0;
+        const double y = (a[1] + b[1]) / 2.0 + side * half;
+        const double u = x - low;
+        const double m = half * (entry.Mass + entry.Density * u);
+        mass += m;
+        first[0] += half * (entry.First + entry.Density * u * (low + u / 2.0));
+        first[1] += m * y;
+        second[0] +=
+          half * (entry.Second + entry.Density * u * (low * low + low * u + u * u / 3.0));
+        second[1] += m * y * y;
+      }
+    });
+  moments.Mass += mass;
+  for (int a = 0; a < 2; ++a)
+  {
+    moments.First[a] += first[a] * this->Scale[a];
+    moments.Second += second[a] * this->Scale[a] * this->Scale[a];
+  }
+}
+
+double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double& mass) const
+{
+  double along = 0.0;
+  double below = 0.0;
+  this->VisitCells(from, to,
+    [&](
+      const Entry& entry, std::int64_t column, const Point<2>& a, const Point<2>& b, double part) {
+      const double u = (a[0] + b[0]) / 2.0 - static_cast<double>(column);
+      below += (b[1] - a[1]) * (entry.Mass + entry.Density * u);
+      along += part * entry.Density;
+    });
+  mass += below;
+  const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+  return along * length / (this->Scale[0] * this->Scale[1]);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tree of bounding boxes of weighted sites, which finds the sites that may cut a power cell.
+#ifndef RectifiedTransport_SiteTree_h
+#define RectifiedTransport_SiteTree_h
+
+#include "Core/Geometry/Points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+class SiteTree
+{
+public:
+  // The sites are divided about the median along the widest axis of their box: O(count log count),
+  // as the work of the current stage. Throws Cancelled.
+  void Build(ConstPointSpan<2> sites, Progress& progress);
+  // To be called before a visit: a weight for each site.
+  void SetWeights(const double* weights);
+
+  std::int64_t Size() const { return static_cast<std::int64_t>(this->Sites.size()); }
+  // The sites in the order of the tree, in which neighbours are near each other.
+  std::int64_t Site(std::int64_t place) const { return this->At(place).Id; }
+
+  // Calls visit(id, offset of the site from the centre, weight), nearest boxes first, at least for
+  // the sites whose bisector with a site at `centre` of weight `weight` passes within radius() of
+  // the centre. The radius may shrink meanwhile.
+  template <class Radius, class Visit>
+  void VisitRivals(
+    const Point<2>& centre, double weight, const Radius& radius, const Visit& visit) const;
+
+private:
+  struct WeightedSite
+  {
+    Point<2> X;
+    double Weight;
+    std::int64_t Id;
+  };
+  // The box of the sites [First, Last). The first child is the next box in memory, Second is the
+  // other one: -1 in a leaf.
+  struct Box
+  {
+    Point<2> Low;
+    Point<2> High;
+    double LargestWeight;
+    std::int64_t First;
+    std::int64_t Last;
+    std::int64_t Second;
+  };
+  // Squared distances from a centre.
+  struct Range
+  {
+    double Nearest;
+    double Farthest;
+  };
+
+  const WeightedSite& At(std::int64_t place) const
+  {
+    return this->Sites[static_cast<std::size_t>(place)];
+  }
+  const Box& BoxAt(std::int64_t box) const { return this->Boxes[static_cast<std::size_t>(box)]; }
+  static Range RangeOf(const Box& box, const Point<2>& centre);
+  void Bound(Box& box) const;
+
+  std::vector<WeightedSite> Sites;
+  std::vector<Box> Boxes;
+};
+
+inline SiteTree::Range SiteTree::RangeOf(const Box& box, const Point<2>& centre)
+{
+  Range range{ 0.0, 0.0 };
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const double fromLow = centre[a] - box.Low[a];
+    const double toHigh = box.High[a] - centre[a];
+    const double gap = std::max(0.0, -std::min(fromLow, toHigh));
+    const double reach = std::max(fromLow, toHigh);
+    range.Nearest += gap * gap;
+    range.Farthest += reach * reach;
+  }
+  return range;
+}
+
+// The bisector with a site at the distance d passes at the distance (d^2 - w' + w) / (2 d), so
+// within the radius r where d^2 - 2 d r < w' - w; the left side falls up to d = r, then rises.
+template <class Radius, class Visit>
+void SiteTree::VisitRivals(
+  const Point<2>& centre, double weight, const Radius& radius, const Visit& visit) const
+{
+  struct Entry
+  {
+    std::int64_t Box;
+    Range Distance;
+  };
+  constexpr int deepest = 64; // medians halve
+  Entry stack[deepest];
+  int depth = 0;
+  stack[depth++] = { 0, RangeOf(this->BoxAt(0), centre) };
+  while (depth > 0)
+  {
+    const Entry entry = stack[--depth];
+    const Box& box = this->BoxAt(entry.Box);
+    const double r = radius();
+    const double d =
+      std::clamp(r, std::sqrt(entry.Distance.Nearest), std::sqrt(entry.Distance.Farthest));
+    if (d * d - 2.0 * d * r >= box.LargestWeight - weight)
+    {
+      continue;
+    }
+    if (box.Second >= 0)
+    {
+      Entry first = { entry.Box + 1, RangeOf(this->BoxAt(entry.Box + 1), centre) };
+      Entry second = { box.Second, RangeOf(this->BoxAt(box.Second), centre) };
+      if (first.Distance.Nearest < second.Distance.Nearest)
+      {
+        std::swap(first, second);
+      }
+      stack[depth++] = first;
+      stack[depth++] = second;
+      continue;
+    }
+    for (std::int64_t i = box.First; i < box.Last; ++i)
+    {
+      const WeightedSite& site = this->At(i);
+      visit(site.Id, { site.X[0] - centre[0], site.X[1] - centre[1] }, site.Weight);
+    }
+  }
+}
+
+} // namespace RectifiedTransport
+
+#endif
