@@ -81,7 +81,7 @@ private:
       {
         this->Clipped.push_back(corner);
       }
-      if (isInside == this->Excess[next] > 0.0)
+      if (isInside == (this->Excess[next] > 0.0))
       {
         const double part = this->Excess[k] / (this->Excess[k] - this->Excess[next]);
         const Point<2>& a = corner.X;

@@ -4,6 +4,7 @@
 #define RectifiedTransport_RepulsionEnergy_h
 
 #include "Core/Relaxation/ReachTree.h"
+#include "Core/Relaxation/RelaxationEnergy.h"
 #include "Core/Relaxation/SpacingTree.h"
 
 #include <cstdint>
@@ -28,19 +29,17 @@ struct RepulsionWidth
 // with K of RepulsionShape: 1 on the average for independent random points, 0 at best. A does not
 // depend on the points and is interpolated in the tree. Coordinates are those of a RelaxationFrame.
 template <int Dimension>
-class RepulsionEnergy
+class RepulsionEnergy final : public RelaxationEnergy<Dimension>
 {
 public:
   RepulsionEnergy(const RectifiedFlow<Dimension>& flow, const RelaxationFrame<Dimension>& frame,
     const SpacingTree<Dimension>& tree, std::int64_t points, const RepulsionWidth& width,
     Progress& progress);
 
-  // Sorts the points for Evaluate; again after large displacements, for speed.
-  void Sort(ConstPointSpan<Dimension> points, Progress& progress);
-  // Returns the energy and writes its gradient by the coordinates of the points, and their
-  // spacings.
+  // For speed: again after large displacements.
+  void Sort(ConstPointSpan<Dimension> points, Progress& progress) override;
   double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient, double* spacings,
-    Progress& progress);
+    Progress& progress) override;
 
 private:
   void FindSources(Progress& progress);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Relaxation/RepulsionDescent.h"
+#include "Core/Relaxation/RelaxationDescent.h"
 
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace RectifiedTransport
@@ -14,8 +15,6 @@ namespace
 {
 
 constexpr std::size_t pairsKept = 6;
-constexpr double longestStep = 0.3;  // spacings
-constexpr double firstStep = 0.1;    // spacings, root mean square
 constexpr int mostEvaluations = 12;  // along a direction
 constexpr double sufficient = 1e-4;  // Armijo's part of the change to first order
 constexpr int stepsBetweenSorts = 8; // in which points move little against each other
@@ -23,10 +22,12 @@ constexpr int stepsBetweenSorts = 8; // in which points move little against each
 } // namespace
 
 template <int Dimension>
-RepulsionDescent<Dimension>::RepulsionDescent(RepulsionEnergy<Dimension>& energy,
-  const RelaxationFrame<Dimension>& frame, std::vector<double>& x, Progress& progress)
+RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& energy,
+  const RelaxationFrame<Dimension>& frame, const DescentSettings& settings, std::vector<double>& x,
+  Progress& progress)
   : Function(energy)
   , Frame(frame)
+  , Settings(settings)
   , Work(progress)
   , X(x)
   , Gradient(x.size())
@@ -38,10 +39,36 @@ RepulsionDescent<Dimension>::RepulsionDescent(RepulsionEnergy<Dimension>& energy
 {
   this->Function.Sort({ x.data(), static_cast<std::int64_t>(x.size()) / Dimension }, progress);
   this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings);
+  if (!std::isfinite(this->Value))
+  {
+    throw std::runtime_error("the energy of the points cannot be computed");
+  }
 }
 
 template <int Dimension>
-double RepulsionDescent<Dimension>::Evaluate(const Vector& x, Vector& gradient, Vector& spacings)
+RelaxationReport RelaxationDescent<Dimension>::Run(const RelaxationOptions& options)
+{
+  const double begin = this->Work.StageEnd();
+  RelaxationReport report{ { this->Value * this->Settings.EnergiesAUnit } };
+  for (int iteration = 0; iteration < options.MaximumIterations; ++iteration)
+  {
+    this->Work.BeginStage(begin + (1.0 - begin) * (iteration + 1.0) / options.MaximumIterations);
+    const double before = this->Value;
+    if (!this->Step())
+    {
+      break;
+    }
+    report.Energy.push_back(this->Value * this->Settings.EnergiesAUnit);
+    if (before - this->Value <= options.Tolerance * std::abs(before))
+    {
+      break;
+    }
+  }
+  return report;
+}
+
+template <int Dimension>
+double RelaxationDescent<Dimension>::Evaluate(const Vector& x, Vector& gradient, Vector& spacings)
 {
   const auto count = static_cast<std::int64_t>(spacings.size());
   return this->Function.Evaluate(
@@ -49,7 +76,7 @@ double RepulsionDescent<Dimension>::Evaluate(const Vector& x, Vector& gradient, 
 }
 
 template <int Dimension>
-bool RepulsionDescent<Dimension>::Step()
+bool RelaxationDescent<Dimension>::Step()
 {
   const bool isFresh = this->Hessian.IsEmpty();
   if (!this->Search(this->Direction()))
@@ -69,13 +96,13 @@ bool RepulsionDescent<Dimension>::Step()
 }
 
 template <int Dimension>
-bool RepulsionDescent<Dimension>::IsHeld(std::size_t i) const
+bool RelaxationDescent<Dimension>::IsHeld(std::size_t i) const
 {
   return this->Gradient[i] > 0.0 ? this->X[i] <= 0.0 : this->X[i] >= this->Side(i);
 }
 
 template <int Dimension>
-std::vector<double> RepulsionDescent<Dimension>::Direction()
+std::vector<double> RelaxationDescent<Dimension>::Direction()
 {
   Vector free = this->Gradient;
   Vector diagonal(free.size());
@@ -87,14 +114,15 @@ std::vector<double> RepulsionDescent<Dimension>::Direction()
   }
   Vector direction = this->Hessian.Direction(free, diagonal, this->Work);
   double scale = 1.0;
-  if (this->Hessian.IsEmpty())
+  if (this->Hessian.IsEmpty() && this->Settings.FirstStep > 0.0)
   {
     double sum = 0.0;
     for (std::size_t i = 0; i < free.size(); ++i)
     {
       sum += direction[i] * direction[i] / diagonal[i];
     }
-    scale = sum > 0.0 ? firstStep / std::sqrt(sum / static_cast<double>(free.size())) : 0.0;
+    scale = sum > 0.0 ? this->Settings.FirstStep / std::sqrt(sum / static_cast<double>(free.size()))
+                      : 0.0;
   }
   for (std::size_t i = 0; i < free.size(); ++i)
   {
@@ -105,7 +133,7 @@ std::vector<double> RepulsionDescent<Dimension>::Direction()
 }
 
 template <int Dimension>
-void RepulsionDescent<Dimension>::Shorten(Vector& direction) const
+void RelaxationDescent<Dimension>::Shorten(Vector& direction) const
 {
   for (std::size_t point = 0; point < this->Spacings.size(); ++point)
   {
@@ -116,15 +144,15 @@ void RepulsionDescent<Dimension>::Shorten(Vector& direction) const
       squared += step[axis] * step[axis];
     }
     const double length = std::sqrt(squared) / this->Spacings[point];
-    for (int axis = 0; axis < Dimension && length > longestStep; ++axis)
+    for (int axis = 0; axis < Dimension && length > this->Settings.LongestStep; ++axis)
     {
-      step[axis] *= longestStep / length;
+      step[axis] *= this->Settings.LongestStep / length;
     }
   }
 }
 
 template <int Dimension>
-bool RepulsionDescent<Dimension>::Search(const Vector& direction)
+bool RelaxationDescent<Dimension>::Search(const Vector& direction)
 {
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
@@ -147,24 +175,29 @@ bool RepulsionDescent<Dimension>::Search(const Vector& direction)
 }
 
 template <int Dimension>
-double RepulsionDescent<Dimension>::Move(const Vector& direction, double part)
+double RelaxationDescent<Dimension>::Move(const Vector& direction, double part)
 {
   // The least part of the distance to the border that stays: points that met at a corner would
   // never leave each other.
   constexpr double rest = 0.125;
-  double slope = 0.0;
   for (std::size_t i = 0; i < direction.size(); ++i)
   {
     const double x = this->X[i];
     const double side = this->Side(i);
     this->Next[i] = std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
-    slope += this->Gradient[i] * (this->Next[i] - x);
+  }
+  this->Function.Constrain(
+    { this->Next.data(), static_cast<std::int64_t>(this->Spacings.size()) }, this->Work);
+  double slope = 0.0;
+  for (std::size_t i = 0; i < direction.size(); ++i)
+  {
+    slope += this->Gradient[i] * (this->Next[i] - this->X[i]);
   }
   return slope;
 }
 
 template <int Dimension>
-void RepulsionDescent<Dimension>::Accept(double found)
+void RelaxationDescent<Dimension>::Accept(double found)
 {
   Vector step(this->X.size());
   Vector change(this->X.size());
@@ -180,7 +213,7 @@ void RepulsionDescent<Dimension>::Accept(double found)
   this->Value = found;
 }
 
-template class RepulsionDescent<2>;
-template class RepulsionDescent<3>;
+template class RelaxationDescent<2>;
+template class RelaxationDescent<3>;
 
 } // namespace RectifiedTransport

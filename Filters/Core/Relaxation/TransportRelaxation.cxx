@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Parallel/Progress.h"
+#include "Core/Relaxation/BlueNoiseRelaxation.h"
+#include "Core/Relaxation/RelaxationDescent.h"
+#include "Core/Relaxation/RelaxedPoints.h"
+#include "Core/Relaxation/TransportEnergy.h"
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2>& spacing,
+  PointSpan<2> points, const RelaxationOptions& options, const Context& context)
+{
+  check(options);
+  if (points.size() == 0)
+  {
+    return { { 0.0 } };
+  }
+  Progress progress(context);
+  progress.BeginStage(0.05);
+  const auto count = static_cast<double>(points.size());
+  const RelaxationFrame<2> frame(density.Size, spacing, points.size());
+  RelaxedPoints<2> relaxed(points, frame);
+  relaxed.Separate([](const Point<2>&) { return 1.0; }, progress);
+  relaxed.Arrange(progress);
+  EqualMassPartition partition(
+    RowMoments(density, frame.CellSides, count, progress), points.size());
+  TransportEnergy energy(partition);
+  // Steps may be as long as they come: the cells of other points do not change by themselves.
+  const DescentSettings settings = { std::numeric_limits<double>::infinity(), 0.0, 2.0 / count };
+  progress.BeginStage(0.2);
+  const RelaxationReport report =
+    RelaxationDescent<2>(energy, frame, settings, relaxed.Coordinates(), progress).Run(options);
+  relaxed.Write(density.Size, points);
+  progress.BeginStage(1.0);
+  progress.EndSlice(1);
+  return report;
+}
+
+} // namespace RectifiedTransport
