@@ -24,7 +24,9 @@ if (RectifiedTransport_BUILD_TESTING)
     FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
 endif ()
 if (RectifiedTransport_BUILD_EXAMPLES)
-  list(APPEND vtk_components IOImage)
+  list(APPEND vtk_components
+    CommonSystem FiltersSources ImagingCore InteractionStyle InteractionWidgets IOImage RenderingCore
+    RenderingFreeType RenderingOpenGL2 RenderingUI)
 endif ()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${vtk_components} OPTIONAL_COMPONENTS ${vtk_optional}
   ${vtk_place})
