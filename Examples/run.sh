@@ -22,6 +22,9 @@ done
 say "StippleImage in C++"
 with_display "$build/bin/StippleImage" "$root/Testing/Data/raccoon.png" \
   "$output/stipple-cxx.png" < /dev/null
+say "LiveStippling, driving itself"
+with_display env OMP_WAIT_POLICY=passive "$build/bin/LiveStippling" --drive 300 \
+  --picture "$output/live-stippling.png" < /dev/null
 
 say "The pictures are in $output:"
 ls "$output"

@@ -24,6 +24,8 @@
 namespace
 {
 
+constexpr int clicks = 4; // of the wheel
+
 using Clock = std::chrono::steady_clock;
 
 double median(std::vector<double> values)
@@ -96,7 +98,7 @@ public:
     }
   }
 
-  // `act` gets the part of the phase that has passed, in ]0,1].
+  // `act` gets the number of the update, from 1 on, and the part of the phase that has then passed.
   template <class Act>
   void Phase(const char* name, int updates, const Act& act)
   {
@@ -105,7 +107,7 @@ public:
     this->Moves.BeginPhase();
     for (int i = 1; i <= updates; ++i)
     {
-      act(static_cast<double>(i) / updates);
+      act(i, static_cast<double>(i) / updates);
       this->Update();
     }
     this->Report(name);
@@ -125,9 +127,14 @@ public:
 private:
   void Update()
   {
+    const int moving = this->Model.GetMovingUpdates();
     const Clock::time_point start = Clock::now();
     this->Send(vtkCommand::TimerEvent);
     this->Interactor->GetRenderWindow()->WaitForCompletion();
+    if (this->Model.GetMovingUpdates() == moving)
+    {
+      return; // the points have come to rest
+    }
     this->Drawn.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     this->Computed.push_back(this->Model.GetUpdateSeconds());
     this->Moves.Observe(this->Model.GetTransport().GetOutput());
@@ -167,25 +174,24 @@ void drive(
   const int share = std::max(1, updates / 5);
   driver.MoveTo(0.7, 0.75);
   driver.Send(vtkCommand::LeftButtonPressEvent);
-  driver.Phase("adding ink", 2 * share, [&](double part) {
+  driver.Phase("adding ink", 2 * share, [&](int, double part) {
     const double angle = vtkMath::Pi() * (0.2 + 2.6 * part);
     driver.MoveTo(0.5 + 0.24 * std::sin(angle + 0.5 * vtkMath::Pi()), 0.78 - 0.56 * part);
   });
   driver.Send(vtkCommand::LeftButtonReleaseEvent);
-  driver.Phase("more points", share, [&](double part) {
-    if (part <= 0.3)
+  driver.Phase("more points", share, [&](int update, double) {
+    if (update <= clicks)
     {
       driver.Send(vtkCommand::MouseWheelForwardEvent);
     }
   });
   driver.MoveTo(0.15, 0.2);
   driver.Send(vtkCommand::RightButtonPressEvent);
-  driver.Phase("removing ink", share, [&](double part) {
-    driver.MoveTo(0.15 + 0.7 * part, 0.2 + 0.1 * std::sin(6.0 * part));
-  });
+  driver.Phase("removing ink", share,
+    [&](int, double part) { driver.MoveTo(0.15 + 0.7 * part, 0.2 + 0.1 * std::sin(6.0 * part)); });
   driver.Send(vtkCommand::RightButtonReleaseEvent);
-  driver.Phase("fewer points", share, [&](double part) {
-    if (part <= 0.3)
+  driver.Phase("fewer points", share, [&](int update, double) {
+    if (update <= clicks)
     {
       driver.Send(vtkCommand::MouseWheelBackwardEvent);
     }

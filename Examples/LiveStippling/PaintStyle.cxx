@@ -20,7 +20,8 @@ namespace
 {
 
 constexpr double statusInterval = 0.25; // seconds
-constexpr double longestFrame = 0.5;   // after a longer time without updates their rate is counted anew
+constexpr double longestFrame =
+  0.5; // after a longer time without updates their rate is counted anew
 constexpr double brushFactor = 1.15;
 
 double smoothed(double before, double now)

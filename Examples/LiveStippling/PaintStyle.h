@@ -62,7 +62,7 @@ private:
   PointSlider* Slider = nullptr;
   bool Paints = false;
   bool Removes = false;
-  bool Draws = true; // at the next update, whether or not the points move
+  bool Draws = true;           // at the next update, whether or not the points move
   double ComputeSeconds = 0.0; // of an update, smoothed
   double FrameSeconds = 0.0;   // from update to update, with drawing
   double LastUpdate = -1.0;    // its time

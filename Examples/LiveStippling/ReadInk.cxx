@@ -29,11 +29,8 @@ vtkSmartPointer<vtkImageData> readImage(const std::string& path)
   {
     return nullptr;
   }
-  const int warnings = vtkObject::GetGlobalWarningDisplay();
-  vtkObject::GlobalWarningDisplayOff(); // one sentence tells of a broken file
   reader->SetFileName(path.c_str());
   reader->Update();
-  vtkObject::SetGlobalWarningDisplay(warnings);
   vtkImageData* image = reader->GetOutput();
   const bool whole = reader->GetErrorCode() == 0 && image->GetNumberOfPoints() > 0 &&
     image->GetPointData()->GetScalars() != nullptr && image->GetDimensions()[2] == 1;
@@ -50,21 +47,24 @@ vtkSmartPointer<vtkImageData> resize(vtkImageData* image, int width, int height)
   return resize->GetOutput();
 }
 
-// Rec. 709; over white where there is alpha.
+// Rec. 709, exactly 0 for white; over white where there is alpha.
 double inkOf(const std::vector<double>& pixel, double white)
 {
+  const auto dark = [&](std::size_t component) { return 1.0 - pixel[component] / white; };
   const std::size_t colours = pixel.size() < 3 ? 1 : 3;
-  const double light =
-    colours == 1 ? pixel[0] : 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
-  const double opacity = pixel.size() == colours + 1 ? pixel.back() / white : 1.0;
-  return (1.0 - light / white) * opacity;
+  const double ink =
+    colours == 1 ? dark(0) : 0.2126 * dark(0) + 0.7152 * dark(1) + 0.0722 * dark(2);
+  return pixel.size() == colours + 1 ? ink * pixel.back() / white : ink;
 }
 
 } // namespace
 
 bool readInk(const std::string& path, int side, Ink& ink, std::string& error)
 {
+  const int warnings = vtkObject::GetGlobalWarningDisplay();
+  vtkObject::GlobalWarningDisplayOff(); // one sentence tells of a file that no reader takes
   const vtkSmartPointer<vtkImageData> image = readImage(path);
+  vtkObject::SetGlobalWarningDisplay(warnings);
   if (!image)
   {
     error = path + " holds no picture that can be read";

@@ -67,8 +67,9 @@ void Stippling::Invert()
 void Stippling::SetNumberOfPoints(double count)
 {
   const double most = LiveTransport::MostPoints;
-  this->Message =
-    count > most ? "There are at most " + std::to_string(LiveTransport::MostPoints) + " points" : "";
+  this->Message = count > most
+    ? "There are at most " + std::to_string(LiveTransport::MostPoints) + " points"
+    : "";
   this->Transport->SetNumberOfPoints(static_cast<int>(std::clamp(std::round(count), 1.0, most)));
 }
 
@@ -76,7 +77,8 @@ void Stippling::ScaleNumberOfPoints(double factor)
 {
   const double count = this->Transport->GetNumberOfPoints();
   const double scaled = factor * count;
-  this->SetNumberOfPoints(factor > 1.0 ? std::max(scaled, count + 1.0) : std::min(scaled, count - 1.0));
+  this->SetNumberOfPoints(
+    factor > 1.0 ? std::max(scaled, count + 1.0) : std::min(scaled, count - 1.0));
 }
 
 void Stippling::ScaleBrush(double factor)
@@ -98,6 +100,7 @@ bool Stippling::Update()
   const Clock::time_point start = Clock::now();
   const bool moved = this->Transport->Update(this->Canvas->Follows());
   this->UpdateSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+  this->MovingUpdates += moved ? 1 : 0;
   const std::string empty = "Nothing is painted: the points stay where they are";
   if (!this->Transport->GetError().empty())
   {

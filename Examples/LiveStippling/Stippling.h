@@ -46,6 +46,7 @@ public:
 
   // One update of the points. Returns whether they may have moved.
   bool Update();
+  int GetMovingUpdates() const { return this->MovingUpdates; }    // in which they may have
   double GetUpdateSeconds() const { return this->UpdateSeconds; } // that the last one took
 
 private:
@@ -57,6 +58,7 @@ private:
   double BrushRadius = 50.0;
   Place Brush{ 0.0, 0.0 };
   bool IsDown = false;
+  int MovingUpdates = 0;
   double UpdateSeconds = 0.0;
   std::string Message;
 };

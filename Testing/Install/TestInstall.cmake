@@ -6,12 +6,13 @@ file(REMOVE_RECURSE "${WORK}")
 install_and_move("${BUILD}" "${VTK}") # the one outside place that it has to know
 
 set(ours vtkRectifiedTransport RectifiedTransportCore)
-foreach (example IN ITEMS Downstream StippleImage)
+foreach (example IN ITEMS Downstream LiveStippling StippleImage)
   build_against_moved("Examples/${example}" "${example}")
   check_loaded("${WORK}/${example}/${example}" ${ours})
 endforeach ()
 run("${WORK}/Downstream/Downstream")
 run("${WORK}/StippleImage/StippleImage" "${SOURCE}/Testing/Data/ascent.png" "${WORK}/dots.png" 500)
+run("${WORK}/LiveStippling/LiveStippling" --help)
 build_against_moved(Testing/Install/Headers Headers)
 check_core(RectifiedTransportCore)
 

@@ -177,6 +177,64 @@ class Examples(ExampleTest):
             self.assertIn(path, printed)
             self.assertIn(what, printed)
 
+    def live(self, *arguments):
+        """What the live example prints, driving itself, and its exit code."""
+        program = os.environ.get("RT_LIVE_STIPPLING")
+        if not program:
+            self.skipTest("the C++ examples are not built")
+        done = subprocess.run([program, *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, universal_newlines=True,
+                              env=dict(os.environ, OMP_WAIT_POLICY="passive"))
+        return done.stdout, done.returncode
+
+    def test_live_stippling(self):
+        """It paints an S, turns the wheel, and erases; points glide."""
+        path = os.path.join(OUTPUT, "live-stippling.png")
+        printed, code = self.live("--side", "512", "--points", "4096", "--drive", "150",
+                                  "--picture", path)
+        self.assertEqual(code, 0, printed)
+        adding, more, removing, fewer = tables(printed)[0]
+        self.assertEqual([row[0] for row in (adding, more, removing, fewer)],
+                         ["adding ink", "more points", "removing ink", "fewer points"])
+        for row in adding, more, removing, fewer:
+            self.assertGreater(first(row[1]), 15)  # updates in which points moved
+            self.assertGreater(first(row[2]), first(row[3]))  # drawing takes time, too
+        # Four turns of the wheel by a tenth each, and back.
+        self.assertEqual([row[4] for row in (adding, more, removing, fewer)],
+                         ["4096", "5998", "5998", "4096"])
+        self.assertEqual([row[5] for row in (adding, more, removing, fewer)],
+                         ["0", "0", "0", "1902"])
+        # Dots are 8 cells apart: none jumps; the way round a hole that is being erased is longer.
+        for row, cells in (adding, 24), (more, 24), (removing, 100), (fewer, 100):
+            self.assertLess(first(row[6]), cells, printed)
+        drawn = read(path)[0]
+        dark = (drawn.max(axis=2) < 40)
+        self.assertEqual(drawn.shape, (900, 900, 3))
+
+        def share(x, y, half=30):
+            x, y = round(900 * x), round(900 * y)
+            return dark[y - half:y + half, x - half:x + half].mean()
+
+        paper = share(0.15, 0.85)  # of ten per cent of ink
+        self.assertTrue(0.05 < paper < 0.2, paper)
+        self.assertGreater(share(0.26, 0.62), 3 * paper)  # of the S
+        self.assertLess(share(0.25, 0.25, 15), 0.1 * paper)  # erased
+
+    def test_live_stippling_refuses(self):
+        for arguments, words in ((["--points", "0"], "--points is 0; it must be from 1 to 200000"),
+                                 (["--side", "9x"], "--side is 9x; it must be from 64 to 4096"),
+                                 (["--drive"], "--drive needs a value"),
+                                 (["--what"], "unknown argument --what")):
+            printed, code = self.live(*arguments)
+            self.assertEqual(code, 2, printed)
+            self.assertIn(words, printed)
+            self.assertIn("usage: LiveStippling", printed)
+        path = os.path.join(OUTPUT, "live-broken.png")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("no picture")
+        printed, code = self.live(path, "--drive", "5")
+        self.assertEqual((printed, code), (path + " holds no picture that can be read\n", 1))
+
     def test_cartogram(self):
         self.ran("Cartogram")
         self.check_picture("cartogram-raccoon.png")
