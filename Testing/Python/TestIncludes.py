@@ -9,17 +9,19 @@ from rt_testing import SOURCE, main
 
 CORE = {
     "Parallel": set(),
+    "Algebra": {"Parallel"},
     "Geometry": {"Parallel"},
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Geometry", "Tables"},
     "SiteCells": {"Parallel", "Geometry", "Tables", "Flow"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
-    "Relaxation": {"Parallel", "Geometry", "Tables", "Flow"},
+    "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
+    "Relaxation": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Seeds": {"Parallel", "Geometry"},
     "Splat": {"Parallel", "Geometry"},
     "Solid": {"Parallel", "Geometry", "Mesh"},
-    "Parameterization": {"Parallel", "Geometry", "Mesh", "Tables", "Flow"},
+    "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",
                         "Parameterization"},
 }

@@ -121,8 +121,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
         return false;
       }
     }
-    next = share / ratio;
-    next = next < 1e3 * smallest ? smallest : next;
+    next = std::max(share / ratio, smallest);
   }
   return true;
 }
@@ -194,11 +193,20 @@ bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
   bool isRetry = false;
   for (int step = 0; this->Found.Largest > tolerance; ++step)
   {
-    if (step == most || !this->FindDirection(damping, progress))
+    if (step == most)
     {
       return false;
     }
     ++this->Steps;
+    const auto dampMore = [&]() {
+      damping = std::max(damping, firstDamping) * 10.0;
+      isRetry = true;
+    };
+    if (!this->FindDirection(damping, progress))
+    {
+      dampMore();
+      continue;
+    }
     const Deviation before = this->Found;
     double part = 1.0;
     bool isAccepted = false;
@@ -214,9 +222,8 @@ bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
     }
     if (!isAccepted)
     {
-      damping = std::max(damping, firstDamping) * 10.0;
+      dampMore();
       this->Evaluate(this->Weights, progress);
-      isRetry = true;
       continue;
     }
     this->Weights.swap(trial);
@@ -253,7 +260,6 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
     const double* strengths =
       this->SideStrengths[static_cast<std::size_t>(place / PowerDiagram::cellsOfChunk)].data() +
       this->FirstSide[static_cast<std::size_t>(i)];
-    values.emplace_back(i, i, damping);
     for (std::int64_t k = 0; k < cell.Count; ++k)
     {
       const std::int64_t j = cell[k].Neighbour;
@@ -266,6 +272,15 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
     }
   }
   progress.Check();
+  double trace = 0.0;
+  for (const Eigen::Triplet<Real>& value : values)
+  {
+    trace += value.row() == value.col() ? value.value().Value : 0.0;
+  }
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    values.emplace_back(i, i, damping * trace / static_cast<double>(count));
+  }
   SparseCholesky::Matrix lower(count, count);
   lower.setFromTriplets(values.begin(), values.end());
   SparseCholesky system;

@@ -53,7 +53,10 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
 // through Optimal Transport", ACM TOG 31(6), 2012): the weights of a power diagram that give all
 // points equal masses, then the points to the centroids of their cells. The energy is
 // N / (M A) times the integral of density * |x - point of x|^2 over the cells, for N points, the
-// density's mass M and the domain's area A.
+// density's mass M and the domain's area A. Masses are equal to 1e-6 of each other. Points that an
+// iteration moves stay where the density has mass: next to the centroid, if it has none there. From
+// points far from distributed like a density with large holes the first weights take minutes; also
+// throws std::runtime_error if there are none to be found.
 RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2>& spacing,
   PointSpan<2> points, const RelaxationOptions& options = {}, const Context& context = Context());
 

@@ -41,7 +41,8 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
   this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings);
   if (!std::isfinite(this->Value))
   {
-    throw std::runtime_error("the energy of the points cannot be computed");
+    throw std::runtime_error("the energy of the points cannot be computed: they are too far from "
+                             "distributed like the density (begin with particles of it)");
   }
 }
 
