@@ -37,7 +37,7 @@ EqualMassPartition::EqualMassPartition(RowMoments density, std::int64_t sites)
   , Weights(static_cast<std::size_t>(sites), 0.0)
   , SolvedWeights(Weights)
   , Masses(Weights)
-  , FirstSide(static_cast<std::size_t>(sites))
+  , Places(static_cast<std::size_t>(sites))
 {
 }
 
@@ -126,26 +126,28 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
   return true;
 }
 
+template <class Visit>
+void EqualMassPartition::VisitCells(Progress& progress, const Visit& visit)
+{
+  progress.For(
+    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
+    [&visit](std::int64_t first, std::int64_t last) {
+      for (std::int64_t place = first; place < last; ++place)
+      {
+        visit(place);
+      }
+    },
+    firstSlice);
+}
+
 EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   const Vector& weights, Progress& progress)
 {
   this->Cells.Update(weights.data(), progress);
-  this->SideStrengths.resize(static_cast<std::size_t>(this->Cells.NumberOfChunks()));
-  progress.For(
-    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
-    [this](std::int64_t first, std::int64_t last) {
-      for (std::int64_t place = first; place < last; ++place)
-      {
-        Vector& strengths =
-          this->SideStrengths[static_cast<std::size_t>(place / PowerDiagram::cellsOfChunk)];
-        if (place % PowerDiagram::cellsOfChunk == 0)
-        {
-          strengths.clear();
-        }
-        this->EvaluateCell(place, strengths);
-      }
-    },
-    firstSlice);
+  this->Sides.resize(static_cast<std::size_t>(this->Cells.NumberOfChunks()));
+  this->VisitCells(progress, [this](std::int64_t place) { this->IntegrateSides(place); });
+  this->VisitCells(
+    progress, [this](std::int64_t place) { this->AddSides(this->Cells.SiteAt(place)); });
   double squares = 0.0;
   this->Found = { 0.0, 0.0, std::numeric_limits<double>::infinity() };
   for (const double mass : this->Masses)
@@ -158,25 +160,69 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   return this->Found;
 }
 
-// The mass of a cell, and the derivatives by the weights of its neighbours, with the opposite sign:
-// the density along the side over twice the distance of the sites.
-void EqualMassPartition::EvaluateCell(std::int64_t place, Vector& strengths)
+// Of the two cells at a side, the one of the larger site integrates along it.
+void EqualMassPartition::IntegrateSides(std::int64_t place)
 {
+  const std::int64_t chunk = place / PowerDiagram::cellsOfChunk;
+  std::vector<Side>& sides = this->Sides[static_cast<std::size_t>(chunk)];
+  if (place % PowerDiagram::cellsOfChunk == 0)
+  {
+    sides.clear();
+  }
   const std::int64_t site = this->Cells.SiteAt(place);
-  const auto i = static_cast<std::size_t>(site);
+  this->Places[static_cast<std::size_t>(site)] = { chunk, static_cast<std::int64_t>(sides.size()) };
   const PowerDiagram::Cell cell = this->Cells[site];
-  this->FirstSide[i] = static_cast<std::int64_t>(strengths.size());
+  for (std::int64_t k = 0; k < cell.Count; ++k)
+  {
+    sides.push_back(cell[k].Neighbour < site ? this->Integrate(site, k) : Side());
+  }
+}
+
+// The derivatives of the mass are the density along the sides over twice the distance of the sites.
+EqualMassPartition::Side EqualMassPartition::Integrate(std::int64_t site, std::int64_t k) const
+{
+  const PowerDiagram::Cell cell = this->Cells[site];
+  Side side{};
+  const double along = this->Rows.AddSideMass(cell[k].X, cell.After(k).X, side.Mass);
+  const std::int64_t j = cell[k].Neighbour;
+  if (j >= 0)
+  {
+    const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+    side.Strength =
+      along / (2.0 * std::sqrt(squaredDistance(x, this->Sites[static_cast<std::size_t>(j)])));
+  }
+  return side;
+}
+
+void EqualMassPartition::AddSides(std::int64_t site)
+{
+  const PowerDiagram::Cell cell = this->Cells[site];
+  const Side* sides = this->SidesOf(site);
   double mass = 0.0;
   for (std::int64_t k = 0; k < cell.Count; ++k)
   {
-    const double along = this->Rows.AddSideMass(cell[k].X, cell.After(k).X, mass);
     const std::int64_t j = cell[k].Neighbour;
-    const double distance = j < 0
-      ? 1.0
-      : std::sqrt(squaredDistance(this->Sites[i], this->Sites[static_cast<std::size_t>(j)]));
-    strengths.push_back(along / (2.0 * distance));
+    if (j < site)
+    {
+      mass += sides[k].Mass;
+      continue;
+    }
+    const PowerDiagram::Cell other = this->Cells[j];
+    std::int64_t same = 0;
+    while (same < other.Count && other[same].Neighbour != site)
+    {
+      ++same;
+    }
+    // Rounding may leave a side of no length to one of the cells only.
+    mass += same < other.Count ? -this->SidesOf(j)[same].Mass : this->Integrate(site, k).Mass;
   }
-  this->Masses[i] = mass;
+  this->Masses[static_cast<std::size_t>(site)] = mass;
+}
+
+const EqualMassPartition::Side* EqualMassPartition::SidesOf(std::int64_t site) const
+{
+  const Place& place = this->Places[static_cast<std::size_t>(site)];
+  return this->Sides[static_cast<std::size_t>(place.Chunk)].data() + place.First;
 }
 
 // From weights that were evaluated. A step along which the function rises to its end is as good as
@@ -257,17 +303,15 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
   {
     const std::int64_t i = this->Cells.SiteAt(place);
     const PowerDiagram::Cell cell = this->Cells[i];
-    const double* strengths =
-      this->SideStrengths[static_cast<std::size_t>(place / PowerDiagram::cellsOfChunk)].data() +
-      this->FirstSide[static_cast<std::size_t>(i)];
+    const Side* sides = this->SidesOf(i);
     for (std::int64_t k = 0; k < cell.Count; ++k)
     {
       const std::int64_t j = cell[k].Neighbour;
       if (j >= 0 && j < i)
       {
-        values.emplace_back(i, i, strengths[k]);
-        values.emplace_back(j, j, strengths[k]);
-        values.emplace_back(i, j, -strengths[k]);
+        values.emplace_back(i, i, sides[k].Strength);
+        values.emplace_back(j, j, sides[k].Strength);
+        values.emplace_back(i, j, -sides[k].Strength);
       }
     }
   }
@@ -308,21 +352,15 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
 void EqualMassPartition::FindMoments(Progress& progress)
 {
   this->CellMoments.assign(this->Sites.size(), PolygonMoments());
-  progress.For(
-    this->Cells.NumberOfCells(), PowerDiagram::cellsOfChunk,
-    [this](std::int64_t first, std::int64_t last) {
-      for (std::int64_t place = first; place < last; ++place)
-      {
-        const std::int64_t site = this->Cells.SiteAt(place);
-        const PowerDiagram::Cell cell = this->Cells[site];
-        for (std::int64_t k = 0; k < cell.Count; ++k)
-        {
-          this->Rows.AddSide(
-            cell[k].X, cell.After(k).X, this->CellMoments[static_cast<std::size_t>(site)]);
-        }
-      }
-    },
-    firstSlice);
+  this->VisitCells(progress, [this](std::int64_t place) {
+    const std::int64_t site = this->Cells.SiteAt(place);
+    const PowerDiagram::Cell cell = this->Cells[site];
+    for (std::int64_t k = 0; k < cell.Count; ++k)
+    {
+      this->Rows.AddSide(
+        cell[k].X, cell.After(k).X, this->CellMoments[static_cast<std::size_t>(site)]);
+    }
+  });
 }
 
 double EqualMassPartition::Cost(std::int64_t site) const

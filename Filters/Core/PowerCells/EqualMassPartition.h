@@ -46,6 +46,16 @@ public:
 
 private:
   using Vector = std::vector<double>;
+  struct Side
+  {
+    double Mass;     // the part of the cell's mass, by RowMoments
+    double Strength; // minus the derivative of the mass by the weight of the neighbour
+  };
+  struct Place
+  {
+    std::int64_t Chunk;
+    std::int64_t First; // side
+  };
   // How far the masses are from 1.
   struct Deviation
   {
@@ -56,7 +66,14 @@ private:
 
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
   Deviation Evaluate(const Vector& weights, Progress& progress);
-  void EvaluateCell(std::int64_t place, Vector& strengths);
+  // Calls visit(place) for the cells, in chunks.
+  template <class Visit>
+  void VisitCells(Progress& progress, const Visit& visit);
+  void IntegrateSides(std::int64_t place);
+  void AddSides(std::int64_t site);
+  Side Integrate(std::int64_t site, std::int64_t side) const;
+  // The sides of a site's cell, in the order of its corners.
+  const Side* SidesOf(std::int64_t site) const;
   bool SolveFromHere(Progress& progress);
   bool SolveFromEvenDensity(Progress& progress);
   bool Ascend(double tolerance, int mostSteps, Progress& progress);
@@ -72,10 +89,10 @@ private:
   Vector SolvedWeights;
   std::vector<PolygonMoments> CellMoments;
 
-  Deviation Found{};                   // of the weights that were evaluated last
-  Vector Masses;                       // as well
-  std::vector<Vector> SideStrengths;   // as well, by the diagram's chunks
-  std::vector<std::int64_t> FirstSide; // of each site, in its chunk
+  Deviation Found{};                    // of the weights that were evaluated last
+  Vector Masses;                        // as well
+  std::vector<std::vector<Side>> Sides; // as well, by the diagram's chunks
+  std::vector<Place> Places;            // of the sides of each site's cell
   Vector Direction;
   int Steps = 0;
 };

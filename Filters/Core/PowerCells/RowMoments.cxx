@@ -18,7 +18,8 @@ RowMoments::RowMoments(
   : Size(density.Size)
   , Scale(scale)
   , MeanMass(total / numberOfCells<2>(density.Size))
-  , Entries(density.Size[0] * density.Size[1])
+  , CellMasses(density.Size[0] * density.Size[1])
+  , CellMoments(density.Size[0] * density.Size[1])
   , Occupied(WordsPerRow() * density.Size[1])
 {
   const DensitySummary found = this->ReadValues(density.Values, progress);
@@ -53,10 +54,10 @@ DensitySummary RowMoments::ReadValues(const DensityValues& values, Progress& pro
         this->Occupied.data() + j * this->WordsPerRow(), part.Summary);
       part.Summary.Total += inspection.Sum;
       part.Empty = part.Empty || !(inspection.Smallest > 0.0);
-      Entry* entries = this->Entries.data() + j * columns;
+      Masses* masses = this->CellMasses.data() + j * columns;
       for (std::int64_t i = 0; i < columns; ++i)
       {
-        entries[i].Density = row[static_cast<std::size_t>(i)];
+        masses[i].Own = row[static_cast<std::size_t>(i)];
       }
     }
     return part;
@@ -80,7 +81,7 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
     double mass = 0.0;
     for (std::int64_t i = first * columns; i < last * columns; ++i)
     {
-      mass += this->Entries.data()[i].Density * unit;
+      mass += this->CellMasses.data()[i].Own * unit;
     }
     return mass;
   };
@@ -90,17 +91,17 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
   progress.For(this->Size[1], 1, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t j = first; j < last; ++j)
     {
-      Entry next{};
-      for (std::int64_t i = 0; i < columns; ++i)
+      double before = 0.0;
+      Moments moments{};
+      for (std::int64_t i = j * columns; i < (j + 1) * columns; ++i)
       {
-        Entry& entry = this->Entries.data()[j * columns + i];
-        const double mass = entry.Density * unit * scale;
-        entry = next;
-        entry.Density = mass;
-        const auto x = static_cast<double>(i);
-        next.Mass += mass;
-        next.First += mass * (x + 0.5);
-        next.Second += mass * (x * x + x + 1.0 / 3.0);
+        const double own = this->CellMasses.data()[i].Own * unit * scale;
+        this->CellMasses.data()[i] = { before, own };
+        this->CellMoments.data()[i] = moments;
+        const auto x = static_cast<double>(i - j * columns);
+        before += own;
+        moments.First += own * (x + 0.5);
+        moments.Second += own * (x * x + x + 1.0 / 3.0);
       }
     }
   });
@@ -125,20 +126,31 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
 }
 
-RowMoments::Entry RowMoments::At(std::int64_t column, std::int64_t row) const
+RowMoments::Masses RowMoments::MassesAt(std::int64_t column, std::int64_t row) const
 {
-  Entry entry = this->Entries.data()[row * this->Size[0] + column];
+  Masses masses = this->CellMasses.data()[row * this->Size[0] + column];
+  if (this->EvenShare > 0.0)
+  {
+    const double rest = 1.0 - this->EvenShare;
+    const double even = this->EvenShare * this->MeanMass;
+    masses.Before = rest * masses.Before + even * static_cast<double>(column);
+    masses.Own = rest * masses.Own + even;
+  }
+  return masses;
+}
+
+RowMoments::Moments RowMoments::MomentsAt(std::int64_t column, std::int64_t row) const
+{
+  Moments moments = this->CellMoments.data()[row * this->Size[0] + column];
   if (this->EvenShare > 0.0)
   {
     const double rest = 1.0 - this->EvenShare;
     const double even = this->EvenShare * this->MeanMass;
     const auto x = static_cast<double>(column);
-    entry.Mass = rest * entry.Mass + even * x;
-    entry.First = rest * entry.First + even * x * x / 2.0;
-    entry.Second = rest * entry.Second + even * x * x * x / 3.0;
-    entry.Density = rest * entry.Density + even;
+    moments.First = rest * moments.First + even * x * x / 2.0;
+    moments.Second = rest * moments.Second + even * x * x * x / 3.0;
   }
-  return entry;
+  return moments;
 }
 
 // The way of a side through the cells along one axis.
@@ -193,12 +205,12 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
     const double part = std::clamp(next.Next, done, 1.0);
     const Point<2> face = { start[0] + part * (end[0] - start[0]),
       start[1] + part * (end[1] - start[1]) };
-    visit(this->At(x.Cell, y.Cell), x.Cell, at, face, part - done);
+    visit(x.Cell, y.Cell, at, face, part - done);
     next.Cross();
     at = face;
     done = part;
   }
-  visit(this->At(x.Cell, y.Cell), x.Cell, at, end, 1.0 - done);
+  visit(x.Cell, y.Cell, at, end, 1.0 - done);
 }
 
 void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, PolygonMoments& moments) const
@@ -209,7 +221,9 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, PolygonMoment
   double first[2] = { 0.0, 0.0 };
   double second[2] = { 0.0, 0.0 };
   this->VisitCells(from, to,
-    [&](const Entry& entry, std::int64_t column, const Point<2>& a, const Point<2>& b, double) {
+    [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double) {
+      const Masses masses = this->MassesAt(column, row);
+      const Moments before = this->MomentsAt(column, row);
       const auto low = static_cast<double>(column);
       const double half = (b[1] - a[1]) / 2.0;
       for (const double side : { -place, place })
@@ -217,12 +231,11 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, PolygonMoment
         const double x = (a[0] + b[0]) / 2.0 + side * (b[0] - a[0]) / 2.0;
         const double y = (a[1] + b[1]) / 2.0 + side * half;
         const double u = x - low;
-        const double m = half * (entry.Mass + entry.Density * u);
+        const double m = half * (masses.Before + masses.Own * u);
         mass += m;
-        first[0] += half * (entry.First + entry.Density * u * (low + u / 2.0));
+        first[0] += half * (before.First + masses.Own * u * (low + u / 2.0));
         first[1] += m * y;
-        second[0] +=
-          half * (entry.Second + entry.Density * u * (low * low + low * u + u * u / 3.0));
+        second[0] += half * (before.Second + masses.Own * u * (low * low + low * u + u * u / 3.0));
         second[1] += m * y * y;
       }
     });
@@ -239,11 +252,11 @@ double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double&
   double along = 0.0;
   double below = 0.0;
   this->VisitCells(from, to,
-    [&](
-      const Entry& entry, std::int64_t column, const Point<2>& a, const Point<2>& b, double part) {
+    [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double part) {
+      const Masses masses = this->MassesAt(column, row);
       const double u = (a[0] + b[0]) / 2.0 - static_cast<double>(column);
-      below += (b[1] - a[1]) * (entry.Mass + entry.Density * u);
-      along += part * entry.Density;
+      below += (b[1] - a[1]) * (masses.Before + masses.Own * u);
+      along += part * masses.Own;
     });
   mass += below;
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);

@@ -52,13 +52,17 @@ public:
   double AddSideMass(const Point<2>& from, const Point<2>& to, double& mass) const;
 
 private:
-  // Integrals over the cells of the row before this one of 1, x and x^2 (x in cells) times density.
-  struct Entry
+  // Of a cell: its mass, and that of the cells of the row before it.
+  struct Masses
   {
-    double Mass;
+    double Before;
+    double Own;
+  };
+  // Integrals over the cells of the row before one of x and x^2 (x in cells) times density.
+  struct Moments
+  {
     double First;
     double Second;
-    double Density; // the mass of this cell
   };
 
   struct Way;
@@ -66,8 +70,9 @@ private:
   std::int64_t WordsPerRow() const { return (this->Size[0] + 63) / 64; }
   DensitySummary ReadValues(const DensityValues& values, Progress& progress);
   void Accumulate(double total, const DensitySummary& found, Progress& progress);
-  Entry At(std::int64_t column, std::int64_t row) const;
-  // Calls visit(entry, column, from, to, part) for the part of a side in each cell, in their order,
+  Masses MassesAt(std::int64_t column, std::int64_t row) const;
+  Moments MomentsAt(std::int64_t column, std::int64_t row) const;
+  // Calls visit(column, row, from, to, part) for the part of a side in each cell, in their order,
   // which is from `from` to `to` in cells and makes up `part` of the side.
   template <class Visit>
   void VisitCells(const Point<2>& from, const Point<2>& to, const Visit& visit) const;
@@ -77,7 +82,8 @@ private:
   double MeanMass = 0.0; // of a cell
   double EvenShare = 0.0;
   bool Empty = false;
-  LargeBuffer<Entry> Entries;
+  LargeBuffer<Masses> CellMasses;
+  LargeBuffer<Moments> CellMoments;
   LargeBuffer<std::uint64_t> Occupied; // a bit a cell, rows of whole words
 };
 
