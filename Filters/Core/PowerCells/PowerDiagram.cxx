@@ -18,7 +18,7 @@ public:
   {
     const Point<2> low = { -site[0], -site[1] };
     const Point<2> high = { lengths[0] - site[0], lengths[1] - site[1] };
-    this->Corners = { { low, -1 }, { { high[0], low[1] }, -1 }, { high, -1 },
+    this->Polygon = { { low, -1 }, { { high[0], low[1] }, -1 }, { high, -1 },
       { { low[0], high[1] }, -1 } };
     this->FindRadius();
   }
@@ -35,15 +35,15 @@ public:
       return;
     }
     const auto isNeighbour = [=](const Corner& corner) { return corner.Neighbour == neighbour; };
-    if (std::any_of(this->Corners.begin(), this->Corners.end(), isNeighbour))
+    if (std::any_of(this->Polygon.begin(), this->Polygon.end(), isNeighbour))
     {
       return; // rounding would cut it again
     }
     bool isCut = false;
-    this->Excess.resize(this->Corners.size());
-    for (std::size_t k = 0; k < this->Corners.size(); ++k)
+    this->Excess.resize(this->Polygon.size());
+    for (std::size_t k = 0; k < this->Polygon.size(); ++k)
     {
-      const Point<2>& x = this->Corners[k].X;
+      const Point<2>& x = this->Polygon[k].X;
       this->Excess[k] = 2.0 * (offset[0] * x[0] + offset[1] * x[1]) - limit;
       isCut = isCut || this->Excess[k] > 0.0;
     }
@@ -53,29 +53,29 @@ public:
     }
   }
 
-  bool IsEmpty() const { return this->Corners.empty(); }
-  // Of the farthest corner from the site.
+  const std::vector<Corner>& Corners() const { return this->Polygon; }
+  // The distance of the farthest corner from the site.
   double Radius() const { return this->LargestDistance; }
 
   // Adds the cell in the coordinates of the rectangle.
   void Append(const Point<2>& site, std::vector<Corner>& corners) const
   {
-    for (const Corner& corner : this->Corners)
+    for (const Corner& corner : this->Polygon)
     {
       corners.push_back({ { corner.X[0] + site[0], corner.X[1] + site[1] }, corner.Neighbour });
     }
   }
-  std::int64_t Size() const { return static_cast<std::int64_t>(this->Corners.size()); }
+  std::int64_t Size() const { return static_cast<std::int64_t>(this->Polygon.size()); }
 
 private:
   void KeepInside(std::int64_t neighbour)
   {
-    const std::size_t count = this->Corners.size();
+    const std::size_t count = this->Polygon.size();
     this->Clipped.clear();
     for (std::size_t k = 0; k < count; ++k)
     {
       const std::size_t next = k + 1 < count ? k + 1 : 0;
-      const Corner& corner = this->Corners[k];
+      const Corner& corner = this->Polygon[k];
       const bool isInside = !(this->Excess[k] > 0.0);
       if (isInside)
       {
@@ -85,19 +85,19 @@ private:
       {
         const double part = this->Excess[k] / (this->Excess[k] - this->Excess[next]);
         const Point<2>& a = corner.X;
-        const Point<2>& b = this->Corners[next].X;
+        const Point<2>& b = this->Polygon[next].X;
         this->Clipped.push_back({ { a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]) },
           isInside ? neighbour : corner.Neighbour });
       }
     }
-    this->Corners.swap(this->Clipped);
+    this->Polygon.swap(this->Clipped);
     this->FindRadius();
   }
 
   void FindRadius()
   {
     this->SquaredRadius = 0.0;
-    for (const Corner& corner : this->Corners)
+    for (const Corner& corner : this->Polygon)
     {
       this->SquaredRadius =
         std::max(this->SquaredRadius, corner.X[0] * corner.X[0] + corner.X[1] * corner.X[1]);
@@ -105,7 +105,7 @@ private:
     this->LargestDistance = std::sqrt(this->SquaredRadius);
   }
 
-  std::vector<Corner> Corners;
+  std::vector<Corner> Polygon;
   std::vector<Corner> Clipped;
   std::vector<double> Excess; // of each corner beyond the bisector
   double SquaredRadius = 0.0;
@@ -168,9 +168,8 @@ void PowerDiagram::UpdateCell(std::int64_t at, const double* weights, Cutter& cu
     }
   }
   this->Tree.VisitRivals(
-    site, weight, [&cutter]() { return cutter.Radius(); },
-    [&](std::int64_t j, const Point<2>& offset, double otherWeight) {
-      if (j != id && !cutter.IsEmpty())
+    site, weight, cutter, [&](std::int64_t j, const Point<2>& offset, double otherWeight) {
+      if (j != id)
       {
         cutter.Cut(j, offset, otherWeight - weight);
       }

@@ -39,7 +39,7 @@ void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
     {
       this->Boxes[static_cast<std::size_t>(task.Parent)].Second = number;
     }
-    Box box{ {}, {}, 0.0, task.First, task.Last, -1 };
+    Box box{ {}, {}, 0.0, {}, 0.0, task.First, task.Last, -1 };
     this->Bound(box);
     this->Boxes.push_back(box);
     progress.Add(task.Last - task.First);
@@ -80,21 +80,59 @@ void SiteTree::SetWeights(const double* weights)
   {
     site.Weight = weights[site.Id];
   }
-  // Children come after their parents.
-  for (auto number = static_cast<std::int64_t>(this->Boxes.size()); number-- > 0;)
+  for (Box& box : this->Boxes)
   {
-    Box& box = this->Boxes[static_cast<std::size_t>(number)];
-    if (box.Second >= 0)
-    {
-      box.LargestWeight =
-        std::max(this->BoxAt(number + 1).LargestWeight, this->BoxAt(box.Second).LargestWeight);
-      continue;
-    }
-    box.LargestWeight = -std::numeric_limits<double>::infinity();
-    for (std::int64_t i = box.First; i < box.Last; ++i)
-    {
-      box.LargestWeight = std::max(box.LargestWeight, this->At(i).Weight);
-    }
+    this->BoundWeights(box);
+  }
+}
+
+// With the slope of the plane that fits the weights best, by least squares; any other would do.
+void SiteTree::BoundWeights(Box& box) const
+{
+  const Point<2> middle = { (box.Low[0] + box.High[0]) / 2.0, (box.Low[1] + box.High[1]) / 2.0 };
+  double x = 0.0;
+  double y = 0.0;
+  double w = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double xw = 0.0;
+  double yw = 0.0;
+  box.LargestWeight = -std::numeric_limits<double>::infinity();
+  for (std::int64_t i = box.First; i < box.Last; ++i)
+  {
+    const WeightedSite& site = this->At(i);
+    const double a = site.X[0] - middle[0];
+    const double b = site.X[1] - middle[1];
+    x += a;
+    y += b;
+    w += site.Weight;
+    xx += a * a;
+    xy += a * b;
+    yy += b * b;
+    xw += a * site.Weight;
+    yw += b * site.Weight;
+    box.LargestWeight = std::max(box.LargestWeight, site.Weight);
+  }
+  const auto count = static_cast<double>(box.Last - box.First);
+  xx -= x * x / count;
+  xy -= x * y / count;
+  yy -= y * y / count;
+  xw -= x * w / count;
+  yw -= y * w / count;
+  const double determinant = xx * yy - xy * xy;
+  constexpr double flat = 1e-6;
+  box.Slope = { 0.0, 0.0 };
+  if (determinant > flat * xx * yy)
+  {
+    box.Slope = { (yy * xw - xy * yw) / determinant, (xx * yw - xy * xw) / determinant };
+  }
+  box.Offset = -std::numeric_limits<double>::infinity();
+  for (std::int64_t i = box.First; i < box.Last; ++i)
+  {
+    const WeightedSite& site = this->At(i);
+    box.Offset =
+      std::max(box.Offset, site.Weight - box.Slope[0] * site.X[0] - box.Slope[1] * site.X[1]);
   }
 }
 

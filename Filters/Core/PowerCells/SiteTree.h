@@ -31,11 +31,13 @@ public:
   std::int64_t Site(std::int64_t place) const { return this->At(place).Id; }
 
   // Calls visit(id, offset of the site from the centre, weight), nearest boxes first, at least for
-  // the sites whose bisector with a site at `centre` of weight `weight` passes within radius() of
-  // the centre. The radius may shrink meanwhile.
-  template <class Radius, class Visit>
+  // the sites that have a smaller power at some corner of a cell than the site at `centre` of
+  // weight `weight`. The cell has Corners(), which have places X relative to the centre, and
+  // Radius(), the largest distance of these; it may shrink meanwhile, and ends the visit when it is
+  // empty.
+  template <class Cell, class Visit>
   void VisitRivals(
-    const Point<2>& centre, double weight, const Radius& radius, const Visit& visit) const;
+    const Point<2>& centre, double weight, const Cell& cell, const Visit& visit) const;
 
 private:
   struct WeightedSite
@@ -51,6 +53,9 @@ private:
     Point<2> Low;
     Point<2> High;
     double LargestWeight;
+    // Weights are at most Offset + Slope . x: they may vary much in a box, but then smoothly.
+    Point<2> Slope;
+    double Offset;
     std::int64_t First;
     std::int64_t Last;
     std::int64_t Second;
@@ -68,7 +73,10 @@ private:
   }
   const Box& BoxAt(std::int64_t box) const { return this->Boxes[static_cast<std::size_t>(box)]; }
   static Range RangeOf(const Box& box, const Point<2>& centre);
+  template <class Cell>
+  static bool MayCut(const Box& box, const Point<2>& centre, double weight, const Cell& cell);
   void Bound(Box& box) const;
+  void BoundWeights(Box& box) const;
 
   std::vector<WeightedSite> Sites;
   std::vector<Box> Boxes;
@@ -89,11 +97,37 @@ inline SiteTree::Range SiteTree::RangeOf(const Box& box, const Point<2>& centre)
   return range;
 }
 
+// At a corner v of the cell the power of a site x in the box, both relative to the centre, is at
+// least |v - x|^2 - Offset' - Slope . x = |x - u|^2 - Slope . v - Slope^2 / 4 - Offset', where
+// u = v + Slope / 2.
+template <class Cell>
+bool SiteTree::MayCut(const Box& box, const Point<2>& centre, double weight, const Cell& cell)
+{
+  const Point<2>& g = box.Slope;
+  const double offset = box.Offset + g[0] * centre[0] + g[1] * centre[1];
+  const double constant = weight - offset - (g[0] * g[0] + g[1] * g[1]) / 4.0;
+  const Point<2> low = { box.Low[0] - centre[0] - g[0] / 2.0, box.Low[1] - centre[1] - g[1] / 2.0 };
+  const Point<2> high = { box.High[0] - centre[0] - g[0] / 2.0,
+    box.High[1] - centre[1] - g[1] / 2.0 };
+  for (const auto& corner : cell.Corners())
+  {
+    const Point<2>& v = corner.X;
+    const double x = std::max({ low[0] - v[0], v[0] - high[0], 0.0 });
+    const double y = std::max({ low[1] - v[1], v[1] - high[1], 0.0 });
+    const double own = v[0] * v[0] + v[1] * v[1];
+    if (x * x + y * y - g[0] * v[0] - g[1] * v[1] + constant < own)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 // The bisector with a site at the distance d passes at the distance (d^2 - w' + w) / (2 d), so
 // within the radius r where d^2 - 2 d r < w' - w; the left side falls up to d = r, then rises.
-template <class Radius, class Visit>
+template <class Cell, class Visit>
 void SiteTree::VisitRivals(
-  const Point<2>& centre, double weight, const Radius& radius, const Visit& visit) const
+  const Point<2>& centre, double weight, const Cell& cell, const Visit& visit) const
 {
   struct Entry
   {
@@ -104,14 +138,14 @@ void SiteTree::VisitRivals(
   Entry stack[deepest];
   int depth = 0;
   stack[depth++] = { 0, RangeOf(this->BoxAt(0), centre) };
-  while (depth > 0)
+  while (depth > 0 && !cell.Corners().empty())
   {
     const Entry entry = stack[--depth];
     const Box& box = this->BoxAt(entry.Box);
-    const double r = radius();
+    const double r = cell.Radius();
     const double d =
       std::clamp(r, std::sqrt(entry.Distance.Nearest), std::sqrt(entry.Distance.Farthest));
-    if (d * d - 2.0 * d * r >= box.LargestWeight - weight)
+    if (d * d - 2.0 * d * r >= box.LargestWeight - weight || !MayCut(box, centre, weight, cell))
     {
       continue;
     }
