@@ -41,8 +41,8 @@ void checkThreads(Checks& checks, int depth, int method)
 {
   auto image = makeImage(41, 37, depth, true, bumpy);
   const double bounds[6] = { -2, 42, 0, 36, 0, depth - 1.0 };
-  auto relaxation =
-    makeRelaxation(method, makePoints(randomCoordinates(bounds, depth == 1 ? 2000 : 1000)), image);
+  const int count = method == vtkBlueNoiseRelaxation::OPTIMAL_TRANSPORT ? 400 : 1000;
+  auto relaxation = makeRelaxation(method, makePoints(randomCoordinates(bounds, count)), image);
   relaxation->SetMaximumIterations(2);
   Messages messages(relaxation);
   const auto run = [&](int threading) {
