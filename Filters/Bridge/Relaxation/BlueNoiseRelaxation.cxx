@@ -29,11 +29,11 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 // The bytes that the core takes while it runs.
-double coreMemory(bool byTransport, double cells, double points)
+double coreMemory(bool byTransport, int dimension, double cells, double points)
 {
   constexpr double rowMoments = 32.0; // a cell of the density
   constexpr double diagram = 2048.0;  // a point
-  constexpr double neighbours = 1024.0;
+  const double neighbours = dimension == 2 ? 2500.0 : 4600.0;
   return byTransport ? rowMoments * cells + diagram * points : neighbours * points;
 }
 
@@ -177,7 +177,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityIm
     Cost::Relaxation * count * (settings.Options.MaximumIterations + 1.0), Cost::Seed * count });
   const std::string purpose = "the relaxation of " + std::to_string(counted.Count()) +
     " points in " + std::to_string(density.Grid().NumberOfCells()) + " cells of the density";
-  const double bytes = coreMemory(settings.ByTransport, cells, count);
+  const double bytes = coreMemory(settings.ByTransport, D, cells, count);
   requireMemory(purpose, bytes + sizeof(double) * (3.0 * all + D * count));
 
   const SharedFlow* flow = nullptr;
