@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
-usage: python3 run.py [--repetitions N] [--quality | --morphs | --parameterization] PROGRAM
+usage: python3 run.py [--repetitions N] [--quality | --morphs | --parameterization | --relaxation] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -299,6 +299,26 @@ def parameterization(r):
                  "core", "and polish"], rows)
 
 
+def relaxation(r):
+    rows = []
+    for points in (2048, 8192, 32768):
+        for method in ("transport", "repulsion"):
+            row = [f"{points:,}", method]
+            for start in ("flow", "random"):
+                name = f"Relaxation/{method}/{start}/{points}"
+                first, ten = (r.median(f"{name}/{iterations}") for iterations in (0, 10))
+                row += [milliseconds(first), milliseconds((ten - first) / 10),
+                        f"{r.median(f'{name}/10', 'energy_before'):.4f} → "
+                        f"{r.median(f'{name}/10', 'energy'):.4f}"]
+            rows.append(row)
+    print_table(["points", "method", "flow: before the first iteration", "an iteration",
+                 "energy, 10 iterations", "random: before", "an iteration",
+                 "energy, 10 iterations"], rows)
+    print("50 iterations of 8,192 points from the flow: " + ", ".join(
+        f"{method} {milliseconds(r.median(f'Relaxation/{method}/flow/8192/50'))}"
+        for method in ("transport", "repulsion")) + ".\n")
+
+
 def run(arguments, names):
     """What the program reports of the benchmarks whose names match."""
     with tempfile.TemporaryDirectory() as folder:
@@ -322,8 +342,11 @@ def main():
     parser.add_argument("--quality", action="store_true", help="only how good the particles are")
     parser.add_argument("--morphs", action="store_true", help="only morphs, barycenters and splats")
     parser.add_argument("--parameterization", action="store_true", help="only maps of disks")
+    parser.add_argument("--relaxation", action="store_true", help="only blue noise")
     arguments = parser.parse_args()
 
+    if arguments.relaxation:
+        return relaxation(Results(run(arguments, "Relaxation")))
     if arguments.parameterization:
         return parameterization(Results(run(arguments, "Parameterization")))
     if arguments.quality:
@@ -331,7 +354,7 @@ def main():
     if arguments.morphs:
         return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh|Parameterization"))
+    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh|Parameterization|Relaxation"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")

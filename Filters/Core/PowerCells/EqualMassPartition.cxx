@@ -17,7 +17,7 @@ namespace
 
 constexpr std::int64_t firstSlice = 1 << 10;
 // Of Newton's method: quadratic convergence makes the last step much better than this.
-constexpr double solvedTo = 1e-7;
+constexpr double solvedTo = 4e-7;
 constexpr int mostSteps = 500;
 // Of a density that is partly even, on the way to the given one.
 constexpr double nearlySolved = 0.1;
