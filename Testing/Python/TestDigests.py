@@ -342,11 +342,24 @@ def surface_runs():
     yield "surface of corners", sampler, [sheet(60, 50)], dict(Corners=[7, 121, 3100, 1952])
 
 
+def relaxation_runs():
+    for method, name in enumerate(("gaussian", "transport")):
+        yield f"relaxation {name} 2D", rt.vtkBlueNoiseRelaxation, [points_in(image()), image()], dict(
+            Method=method, MaximumIterations=4)
+        holes = image(array=np.maximum(values((61, 47), 0) - 11.0, 0.0))
+        particles = run(rt.vtkTransportSampler, holes, NumberOfParticles=300)[0]
+        yield f"relaxation {name} with holes", rt.vtkBlueNoiseRelaxation, [particles, holes], dict(
+            Method=method, MaximumIterations=3)
+    space = image((23, 17, 19))
+    yield "relaxation gaussian 3D", rt.vtkBlueNoiseRelaxation, [points_in(space), space], dict(
+        MaximumIterations=4)
+
+
 def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
     for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
-                 parameterization_runs, surface_runs):
+                 parameterization_runs, surface_runs, relaxation_runs):
         for name, filter_class, inputs, properties in runs():
             assert name not in found, name
             outputs = run(filter_class, *inputs, **properties)
