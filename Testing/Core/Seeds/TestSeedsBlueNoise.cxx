@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether the blue noise is one: spacing, spectrum, faces of the box, thin boxes.
+#include "Core/Seeds/BlueNoiseTile.h"
 #include "TestSeeds.h"
 
 #include <cmath>
@@ -342,6 +343,33 @@ TEST(BlueNoise, HasABlueAndIsotropicSpectrum)
   {
     // A lattice's would be hundreds.
     EXPECT_LT(radial[r] / radialWaves[r], 6.0) << "frequency " << r;
+  }
+}
+
+TEST(BlueNoiseTile, IsSpacedAndHasNoPeaks)
+{
+  constexpr int count = BlueNoiseTile<2>::NumberOfPoints;
+  std::vector<double> tile(2 * count);
+  for (int i = 0; i < 2 * count; ++i)
+  {
+    tile[i] = BlueNoiseTile<2>::Coordinates[i] * 0x1p-16;
+  }
+  const Spacing spacing = NeighbourGrid<2>(tile, { 1.0, 1.0 }).Measure();
+  EXPECT_GE(spacing.Smallest, 0.87);
+  EXPECT_GE(spacing.Mean, 0.91);
+
+  // A lattice has the number of its points; 69 is the frequency of the hexagonal one.
+  constexpr int largest = 80;
+  const Spectrum spectrum(tile, largest);
+  for (int y = 0; y <= largest; ++y)
+  {
+    for (int x = -largest; x <= largest; ++x)
+    {
+      if (x != 0 || y != 0)
+      {
+        ASSERT_LE(spectrum(x, y), 0.02 * count) << x << ", " << y;
+      }
+    }
   }
 }
 
