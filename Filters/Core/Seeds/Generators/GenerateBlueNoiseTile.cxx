@@ -10,7 +10,6 @@
 //   ./generate 3 ${TILE}3D.cxx
 //
 // The result is the same on every machine: only + - * / and sqrt of IEEE doubles are used.
-//
 // Method: points repel each other by a Gaussian, which removes the low frequencies of their
 // spectrum and keeps them amorphous; a second stage adds a spring between points nearer than a
 // chosen distance, which raises the smallest spacings. With a narrower Gaussian they would
