@@ -37,6 +37,10 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
                           "--pictures", "2", "--panel", "128"],
          "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
                             "--particles", "1000", "--repeats", "2", "--panel", "128"],
+         "Figure10Relaxation": ["--size", "256", "--particles", "600", "--iterations", "1", "5",
+                                "20", "--panel", "128"],
+         "Table1Stippling": ["--size", "192", "--samples", "400", "600", "--iterations", "10",
+                             "--panel", "96"],
          "Figure11Parameterization": ["--resolution", "128", "--panel", "160"],
          "FlowMaps": ["--size", "128", "--particles", "1500", "--panel", "160"],
          "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
@@ -91,7 +95,8 @@ def first(cell):
 
 
 class ExampleTest(unittest.TestCase):
-    """What tests of examples check; those of stippling are in TestStippling.py."""
+    """What tests of examples check; those of stippling are in TestStippling.py and
+    TestRelaxation.py."""
 
     def ran(self, example, *arguments):
         """The output of an example that runs."""
