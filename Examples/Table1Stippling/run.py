@@ -90,8 +90,8 @@ def middle(picture, panel):
 def main():
     arguments = example.parser(
         __doc__,
-        images=dict(nargs="*", help="photographs in any format that ParaView reads (default: two of "
-                                    "the project and two of python3-skimage)"),
+        images=dict(nargs="*", help="photographs in any format that ParaView reads (default: two "
+                                    "of the project and two of python3-skimage)"),
         full=dict(action="store_true",
                   help="the paper's numbers of dots, on %d\u00b2 pixels" % FULL[0]),
         size=dict(example.number(None, "", 8), help="pixels along the sides of the photographs "

@@ -39,8 +39,9 @@ class Figure10(ExampleTest):
         """Both starts end alike, ours begins near the end, and both pictures are drawn."""
         ends, reached = tables(self.ran("Figure10Relaxation"))
         self.assertEqual([row[:3] for row in ends],
-                         [[method, start, "20"] for method in
-                          ("GaussianBlueNoise", "OptimalTransport") for start in ("random", "ours")])
+                         [[method, start, "20"]
+                          for method in ("GaussianBlueNoise", "OptimalTransport")
+                          for start in ("random", "ours")])
         for random, ours in (ends[:2], ends[2:]):
             for column in 4, 6:  # energies before the first iteration
                 self.assertLess(1.5 * first(ours[column]), first(random[column]))
