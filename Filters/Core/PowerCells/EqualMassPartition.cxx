@@ -52,6 +52,7 @@ bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
   }
   this->SolvedSites = this->Sites;
   this->SolvedWeights = this->Weights;
+  this->Rows.SetEvenShare(0.0); // what is left of it belongs to the way, not to the moments
   this->FindMoments(progress);
   return true;
 }
