@@ -76,28 +76,59 @@ void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
   this->Cells.SetSites(sites, progress);
 }
 
+// Weights with which each cell has a part of the domain: none where the domain has all sites. Else
+// those with which the cells are the Voronoi cells of c = centre + scale * (site - middle), points
+// of the domain: |x - c|^2 / scale and |x - site|^2 - weight differ by the same for all sites.
+void EqualMassPartition::FindFirstWeights()
+{
+  constexpr double margin = 0.1;
+  const Point<2> lengths = this->Rows.Lengths();
+  Point<2> middle;
+  double scale = std::numeric_limits<double>::infinity();
+  bool isInside = true;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const auto range = std::minmax_element(this->Sites.begin(), this->Sites.end(),
+      [a](const Point<2>& x, const Point<2>& y) { return x[a] < y[a]; });
+    const double low = (*range.first)[a];
+    const double high = (*range.second)[a];
+    isInside = isInside && low >= 0.0 && high <= lengths[a];
+    middle[a] = (low + high) / 2.0;
+    scale = std::min(scale, (1.0 - margin) * lengths[a] / (high - low));
+  }
+  std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
+  for (std::size_t i = 0; i < this->Sites.size() && !isInside && std::isfinite(scale); ++i)
+  {
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      const double from = this->Sites[i][a] - middle[a];
+      this->Weights[i] += from * ((1.0 - scale) * from + 2.0 * (middle[a] - lengths[a] / 2.0));
+    }
+  }
+}
+
 bool EqualMassPartition::SolveFromHere(Progress& progress)
 {
   constexpr double tooLittle = 1e-3;
   if (this->Evaluate(this->Weights, progress).Least < tooLittle)
   {
-    std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
+    this->FindFirstWeights();
     this->Evaluate(this->Weights, progress);
   }
   constexpr double none = 1e-9;
   return this->Found.Least > none && this->Ascend(solvedTo, mostSteps, progress);
 }
 
-// The cells of an even density have mass without any weights, and where the even part of a density
-// is reduced to a part of it, no mass is reduced to less than that part. So the way from the even
-// density to the given one may be gone in steps, which are as long as they succeed.
+// The cells of an even density have mass with the first weights, and where the even part of a
+// density is reduced to a part of it, no mass is reduced to less than that part. So the way from
+// the even density to the given one may be gone in steps, which are as long as they succeed.
 bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 {
   constexpr double smallestRatio = 1.001;
   constexpr double largestRatio = 64.0;
   // So little changes no cell's mass by more than a part of the tolerance.
   const double smallest = 0.4 * massTolerance / static_cast<double>(this->Sites.size());
-  std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
+  this->FindFirstWeights();
   Vector solved;
   double share = 1.0;
   double ratio = 1.0;

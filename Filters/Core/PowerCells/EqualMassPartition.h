@@ -26,10 +26,10 @@ public:
   // The mass of the density is the number of sites: each cell is to have 1.
   EqualMassPartition(RowMoments density, std::int64_t sites);
 
-  // Sets the sites, at least one and no two at one point, and finds the weights, beginning from
-  // those of the last solution. Returns false if some mass is not 1 to `massTolerance`; the next
-  // call then begins from the solution before. As the work of the current stage. Throws
-  // std::bad_alloc and Cancelled.
+  // Sets the sites, at least one and no two at one point, in the domain or not, and finds the
+  // weights, beginning from those of the last solution. Returns false if some mass is not 1 to
+  // `massTolerance`; the next call then begins from the solution before. As the work of the current
+  // stage. Throws std::bad_alloc and Cancelled.
   bool Solve(ConstPointSpan<2> sites, Progress& progress);
   static constexpr double massTolerance = 5e-7;
 
@@ -65,6 +65,7 @@ private:
   };
 
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
+  void FindFirstWeights();
   Deviation Evaluate(const Vector& weights, Progress& progress);
   // Calls visit(place) for the cells, in chunks.
   template <class Visit>
