@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of power diagrams share: convex polygons and their moments, computed another way.
+#ifndef RectifiedTransport_TestPowerCells_h
+#define RectifiedTransport_TestPowerCells_h
+
+#include "Core/Parallel/Progress.h"
+#include "Core/PowerCells/PowerDiagram.h"
+#include "Core/PowerCells/RowMoments.h"
+
+#include "TestFlow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+inline RowMoments makeRows(const TestDensity<2>& density, const Point<2>& scale = { 1.0, 1.0 },
+  double total = 1.0, const Context& context = Context())
+{
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  return RowMoments(density.Source(), scale, total, progress);
+}
+
+inline Points<2> cornersOf(const PowerDiagram::Cell& cell)
+{
+  Points<2> corners;
+  for (std::int64_t k = 0; k < cell.Count; ++k)
+  {
+    corners.push_back(cell[k].X);
+  }
+  return corners;
+}
+
+inline PolygonMoments rowMomentsOf(const RowMoments& rows, const Points<2>& polygon)
+{
+  PolygonMoments moments;
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+  {
+    rows.AddSide(polygon[k], polygon[(k + 1) % polygon.size()], moments);
+  }
+  return moments;
+}
+
+// Of the density 1, as a fan of triangles: exact by the midpoints of their sides.
+inline PolygonMoments fanMoments(const Points<2>& polygon)
+{
+  PolygonMoments moments;
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+  {
+    const Point<2>& a = polygon[0];
+    const Point<2>& b = polygon[k - 1];
+    const Point<2>& c = polygon[k];
+    const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
+    const Points<2> middles = { { (a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0 },
+      { (b[0] + c[0]) / 2.0, (b[1] + c[1]) / 2.0 }, { (c[0] + a[0]) / 2.0, (c[1] + a[1]) / 2.0 } };
+    moments.Mass += area;
+    for (const Point<2>& x : middles)
+    {
+      moments.First[0] += area / 3.0 * x[0];
+      moments.First[1] += area / 3.0 * x[1];
+      moments.Second += area / 3.0 * (x[0] * x[0] + x[1] * x[1]);
+    }
+  }
+  return moments;
+}
+
+// The part of a convex polygon where normal . x <= limit.
+inline Points<2> clipped(const Points<2>& polygon, const Point<2>& normal, double limit)
+{
+  Points<2> kept;
+  const auto excess = [&](
+                        const Point<2>& x) { return normal[0] * x[0] + normal[1] * x[1] - limit; };
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+  {
+    const Point<2>& a = polygon[k];
+    const Point<2>& b = polygon[(k + 1) % polygon.size()];
+    const double ea = excess(a);
+    const double eb = excess(b);
+    if (ea <= 0.0)
+    {
+      kept.push_back(a);
+    }
+    if ((ea < 0.0 && eb > 0.0) || (ea > 0.0 && eb < 0.0))
+    {
+      const double t = ea / (ea - eb);
+      kept.push_back({ a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]) });
+    }
+  }
+  return kept;
+}
+
+// The moments of a density over a convex polygon, cell by cell of its grid.
+inline PolygonMoments clippedMoments(
+  const TestDensity<2>& density, const Point<2>& scale, double total, const Points<2>& polygon)
+{
+  double all = 0.0;
+  for (const double value : density.Values)
+  {
+    all += value;
+  }
+  PolygonMoments moments;
+  for (std::size_t i = 0; i < density.Values.size(); ++i)
+  {
+    const auto cell = cellAt<2>(static_cast<std::int64_t>(i), density.Size);
+    const double x = static_cast<double>(cell[0]);
+    const double y = static_cast<double>(cell[1]);
+    Points<2> part = clipped(polygon, { 1.0, 0.0 }, (x + 1.0) * scale[0]);
+    part = clipped(part, { -1.0, 0.0 }, -x * scale[0]);
+    part = clipped(part, { 0.0, 1.0 }, (y + 1.0) * scale[1]);
+    part = clipped(part, { 0.0, -1.0 }, -y * scale[1]);
+    const PolygonMoments found = fanMoments(part);
+    const double weight = density.Values[i] * total / all / (scale[0] * scale[1]);
+    moments.Mass += weight * found.Mass;
+    moments.First[0] += weight * found.First[0];
+    moments.First[1] += weight * found.First[1];
+    moments.Second += weight * found.Second;
+  }
+  return moments;
+}
+
+inline void expectMoments(
+  const PolygonMoments& found, const PolygonMoments& expected, double tolerance)
+{
+  EXPECT_NEAR(found.Mass, expected.Mass, tolerance);
+  EXPECT_NEAR(found.First[0], expected.First[0], tolerance);
+  EXPECT_NEAR(found.First[1], expected.First[1], tolerance);
+  EXPECT_NEAR(found.Second, expected.Second, tolerance);
+}
+
+} // namespace RectifiedTransport
+
+#endif
