@@ -14,7 +14,7 @@ CORE = {
     "Mesh": {"Parallel", "Geometry"},
     "Tables": {"Parallel", "Geometry"},
     "Flow": {"Parallel", "Geometry", "Tables"},
-    "SiteCells": {"Parallel", "Geometry", "Tables", "Flow"},
+    "SiteCells": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Quality": {"Parallel", "Geometry", "Tables", "Flow"},
     "PowerCells": {"Parallel", "Algebra", "Geometry", "Tables"},
     "Relaxation": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/LabelPolygons.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t none = -1;
+constexpr std::int64_t rowsOfBand = 16;
+constexpr double rounding = 1e-9; // pixels
+
+struct Interval
+{
+  double Low = std::numeric_limits<double>::infinity();
+  double High = -std::numeric_limits<double>::infinity();
+
+  void Add(double x)
+  {
+    this->Low = std::min(this->Low, x);
+    this->High = std::max(this->High, x);
+  }
+};
+
+// Fills the rows of a band with the polygons that reach into it, each along the interval of a row
+// that it has. Bands do not share pixels, so that nothing depends on their order.
+class PolygonLabels
+{
+public:
+  PolygonLabels(const std::vector<Point<2>>& corners, const std::vector<std::int64_t>& first,
+    const GridSize<2>& size, std::int64_t* labels)
+    : Corners(corners)
+    , First(first)
+    , Size(size)
+    , Labels(labels)
+  {
+  }
+
+  void Run(Progress& progress)
+  {
+    this->FindBands();
+    const std::int64_t bands = static_cast<std::int64_t>(this->FirstOfBand.size()) - 1;
+    progress.For(
+      bands, 1,
+      [this](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t band = begin; band < end; ++band)
+        {
+          this->FillBand(band);
+        }
+      },
+      std::max<std::int64_t>(1, (1 << 16) / (rowsOfBand * this->Size[0])));
+  }
+
+private:
+  struct Range
+  {
+    std::int64_t Begin;
+    std::int64_t End;
+  };
+
+  // Of the coordinate along axis 1.
+  Interval ExtentOf(std::int64_t polygon) const
+  {
+    Interval extent;
+    for (std::int64_t k = this->First[static_cast<std::size_t>(polygon)];
+         k < this->First[static_cast<std::size_t>(polygon) + 1]; ++k)
+    {
+      extent.Add(this->Corners[static_cast<std::size_t>(k)][1]);
+    }
+    return extent;
+  }
+
+  // The pixels whose centres are in an interval, or so near that rounding may have put them
+  // outside.
+  static Range PixelsOf(const Interval& interval, std::int64_t count)
+  {
+    const auto bounded = [count](double x) {
+      return static_cast<std::int64_t>(std::clamp(x, 0.0, static_cast<double>(count)));
+    };
+    return { bounded(std::ceil(interval.Low - 0.5 - rounding)),
+      bounded(std::ceil(interval.High - 0.5 + rounding)) };
+  }
+
+  // Lists the polygons that reach into each band, ascending.
+  void FindBands()
+  {
+    const std::int64_t bands = (this->Size[1] + rowsOfBand - 1) / rowsOfBand;
+    const auto polygons = static_cast<std::int64_t>(this->First.size()) - 1;
+    std::vector<std::int64_t> next(static_cast<std::size_t>(bands) + 1, 0);
+    const auto visit = [&](const auto& call) {
+      for (std::int64_t polygon = 0; polygon < polygons; ++polygon)
+      {
+        const Range rows = PixelsOf(this->ExtentOf(polygon), this->Size[1]);
+        for (std::int64_t band = rows.Begin / rowsOfBand;
+             rows.Begin < rows.End && band <= (rows.End - 1) / rowsOfBand; ++band)
+        {
+          call(static_cast<std::size_t>(band), polygon);
+        }
+      }
+    };
+    visit([&next](std::size_t band, std::int64_t) { ++next[band + 1]; });
+    for (std::size_t band = 1; band < next.size(); ++band)
+    {
+      next[band] += next[band - 1];
+    }
+    this->FirstOfBand = next;
+    this->OfBands.resize(static_cast<std::size_t>(next.back()));
+    visit([&](std::size_t band, std::int64_t polygon) {
+      this->OfBands[static_cast<std::size_t>(next[band]++)] = polygon;
+    });
+  }
+
+  void FillBand(std::int64_t band)
+  {
+    const std::int64_t begin = band * rowsOfBand;
+    const std::int64_t end = std::min(begin + rowsOfBand, this->Size[1]);
+    std::fill(this->Labels + begin * this->Size[0], this->Labels + end * this->Size[0], none);
+    for (std::int64_t k = this->FirstOfBand[static_cast<std::size_t>(band)];
+         k < this->FirstOfBand[static_cast<std::size_t>(band) + 1]; ++k)
+    {
+      const std::int64_t polygon = this->OfBands[static_cast<std::size_t>(k)];
+      const Interval extent = this->ExtentOf(polygon);
+      const Range rows = PixelsOf(extent, this->Size[1]);
+      for (std::int64_t row = std::max(rows.Begin, begin); row < std::min(rows.End, end); ++row)
+      {
+        const double y = std::clamp(static_cast<double>(row) + 0.5, extent.Low, extent.High);
+        const Range pixels = PixelsOf(this->Section(polygon, y), this->Size[0]);
+        std::int64_t* labels = this->Labels + row * this->Size[0];
+        std::fill(labels + pixels.Begin, labels + std::max(pixels.Begin, pixels.End), polygon);
+      }
+    }
+    for (std::int64_t row = begin; row < end; ++row)
+    {
+      this->CloseGaps(this->Labels + row * this->Size[0]);
+    }
+  }
+
+  // Along a row. Sides along it may be inclined by rounding.
+  Interval Section(std::int64_t polygon, double y) const
+  {
+    Interval section;
+    const std::int64_t first = this->First[static_cast<std::size_t>(polygon)];
+    const std::int64_t last = this->First[static_cast<std::size_t>(polygon) + 1];
+    for (std::int64_t k = first; k < last; ++k)
+    {
+      const Point<2>& a = this->Corners[static_cast<std::size_t>(k)];
+      const Point<2>& b = this->Corners[static_cast<std::size_t>(k + 1 < last ? k + 1 : first)];
+      if (std::abs(a[1] - y) <= rounding)
+      {
+        section.Add(a[0]);
+      }
+      if ((a[1] < y && y < b[1]) || (b[1] < y && y < a[1]))
+      {
+        section.Add(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+      }
+    }
+    return section;
+  }
+
+  // Where corners are very uncertain, as between bisectors that are nearly parallel, more than
+  // rounding may be open: the polygon on the left has it.
+  void CloseGaps(std::int64_t* labels) const
+  {
+    const std::int64_t* end = labels + this->Size[0];
+    const std::int64_t* first = std::find_if(
+      static_cast<const std::int64_t*>(labels), end, [](std::int64_t label) { return label >= 0; });
+    std::int64_t last = first == end ? 0 : *first;
+    for (std::int64_t* label = labels; label != end; ++label)
+    {
+      last = *label == none ? last : *label;
+      *label = last;
+    }
+  }
+
+  const std::vector<Point<2>>& Corners;
+  const std::vector<std::int64_t>& First;
+  const GridSize<2> Size;
+  std::int64_t* const Labels;
+  std::vector<std::int64_t> FirstOfBand; // of OfBands
+  std::vector<std::int64_t> OfBands;     // the polygons
+};
+
+} // namespace
+
+void labelPolygons(const std::vector<Point<2>>& corners, const std::vector<std::int64_t>& first,
+  const GridSize<2>& size, std::int64_t* labels, Progress& progress)
+{
+  PolygonLabels(corners, first, size, labels).Run(progress);
+}
+
+} // namespace RectifiedTransport

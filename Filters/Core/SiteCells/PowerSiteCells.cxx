@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/PowerSiteCells.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/PowerCells/EqualMassPartition.h"
+#include "Core/SiteCells/LabelPolygons.h"
+#include "Core/SiteCells/SeparateSites.h"
+#include "Core/Tables/Density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// In units of the mean spacing. At less a pair's bisector has too few digits.
+constexpr double leastDistance = 1e-5;
+
+class Ones final : public DensityValues
+{
+public:
+  void Read(std::int64_t, std::int64_t count, double* values) const override
+  {
+    std::fill_n(values, count, 1.0);
+  }
+};
+
+bool hasRightAngles(const ImageGrid& grid)
+{
+  constexpr double rounding = 1e-9;
+  const double axes[2][2] = { { 1.0, 0.0 }, { 0.0, 1.0 } };
+  double a[3];
+  double b[3];
+  grid.VectorToPhysical<2>(axes[0], a);
+  grid.VectorToPhysical<2>(axes[1], b);
+  const double lengths = std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]);
+  return std::abs(a[0] / lengths * b[0] + a[1] / lengths * b[1] + a[2] / lengths * b[2]) < rounding;
+}
+
+double squaredLength(const Point<2>& x)
+{
+  return x[0] * x[0] + x[1] * x[1];
+}
+
+// Scales and moves sites that are not in the domain, or crowded in it, so that they fill it. The
+// cells stay as they are: |x - centre - scale * y|^2 / scale and |x - y|^2 differ by what depends
+// on x alone or on y alone, which costs the same in all divisions into equal masses.
+void moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
+{
+  constexpr double margin = 0.1;
+  constexpr double crowded = 2.0;
+  Point<2> middle;
+  double scale = std::numeric_limits<double>::infinity();
+  bool isInside = true;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const auto [first, last] = std::minmax_element(sites.begin(), sites.end(),
+      [a](const Point<2>& x, const Point<2>& y) { return x[a] < y[a]; });
+    const double low = (*first)[a];
+    const double high = (*last)[a];
+    isInside = isInside && low >= 0.0 && high <= sides[a];
+    middle[a] = low + 0.5 * (high - low);
+    scale = std::min(scale, (1.0 - margin) * sides[a] / (high - low));
+  }
+  if (isInside && scale < crowded)
+  {
+    return;
+  }
+  scale = std::isfinite(scale) ? scale : 1.0;
+  for (Point<2>& site : sites)
+  {
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      site[a] = 0.5 * sides[a] + scale * (site[a] - middle[a]);
+    }
+  }
+}
+
+} // namespace
+
+PowerSiteCells::PowerSiteCells(
+  ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context)
+  : Place(grid)
+  , Heights(static_cast<std::size_t>(sites.size()))
+{
+  if (!hasRightAngles(grid))
+  {
+    throw std::invalid_argument("The axes of the domain are not at right angles");
+  }
+  Progress progress(context);
+  progress.BeginStage(0.02);
+  const Point<2> lengths = grid.Lengths<2>();
+  this->Unit =
+    std::sqrt(lengths[0]) * std::sqrt(lengths[1]) / std::sqrt(static_cast<double>(sites.size()));
+  const GridSize<2> size = grid.Size<2>();
+  Point<2> sides;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    sides[a] = lengths[a] / this->Unit;
+    this->PixelSides[a] = sides[a] / static_cast<double>(size[a]);
+  }
+  std::vector<Point<2>> flat(this->Heights.size());
+  for (std::size_t i = 0; i < flat.size(); ++i)
+  {
+    const double* x = sites[static_cast<std::int64_t>(i)];
+    Point<2> index;
+    this->Outside += grid.NearestIndex<2>(x, index.data()) ? 0 : 1;
+    grid.ToIndex<2>(x, index.data());
+    double foot[3];
+    grid.ToPhysical<2>(index.data(), foot);
+    for (std::size_t r = 0; r < 3; ++r)
+    {
+      const double part = (x[r] - foot[r]) / this->Unit;
+      this->Heights[i] += part * part;
+    }
+    flat[i] = { index[0] * this->PixelSides[0], index[1] * this->PixelSides[1] };
+  }
+  const std::vector<Point<2>> given = flat;
+  moveIntoDomain(sides, flat);
+  separateSites(flat, leastDistance, progress);
+
+  progress.BeginStage(1.0);
+  EqualMassPartition partition(
+    RowMoments({ { 1, 1 }, Ones() }, sides, static_cast<double>(flat.size()), progress),
+    sites.size());
+  if (!partition.Solve(flat, progress))
+  {
+    throw std::runtime_error(
+      "The areas of the sites' cells do not become equal: too many sites are nearly at one point");
+  }
+  this->Keep(partition, given);
+}
+
+void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites)
+{
+  constexpr double rounding = 1e-13; // of the lengths of sides that lie in a point
+  const GridSize<2> size = this->Place.Size<2>();
+  const auto count = static_cast<double>(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i)
+  {
+    const auto site = static_cast<std::int64_t>(i);
+    const PowerDiagram::Cell cell = partition.Diagram()[site];
+    this->First.push_back(static_cast<std::int64_t>(this->Corners.size()));
+    for (std::int64_t k = 0; k < cell.Count; ++k)
+    {
+      const Point<2>& a = cell[k].X;
+      const Point<2>& b = cell.After(k).X;
+      if (std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1])) <= rounding * std::sqrt(count))
+      {
+        continue;
+      }
+      Point<2> index;
+      for (std::size_t axis = 0; axis < 2; ++axis)
+      {
+        index[axis] =
+          std::clamp(a[axis] / this->PixelSides[axis], 0.0, static_cast<double>(size[axis]));
+      }
+      this->Corners.push_back(index);
+    }
+    const PolygonMoments& moments = partition.Moments()[i];
+    const Point<2> centroid = partition.Centroid(site);
+    this->Shares.push_back(moments.Mass / count);
+    this->Centroids.push_back(
+      { centroid[0] / this->PixelSides[0], centroid[1] / this->PixelSides[1] });
+    // About the centroid, and from it to where the site was given.
+    const Point<2> offset = { sites[i][0] - centroid[0], sites[i][1] - centroid[1] };
+    const double spread = moments.Second - squaredLength(centroid) * moments.Mass;
+    this->Costs.push_back(
+      (spread + (squaredLength(offset) + this->Heights[i]) * moments.Mass) / count);
+  }
+  this->First.push_back(static_cast<std::int64_t>(this->Corners.size()));
+  this->Heights = {};
+}
+
+void PowerSiteCells::Label(std::int64_t* labels, const Context& context) const
+{
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  labelPolygons(this->Corners, this->First, this->Place.Size<2>(), labels, progress);
+}
+
+double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
+{
+  const GridSize<2> size = this->Place.Size<2>();
+  const double area = numberOfCells<2>(size) * this->Place.CellMeasure();
+  if (!std::isfinite(area))
+  {
+    throw std::overflow_error("The domain's area passes the largest double; scale the sites");
+  }
+  double total = 0.0;
+  for (std::size_t i = 0; i < this->Costs.size(); ++i)
+  {
+    const auto site = static_cast<std::int64_t>(i);
+    statistics.Mass[site] = this->Shares[i] * area;
+    this->Place.ToPhysical<2>(this->Centroids[i].data(), statistics.Centroid[site]);
+    statistics.Cost[site] = this->Costs[i] * this->Unit * this->Unit;
+    total += statistics.Cost[site];
+  }
+  if (!std::isfinite(total))
+  {
+    throw std::overflow_error("The cost passes the largest double; scale the sites");
+  }
+  return total;
+}
+
+SiteCellOutlines<2> PowerSiteCells::Outlines() const
+{
+  SiteCellOutlines<2> outlines;
+  outlines.Points.resize(this->Corners.size());
+  for (std::size_t k = 0; k < this->Corners.size(); ++k)
+  {
+    this->Place.ToPhysical<2>(this->Corners[k].data(), outlines.Points[k].data());
+  }
+  outlines.CornerIds.reserve(2 * this->Corners.size());
+  outlines.SiteIds.reserve(this->Corners.size());
+  for (std::int64_t site = 0; site < this->NumberOfSites(); ++site)
+  {
+    const std::int64_t first = this->First[static_cast<std::size_t>(site)];
+    const std::int64_t last = this->First[static_cast<std::size_t>(site) + 1];
+    for (std::int64_t k = first; k < last; ++k)
+    {
+      outlines.CornerIds.push_back(k);
+      outlines.CornerIds.push_back(k + 1 < last ? k + 1 : first);
+      outlines.SiteIds.push_back(site);
+    }
+  }
+  return outlines;
+}
+
+} // namespace RectifiedTransport

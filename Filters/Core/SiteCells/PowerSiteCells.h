@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Site cells of least cost in a plane: the power diagram whose cells have equal areas, which is the
+// optimal transport, for the squared distance, from the uniform measure to equal masses at the
+// sites.
+//
+//   const PowerSiteCells cells(sites, grid); // of two dimensions
+//   std::vector<std::int64_t> labels(grid.NumberOfCells());
+//   cells.Label(labels.data());
+#ifndef RectifiedTransport_PowerSiteCells_h
+#define RectifiedTransport_PowerSiteCells_h
+
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Context.h"
+#include "Core/SiteCells/SiteCellOutlines.h"
+#include "Core/SiteCells/SiteCellStatistics.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class EqualMassPartition;
+
+class PowerSiteCells
+{
+public:
+  // There is at least one site; coordinates are finite. Sites outside of the domain count where
+  // they are. Of sites that are nearer to each other than 1e-5 of the mean spacing (of a scaled
+  // copy that fills the domain, where they are crowded or outside) all but one move apart by as
+  // much, for the cells alone. Throws std::invalid_argument where the grid's axes are not at right
+  // angles, std::runtime_error where the areas do not become equal to 5e-7, std::bad_alloc and
+  // Cancelled.
+  PowerSiteCells(
+    ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context = Context());
+
+  std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Costs.size()); }
+  std::int64_t NumberOutside() const { return this->Outside; }
+
+  // Writes the number of the site of each pixel, axis 0 fastest: the one whose cell has the pixel's
+  // centre. Throws std::bad_alloc and Cancelled.
+  void Label(std::int64_t* labels, const Context& context = Context()) const;
+  // Writes the areas, centroids and costs of the cells, integrals over the polygons. Returns the
+  // cost: the mean of |x - site|^2 over all points x of the domain. Throws std::overflow_error for
+  // a cost or an area past the largest double.
+  double Measure(const SiteCellStatistics& statistics) const;
+  // The sides of the polygons; each cell has its own points. Throws std::bad_alloc.
+  SiteCellOutlines<2> Outlines() const;
+
+private:
+  void Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites);
+
+  ImageGrid Place;
+  Point<2> PixelSides{};       // in units of the sites' mean spacing
+  double Unit = 0.0;           // that spacing
+  std::vector<double> Heights; // squared distances of the sites from the plane
+  std::int64_t Outside = 0;
+  std::vector<Point<2>> Corners;   // of the cells, counter-clockwise, in index space
+  std::vector<std::int64_t> First; // of a site's corners, and the number of all
+  std::vector<double> Shares;      // of the area
+  std::vector<Point<2>> Centroids; // in index space
+  std::vector<double> Costs;       // shares of the mean, in squared units
+};
+
+} // namespace RectifiedTransport
+
+#endif

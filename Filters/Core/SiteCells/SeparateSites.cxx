@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/SeparateSites.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Squares with the distance as their side: sites that are too near are in the same or in
+// neighbouring ones.
+class SiteSquares
+{
+public:
+  SiteSquares(PointSpan<2> sites, double distance)
+    : Sites(sites)
+    , Distance(distance)
+  {
+    this->Squares.reserve(static_cast<std::size_t>(sites.size()));
+    this->Next.assign(static_cast<std::size_t>(sites.size()), none);
+  }
+
+  void Place(std::int64_t site)
+  {
+    const Point<2> given = { this->Sites[site][0], this->Sites[site][1] };
+    Square& home = this->Squares[this->SquareOf(given)];
+    Point<2> x = given;
+    while (!this->IsFree(x))
+    {
+      // As dense as a spiral is whose points are this far apart; the turn is the golden angle,
+      // whose cosine and sine these are.
+      constexpr double cosine = -0.73736887807831990;
+      constexpr double sine = 0.67549029426152362;
+      home.Turn = { cosine * home.Turn[0] - sine * home.Turn[1],
+        sine * home.Turn[0] + cosine * home.Turn[1] };
+      const double radius = 2.0 * this->Distance * std::sqrt(static_cast<double>(++home.Tried));
+      x = { given[0] + radius * home.Turn[0], given[1] + radius * home.Turn[1] };
+    }
+    this->Sites[site][0] = x[0];
+    this->Sites[site][1] = x[1];
+    std::int64_t& first = this->Squares[this->SquareOf(x)].First;
+    this->Next[static_cast<std::size_t>(site)] = first;
+    first = site;
+  }
+
+private:
+  static constexpr std::int64_t none = -1;
+  using Key = std::array<std::int64_t, 2>;
+  struct Hash
+  {
+    std::size_t operator()(const Key& key) const
+    {
+      const auto mix = [](std::uint64_t x) {
+        x = (x ^ (x >> 31)) * 0x9e3779b97f4a7c15;
+        return x ^ (x >> 29);
+      };
+      return static_cast<std::size_t>(
+        mix(static_cast<std::uint64_t>(key[0]) + 3 * mix(static_cast<std::uint64_t>(key[1]))));
+    }
+  };
+  struct Square
+  {
+    std::int64_t First = none;    // of the sites that are placed here
+    std::int64_t Tried = 0;       // places on the spiral
+    Point<2> Turn = { 1.0, 0.0 }; // to the last of them
+  };
+
+  Key SquareOf(const Point<2>& x) const
+  {
+    return { static_cast<std::int64_t>(std::floor(x[0] / this->Distance)),
+      static_cast<std::int64_t>(std::floor(x[1] / this->Distance)) };
+  }
+
+  bool IsFree(const Point<2>& x) const
+  {
+    const Key square = this->SquareOf(x);
+    for (std::int64_t i = 0; i < 9; ++i)
+    {
+      const auto found = this->Squares.find({ square[0] + i % 3 - 1, square[1] + i / 3 - 1 });
+      std::int64_t site = found == this->Squares.end() ? none : found->second.First;
+      for (; site != none; site = this->Next[static_cast<std::size_t>(site)])
+      {
+        const double* other = this->Sites[site];
+        const double square2 =
+          (x[0] - other[0]) * (x[0] - other[0]) + (x[1] - other[1]) * (x[1] - other[1]);
+        if (square2 < this->Distance * this->Distance)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  const PointSpan<2> Sites;
+  const double Distance;
+  std::unordered_map<Key, Square, Hash> Squares;
+  std::vector<std::int64_t> Next; // in the same square
+};
+
+} // namespace
+
+void separateSites(PointSpan<2> sites, double distance, Progress& progress)
+{
+  SiteSquares squares(sites, distance);
+  progress.ForInOrder(
+    sites.size(), 1,
+    [&squares](std::int64_t first, std::int64_t last) {
+      for (std::int64_t site = first; site < last; ++site)
+      {
+        squares.Place(site);
+      }
+    },
+    1 << 14);
+}
+
+} // namespace RectifiedTransport
