@@ -24,6 +24,11 @@ vtkImplementFlowPropertiesMacro(vtkEqualMassCells);
 
 using namespace RectifiedTransport;
 
+namespace
+{
+constexpr const char* ShapeTexts[] = { "Flow", "Power" };
+}
+
 struct vtkEqualMassCells::vtkInternals
 {
   SiteLabels Labels;
@@ -34,6 +39,7 @@ vtkEqualMassCells::vtkEqualMassCells()
   : Resolution(512)
   , NormExponent(2.0)
   , CostExponent(2.0)
+  , Shape(FLOW)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
@@ -42,6 +48,12 @@ vtkEqualMassCells::vtkEqualMassCells()
 
 //------------------------------------------------------------------------------
 vtkEqualMassCells::~vtkEqualMassCells() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkEqualMassCells::GetShapeAsString()
+{
+  return choiceText(ShapeTexts, this->Shape);
+}
 
 //------------------------------------------------------------------------------
 void vtkEqualMassCells::SetDomainConnection(vtkAlgorithmOutput* domain)
@@ -145,8 +157,15 @@ int vtkEqualMassCells::RequestData(
   requireThat(this->CostExponent > 0.0 && std::isfinite(this->CostExponent), "CostExponent",
     this->CostExponent, "a number above 0");
   requireResolution("Resolution", this->Resolution);
+  requireChoice("Shape", this->Shape, ShapeTexts);
+  if (this->Shape == POWER)
+  {
+    constexpr const char* rule = "2, which Shape Power needs";
+    requireThat(this->NormExponent == 2.0, "NormExponent", this->NormExponent, rule);
+    requireThat(this->CostExponent == 2.0, "CostExponent", this->CostExponent, rule);
+  }
   const EqualMassCells cells{ this->GetFlowSettings().Options(),
-    { this->NormExponent, this->CostExponent }, this->Resolution };
+    { this->NormExponent, this->CostExponent }, this->Resolution, this->Shape == POWER };
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.
@@ -168,11 +187,14 @@ int vtkEqualMassCells::RequestData(
   announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   if (outside > 0)
   {
+    const char* const cell = this->Shape == POWER
+      ? (outside == 1 ? "its cell is of least cost for where it is"
+                      : "their cells are of least cost for where they are")
+      : (outside == 1 ? "its cell is that of the nearest point of the border"
+                      : "their cells are those of the nearest points of its border");
     vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()
-                    << (outside == 1 ? " sites is outside the domain; its cell is that of the "
-                                       "nearest point of the border"
-                                     : " sites are outside the domain; their cells are those of "
-                                       "the nearest points of its border"));
+                    << (outside == 1 ? " sites is" : " sites are") << " outside the domain; "
+                    << cell);
   }
   return 1;
 }
@@ -184,6 +206,7 @@ void vtkEqualMassCells::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "NormExponent: " << this->NormExponent << "\n";
   os << indent << "CostExponent: " << this->CostExponent << "\n";
+  os << indent << "Shape: " << this->GetShapeAsString() << "\n";
   this->GetFlowSettings().Print(os, indent);
 }
 VTK_ABI_NAMESPACE_END

@@ -11,6 +11,13 @@
  * reassigned until the sites' cells are equal to one pixel. The cells resemble those of
  * semi-discrete optimal transport, at a cost that is an upper bound on the optimal one.
  *
+ * With Shape Power the sites' cells are those of semi-discrete optimal transport itself: of all
+ * divisions into equal masses the one of least mean squared distance, a power diagram with weights
+ * that Newton's method finds (Kitagawa, Merigot and Thibert, "Convergence of a Newton algorithm for
+ * semi-discrete optimal transport", Journal of the European Mathematical Society 21(9), 2019,
+ * doi:10.4171/JEMS/889). They are convex polygons whose areas are equal to 5e-7 of their mean. A
+ * pixel then belongs to the cell that has its centre.
+ *
  * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain, a vtkImageData of which
  * only the box is used: its bounds in its own axes, and where its values (the active scalars, of
  * points first, else any point array) are point data half a spacing more on each side, as of a
@@ -29,18 +36,25 @@
  *   whole border, so that a border between two of them is there twice.
  *
  * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
- * centres x, an upper bound on W_p^q from the pixels' centres to the sites.
+ * centres x, an upper bound on W_p^q from the pixels' centres to the sites. With Shape Power
+ * masses, centroids and costs are integrals over the polygons, TransportCost is W_2^2 from the
+ * uniform measure to the sites, and Outlines are the sides of the polygons.
  *
  * Sites in one pixel share the mass of one cell, equally to the last bit; the cell's pixels are
  * divided into as many parts, equal to one pixel. Sites outside of the domain get the cells of the
  * nearest points of its border, and a warning counts them; their cost is from their own position.
- * There must be at least as many pixels as sites. NaN or infinite coordinates, and sites that are
+ * There must be at least as many pixels as sites. With Shape Power only sites nearer to each other
+ * than 1e-5 of the mean spacing share: all but one are moved apart by as much, for the cells alone;
+ * sites outside of the domain count where they are, up to 1e7 times its longest side away, and
+ * there may be more sites than pixels. NaN or infinite coordinates, and sites that are
  * all at one point without a domain, are errors.
  *
  * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
  * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while
  * they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at 256^3, 5.5
- * GB at 512^3. The labels are kept until the sites, the domain or the integration change.
+ * GB at 512^3. Shape Power: O(sites^1.5) for each of some ten Newton steps, about 2 kB a site, and
+ * O(pixels) for the labels. The labels are kept until the sites, the domain, Shape or, with Shape
+ * Flow, the integration change.
  *
  * @warning Without a domain the extent of Labels follows from the sites. The producer of the
  * domain, or else of the sites, is therefore updated in REQUEST_INFORMATION.
@@ -76,6 +90,28 @@ public:
   vtkTypeMacro(vtkEqualMassCells, vtkGuardedAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * What Shape may be.
+   */
+  enum ShapeType
+  {
+    FLOW = 0,
+    POWER = 1
+  };
+
+  ///@{
+  /**
+   * Flow (default): the cells of the rectified flow, in one to three dimensions and for any cost.
+   * Power: the cells of least cost, convex polygons of exactly equal area; for a domain of two
+   * dimensions, NormExponent 2 and CostExponent 2.
+   */
+  vtkSetMacro(Shape, int);
+  vtkGetMacro(Shape, int);
+  void SetShapeToFlow() { this->SetShape(FLOW); }
+  void SetShapeToPower() { this->SetShape(POWER); }
+  const char* GetShapeAsString();
+  ///@}
+
   ///@{
   /**
    * The number of pixels along the longest side of the domain, from 1; along the others as many as
@@ -88,7 +124,7 @@ public:
   ///@{
   /**
    * p of the cost |x - site|_p^q: the norm; at least 1, infinity for the maximum norm. Default 2.
-   * The sites' cells do not depend on it.
+   * The sites' cells do not depend on it; Shape Power needs 2.
    */
   vtkSetMacro(NormExponent, double);
   vtkGetMacro(NormExponent, double);
@@ -97,14 +133,14 @@ public:
   ///@{
   /**
    * q of the cost |x - site|_p^q: the power of the distance; above 0. Default 2. The sites' cells
-   * do not depend on it.
+   * do not depend on it; Shape Power needs 2.
    */
   vtkSetMacro(CostExponent, double);
   vtkGetMacro(CostExponent, double);
   ///@}
 
-  // Fewer than 128 NumberOfSteps are doubled until there are that many, five times at most;
-  // Tolerance is in pixels.
+  // Of Shape Flow. Fewer than 128 NumberOfSteps are doubled until there are that many, five times
+  // at most; Tolerance is in pixels.
   vtkFlowPropertiesMacro();
 
 public:
@@ -142,6 +178,7 @@ protected:
   int Resolution;
   double NormExponent;
   double CostExponent;
+  int Shape;
 
 private:
   struct vtkInternals;

@@ -11,6 +11,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/SiteCells/PowerSiteCells.h"
 #include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCells.h"
 
@@ -26,6 +27,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -86,24 +88,21 @@ vtkSmartPointer<SiteIdArray> makeLabels(
   return labels;
 }
 
-// Adds the arrays of the sites' cells to the sites' point data. Returns the cost.
-template <int D>
-double addStatistics(const SiteCells<D>& cells, const std::int64_t* labels, const CostNorm& norm,
-  Progress& progress, vtkPointData* output)
+// Adds the arrays of the sites' cells to the sites' point data; measure(statistics) fills them and
+// returns the cost.
+template <class Measure>
+void addStatistics(vtkIdType count, const Measure& measure, const EqualMassCells::Outputs& outputs)
 {
-  const auto count = static_cast<vtkIdType>(cells.NumberOfSites());
   auto masses = newArray<vtkDoubleArray>("CellMass", 1, count);
   auto centroids = newArray<vtkDoubleArray>("CellCentroid", 3, count);
   auto costs = newArray<vtkDoubleArray>("CellCost", 1, count);
-  const SiteCellStatistics statistics{ masses->GetPointer(0),
-    { centroids->GetPointer(0), cells.NumberOfSites() }, costs->GetPointer(0) };
-  const double cost = withMemory("the sums of the " + std::to_string(count) + " cells",
-    static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double),
-    [&]() { return measureSiteCells<D>(cells, labels, norm, statistics, progress.Stage()); });
-  output->AddArray(masses);
-  output->AddArray(centroids);
-  output->AddArray(costs);
-  return cost;
+  const double cost = measure(SiteCellStatistics{
+    masses->GetPointer(0), { centroids->GetPointer(0), count }, costs->GetPointer(0) });
+  outputs.Sites->GetPointData()->AddArray(masses);
+  outputs.Sites->GetPointData()->AddArray(centroids);
+  outputs.Sites->GetPointData()->AddArray(costs);
+  addFieldValue(outputs.Labels, "TransportCost", cost);
+  addFieldValue(outputs.Sites, "TransportCost", cost);
 }
 
 // The vector is empty afterwards.
@@ -162,20 +161,70 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
   progress.BeginStage(0.01);
   const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
   progress.BeginStage(0.02);
-  SiteIdArray* labels = kept.Update(sites, grid, cells.Flow, progress, [&]() {
-    progress.BeginStage(0.95);
-    return makeLabels<D>(placed, cells.Flow, progress);
-  });
+  SiteIdArray* labels = kept
+                          .Update(sites, { grid, false, cells.Flow }, progress,
+                            [&]() -> SiteLabels::Division {
+                              progress.BeginStage(0.95);
+                              return { makeLabels<D>(placed, cells.Flow, progress), nullptr };
+                            })
+                          .Labels;
   outputs.Labels->GetCellData()->SetScalars(labels);
   progress.BeginStage(0.98);
-  const double cost = addStatistics<D>(
-    placed, labels->GetPointer(0), cells.Norm, progress, outputs.Sites->GetPointData());
-  addFieldValue(outputs.Labels, "TransportCost", cost);
-  addFieldValue(outputs.Sites, "TransportCost", cost);
+  const auto count = static_cast<vtkIdType>(placed.NumberOfSites());
+  const auto measure = [&](const SiteCellStatistics& statistics) {
+    return withMemory("the sums of the " + std::to_string(count) + " cells",
+      static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double), [&]() {
+        return measureSiteCells<D>(
+          placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
+      });
+  };
+  addStatistics(count, measure, outputs);
   progress.BeginStage(1.0);
   writeOutlines<D>(
     outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
   return placed.NumberOutside();
+}
+
+SiteLabels::Division makePowerCells(vtkPointSet* sites, const ImageGrid& grid, Progress& progress)
+{
+  const std::int64_t count = sites->GetNumberOfPoints();
+  progress.BeginStage(0.03);
+  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
+  SiteLabels::Division division;
+  // The factors of the linear systems are the peak.
+  constexpr double eachSite = 2000.0;
+  withMemory("the power cells of " + std::to_string(count) + " sites",
+    static_cast<double>(count) * eachSite, [&]() {
+      progress.BeginStage(0.9);
+      division.Power = std::make_shared<PowerSiteCells>(
+        ConstPointSpan<3>(points.data(), count), grid, progress.Stage());
+    });
+  division.Labels =
+    newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  progress.BeginStage(0.95);
+  withMemory("the polygons in the rows of pixels", static_cast<double>(count) * sizeof(double),
+    [&]() { division.Power->Label(division.Labels->GetPointer(0), progress.Stage()); });
+  return division;
+}
+
+std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
+  Progress& progress, const EqualMassCells::Outputs& outputs)
+{
+  progress.BeginStage(0.02);
+  const SiteLabels::Division& division = kept.Update(
+    sites, { grid, true, {} }, progress, [&]() { return makePowerCells(sites, grid, progress); });
+  const PowerSiteCells& power = *division.Power;
+  outputs.Labels->GetCellData()->SetScalars(division.Labels);
+  addStatistics(
+    static_cast<vtkIdType>(power.NumberOfSites()),
+    [&power](const SiteCellStatistics& statistics) { return power.Measure(statistics); }, outputs);
+  progress.BeginStage(1.0);
+  const double bytes = 60.0 * 6.0 * static_cast<double>(power.NumberOfSites());
+  withMemory(
+    "the outlines", bytes, [&]() { writeOutlines<2>(power.Outlines(), outputs.Outlines); });
+  progress.EndSlice(1);
+  return power.NumberOutside();
 }
 
 } // namespace
@@ -222,18 +271,27 @@ std::int64_t EqualMassCells::Run(vtkPointSet* sites, vtkImageData* domain, SiteL
   }
   const ImageGrid grid = domain ? this->GridOn(domain) : this->GridAround(sites);
   requireCells(grid);
-  if (!kept.IsFor(sites, grid, this->Flow))
+  if (this->IsPower && grid.Dimension() != 2)
+  {
+    throw Failure("Shape Power needs a domain of two dimensions; this one has " +
+      std::to_string(grid.Dimension()));
+  }
+  if (!kept.IsFor(sites, { grid, this->IsPower, this->Flow }))
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
     requireMemory("labels of " + describeValues(grid) + " pixels (see Resolution)",
-      numberOfValues(grid) * sizeof(std::int64_t) + bytes(grid));
+      numberOfValues(grid) * sizeof(std::int64_t) + (this->IsPower ? 0.0 : bytes(grid)));
   }
   applyGrid(grid, outputs.Labels);
   outputs.Sites->CopyStructure(sites);
   outputs.Sites->SetPoints(doublePoints(sites->GetPoints()));
   outputs.Sites->GetPointData()->PassData(sites->GetPointData());
   outputs.Sites->GetCellData()->PassData(sites->GetCellData());
+  if (this->IsPower)
+  {
+    return divideByPower(sites, grid, kept, progress, outputs);
+  }
   return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
     *this, sites, grid, kept, progress, outputs);
 }

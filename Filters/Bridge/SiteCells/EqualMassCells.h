@@ -28,6 +28,7 @@ struct EqualMassCells
   FlowOptions Flow;
   CostNorm Norm;
   int Resolution;
+  bool IsPower = false; // Shape
 
   struct Outputs
   {
@@ -43,7 +44,8 @@ struct EqualMassCells
 
   // Assigns the pixels in a domain, or where it is nullptr around the sites, to at least one site;
   // reuses the labels that are kept where they are valid. Returns how many sites are outside of the
-  // domain. Throws Failure, std::overflow_error, std::bad_alloc and Cancelled.
+  // domain. Throws Failure, std::invalid_argument, std::runtime_error, std::bad_alloc and
+  // Cancelled.
   std::int64_t Run(vtkPointSet* sites, vtkImageData* domain, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;
 };

@@ -26,10 +26,9 @@ std::uint64_t timeOf(vtkPointSet* sites)
 
 } // namespace
 
-bool SiteLabels::IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const
+bool SiteLabels::IsFor(vtkPointSet* sites, const Settings& settings) const
 {
-  return this->Labels && this->Grid == grid && this->Options == options &&
-    this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+  return this->Kept.Labels && this->Of == settings && this->Stamp.IsOf(keyOf(sites), timeOf(sites));
 }
 
 bool SiteLabels::UpdateStamp(vtkPointSet* sites, Progress& progress)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The site of each pixel of a domain, kept between executions.
+// The site of each pixel of a domain, and the polygons of the sites' cells where these are
+// polygons, kept between executions.
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
@@ -8,6 +9,7 @@
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/SiteCells/PowerSiteCells.h"
 
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
@@ -16,6 +18,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -29,44 +32,61 @@ namespace RectifiedTransport
 using SiteIdArray =
   std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
 
-// The labels of the last execution, for the next one where only the cost's exponents change.
+// The division of the last execution, for the next one where only the cost's exponents change.
 class SiteLabels
 {
 public:
-  // Whether the labels are of these sites, grid and options by modification times alone. Where
-  // false, Update compares the sites' coordinates.
-  bool IsFor(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options) const;
-
-  // Returns the labels of these sites, grid and options: the kept ones if valid, else those that
-  // make() returns. Comparing the sites is the work of the current stage. Throws Cancelled, and
-  // what make() throws; then no labels are kept.
-  template <class Make>
-  SiteIdArray* Update(vtkPointSet* sites, const ImageGrid& grid, const FlowOptions& options,
-    Progress& progress, const Make& make)
+  struct Division
   {
-    if (this->IsFor(sites, grid, options))
+    vtkSmartPointer<SiteIdArray> Labels;
+    std::shared_ptr<const PowerSiteCells> Power; // of Shape Power, else nullptr
+  };
+  // What it depends on besides the sites.
+  struct Settings
+  {
+    ImageGrid Grid;
+    bool IsPower;
+    FlowOptions Flow; // counts where not IsPower
+
+    bool operator==(const Settings& other) const
     {
-      return this->Labels;
+      return this->Grid == other.Grid && this->IsPower == other.IsPower &&
+        (this->IsPower || this->Flow == other.Flow);
+    }
+  };
+
+  // Whether the division is of these sites and settings by modification times alone. Where false,
+  // Update compares the sites' coordinates.
+  bool IsFor(vtkPointSet* sites, const Settings& settings) const;
+
+  // Returns the division of these sites and settings: the kept one if valid, else the one that
+  // make() returns. Comparing the sites is the work of the current stage. Throws Cancelled, and
+  // what make() throws; then none is kept.
+  template <class Make>
+  const Division& Update(
+    vtkPointSet* sites, const Settings& settings, Progress& progress, const Make& make)
+  {
+    if (this->IsFor(sites, settings))
+    {
+      return this->Kept;
     }
     const bool sameSites = this->UpdateStamp(sites, progress);
-    if (!sameSites || !this->IsFor(sites, grid, options))
+    if (!sameSites || !this->IsFor(sites, settings))
     {
-      this->Labels = nullptr; // releases memory before make()
-      this->Labels = make();
-      this->Grid = grid;
-      this->Options = options;
+      this->Kept = {}; // releases memory before make()
+      this->Kept = make();
+      this->Of = settings;
     }
-    return this->Labels;
+    return this->Kept;
   }
 
 private:
   // Returns whether the sites are those of the last call.
   bool UpdateStamp(vtkPointSet* sites, Progress& progress);
 
-  vtkSmartPointer<SiteIdArray> Labels;
+  Division Kept;
   DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
-  ImageGrid Grid;
-  FlowOptions Options;
+  Settings Of{};
 };
 
 } // namespace RectifiedTransport
