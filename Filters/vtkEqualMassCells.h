@@ -52,7 +52,7 @@
  * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
  * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while
  * they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at 256^3, 5.5
- * GB at 512^3. Shape Power: O(sites^1.5) for each of some ten Newton steps, about 2 kB a site, and
+ * GB at 512^3. Shape Power: O(sites^1.5) for each of some ten Newton steps, 1.4 kB a site, and
  * O(pixels) for the labels. The labels are kept until the sites, the domain, Shape or, with Shape
  * Flow, the integration change.
  *

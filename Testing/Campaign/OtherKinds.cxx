@@ -47,6 +47,7 @@ void drawCells(Settings& settings)
   settings.Draw<Cells, double>("CostExponent", &Cells::SetCostExponent, { 5e-324, 0.5, 1.0, 3.0 },
     { 0.0, -1.0, NaN, Infinity }, 0.4);
   drawFlowSettings<Cells>(settings);
+  settings.Draw<Cells, int>("Shape", &Cells::SetShape, { 0, 1 }, { -1, 2 }, 0.4);
 }
 
 Inputs drawCellsInputs(RandomSource& random, Settings& settings)
@@ -61,10 +62,12 @@ Inputs drawCellsInputs(RandomSource& random, Settings& settings)
 State expectCells(vtkAlgorithm* filter, const Inputs& inputs)
 {
   auto* set = vtkPointSet::SafeDownCast(inputs[0][0].Data);
+  auto* cells = Cells::SafeDownCast(filter);
   State state = inputs[0][0].Condition;
-  if (set->GetNumberOfPoints() > Cells::SafeDownCast(filter)->GetResolution())
+  if (set->GetNumberOfPoints() > cells->GetResolution() || cells->GetShape() == Cells::POWER)
   {
-    state = worse(state, State::Odd); // there may be less than a pixel for each
+    // There may be less than a pixel for each site; a domain or cost that has no power cells.
+    state = worse(state, State::Odd);
   }
   return inputs[1].empty() ? state : worse(state, inputs[1][0].Condition);
 }

@@ -80,6 +80,33 @@ class Cells(unittest.TestCase):
                 self.assertAlmostEqual(
                     found, distances[np.arange(1024), labels_of(cells)].mean())
 
+    def test_power_cells_cost_least(self):
+        """Shape Power: equal areas, below the cost of the exact assignment of whole pixels."""
+        centres = (np.stack(np.meshgrid(np.arange(32), np.arange(32)), -1).reshape(-1, 2) + .5) / 32
+        for sites in (np.random.default_rng(3).random((64, 2)), disc(64, 4)):
+            cells = simple.EqualMassCells(Input=sites_at(sites), Domain=unit_square(),
+                                          Resolution=32, Shape="Power")
+            found = cost_of(cells)
+            distances = ((centres[:, None] - sites[None]) ** 2).sum(axis=2)
+            repeated = np.repeat(distances, 16, axis=1)
+            whole = repeated[linear_sum_assignment(repeated)].mean() + 2 / 12 / 32 ** 2
+            self.assertLess(found, whole)
+            self.assertGreater(found, 0.97 * whole)
+            data = cells.GetClientSideObject().GetOutputDataObject(1).GetPointData()
+            masses = vtk_to_numpy(data.GetArray("CellMass"))
+            np.testing.assert_allclose(masses, 1 / 64, rtol=1e-6)
+            self.assertAlmostEqual(vtk_to_numpy(data.GetArray("CellCost")).sum(), found)
+            # There are weights that explain the labels: no cycle of exchanges of pixels between
+            # cells gains anything.
+            labels = labels_of(cells)
+            bounds = np.full((64, 64), np.inf)
+            for i in range(64):
+                bounds[i] = (distances[labels == i] - distances[labels == i][:, [i]]).min(
+                    axis=0, initial=np.inf)
+            for k in range(64):  # shortest paths
+                bounds = np.minimum(bounds, bounds[:, [k]] + bounds[[k], :])
+            self.assertGreater(bounds.diagonal().min(), -1e-12)
+
     def test_domain_is_optional_and_can_be_taken_away(self):
         cells = simple.EqualMassCells(Input=sites_at(disc(20, 5)), Resolution=40)
         self.assertIsNotNone(

@@ -39,6 +39,7 @@ CHOICES = {  # the first is the default
     "Boundary": ["Renormalize", "Drop"],
     "Association": ["Points", "Cells"],
     "Method": ["GaussianBlueNoise", "OptimalTransport"],
+    "Shape": ["Flow", "Power"],
 }
 ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
 INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"}

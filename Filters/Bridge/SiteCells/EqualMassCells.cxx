@@ -193,7 +193,7 @@ SiteLabels::Division makePowerCells(vtkPointSet* sites, const ImageGrid& grid, P
   const DoubleTuples points(sites->GetPoints()->GetData(), progress);
   SiteLabels::Division division;
   // The factors of the linear systems are the peak.
-  constexpr double eachSite = 2000.0;
+  constexpr double eachSite = 1500.0;
   withMemory("the power cells of " + std::to_string(count) + " sites",
     static_cast<double>(count) * eachSite, [&]() {
       progress.BeginStage(0.9);

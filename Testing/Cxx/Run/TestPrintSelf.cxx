@@ -91,12 +91,13 @@ int TestPrintSelf(int, char*[])
 
   vtkNew<vtkEqualMassCells> cells;
   expectLines(checks, cells,
-    { "Resolution: 512", "NormExponent: 2", "CostExponent: 2", "Integrator: Multistep",
-      "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "FlowMaps: Auto",
-      "Threading: Auto" });
+    { "Resolution: 512", "NormExponent: 2", "CostExponent: 2", "Shape: Flow",
+      "Integrator: Multistep", "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated",
+      "FlowMaps: Auto", "Threading: Auto" });
   cells->SetResolution(77);
   cells->SetNormExponent(4.0);
   cells->SetCostExponent(1.5);
+  cells->SetShapeToPower();
   cells->SetIntegratorToAdaptive();
   cells->SetNumberOfSteps(64);
   cells->SetTolerance(0.25);
@@ -104,9 +105,9 @@ int TestPrintSelf(int, char*[])
   cells->SetFlowMapsToOff();
   cells->SetThreadingToVTK();
   expectLines(checks, cells,
-    { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Integrator: Adaptive",
-      "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest", "FlowMaps: Off",
-      "Threading: VTK" });
+    { "Resolution: 77", "NormExponent: 4", "CostExponent: 1.5", "Shape: Power",
+      "Integrator: Adaptive", "NumberOfSteps: 64", "Tolerance: 0.25", "TableLookup: Nearest",
+      "FlowMaps: Off", "Threading: VTK" });
 
   vtkNew<vtkMassSplatter> splatter;
   expectLines(checks, splatter,
