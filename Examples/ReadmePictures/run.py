@@ -135,6 +135,7 @@ def main():
     draw_example(path("cartogram"), "Cartogram", "cartogram-raccoon.png", "--pixels", "720")
     draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
                  "--resolution", "512", "--pixels", "1020")
+    draw_example(path("cells-shapes"), "PowerCells", "power-cells-random.png", "--sites", "150")
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_example(path("flow-maps"), "FlowMaps", "flow-maps.png")

@@ -32,6 +32,7 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
                            "--check", "40", "--size", "128", "--step-samples", "64",
                            "--steps", "5", "25", "--panel", "96"],
          "Figure5Cells": ["--sites", "64", "--resolution", "128", "--pixels", "480"],
+         "PowerCells": ["--sites", "64", "--resolution", "64", "--drawn", "20", "--pixels", "480"],
          "Figure6Map": ["--size", "64", "--panel", "64"],
          "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
                           "--pictures", "2", "--panel", "128"],
@@ -53,7 +54,7 @@ SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"Figure2Paths", "Figure5Cells"}  # examples that make their input
+OWN = {"Figure2Paths", "Figure5Cells", "PowerCells"}  # examples that make their input
 
 
 def run(example, *arguments):
@@ -295,6 +296,15 @@ class Examples(ExampleTest):
         for column in (1, 2, 3, 4):  # the corners are far from the disc
             self.assertLess(first(costs[0][column]), first(costs[1][column]))
         self.check_picture("figure5-cells.png")
+
+    def test_power_cells(self):
+        printed = self.ran("PowerCells")
+        rows, = tables(printed)
+        self.assertEqual([row[0] for row in rows], ["random", "blue noise", "clusters"])
+        for row in rows:
+            self.assertGreater(float(row[3]), 1)  # nothing costs less than Power
+            self.assertLess(float(row[5]), 1e-6)
+            self.check_picture("power-cells-%s.png" % row[0].replace(" ", "-"))
 
     def test_figure_6(self):
         printed = self.ran("Figure6Map")
