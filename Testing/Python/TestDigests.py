@@ -294,6 +294,8 @@ def other_runs():
     yield "cells of a domain", cells, [points_in(image(), 40), image(direction=TURN)], dict(
         Resolution=90, Integrator=1)
     yield "cells of shared pixels", cells, [points_in(image(), 60)], dict(Resolution=12)
+    yield "cells of least cost", cells, [points_in(image(), 60), image(direction=TURN)], dict(
+        Resolution=90, Shape=1)
     yield "solid", solid, [box_of_triangles()], dict(Resolution=24)
     yield "solid turned", solid, [box_of_triangles(True)], dict(Resolution=17, Supersampling=5,
                                                                 Association=1)
