@@ -131,6 +131,34 @@ inline void expectMoments(
   EXPECT_NEAR(found.Second, expected.Second, tolerance);
 }
 
+// The integral of |x - site|^2 over what has these moments.
+inline double costOf(const PolygonMoments& moments, const Point<2>& site)
+{
+  return moments.Second - 2.0 * (site[0] * moments.First[0] + site[1] * moments.First[1]) +
+    (site[0] * site[0] + site[1] * site[1]) * moments.Mass;
+}
+
+inline Points<2> scaled(Points<2> points, const Point<2>& scale)
+{
+  for (Point<2>& point : points)
+  {
+    point = { point[0] * scale[0], point[1] * scale[1] };
+  }
+  return points;
+}
+
+// As of a photograph: a dim ground, soft and small bright spots.
+inline TestDensity<2> spots(const GridSize<2>& size)
+{
+  return sampleDensity<2>(size, [](const Point<2>& p) {
+    const auto spot = [&p](double x, double y, double s) {
+      return std::exp(-((p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y)) / (2.0 * s * s));
+    };
+    return 0.01 + 0.4 * spot(0.3, 0.35, 0.2) + spot(0.7, 0.6, 0.08) + 3.0 * spot(0.55, 0.2, 0.02) +
+      0.8 * spot(0.2, 0.8, 0.05);
+  });
+}
+
 } // namespace RectifiedTransport
 
 #endif

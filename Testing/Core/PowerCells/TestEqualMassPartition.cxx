@@ -51,13 +51,6 @@ double totalCost(const EqualMassPartition& partition)
   return cost;
 }
 
-// The integral of |x - site|^2 over what has these moments.
-double costOf(const PolygonMoments& moments, const Point<2>& site)
-{
-  return moments.Second - 2.0 * (site[0] * moments.First[0] + site[1] * moments.First[1]) +
-    (site[0] * site[0] + site[1] * site[1]) * moments.Mass;
-}
-
 // The masses by cutting the cells, not by the sums that the solver looks at.
 void expectEqualMasses(const EqualMassPartition& partition, const TestDensity<2>& density,
   const Point<2>& scale = { 1.0, 1.0 })
@@ -128,27 +121,6 @@ double dualValue(const TestDensity<2>& density, const Point<2>& scale, const Poi
     }
   }
   return sum;
-}
-
-Points<2> scaled(Points<2> points, const Point<2>& scale)
-{
-  for (Point<2>& point : points)
-  {
-    point = { point[0] * scale[0], point[1] * scale[1] };
-  }
-  return points;
-}
-
-// As of a photograph: a dim ground, soft and small bright spots.
-TestDensity<2> spots(const GridSize<2>& size)
-{
-  return sampleDensity<2>(size, [](const Point<2>& p) {
-    const auto spot = [&p](double x, double y, double s) {
-      return std::exp(-((p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y)) / (2.0 * s * s));
-    };
-    return 0.01 + 0.4 * spot(0.3, 0.35, 0.2) + spot(0.7, 0.6, 0.08) + 3.0 * spot(0.55, 0.2, 0.02) +
-      0.8 * spot(0.2, 0.8, 0.05);
-  });
 }
 
 TEST(EqualMassPartition, MassesOfAPhotograph)
