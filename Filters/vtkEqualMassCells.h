@@ -45,9 +45,8 @@
  * nearest points of its border, and a warning counts them; their cost is from their own position.
  * There must be at least as many pixels as sites. With Shape Power only sites nearer to each other
  * than 1e-5 of the mean spacing share: all but one are moved apart by as much, for the cells alone;
- * sites outside of the domain count where they are, up to 1e7 times its longest side away, and
- * there may be more sites than pixels. NaN or infinite coordinates, and sites that are
- * all at one point without a domain, are errors.
+ * sites outside of the domain count where they are, and there may be more sites than pixels. NaN or
+ * infinite coordinates, and sites that are all at one point without a domain, are errors.
  *
  * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
  * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while

@@ -50,7 +50,7 @@ double squaredLength(const Point<2>& x)
 // Scales and moves sites that are not in the domain, or crowded in it, so that they fill it. The
 // cells stay as they are: |x - centre - scale * y|^2 / scale and |x - y|^2 differ by what depends
 // on x alone or on y alone, which costs the same in all divisions into equal masses.
-void moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
+double moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
 {
   constexpr double margin = 0.1;
   constexpr double crowded = 2.0;
@@ -69,7 +69,7 @@ void moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
   }
   if (isInside && scale < crowded)
   {
-    return;
+    return 1.0;
   }
   scale = std::isfinite(scale) ? scale : 1.0;
   for (Point<2>& site : sites)
@@ -79,6 +79,7 @@ void moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
       site[a] = 0.5 * sides[a] + scale * (site[a] - middle[a]);
     }
   }
+  return scale;
 }
 
 } // namespace
@@ -121,8 +122,9 @@ PowerSiteCells::PowerSiteCells(
     flat[i] = { index[0] * this->PixelSides[0], index[1] * this->PixelSides[1] };
   }
   const std::vector<Point<2>> given = flat;
-  moveIntoDomain(sides, flat);
-  separateSites(flat, leastDistance, progress);
+  // A site far outside leaves little room to the others.
+  const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
+  separateSites(flat, leastDistance * scale, progress);
 
   progress.BeginStage(1.0);
   EqualMassPartition partition(
@@ -131,7 +133,8 @@ PowerSiteCells::PowerSiteCells(
   if (!partition.Solve(flat, progress))
   {
     throw std::runtime_error(
-      "The areas of the sites' cells do not become equal: too many sites are nearly at one point");
+      "The areas of the sites' cells do not become equal: many sites are nearly at one "
+      "point, or as good as that beside one that is very far away");
   }
   this->Keep(partition, given);
 }

@@ -18,8 +18,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+#include <stdexcept>
+#include <tuple>
 
 namespace RectifiedTransport
 {
@@ -250,6 +251,32 @@ TEST(PowerSiteCells, SitesOutside)
     }
     EXPECT_LE(differences, 2) << scale;
   }
+}
+
+// However far away one site is, the others are divided as carefully; until there are no digits
+// left.
+TEST(PowerSiteCells, OneFarAway)
+{
+  const ImageGrid grid = makeGrid<2>({ 40, 40 }, { 0.1, 0.1, 1.0 });
+  Points<2> places = randomPoints<2>({ 4, 4 }, 100, 15);
+  std::vector<double> costs;
+  for (const double distance : { 1e3, 1e5 })
+  {
+    places[8] = { distance, distance / 3.0 };
+    const PowerSiteCells cells(inPlane(places), grid);
+    expectCells(cells, grid);
+    const Figures figures = measure(cells);
+    double others = 0.0;
+    for (std::size_t i = 0; i < figures.Cost.size(); ++i)
+    {
+      others += i == 8 ? 0.0 : figures.Cost[i];
+    }
+    costs.push_back(others);
+  }
+  EXPECT_LT(costs[0], 0.2);
+  EXPECT_NEAR(costs[1], costs[0], 1e-3 * costs[0]);
+  places[8] = { 1e12, 0.0 };
+  EXPECT_THROW(PowerSiteCells(inPlane(places), grid), std::runtime_error);
 }
 
 // Sites at one point share what they would have together; the cost is of where they are.
