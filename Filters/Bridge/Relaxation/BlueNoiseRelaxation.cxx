@@ -39,10 +39,10 @@ double coreMemory(bool byTransport, int dimension, double cells, double points)
 
 // The points of a set in index space, where they are no ghosts, and all of them in physical space.
 template <int D>
-class RelaxedPoints
+class PlacedPoints
 {
 public:
-  RelaxedPoints(const ImageGrid& grid, const CountedPoints& counted, Progress& progress)
+  PlacedPoints(const ImageGrid& grid, const CountedPoints& counted, Progress& progress)
     : Grid(grid)
     , Counted(counted)
     , Work(progress)
@@ -196,7 +196,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityIm
     requireMass<D>(density, progress);
   }
   progress.BeginStage(ends[2]);
-  RelaxedPoints<D> points(density.Grid(), counted, progress);
+  PlacedPoints<D> points(density.Grid(), counted, progress);
   BlueNoiseRelaxation::Report report;
   report.PointsMoved = points.Read(input, purpose);
   progress.BeginStage(ends[3]);

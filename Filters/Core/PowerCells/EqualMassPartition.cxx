@@ -3,6 +3,7 @@
 
 #include "Core/Algebra/SparseCholesky.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/PowerCells/RectangleFit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,28 +82,16 @@ void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
 // of the domain: |x - c|^2 / scale and |x - site|^2 - weight differ by the same for all sites.
 void EqualMassPartition::FindFirstWeights()
 {
-  constexpr double margin = 0.1;
   const Point<2> lengths = this->Rows.Lengths();
-  Point<2> middle;
-  double scale = std::numeric_limits<double>::infinity();
-  bool isInside = true;
-  for (std::size_t a = 0; a < 2; ++a)
-  {
-    const auto range = std::minmax_element(this->Sites.begin(), this->Sites.end(),
-      [a](const Point<2>& x, const Point<2>& y) { return x[a] < y[a]; });
-    const double low = (*range.first)[a];
-    const double high = (*range.second)[a];
-    isInside = isInside && low >= 0.0 && high <= lengths[a];
-    middle[a] = (low + high) / 2.0;
-    scale = std::min(scale, (1.0 - margin) * lengths[a] / (high - low));
-  }
+  const RectangleFit fit(this->Sites, lengths);
   std::fill(this->Weights.begin(), this->Weights.end(), 0.0);
-  for (std::size_t i = 0; i < this->Sites.size() && !isInside && std::isfinite(scale); ++i)
+  for (std::size_t i = 0; i < this->Sites.size() && !fit.IsInside && std::isfinite(fit.Scale); ++i)
   {
     for (std::size_t a = 0; a < 2; ++a)
     {
-      const double from = this->Sites[i][a] - middle[a];
-      this->Weights[i] += from * ((1.0 - scale) * from + 2.0 * (middle[a] - lengths[a] / 2.0));
+      const double from = this->Sites[i][a] - fit.Middle[a];
+      this->Weights[i] +=
+        from * ((1.0 - fit.Scale) * from + 2.0 * (fit.Middle[a] - lengths[a] / 2.0));
     }
   }
 }

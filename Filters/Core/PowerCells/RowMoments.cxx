@@ -23,10 +23,7 @@ RowMoments::RowMoments(
   , Occupied(WordsPerRow() * density.Size[1])
 {
   const DensitySummary found = this->ReadValues(density.Values, progress);
-  if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
-  {
-    throw InvalidDensity(found);
-  }
+  requireDensity(found);
   this->Accumulate(total, found, progress);
 }
 
@@ -156,7 +153,7 @@ RowMoments::Moments RowMoments::MomentsAt(std::int64_t column, std::int64_t row)
 // The way of a side through the cells along one axis.
 struct RowMoments::Way
 {
-  // In cells, from `start` by `length`, of which there are `count`.
+  // From `start` to `end`, in cells, of which there are `count`.
   Way(double start, double end, std::int64_t count)
   {
     // A side along a face belongs to the cells on either side of it.

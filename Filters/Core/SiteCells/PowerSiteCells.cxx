@@ -3,13 +3,13 @@
 
 #include "Core/Parallel/Progress.h"
 #include "Core/PowerCells/EqualMassPartition.h"
+#include "Core/PowerCells/RectangleFit.h"
 #include "Core/SiteCells/LabelPolygons.h"
 #include "Core/SiteCells/SeparateSites.h"
 #include "Core/Tables/Density.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace RectifiedTransport
@@ -52,31 +52,18 @@ double squaredLength(const Point<2>& x)
 // on x alone or on y alone, which costs the same in all divisions into equal masses.
 double moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
 {
-  constexpr double margin = 0.1;
   constexpr double crowded = 2.0;
-  Point<2> middle;
-  double scale = std::numeric_limits<double>::infinity();
-  bool isInside = true;
-  for (std::size_t a = 0; a < 2; ++a)
-  {
-    const auto [first, last] = std::minmax_element(sites.begin(), sites.end(),
-      [a](const Point<2>& x, const Point<2>& y) { return x[a] < y[a]; });
-    const double low = (*first)[a];
-    const double high = (*last)[a];
-    isInside = isInside && low >= 0.0 && high <= sides[a];
-    middle[a] = low + 0.5 * (high - low);
-    scale = std::min(scale, (1.0 - margin) * sides[a] / (high - low));
-  }
-  if (isInside && scale < crowded)
+  const RectangleFit fit(sites, sides);
+  if (fit.IsInside && fit.Scale < crowded)
   {
     return 1.0;
   }
-  scale = std::isfinite(scale) ? scale : 1.0;
+  const double scale = std::isfinite(fit.Scale) ? fit.Scale : 1.0;
   for (Point<2>& site : sites)
   {
     for (std::size_t a = 0; a < 2; ++a)
     {
-      site[a] = 0.5 * sides[a] + scale * (site[a] - middle[a]);
+      site[a] = 0.5 * sides[a] + scale * (site[a] - fit.Middle[a]);
     }
   }
   return scale;

@@ -76,4 +76,12 @@ void merge(const DensitySummary& part, DensitySummary& whole)
   whole.Total += part.Total;
 }
 
+void requireDensity(const DensitySummary& found)
+{
+  if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
+  {
+    throw InvalidDensity(found);
+  }
+}
+
 } // namespace RectifiedTransport

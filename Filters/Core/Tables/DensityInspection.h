@@ -19,6 +19,9 @@ RowInspection inspectCells(const double* values, std::int64_t count, std::int64_
 // Adds the summary of a part to that of the whole.
 void merge(const DensitySummary& part, DensitySummary& whole);
 
+// Throws InvalidDensity for the summary of values that have no transport.
+void requireDensity(const DensitySummary& found);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -2,6 +2,7 @@
 #include "Core/Tables/SummedAreaTables.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/TableBuild.h"
 
 #include <algorithm>
@@ -99,10 +100,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   this->Allocate(density.Size);
   this->Build(density.Values, progress);
   const DensitySummary found = this->Found;
-  if (found.NotFinite > 0 || found.Negative > 0 || !(found.Total > 0.0) || std::isinf(found.Total))
-  {
-    throw InvalidDensity(found);
-  }
+  requireDensity(found);
   // Moments of very large values overflow, those of very small ones lose bits: scaling by a power
   // of two prevents both and does not round.
   constexpr double extreme = 1e200;
