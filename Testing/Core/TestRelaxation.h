@@ -9,6 +9,7 @@
 
 #include "TestFlow.h"
 #include "TestGrid.h"
+#include "ThreadsExecutor.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,35 @@ Points<Dimension> flowStart(const TestDensity<Dimension>& density, std::size_t c
     }
   }
   return runForward<Dimension>(makeFlow(density), points);
+}
+
+// For relax(density, points, options, context), which returns a RelaxationReport.
+template <class Relax>
+void expectSameBitsOnAnyThreads(const Relax& relax, int most)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 50, 60 });
+  const Points<2> start = randomPoints<2>(density.Size, 700);
+  Points<2> one = start;
+  const RelaxationReport report = relax(density, one, iterations(most), ThreadsExecutor(1));
+  for (const int threads : { 2, 3 })
+  {
+    Points<2> many = start;
+    EXPECT_EQ(
+      relax(density, many, iterations(most), ThreadsExecutor(threads)).Energy, report.Energy);
+    EXPECT_TRUE(sameBits<2>(one, many)) << threads;
+  }
+}
+
+template <class Relax>
+void expectAnyOrder(const Relax& relax, int most)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 50, 60 });
+  Points<2> points = randomPoints<2>(density.Size, 300);
+  Points<2> reversed(points.rbegin(), points.rend());
+  EXPECT_EQ(relax(density, points, iterations(most), Context()).Energy,
+    relax(density, reversed, iterations(most), Context()).Energy);
+  std::reverse(reversed.begin(), reversed.end());
+  EXPECT_TRUE(sameBits<2>(points, reversed));
 }
 
 } // namespace RectifiedTransport

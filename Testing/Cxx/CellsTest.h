@@ -67,4 +67,26 @@ inline double siteValue(vtkEqualMassCells* cells, const char* name, vtkIdType si
   return array ? array->GetComponent(site, part) : std::nan("");
 }
 
+// Updates a filter. Returns whether that made labels that were not there after the last call.
+class NewLabels
+{
+public:
+  explicit NewLabels(vtkEqualMassCells* cells)
+    : Cells(cells)
+  {
+  }
+  bool operator()()
+  {
+    this->Cells->Update();
+    vtkDataArray* array = this->Cells->GetLabels()->GetCellData()->GetArray("SiteId");
+    const bool made = array != this->Last;
+    this->Last = array;
+    return made;
+  }
+
+private:
+  vtkEqualMassCells* const Cells;
+  vtkSmartPointer<vtkDataArray> Last;
+};
+
 #endif

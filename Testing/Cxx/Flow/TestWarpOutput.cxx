@@ -2,16 +2,12 @@
 // What comes out: the type of the input, its cells, order and data; any geometry of the density;
 // pieces and blocks; what is wrong, and what is empty.
 #include "BlocksTest.h"
+#include "PointSetTest.h"
 #include "WarpTest.h"
 
-#include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
-#include "vtkPlaneSource.h"
-#include "vtkStructuredGrid.h"
-#include "vtkTrivialProducer.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <functional>
@@ -63,18 +59,7 @@ void expectMoved(Checks& checks, vtkPointSet* set, int line)
   vtkPointSet* output = warp->GetOutput();
   checks.That(output->GetClassName() == before, "the type of the input", line);
   checks.That(output->GetNumberOfPoints() == set->GetNumberOfPoints(), "all points", line);
-  checks.That(output->GetNumberOfCells() == set->GetNumberOfCells(), "all cells", line);
-  bool same = true;
-  for (vtkIdType i = 0; i < set->GetNumberOfCells(); ++i)
-  {
-    vtkNew<vtkIdList> a;
-    vtkNew<vtkIdList> b;
-    set->GetCellPoints(i, a);
-    output->GetCellPoints(i, b);
-    same = same && set->GetCellType(i) == output->GetCellType(i) &&
-      a->GetNumberOfIds() == b->GetNumberOfIds() && std::equal(a->begin(), a->end(), b->begin());
-  }
-  checks.That(same, "the same cells", line);
+  checks.That(sameCells(output, set), "the same cells", line);
   checks.That(output->GetPoints()->GetDataType() == VTK_DOUBLE, "double points", line);
   vtkPointData* data = output->GetPointData();
   checks.That(data->GetScalars() == set->GetPointData()->GetScalars(), "passed data", line);
@@ -99,31 +84,13 @@ void expectMoved(Checks& checks, vtkPointSet* set, int line)
 
 void checkTypes(Checks& checks)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(1, 1, 0);
-  plane->SetPoint1(7, 1, 0);
-  plane->SetPoint2(1, 5, 0);
-  plane->SetResolution(6, 4);
-  plane->Update();
-  expectMoved(checks, plane->GetOutput(), __LINE__);
-
   vtkNew<vtkPoints> points; // single precision
   for (int i = 0; i < 24; ++i)
   {
     points->InsertNextPoint(1.5 + i % 4, 1.5 + i / 4 % 3, i / 12);
   }
-  vtkNew<vtkStructuredGrid> curvilinear;
-  curvilinear->SetDimensions(4, 3, 2);
-  curvilinear->SetPoints(points);
-  expectMoved(checks, curvilinear, __LINE__);
-
-  vtkNew<vtkUnstructuredGrid> mixed;
-  mixed->SetPoints(points);
-  const vtkIdType ids[8] = { 0, 1, 5, 4, 12, 13, 17, 16 };
-  mixed->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-  mixed->InsertNextCell(VTK_VERTEX, 1, ids);
-  mixed->InsertNextCell(VTK_QUAD, 4, ids + 4);
-  expectMoved(checks, mixed, __LINE__);
+  checkPointSetTypes(
+    points, [&](vtkPointSet* set, int line) { expectMoved(checks, set, line); }, __LINE__);
 }
 
 // Blocks one by one, with one build of the tables.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How it runs: tables that are kept, the same bits on any number of threads, progress, an abort.
+#include "PointSetTest.h"
 #include "ProgressTest.h"
 #include "ThreadsTest.h"
 #include "WarpTest.h"
-
-#include "vtkStructuredGrid.h"
-#include "vtkTrivialProducer.h"
 
 namespace
 {
@@ -64,38 +62,12 @@ void checkAbort(Checks& checks)
   CHECK(checks, messages.Errors.empty());
 }
 
-// After an error with points of another type a smaller grid is asked for no more than it has.
 void checkTypesAroundAnError(Checks& checks)
 {
-  const auto makeGrid = [](int count) {
-    auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-    vtkNew<vtkPoints> points;
-    for (int i = 0; i < count; ++i)
-    {
-      points->InsertNextPoint(1.0 + 6.0 * i / count, 2.0, 0.0);
-    }
-    grid->SetDimensions(count, 1, 1);
-    grid->SetPoints(points);
-    return grid;
-  };
-  const auto trivial = vtkSmartPointer<vtkTrivialProducer>::New(); // says what is asked in vain
   vtkNew<vtkDensityEqualizingWarp> warp;
-  Messages messages(warp);
-  Messages ofProducer(trivial);
-  warp->SetInputConnection(0, trivial->GetOutputPort());
-  auto image = makeImage(9, 7, 1, true, bumpy);
-  warp->SetDensityData(image);
-  const auto run = [&](vtkDataObject* points) {
-    trivial->SetOutput(points);
-    warp->Update();
-    return warp->GetOutput() ? warp->GetOutput()->GetNumberOfPoints() : 0;
-  };
-  CHECK(checks, run(makeGrid(241)) == 241);
-  warp->SetBlend(2.0);
-  CHECK(checks, run(makePoints({ 1, 1, 0, 3, 2, 0 })) == 0 && messages.Errors.size() == 1);
-  warp->SetBlend(1.0);
-  CHECK(checks, run(makeGrid(17)) == 17);
-  CHECK(checks, messages.Errors.size() == 1 && ofProducer.Errors.empty());
+  warp->SetDensityData(makeImage(9, 7, 1, true, bumpy));
+  checkTypesAroundAnError(
+    checks, warp.Get(), [&]() { warp->SetBlend(2.0); }, [&]() { warp->SetBlend(1.0); }, __LINE__);
 }
 
 } // namespace

@@ -2,15 +2,11 @@
 // What comes out: the type of the input, its cells, order and data; any geometry of the density;
 // pieces and blocks; what is wrong, and what is empty.
 #include "BlocksTest.h"
+#include "PointSetTest.h"
 #include "RelaxationTest.h"
 
-#include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkPlaneSource.h"
-#include "vtkStructuredGrid.h"
-#include "vtkTrivialProducer.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <limits>
 
@@ -47,22 +43,6 @@ void addData(vtkPointSet* set)
   set->GetFieldData()->AddArray(old);
 }
 
-bool sameCells(vtkPointSet* a, vtkPointSet* b)
-{
-  bool same = a->GetNumberOfCells() == b->GetNumberOfCells();
-  for (vtkIdType i = 0; same && i < a->GetNumberOfCells(); ++i)
-  {
-    vtkNew<vtkIdList> ofA;
-    vtkNew<vtkIdList> ofB;
-    a->GetCellPoints(i, ofA);
-    b->GetCellPoints(i, ofB);
-    same = a->GetCellType(i) == b->GetCellType(i) &&
-      ofA->GetNumberOfIds() == ofB->GetNumberOfIds() &&
-      std::equal(ofA->begin(), ofA->end(), ofB->begin());
-  }
-  return same;
-}
-
 // The same cells of the same points, which are moved and double; the input is as it was.
 void expectRelaxed(Checks& checks, vtkPointSet* set, int line)
 {
@@ -94,31 +74,13 @@ void expectRelaxed(Checks& checks, vtkPointSet* set, int line)
 
 void checkTypes(Checks& checks)
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(1, 1, 0);
-  plane->SetPoint1(7, 1, 0);
-  plane->SetPoint2(1, 5, 0);
-  plane->SetResolution(6, 4);
-  plane->Update();
-  expectRelaxed(checks, plane->GetOutput(), __LINE__);
-
   vtkNew<vtkPoints> points; // single precision
   for (int i = 0; i < 24; ++i)
   {
     points->InsertNextPoint(1.5 + i % 4, 1.5 + 0.1 * (i / 12) + i / 4 % 3, 0.0);
   }
-  vtkNew<vtkStructuredGrid> curvilinear;
-  curvilinear->SetDimensions(4, 3, 2);
-  curvilinear->SetPoints(points);
-  expectRelaxed(checks, curvilinear, __LINE__);
-
-  vtkNew<vtkUnstructuredGrid> mixed;
-  mixed->SetPoints(points);
-  const vtkIdType ids[8] = { 0, 1, 5, 4, 12, 13, 17, 16 };
-  mixed->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-  mixed->InsertNextCell(VTK_VERTEX, 1, ids);
-  mixed->InsertNextCell(VTK_QUAD, 4, ids + 4);
-  expectRelaxed(checks, mixed, __LINE__);
+  checkPointSetTypes(
+    points, [&](vtkPointSet* set, int line) { expectRelaxed(checks, set, line); }, __LINE__);
 }
 
 void checkBlocks(Checks& checks)

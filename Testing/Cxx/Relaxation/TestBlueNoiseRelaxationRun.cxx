@@ -2,12 +2,10 @@
 // How it runs: tables that are kept or not needed, the same bits on any number of threads,
 // progress, an abort, memory that cannot be had.
 #include "../../MemoryLimit.h"
+#include "PointSetTest.h"
 #include "ProgressTest.h"
 #include "RelaxationTest.h"
 #include "ThreadsTest.h"
-
-#include "vtkStructuredGrid.h"
-#include "vtkTrivialProducer.h"
 
 namespace
 {
@@ -116,36 +114,12 @@ void checkMemory(Checks& checks)
 void checkMemory(Checks&) {}
 #endif
 
-// After an error with points of another type a smaller grid is asked for no more than it has.
 void checkTypesAroundAnError(Checks& checks)
 {
-  const auto makeGrid = [](int count) {
-    auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
-    vtkNew<vtkPoints> points;
-    for (int i = 0; i < count; ++i)
-    {
-      points->InsertNextPoint(1.0 + 6.0 * i / count, 2.0, 0.0);
-    }
-    grid->SetDimensions(count, 1, 1);
-    grid->SetPoints(points);
-    return grid;
-  };
-  vtkNew<vtkTrivialProducer> trivial; // says what is asked in vain
   auto relaxation = makeRelaxation(0, nullptr, makeImage(9, 7, 1, true, bumpy));
-  Messages messages(relaxation);
-  Messages ofProducer(trivial);
-  relaxation->SetInputConnection(0, trivial->GetOutputPort());
-  const auto run = [&](vtkDataObject* points) {
-    trivial->SetOutput(points);
-    relaxation->Update();
-    return relaxation->GetOutput() ? relaxation->GetOutput()->GetNumberOfPoints() : 0;
-  };
-  CHECK(checks, run(makeGrid(241)) == 241);
-  relaxation->SetTolerance(2.0);
-  CHECK(checks, run(makePoints({ 1, 1, 0, 3, 2, 0 })) == 0 && messages.Errors.size() == 1);
-  relaxation->SetTolerance(0.0);
-  CHECK(checks, run(makeGrid(17)) == 17);
-  CHECK(checks, messages.Errors.size() == 1 && ofProducer.Errors.empty());
+  checkTypesAroundAnError(
+    checks, relaxation.Get(), [&]() { relaxation->SetTolerance(2.0); },
+    [&]() { relaxation->SetTolerance(0.0); }, __LINE__);
 }
 
 } // namespace

@@ -168,14 +168,8 @@ void checkCache(Checks& checks)
 {
   auto sites = makeSites(square, 9);
   auto cells = makeCells(sites, makeDomain(square));
-  vtkSmartPointer<vtkDataArray> last;
-  const auto makes = [&]() {
-    cells->Update();
-    vtkDataArray* array = cells->GetLabels()->GetCellData()->GetArray("SiteId");
-    const bool made = array != last;
-    last = array;
-    return made;
-  };
+  NewLabels newLabels(cells);
+  const auto makes = [&newLabels]() { return newLabels(); };
   CHECK(checks, makes());
   expectAfterEach(checks, makes, false,
     { { "NumberOfSteps", [&]() { cells->SetNumberOfSteps(16); } },

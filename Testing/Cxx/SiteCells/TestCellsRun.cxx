@@ -24,14 +24,8 @@ void checkCache(Checks& checks)
   cells->SetInputData(sites);
   cells->SetDomainData(domain);
   cells->SetResolution(30);
-  vtkSmartPointer<vtkDataArray> last;
-  const auto makes = [&]() {
-    cells->Update();
-    vtkDataArray* array = cells->GetLabels()->GetCellData()->GetArray("SiteId");
-    const bool made = array != last;
-    last = array;
-    return made;
-  };
+  NewLabels newLabels(cells);
+  const auto makes = [&newLabels]() { return newLabels(); };
   CHECK(checks, makes());
   expectAfterEach(checks, makes, false,
     { { "CostExponent", [&]() { cells->SetCostExponent(4.0); } },
