@@ -42,15 +42,18 @@
  * output without an error.
  *
  * Cost: GaussianBlueNoise O(cells) for the tables, which are kept until the density changes, and
- * O(n) for n points in each iteration; OptimalTransport O(cells + n log n) in each step of Newton's
- * method, of which an iteration has several, and no tables. Memory: 24 bytes a point for the output
+ * O(n) for n points in each iteration; OptimalTransport O(cells) once, then O(n log n)
+ * for the cells and O(n^1.5) for the linear system of each step of Newton's method, of which an
+ * iteration has several, and no tables. Memory: 24 bytes a point for the output
  * and while it runs, GaussianBlueNoise about 2.5 kB a point in two dimensions and 4.6 kB in three
  * beside the tables, OptimalTransport about 2 kB a point and 32 bytes a cell of the density. The
  * results are the same to the last bit for every number of threads.
  *
- * @warning With OptimalTransport, points far from distributed like a density with large holes, such
- * as random ones, take long for the weights before the first iteration: thousands of them minutes.
- * Where there are none to be found, that is an error.
+ * @warning With OptimalTransport, points far from distributed like a density with large holes or a
+ * narrow peak, such as random ones, take long for the weights before the first iteration: hundreds
+ * of them minutes. So do points that nearly coincide, by less than about 1e-10 of their spacing.
+ * Where there are no weights to be found, that is an error. A point that begins where the density
+ * has no mass may keep all points where they are: begin with particles of the density.
  * @warning Axes of the image that are not perpendicular count as if they were.
  *
  * \code{.cpp}
