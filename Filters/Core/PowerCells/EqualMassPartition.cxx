@@ -19,10 +19,9 @@ namespace
 constexpr std::int64_t firstSlice = 1 << 10;
 // Of Newton's method: quadratic convergence makes the last step much better than this.
 constexpr double solvedTo = 4e-7;
-constexpr int mostSteps = 500;
-// Of a density that is partly even, on the way to the given one.
+constexpr int mostSteps = 2000; // in one solution
+// A density that is partly even, on the way to the given one.
 constexpr double nearlySolved = 0.1;
-constexpr int mostStepsOnTheWay = 100;
 constexpr double smallestDamping = 1e-13;
 
 double squaredDistance(const Point<2>& a, const Point<2>& b)
@@ -105,7 +104,8 @@ bool EqualMassPartition::SolveFromHere(Progress& progress)
     this->Evaluate(this->Weights, progress);
   }
   constexpr double none = 1e-9;
-  return this->Found.Least > none && this->Ascend(solvedTo, mostSteps, progress);
+  constexpr int mostShortSteps = 20; // the way from an even density is not as long as more of them
+  return this->Found.Least > none && this->Ascend(solvedTo, mostShortSteps, progress);
 }
 
 // The cells of an even density have mass with the first weights, and where the even part of a
@@ -115,6 +115,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
 {
   constexpr double smallestRatio = 1.001;
   constexpr double largestRatio = 64.0;
+  constexpr int mostShortSteps = 500;
   // So little changes no cell's mass by more than a part of the tolerance.
   const double smallest = 0.4 * massTolerance / static_cast<double>(this->Sites.size());
   this->FindFirstWeights();
@@ -128,7 +129,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
     this->Rows.SetEvenShare(next);
     const bool isLast = next == smallest;
     if (this->Evaluate(this->Weights, progress).Least > 0.0 &&
-      this->Ascend(isLast ? solvedTo : nearlySolved, mostStepsOnTheWay, progress))
+      this->Ascend(isLast ? solvedTo : nearlySolved, mostShortSteps, progress))
     {
       share = next;
       ratio = std::clamp(2.0 * ratio, 4.0, largestRatio);
@@ -137,7 +138,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
     {
       this->Weights = solved;
       ratio = std::sqrt(ratio);
-      if (ratio < smallestRatio)
+      if (ratio < smallestRatio || this->Steps >= mostSteps)
       {
         return false;
       }
@@ -246,21 +247,99 @@ const EqualMassPartition::Side* EqualMassPartition::SidesOf(std::int64_t site) c
   return this->Sides[static_cast<std::size_t>(place.Chunk)].data() + place.First;
 }
 
-// From weights that were evaluated. A step along which the function rises to its end is as good as
-// one that brings the masses nearer to 1, and the only kind where parts of the density do not
-// touch: their potentials may then be far from each other's. Damping shortens such steps.
-bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
+EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
+  Vector& weights, double least, Progress& progress)
 {
-  constexpr double shortest = 1.0 / 64;
+  constexpr int mostRounds = 4; // one cell's gain is another's loss
+  constexpr std::int64_t firstPiece = 16;
+  const std::size_t few = weights.size() / 10;
+  Deviation found = this->Evaluate(weights, progress);
+  for (int round = 0; round < mostRounds && !(found.Least >= least); ++round)
+  {
+    std::vector<std::size_t> sites;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      if (!(this->Masses[i] >= least))
+      {
+        sites.push_back(i);
+      }
+    }
+    if (sites.size() > few)
+    {
+      break;
+    }
+    progress.For(
+      static_cast<std::int64_t>(sites.size()), 1,
+      [&](std::int64_t first, std::int64_t last) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        {
+          double& weight = weights[sites[i]];
+          weight = this->RevivingWeight(static_cast<std::int64_t>(sites[i]), weight, least);
+        }
+      },
+      firstPiece);
+    found = this->Evaluate(weights, progress);
+  }
+  return found;
+}
+
+// A weight with which the cell has at least that mass and at most 1, in the diagram of the last
+// evaluation, where it had less.
+double EqualMassPartition::RevivingWeight(std::int64_t site, double weight, double least) const
+{
+  std::vector<PowerDiagram::Corner> corners;
+  const auto massWith = [&](double trial) {
+    this->Cells.CutCell(site, trial, corners);
+    double mass = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+    {
+      const std::size_t next = k + 1 < corners.size() ? k + 1 : 0;
+      this->Rows.AddSideMass(corners[k].X, corners[next].X, mass);
+    }
+    return mass;
+  };
+  double low = weight;
+  double step = 1e-3; // a length of a thirtieth of the mean spacing
+  double high = low + step;
+  double mass = massWith(high);
+  while (mass < least && std::isfinite(step))
+  {
+    low = high;
+    step *= 8.0;
+    high += step;
+    mass = massWith(high);
+  }
+  constexpr int mostTries = 40;
+  const double aim = std::sqrt(least);
+  double found = high;
+  for (int tries = 0; tries < mostTries && !(mass >= least && mass <= 1.0); ++tries)
+  {
+    (mass > 1.0 ? high : low) = found;
+    // In an even density a cell's mass begins like the square of the weight that is added.
+    const double part = mass > 1.0 ? std::clamp(std::sqrt(aim / mass), 0.1, 0.9) : 0.5;
+    found = low + part * (high - low);
+    mass = massWith(found);
+  }
+  return found;
+}
+
+// From weights that were evaluated. A step that ends where the function still rises along it is as
+// good as one that brings the masses nearer to 1, and the only kind where parts of the density do
+// not touch: their potentials may then be far from each other's. Damping shortens such steps.
+bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progress)
+{
+  constexpr double shortest = 1e-4;
+  constexpr double isShort = 0.25;
   constexpr double leastGain = 1e-3;
   constexpr double firstDamping = 1e-7;
   const double floor = 0.5 * std::min(1.0, this->Found.Least);
   Vector trial(this->Weights.size());
   double damping = smallestDamping;
+  double firstPart = 1.0;
   bool isRetry = false;
-  for (int step = 0; this->Found.Largest > tolerance; ++step)
+  for (int shortSteps = 0; this->Found.Largest > tolerance;)
   {
-    if (step == most)
+    if (shortSteps > mostShort || this->Steps >= mostSteps)
     {
       return false;
     }
@@ -268,6 +347,7 @@ bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
     const auto dampMore = [&]() {
       damping = std::max(damping, firstDamping) * 10.0;
       isRetry = true;
+      ++shortSteps;
     };
     if (!this->FindDirection(damping, progress))
     {
@@ -275,25 +355,30 @@ bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
       continue;
     }
     const Deviation before = this->Found;
-    double part = 1.0;
+    double part = firstPart;
     bool isAccepted = false;
-    for (; part >= shortest && !isAccepted; part *= 0.5)
+    while (part >= shortest && !isAccepted)
     {
       for (std::size_t i = 0; i < trial.size(); ++i)
       {
         trial[i] = this->Weights[i] + part * this->Direction[i];
       }
-      const Deviation now = this->Evaluate(trial, progress);
-      isAccepted = now.Least > floor &&
-        (now.Norm < (1.0 - std::max(0.5 * part, leastGain)) * before.Norm || this->Slope() >= 0.0);
+      const Deviation now = this->EvaluateRevived(trial, floor, progress);
+      isAccepted = now.Least >= floor &&
+        (now.Norm < (1.0 - std::max(0.5 * part, leastGain)) * before.Norm ||
+          this->Slope(trial) >= 0.0);
+      part *= isAccepted ? 1.0 : 0.5;
     }
     if (!isAccepted)
     {
+      firstPart = isShort;
       dampMore();
       this->Evaluate(this->Weights, progress);
       continue;
     }
     this->Weights.swap(trial);
+    shortSteps += part < isShort ? 1 : 0;
+    firstPart = std::min(1.0, 4.0 * part);
     const bool isGood = this->Found.Norm < 0.25 * before.Norm;
     damping = std::max(smallestDamping, damping * (isGood ? 0.01 : isRetry ? 1.0 : 0.1));
     isRetry = false;
@@ -301,13 +386,13 @@ bool EqualMassPartition::Ascend(double tolerance, int most, Progress& progress)
   return true;
 }
 
-// The derivative of the function along the direction, at the weights that were evaluated.
-double EqualMassPartition::Slope() const
+// The derivative of the function in the direction of weights that were evaluated, there.
+double EqualMassPartition::Slope(const Vector& weights) const
 {
   double slope = 0.0;
   for (std::size_t i = 0; i < this->Masses.size(); ++i)
   {
-    slope += (1.0 - this->Masses[i]) * this->Direction[i];
+    slope += (1.0 - this->Masses[i]) * (weights[i] - this->Weights[i]);
   }
   return slope;
 }

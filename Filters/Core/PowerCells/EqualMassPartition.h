@@ -19,7 +19,8 @@ class Progress;
 // The weights of the diagram are the maximum of a concave function, whose gradient has the masses
 // that the cells lack. They are found by Newton's method with steps that leave no cell without mass
 // (Kitagawa, Merigot and Thibert, "Convergence of a Newton algorithm for semi-discrete optimal
-// transport", J. Eur. Math. Soc. 21(9), 2019), damped where the density falls apart.
+// transport", J. Eur. Math. Soc. 21(9), 2019), damped where the density falls apart. The few cells
+// that a longer step would leave without mass get larger weights, which the function rises by.
 class EqualMassPartition
 {
 public:
@@ -67,6 +68,9 @@ private:
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
   void FindFirstWeights();
   Deviation Evaluate(const Vector& weights, Progress& progress);
+  // The same, after weights were raised until all cells have at least `least`, where few have less.
+  Deviation EvaluateRevived(Vector& weights, double least, Progress& progress);
+  double RevivingWeight(std::int64_t site, double weight, double least) const;
   // Calls visit(place) for the cells, in chunks.
   template <class Visit>
   void VisitCells(Progress& progress, const Visit& visit);
@@ -77,9 +81,9 @@ private:
   const Side* SidesOf(std::int64_t site) const;
   bool SolveFromHere(Progress& progress);
   bool SolveFromEvenDensity(Progress& progress);
-  bool Ascend(double tolerance, int mostSteps, Progress& progress);
+  bool Ascend(double tolerance, int mostShort, Progress& progress);
   bool FindDirection(double damping, Progress& progress);
-  double Slope() const;
+  double Slope(const Vector& weights) const;
   void FindMoments(Progress& progress);
 
   RowMoments Rows;

@@ -132,7 +132,7 @@ void PowerDiagram::Update(const double* weights, Progress& progress)
   this->LastChunks.swap(this->Chunks);
   this->Chunks.resize(static_cast<std::size_t>(this->NumberOfChunks()));
   this->LastChunks.resize(this->Chunks.size());
-  constexpr std::int64_t firstSlice = 1 << 10;
+  constexpr std::int64_t firstSlice = 1 << 8; // where all cells meet in a point they are slow
   progress.For(
     this->NumberOfCells(), cellsOfChunk,
     [&](std::int64_t first, std::int64_t last) {
@@ -167,17 +167,32 @@ void PowerDiagram::UpdateCell(std::int64_t at, const double* weights, Cutter& cu
       cutter.Cut(j, { other[0] - site[0], other[1] - site[1] }, weights[j] - weight);
     }
   }
-  this->Tree.VisitRivals(
-    site, weight, cutter, [&](std::int64_t j, const Point<2>& offset, double otherWeight) {
-      if (j != id)
-      {
-        cutter.Cut(j, offset, otherWeight - weight);
-      }
-    });
+  this->CutByRivals(id, weight, cutter);
   const std::int64_t chunk = at / cellsOfChunk;
   std::vector<Corner>& corners = this->Chunks[static_cast<std::size_t>(chunk)];
   place = { chunk, static_cast<std::int64_t>(corners.size()), cutter.Size() };
   cutter.Append(site, corners);
+}
+
+void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter) const
+{
+  this->Tree.VisitRivals(this->Sites[static_cast<std::size_t>(site)], weight, cutter,
+    [&](std::int64_t j, const Point<2>& offset, double otherWeight) {
+      if (j != site)
+      {
+        cutter.Cut(j, offset, otherWeight - weight);
+      }
+    });
+}
+
+void PowerDiagram::CutCell(std::int64_t site, double weight, std::vector<Corner>& corners) const
+{
+  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+  Cutter cutter;
+  cutter.Begin(x, this->Lengths);
+  this->CutByRivals(site, weight, cutter);
+  corners.clear();
+  cutter.Append(x, corners);
 }
 
 } // namespace RectifiedTransport

@@ -61,6 +61,10 @@ public:
       place.Count };
   }
 
+  // Writes the corners of the cell that a site would have with another weight than in the last
+  // update, the others as they were there.
+  void CutCell(std::int64_t site, double weight, std::vector<Corner>& corners) const;
+
   // Cells are computed in an order in which neighbours are near each other, and in chunks.
   static constexpr std::int64_t cellsOfChunk = 64;
   std::int64_t NumberOfChunks() const
@@ -80,6 +84,7 @@ private:
   class Cutter;
 
   void UpdateCell(std::int64_t at, const double* weights, Cutter& cutter);
+  void CutByRivals(std::int64_t site, double weight, Cutter& cutter) const;
 
   const Point<2> Lengths;
   SiteTree Tree;

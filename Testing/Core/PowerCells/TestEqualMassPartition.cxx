@@ -325,6 +325,22 @@ TEST(EqualMassPartition, HolesUnderAllSites)
   expectEqualMasses(solved(point, sites), point);
 }
 
+// Most sites have to share one cell of the density, far from where they are: long steps would leave
+// many of them without mass.
+TEST(EqualMassPartition, NarrowPeaks)
+{
+  for (const double background : { 1e-2, 1e-6, 0.0 })
+  {
+    TestDensity<2> density = uniformDensity<2>({ 32, 32 }, background);
+    density.Values[10 * 32 + 20] = 1.0;
+    density.Values[25 * 32 + 3] = 0.4;
+    const Points<2> sites = randomPoints<2>(density.Size, 80, 5);
+    const EqualMassPartition partition = solved(density, sites);
+    expectEqualMasses(partition, density);
+    EXPECT_LT(partition.NewtonSteps(), 200) << background;
+  }
+}
+
 TEST(EqualMassPartition, CollinearSitesHaveStrips)
 {
   const TestDensity<2> density = spots({ 30, 30 });

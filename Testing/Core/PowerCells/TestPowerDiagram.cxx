@@ -292,6 +292,29 @@ TEST(PowerDiagram, UpdatesAreAsIfFresh)
   }
 }
 
+TEST(PowerDiagram, OneCellWithAnotherWeight)
+{
+  const Points<2> sites = randomSites(40, 8);
+  std::vector<double> weights = randomWeights(40, 0.1, 9);
+  const PowerDiagram diagram = makeDiagram(sites, weights);
+  std::vector<PowerDiagram::Corner> corners;
+  for (const std::size_t site : { 0u, 17u, 39u })
+  {
+    for (const double change : { -10.0, -0.03, 0.0, 0.2, 5.0 })
+    {
+      std::vector<double> changed = weights;
+      changed[site] += change;
+      const PowerDiagram expected = makeDiagram(sites, changed);
+      const auto id = static_cast<std::int64_t>(site);
+      diagram.CutCell(id, changed[site], corners);
+      const PowerDiagram::Cell found = { corners.data(),
+        static_cast<std::int64_t>(corners.size()) };
+      EXPECT_EQ(found.Count == 0, change == -10.0);
+      expectMoments(fanMoments(cornersOf(found)), fanMoments(cornersOf(expected[id])), 1e-12);
+    }
+  }
+}
+
 TEST(PowerDiagram, ThreadsDoNotMatter)
 {
   const Points<2> sites = randomSites(1000, 12);
