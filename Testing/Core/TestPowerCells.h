@@ -37,12 +37,13 @@ inline Points<2> cornersOf(const PowerDiagram::Cell& cell)
 
 inline PolygonMoments rowMomentsOf(const RowMoments& rows, const Points<2>& polygon)
 {
+  const GridSize<2> origin = rows.CellAt(polygon[0]);
   PolygonMoments moments;
   for (std::size_t k = 0; k < polygon.size(); ++k)
   {
-    rows.AddSide(polygon[k], polygon[(k + 1) % polygon.size()], moments);
+    rows.AddSide(polygon[k], polygon[(k + 1) % polygon.size()], origin, moments);
   }
-  return moments;
+  return moments.MovedBy(rows.CornerOf(origin));
 }
 
 // Of the density 1, as a fan of triangles: exact by the midpoints of their sides.
@@ -120,6 +121,33 @@ inline PolygonMoments clippedMoments(
     moments.Second += weight * found.Second;
   }
   return moments;
+}
+
+// The same by the cells of the grid from `first` on, as many as `size`, relative to their corner:
+// polygons there keep their digits, however large the grid is.
+inline PolygonMoments windowMoments(const TestDensity<2>& density, const Point<2>& scale,
+  double total, const GridSize<2>& first, const GridSize<2>& size, Points<2> polygon)
+{
+  TestDensity<2> window = uniformDensity<2>(size);
+  long double inside = 0.0;
+  long double all = 0.0;
+  for (std::size_t i = 0; i < window.Values.size(); ++i)
+  {
+    const auto cell = cellAt<2>(static_cast<std::int64_t>(i), size);
+    window.Values[i] =
+      density.Values[cellIndex<2>({ first[0] + cell[0], first[1] + cell[1] }, density.Size)];
+    inside += window.Values[i];
+  }
+  for (const double value : density.Values)
+  {
+    all += value;
+  }
+  for (Point<2>& corner : polygon)
+  {
+    corner[0] -= static_cast<double>(first[0]) * scale[0];
+    corner[1] -= static_cast<double>(first[1]) * scale[1];
+  }
+  return clippedMoments(window, scale, static_cast<double>(total * inside / all), polygon);
 }
 
 inline void expectMoments(

@@ -457,30 +457,35 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
 
 void EqualMassPartition::FindMoments(Progress& progress)
 {
-  this->CellMoments.assign(this->Sites.size(), PolygonMoments());
-  this->VisitCells(progress, [this](std::int64_t place) {
-    const std::int64_t site = this->Cells.SiteAt(place);
-    const PowerDiagram::Cell cell = this->Cells[site];
-    for (std::int64_t k = 0; k < cell.Count; ++k)
-    {
-      this->Rows.AddSide(
-        cell[k].X, cell.After(k).X, this->CellMoments[static_cast<std::size_t>(site)]);
-    }
-  });
+  this->CellMoments.resize(this->Sites.size());
+  this->Centroids.resize(this->Sites.size());
+  this->Costs.resize(this->Sites.size());
+  this->VisitCells(
+    progress, [this](std::int64_t place) { this->FindMomentsOf(this->Cells.SiteAt(place)); });
 }
 
-double EqualMassPartition::Cost(std::int64_t site) const
+void EqualMassPartition::FindMomentsOf(std::int64_t site)
 {
-  const PolygonMoments& cell = this->CellMoments[static_cast<std::size_t>(site)];
-  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
-  return cell.Second - 2.0 * (x[0] * cell.First[0] + x[1] * cell.First[1]) +
-    (x[0] * x[0] + x[1] * x[1]) * cell.Mass;
-}
-
-Point<2> EqualMassPartition::Centroid(std::int64_t site) const
-{
-  const PolygonMoments& cell = this->CellMoments[static_cast<std::size_t>(site)];
-  return { cell.First[0] / cell.Mass, cell.First[1] / cell.Mass };
+  const PowerDiagram::Cell cell = this->Cells[site];
+  Point<2> middle{};
+  for (std::int64_t k = 0; k < cell.Count; ++k)
+  {
+    middle[0] += cell[k].X[0] / static_cast<double>(cell.Count);
+    middle[1] += cell[k].X[1] / static_cast<double>(cell.Count);
+  }
+  const GridSize<2> near = this->Rows.CellAt(middle);
+  const Point<2> origin = this->Rows.CornerOf(near);
+  PolygonMoments moments;
+  for (std::int64_t k = 0; k < cell.Count; ++k)
+  {
+    this->Rows.AddSide(cell[k].X, cell.After(k).X, near, moments);
+  }
+  const auto i = static_cast<std::size_t>(site);
+  const Point<2>& x = this->Sites[i];
+  this->CellMoments[i] = moments.MovedBy(origin);
+  this->Centroids[i] = { origin[0] + moments.First[0] / moments.Mass,
+    origin[1] + moments.First[1] / moments.Mass };
+  this->Costs[i] = moments.MovedBy({ origin[0] - x[0], origin[1] - x[1] }).Second;
 }
 
 } // namespace RectifiedTransport

@@ -37,11 +37,14 @@ public:
   // After a solution:
   const RowMoments& Density() const { return this->Rows; }
   const PowerDiagram& Diagram() const { return this->Cells; }
-  // The integrals over the cells, in the order of the sites.
+  // The integrals over the cells, in the order of the sites, relative to the origin.
   const std::vector<PolygonMoments>& Moments() const { return this->CellMoments; }
   // The integral of |x - site|^2 over a cell.
-  double Cost(std::int64_t site) const;
-  Point<2> Centroid(std::int64_t site) const;
+  double Cost(std::int64_t site) const { return this->Costs[static_cast<std::size_t>(site)]; }
+  Point<2> Centroid(std::int64_t site) const
+  {
+    return this->Centroids[static_cast<std::size_t>(site)];
+  }
   // How many linear systems the last call solved.
   int NewtonSteps() const { return this->Steps; }
 
@@ -85,14 +88,18 @@ private:
   bool FindDirection(double damping, Progress& progress);
   double Slope(const Vector& weights) const;
   void FindMoments(Progress& progress);
+  void FindMomentsOf(std::int64_t site);
 
   RowMoments Rows;
   PowerDiagram Cells;
   std::vector<Point<2>> Sites;
   Vector Weights;
-  std::vector<Point<2>> SolvedSites; // of the last solution, with CellMoments
+  std::vector<Point<2>> SolvedSites; // of the last solution, with Centroids
   Vector SolvedWeights;
   std::vector<PolygonMoments> CellMoments;
+  // These have digits of their own: far from the origin they are lost in the moments.
+  std::vector<Point<2>> Centroids;
+  Vector Costs;
 
   Deviation Found{};                    // of the weights that were evaluated last
   Vector Masses;                        // as well

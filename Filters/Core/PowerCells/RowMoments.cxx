@@ -19,7 +19,7 @@ RowMoments::RowMoments(
   , Scale(scale)
   , MeanMass(total / numberOfCells<2>(density.Size))
   , CellMasses(density.Size[0] * density.Size[1])
-  , CellMoments(density.Size[0] * density.Size[1])
+  , Blocks(BlocksPerRow() * density.Size[1])
   , Occupied(WordsPerRow() * density.Size[1])
 {
   const DensitySummary found = this->ReadValues(density.Values, progress);
@@ -89,16 +89,15 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
     for (std::int64_t j = first; j < last; ++j)
     {
       double before = 0.0;
-      Moments moments{};
-      for (std::int64_t i = j * columns; i < (j + 1) * columns; ++i)
+      Masses* masses = this->CellMasses.data() + j * columns;
+      Moments* blocks = this->Blocks.data() + j * this->BlocksPerRow();
+      std::fill_n(blocks, this->BlocksPerRow(), Moments{});
+      for (std::int64_t i = 0; i < columns; ++i)
       {
-        const double own = this->CellMasses.data()[i].Own * unit * scale;
-        this->CellMasses.data()[i] = { before, own };
-        this->CellMoments.data()[i] = moments;
-        const auto x = static_cast<double>(i - j * columns);
+        const double own = masses[i].Own * unit * scale;
+        masses[i] = { before, own };
         before += own;
-        moments.First += own * (x + 0.5);
-        moments.Second += own * (x * x + x + 1.0 / 3.0);
+        blocks[i / cellsOfBlock].Add(Moments::OfCell(own), static_cast<double>(i % cellsOfBlock));
       }
     }
   });
@@ -136,18 +135,20 @@ RowMoments::Masses RowMoments::MassesAt(std::int64_t column, std::int64_t row) c
   return masses;
 }
 
-RowMoments::Moments RowMoments::MomentsAt(std::int64_t column, std::int64_t row) const
+double RowMoments::MassAt(std::int64_t column, std::int64_t row) const
 {
-  Moments moments = this->CellMoments.data()[row * this->Size[0] + column];
-  if (this->EvenShare > 0.0)
-  {
-    const double rest = 1.0 - this->EvenShare;
-    const double even = this->EvenShare * this->MeanMass;
-    const auto x = static_cast<double>(column);
-    moments.First = rest * moments.First + even * x * x / 2.0;
-    moments.Second = rest * moments.Second + even * x * x * x / 3.0;
-  }
-  return moments;
+  const double own = this->CellMasses.data()[row * this->Size[0] + column].Own;
+  return (1.0 - this->EvenShare) * own + this->EvenShare * this->MeanMass;
+}
+
+RowMoments::Moments RowMoments::BlockAt(std::int64_t block, std::int64_t row) const
+{
+  constexpr auto width = static_cast<double>(cellsOfBlock);
+  const Moments& moments = this->Blocks.data()[row * this->BlocksPerRow() + block];
+  const double rest = 1.0 - this->EvenShare;
+  const double even = this->EvenShare * this->MeanMass * width;
+  return { rest * moments.Mass + even, rest * moments.First + even * width / 2.0,
+    rest * moments.Second + even * width * width / 3.0 };
 }
 
 // The way of a side through the cells along one axis.
@@ -210,29 +211,110 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
   visit(x.Cell, y.Cell, at, end, 1.0 - done);
 }
 
-void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, PolygonMoments& moments) const
+GridSize<2> RowMoments::CellAt(const Point<2>& point) const
+{
+  GridSize<2> cell;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    const auto last = static_cast<double>(this->Size[a] - 1);
+    cell[a] = static_cast<std::int64_t>(std::clamp(point[a] / this->Scale[a], 0.0, last));
+  }
+  return cell;
+}
+
+Point<2> RowMoments::CornerOf(const GridSize<2>& cell) const
+{
+  return { this->Scale[0] * static_cast<double>(cell[0]),
+    this->Scale[1] * static_cast<double>(cell[1]) };
+}
+
+// The integrals over the cells of a row from the column `origin` on, up to that of a point which
+// goes from cell to cell. Those before the origin count as negative.
+class RowMoments::RowIntegral
+{
+public:
+  RowIntegral(const RowMoments& rows, std::int64_t origin)
+    : Rows(rows)
+    , Origin(origin)
+  {
+  }
+
+  const Moments& To(std::int64_t column, std::int64_t row)
+  {
+    if (row != this->Row)
+    {
+      this->Row = row;
+      this->Sum = {};
+      const double sign = column < this->Origin ? -1.0 : 1.0;
+      this->AddCells(std::min(column, this->Origin), std::max(column, this->Origin));
+      this->Sum = { sign * this->Sum.Mass, sign * this->Sum.First, sign * this->Sum.Second };
+    }
+    else if (column > this->Column)
+    {
+      this->AddCell(this->Column, 1.0);
+    }
+    else if (column < this->Column)
+    {
+      this->AddCell(column, -1.0);
+    }
+    this->Column = column;
+    return this->Sum;
+  }
+
+private:
+  void AddCell(std::int64_t column, double sign)
+  {
+    this->Sum.Add(
+      Moments::OfCell(sign * this->Rows.MassAt(column, this->Row)), this->Offset(column));
+  }
+  void AddCells(std::int64_t first, std::int64_t last)
+  {
+    while (first < last)
+    {
+      if (first % cellsOfBlock == 0 && first + cellsOfBlock <= last)
+      {
+        this->Sum.Add(this->Rows.BlockAt(first / cellsOfBlock, this->Row), this->Offset(first));
+        first += cellsOfBlock;
+        continue;
+      }
+      this->AddCell(first++, 1.0);
+    }
+  }
+  double Offset(std::int64_t column) const { return static_cast<double>(column - this->Origin); }
+
+  const RowMoments& Rows;
+  const std::int64_t Origin;
+  std::int64_t Row = -1;
+  std::int64_t Column = 0;
+  Moments Sum{};
+};
+
+void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSize<2>& origin,
+  PolygonMoments& moments) const
 {
   // The moments along the row are cubic in x, so that two points integrate them without error.
   constexpr double place = 0.57735026918962576451; // sqrt(1/3)
   double mass = 0.0;
   double first[2] = { 0.0, 0.0 };
   double second[2] = { 0.0, 0.0 };
+  RowIntegral integral(*this, origin[0]);
+  const auto zero = static_cast<double>(origin[1]);
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double) {
-      const Masses masses = this->MassesAt(column, row);
-      const Moments before = this->MomentsAt(column, row);
-      const auto low = static_cast<double>(column);
+      const Moments& before = integral.To(column, row);
+      const double own = this->MassAt(column, row);
+      const auto low = static_cast<double>(column - origin[0]);
       const double half = (b[1] - a[1]) / 2.0;
       for (const double side : { -place, place })
       {
         const double x = (a[0] + b[0]) / 2.0 + side * (b[0] - a[0]) / 2.0;
-        const double y = (a[1] + b[1]) / 2.0 + side * half;
-        const double u = x - low;
-        const double m = half * (masses.Before + masses.Own * u);
+        const double y = (a[1] + b[1]) / 2.0 - zero + side * half;
+        const double u = x - static_cast<double>(column);
+        const double m = half * (before.Mass + own * u);
         mass += m;
-        first[0] += half * (before.First + masses.Own * u * (low + u / 2.0));
+        first[0] += half * (before.First + own * u * (low + u / 2.0));
         first[1] += m * y;
-        second[0] += half * (before.Second + masses.Own * u * (low * low + low * u + u * u / 3.0));
+        second[0] += half * (before.Second + own * u * (low * low + low * u + u * u / 3.0));
         second[1] += m * y * y;
       }
     });

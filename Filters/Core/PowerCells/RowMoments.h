@@ -19,18 +19,27 @@ class Progress;
 // Of a polygon, its sides counter-clockwise; a side contributes a part, which has no meaning alone.
 struct PolygonMoments
 {
+  // Those of the polygon after a motion.
+  PolygonMoments MovedBy(const Point<2>& offset) const
+  {
+    const Point<2>& x = this->First;
+    return { this->Mass, { x[0] + offset[0] * this->Mass, x[1] + offset[1] * this->Mass },
+      this->Second + 2.0 * (offset[0] * x[0] + offset[1] * x[1]) +
+        (offset[0] * offset[0] + offset[1] * offset[1]) * this->Mass };
+  }
+
   double Mass = 0.0;
   Point<2> First{};    // of the coordinates
   double Second = 0.0; // of the squared distance from the origin
 };
 
-// The moments along each row of the grid, up to each of its cells. The grid lies in the plane with
+// The masses along each row of the grid, up to each of its cells. The grid lies in the plane with
 // its corner at the origin; the sides of its cells have the lengths `scale`, and the masses of all
 // cells add up to `total`.
 class RowMoments
 {
 public:
-  // As the work of the current stage of the progress. Takes 32 bytes a cell. Throws InvalidDensity,
+  // As the work of the current stage of the progress. Takes 18 bytes a cell. Throws InvalidDensity,
   // std::bad_alloc and Cancelled.
   RowMoments(
     const DensitySource<2>& density, const Point<2>& scale, double total, Progress& progress);
@@ -46,9 +55,17 @@ public:
   // above 0 no part of the domain is empty.
   void SetEvenShare(double share) { this->EvenShare = share; }
 
-  // Adds the part of the side from `from` to `to` of a polygon in the domain.
-  void AddSide(const Point<2>& from, const Point<2>& to, PolygonMoments& moments) const;
-  // The same for the mass alone. Returns the integral of the density along the side.
+  // The cell of the grid that holds a point, or one beside it.
+  GridSize<2> CellAt(const Point<2>& point) const;
+  // Its corner nearest to the origin.
+  Point<2> CornerOf(const GridSize<2>& cell) const;
+  // Adds the part of the side from `from` to `to` of a polygon in the domain. Its moments are
+  // relative to the corner of the cell `origin`, one for all sides: where it is near the polygon
+  // they keep their digits, however large the grid is.
+  void AddSide(const Point<2>& from, const Point<2>& to, const GridSize<2>& origin,
+    PolygonMoments& moments) const;
+  // Adds to the mass alone, with sums from the beginning of the rows: a part does not depend on the
+  // polygon. Returns the integral of the density along the side.
   double AddSideMass(const Point<2>& from, const Point<2>& to, double& mass) const;
 
 private:
@@ -58,20 +75,36 @@ private:
     double Before;
     double Own;
   };
-  // Integrals over the cells of the row before one of x and x^2 (x in cells) times density.
+  // Integrals over cells of a row of 1, x and x^2 (x in cells) times density.
   struct Moments
   {
+    // Of a cell, from its beginning on.
+    static Moments OfCell(double mass) { return { mass, mass / 2.0, mass / 3.0 }; }
+    // Those of `part`, whose x are from `offset` on.
+    void Add(const Moments& part, double offset)
+    {
+      this->Second += part.Second + offset * (2.0 * part.First + offset * part.Mass);
+      this->First += part.First + offset * part.Mass;
+      this->Mass += part.Mass;
+    }
+
+    double Mass;
     double First;
     double Second;
   };
 
   struct Way;
+  class RowIntegral;
+
+  static constexpr std::int64_t cellsOfBlock = 16;
+  std::int64_t BlocksPerRow() const { return (this->Size[0] + cellsOfBlock - 1) / cellsOfBlock; }
 
   std::int64_t WordsPerRow() const { return (this->Size[0] + 63) / 64; }
   DensitySummary ReadValues(const DensityValues& values, Progress& progress);
   void Accumulate(double total, const DensitySummary& found, Progress& progress);
   Masses MassesAt(std::int64_t column, std::int64_t row) const;
-  Moments MomentsAt(std::int64_t column, std::int64_t row) const;
+  double MassAt(std::int64_t column, std::int64_t row) const;
+  Moments BlockAt(std::int64_t block, std::int64_t row) const;
   // Calls visit(column, row, from, to, part) for the part of a side in each cell, in their order,
   // which is from `from` to `to` in cells and makes up `part` of the side.
   template <class Visit>
@@ -83,7 +116,7 @@ private:
   double EvenShare = 0.0;
   bool Empty = false;
   LargeBuffer<Masses> CellMasses;
-  LargeBuffer<Moments> CellMoments;
+  LargeBuffer<Moments> Blocks;         // of cells of a row, from their first cell on
   LargeBuffer<std::uint64_t> Occupied; // a bit a cell, rows of whole words
 };
 

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -97,6 +98,61 @@ TEST(RowMoments, OfPolygonsOnTheGridAreExact)
   }
 }
 
+// Far along an axis, over many cells and within a few: as if the grid began there.
+TEST(RowMoments, KeepTheirDigitsOnLongStrips)
+{
+  constexpr std::int64_t length = 1000000;
+  constexpr std::int64_t width = 500;
+  for (const std::size_t axis : { 0u, 1u })
+  {
+    GridSize<2> size = { 2, 2 };
+    size[axis] = length;
+    GridSize<2> first{};
+    first[axis] = length - width;
+    GridSize<2> window = { 2, 2 };
+    window[axis] = width;
+    const TestDensity<2> density = randomCells<2>(size);
+    RowMoments rows = makeRows(density, { 1.0, 1.0 }, 2.0 * length);
+    for (const double reach : { 480.0, 2.0 })
+    {
+      Points<2> polygon = { { 3.25, 0.5 }, { 0.75 * reach, 0.125 }, { reach + 1.5, 1.25 },
+        { 0.375 * reach, 1.875 } };
+      for (Point<2>& corner : polygon)
+      {
+        corner = { corner[axis], corner[1 - axis] };
+        corner[axis] += static_cast<double>(first[axis]);
+      }
+      if (axis == 1)
+      {
+        std::reverse(polygon.begin(), polygon.end()); // counter-clockwise again
+      }
+      for (const double share : { 0.0, 0.25 })
+      {
+        rows.SetEvenShare(share);
+        TestDensity<2> mixed = density;
+        const double mean =
+          std::accumulate(density.Values.begin(), density.Values.end(), 0.0) / (2.0 * length);
+        for (double& value : mixed.Values)
+        {
+          value = (1.0 - share) * value + share * mean;
+        }
+        PolygonMoments found;
+        for (std::size_t k = 0; k < 4; ++k)
+        {
+          rows.AddSide(polygon[k], polygon[(k + 1) % 4], first, found);
+        }
+        const PolygonMoments expected =
+          windowMoments(mixed, { 1.0, 1.0 }, 2.0 * length, first, window, polygon);
+        constexpr double rounding = 1e-10; // of coordinates
+        EXPECT_NEAR(found.Mass, expected.Mass, rounding);
+        EXPECT_NEAR(found.First[0], expected.First[0], rounding * reach);
+        EXPECT_NEAR(found.First[1], expected.First[1], rounding * reach);
+        EXPECT_NEAR(found.Second, expected.Second, rounding * reach * reach);
+      }
+    }
+  }
+}
+
 // The integral along a side, times the side's motion, is the mass that it passes over.
 TEST(RowMoments, AlongASideIsTheDerivativeOfTheMass)
 {
@@ -125,7 +181,7 @@ TEST(RowMoments, AlongASideIsTheDerivativeOfTheMass)
     }
     EXPECT_NEAR(around / shift, along, 2e-3 * length);
     PolygonMoments whole;
-    rows.AddSide(a, b, whole);
+    rows.AddSide(a, b, { 0, 0 }, whole);
     EXPECT_NEAR(mass, whole.Mass, 1e-11);
   }
 }
