@@ -118,7 +118,7 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
   {
     return point;
   }
-  const Point<2> nearest = nearestMass<2>(cells, index);
+  const Point<2> nearest = nearestMass<2>(cells, index, this->Scale);
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
 }
 

@@ -46,8 +46,7 @@ public:
 
   // The lengths of the domain's sides.
   Point<2> Lengths() const;
-  // The nearest point of a cell that has mass, distances in cells along each axis; points of the
-  // domain that are in such a cell stay.
+  // The nearest point of a cell that has mass; points of the domain that are in such a cell stay.
   Point<2> NearestMass(const Point<2>& point) const;
   // Whether a cell has no mass.
   bool HasEmptyCells() const { return this->Empty; }

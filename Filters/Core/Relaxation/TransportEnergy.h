@@ -23,8 +23,8 @@ public:
   // All spacings are 1, the unit. Infinite where the masses cannot be made equal.
   double Evaluate(
     ConstPointSpan<2> points, PointSpan<2> gradient, double* spacings, Progress& progress) override;
-  // Points stay where the density has mass: those of square cells go to the nearest place, which
-  // lowers the cost most; in others distances count in cells.
+  // Points stay where the density has mass: others go to the nearest place, which lowers the cost
+  // most.
   void Constrain(PointSpan<2> points, Progress& progress) const override;
 
 private:

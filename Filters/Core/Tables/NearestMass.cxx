@@ -110,7 +110,8 @@ bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
 }
 
 template <int Dimension>
-Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
+Point<Dimension> nearestMass(
+  const TableView<Dimension>& tables, const Point<Dimension>& point, const Point<Dimension>& sides)
 {
   if (!tables.Occupied)
   {
@@ -119,11 +120,13 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
   constexpr double inset = 1.0 / (1 << 20);
   Cell<Dimension> centre;
   std::int64_t farthest = 1;
+  double thinnest = std::numeric_limits<double>::max(); // side across the rows
   for (int axis = 0; axis < Dimension; ++axis)
   {
     centre[axis] =
       std::min(static_cast<std::int64_t>(std::max(point[axis], 0.0)), tables.Cells[axis] - 1);
     farthest = axis > 0 ? std::max(farthest, tables.Cells[axis]) : farthest;
+    thinnest = axis > 0 ? std::min(thinnest, sides[axis]) : thinnest;
   }
   Cell<Dimension> nearest = centre;
   double best = std::numeric_limits<double>::max();
@@ -135,16 +138,17 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
       {
         return;
       }
-      across += gap(point[axis], at[axis]) * gap(point[axis], at[axis]);
+      const double distance = gap(point[axis], at[axis]) * sides[axis];
+      across += distance * distance;
     }
     if (across > best)
     {
       return;
     }
-    const double limit = std::sqrt(best - across);
+    const double limit = std::sqrt(best - across) / sides[0];
     const std::int64_t column =
       nearestInRow(occupiedRow<Dimension>(tables, at), tables.Cells[0], point[0], limit);
-    const double along = column < 0 ? 0.0 : gap(point[0], column);
+    const double along = column < 0 ? 0.0 : gap(point[0], column) * sides[0];
     if (column >= 0 && across + along * along < best)
     {
       best = across + along * along;
@@ -155,7 +159,7 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
   // Shells of rows around the point's own row; a shell's rows are at least shell - 1 cells away.
   for (std::int64_t shell = 0; shell < farthest; ++shell)
   {
-    const double least = static_cast<double>(std::max<std::int64_t>(shell - 1, 0));
+    const double least = static_cast<double>(std::max<std::int64_t>(shell - 1, 0)) * thinnest;
     if (least * least > best)
     {
       break;
@@ -200,8 +204,8 @@ Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dim
 template bool hasMass<1>(const TableView<1>&, const Point<1>&);
 template bool hasMass<2>(const TableView<2>&, const Point<2>&);
 template bool hasMass<3>(const TableView<3>&, const Point<3>&);
-template Point<1> nearestMass<1>(const TableView<1>&, const Point<1>&);
-template Point<2> nearestMass<2>(const TableView<2>&, const Point<2>&);
-template Point<3> nearestMass<3>(const TableView<3>&, const Point<3>&);
+template Point<1> nearestMass<1>(const TableView<1>&, const Point<1>&, const Point<1>&);
+template Point<2> nearestMass<2>(const TableView<2>&, const Point<2>&, const Point<2>&);
+template Point<3> nearestMass<3>(const TableView<3>&, const Point<3>&, const Point<3>&);
 
 } // namespace RectifiedTransport

@@ -13,9 +13,20 @@ namespace RectifiedTransport
 template <int Dimension>
 bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 
-// The point of a grid cell with mass that is nearest to `point`, at least 2^-20 inside that cell.
+// The point of a grid cell with mass that is nearest to `point`, at least 2^-20 inside that cell,
+// where a cell's sides have the lengths `sides`.
 template <int Dimension>
-Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
+Point<Dimension> nearestMass(
+  const TableView<Dimension>& tables, const Point<Dimension>& point, const Point<Dimension>& sides);
+
+// The same for cells whose sides are equal.
+template <int Dimension>
+Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
+{
+  Point<Dimension> sides;
+  sides.fill(1.0);
+  return nearestMass<Dimension>(tables, point, sides);
+}
 
 } // namespace RectifiedTransport
 

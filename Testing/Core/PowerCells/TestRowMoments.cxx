@@ -246,6 +246,21 @@ TEST(RowMoments, NearestMassIsInACellThatHasSome)
   EXPECT_EQ(full.NearestMass({ 4.0, 0.0 }), (Point<2>{ 4.0, 0.0 }));
 }
 
+// A cell ten times as high as wide: four cells to the side are nearer than one above.
+TEST(RowMoments, NearestMassIsNearInSpace)
+{
+  TestDensity<2> density = dirac<2>({ 9, 9 }, { 8, 4 });
+  density.Values[cellIndex<2>({ 4, 6 }, density.Size)] = 1.0;
+  const Point<2> upright = makeRows(density, { 0.1, 1.0 }).NearestMass({ 0.45, 4.5 });
+  EXPECT_NEAR(upright[0], 0.8, 1e-5);
+  EXPECT_NEAR(upright[1], 4.5, 1e-5);
+  const Point<2> flat = makeRows(density, { 1.0, 0.1 }).NearestMass({ 4.5, 0.45 });
+  EXPECT_NEAR(flat[0], 4.5, 1e-5);
+  EXPECT_NEAR(flat[1], 0.6, 1e-5);
+  const Point<2> square = makeRows(density).NearestMass({ 4.5, 4.5 });
+  EXPECT_NEAR(square[1], 6.0, 1e-5);
+}
+
 TEST(RowMoments, ThreadsDoNotMatter)
 {
   const TestDensity<2> density = randomCells<2>({ 130, 90 });

@@ -17,13 +17,15 @@ namespace
 {
 
 template <int Dimension>
-double distanceToCell(const Point<Dimension>& point, const GridSize<Dimension>& cell)
+double distanceToCell(
+  const Point<Dimension>& point, const GridSize<Dimension>& cell, const Point<Dimension>& sides)
 {
   double squared = 0.0;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const double low = static_cast<double>(cell[axis]);
-    const double gap = std::max({ low - point[axis], point[axis] - (low + 1.0), 0.0 });
+    const double gap =
+      std::max({ low - point[axis], point[axis] - (low + 1.0), 0.0 }) * sides[axis];
     squared += gap * gap;
   }
   return std::sqrt(squared);
@@ -31,7 +33,8 @@ double distanceToCell(const Point<Dimension>& point, const GridSize<Dimension>& 
 
 // One cell in `rarity` has mass.
 template <int Dimension>
-void expectNearest(const GridSize<Dimension>& size, int rarity)
+void expectNearest(const GridSize<Dimension>& size, int rarity,
+  const Point<Dimension>& sides = evenPoint<Dimension>(1.0))
 {
   TestDensity<Dimension> density = uniformDensity<Dimension>(size);
   std::mt19937_64 engine(7);
@@ -50,15 +53,17 @@ void expectNearest(const GridSize<Dimension>& size, int rarity)
     {
       if (density.Values[static_cast<std::size_t>(index)] > 0.0)
       {
-        least = std::min(least, distanceToCell<Dimension>(point, cellAt<Dimension>(index, size)));
+        least =
+          std::min(least, distanceToCell<Dimension>(point, cellAt<Dimension>(index, size), sides));
       }
     }
-    const Point<Dimension> moved = nearestMass<Dimension>(tables.View(), point);
+    const Point<Dimension> moved = nearestMass<Dimension>(tables.View(), point, sides);
     EXPECT_TRUE(hasMass<Dimension>(tables.View(), moved));
     double squared = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      squared += (moved[axis] - point[axis]) * (moved[axis] - point[axis]);
+      const double way = (moved[axis] - point[axis]) * sides[axis];
+      squared += way * way;
     }
     EXPECT_NEAR(std::sqrt(squared), least, 1e-5);
   }
@@ -80,6 +85,13 @@ TEST(NearestMass, InSpace)
 {
   expectNearest<3>({ 70, 11, 9 }, 500);
   expectNearest<3>({ 5, 6, 130 }, 2000);
+}
+
+TEST(NearestMass, AmongCellsThatAreNotSquare)
+{
+  expectNearest<2>({ 90, 70 }, 400, { 1.0, 10.0 });
+  expectNearest<2>({ 90, 70 }, 400, { 1.0, 0.1 });
+  expectNearest<3>({ 20, 19, 18 }, 700, { 0.2, 1.0, 3.0 });
 }
 
 } // namespace
