@@ -103,22 +103,28 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
   });
 }
 
-Point<2> RowMoments::NearestMass(const Point<2>& point) const
+TableView<2> RowMoments::Occupation() const
 {
   TableView<2> cells{};
   cells.Occupied = this->Empty ? this->Occupied.data() : nullptr;
   cells.WordsPerRow = this->WordsPerRow();
-  Point<2> index;
-  for (std::size_t a = 0; a < 2; ++a)
-  {
-    cells.Cells[a] = this->Size[a];
-    index[a] = point[a] / this->Scale[a];
-  }
-  if (hasMass<2>(cells, index))
+  cells.Cells[0] = this->Size[0];
+  cells.Cells[1] = this->Size[1];
+  return cells;
+}
+
+bool RowMoments::HasMass(const Point<2>& point) const
+{
+  return hasMass<2>(this->Occupation(), this->ToIndex(point));
+}
+
+Point<2> RowMoments::NearestMass(const Point<2>& point) const
+{
+  if (this->HasMass(point))
   {
     return point;
   }
-  const Point<2> nearest = nearestMass<2>(cells, index, this->Scale);
+  const Point<2> nearest = nearestMass<2>(this->Occupation(), this->ToIndex(point), this->Scale);
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
 }
 

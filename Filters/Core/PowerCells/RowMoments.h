@@ -8,6 +8,7 @@
 #include "Core/Geometry/Points.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/Density.h"
+#include "Core/Tables/TableView.h"
 
 #include <cstdint>
 
@@ -48,6 +49,7 @@ public:
   Point<2> Lengths() const;
   // The nearest point of a cell that has mass; points of the domain that are in such a cell stay.
   Point<2> NearestMass(const Point<2>& point) const;
+  bool HasMass(const Point<2>& point) const;
   // Whether a cell has no mass.
   bool HasEmptyCells() const { return this->Empty; }
   // Spreads this share of the mass evenly over the domain, in place of as much of the density's:
@@ -98,6 +100,11 @@ private:
   static constexpr std::int64_t cellsOfBlock = 16;
   std::int64_t BlocksPerRow() const { return (this->Size[0] + cellsOfBlock - 1) / cellsOfBlock; }
 
+  TableView<2> Occupation() const;
+  Point<2> ToIndex(const Point<2>& point) const
+  {
+    return { point[0] / this->Scale[0], point[1] / this->Scale[1] };
+  }
   std::int64_t WordsPerRow() const { return (this->Size[0] + 63) / 64; }
   DensitySummary ReadValues(const DensityValues& values, Progress& progress);
   void Accumulate(double total, const DensitySummary& found, Progress& progress);

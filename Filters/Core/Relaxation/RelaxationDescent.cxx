@@ -153,8 +153,10 @@ void RelaxationDescent<Dimension>::Shorten(Vector& direction) const
 }
 
 template <int Dimension>
-bool RelaxationDescent<Dimension>::Search(const Vector& direction)
+bool RelaxationDescent<Dimension>::Search(Vector direction)
 {
+  const auto count = static_cast<std::int64_t>(this->Spacings.size());
+  this->Function.Aim({ this->X.data(), count }, { direction.data(), count }, this->Work);
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
   {
@@ -187,8 +189,8 @@ double RelaxationDescent<Dimension>::Move(const Vector& direction, double part)
     const double side = this->Side(i);
     this->Next[i] = std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
   }
-  this->Function.Constrain(
-    { this->Next.data(), static_cast<std::int64_t>(this->Spacings.size()) }, this->Work);
+  const auto count = static_cast<std::int64_t>(this->Spacings.size());
+  this->Function.Constrain({ this->X.data(), count }, { this->Next.data(), count }, this->Work);
   double slope = 0.0;
   for (std::size_t i = 0; i < direction.size(); ++i)
   {

@@ -44,7 +44,7 @@ private:
   bool IsHeld(std::size_t i) const;
   Vector Direction();
   void Shorten(Vector& direction) const;
-  bool Search(const Vector& direction);
+  bool Search(Vector direction);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
   double Move(const Vector& direction, double part);
   void Accept(double found);

@@ -23,8 +23,12 @@ public:
     double* spacings, Progress& progress) = 0;
   // Called now and then with the points that will be evaluated next, or some near them.
   virtual void Sort(ConstPointSpan<Dimension>, Progress&) {}
-  // Moves points of the domain that a step took to where none may be; distinct ones stay so.
-  virtual void Constrain(PointSpan<Dimension>, Progress&) const {}
+  // There may be places in the domain where no point shall be. Changes the steps of points that are
+  // there: whole steps lead away.
+  virtual void Aim(ConstPointSpan<Dimension>, PointSpan<Dimension>, Progress&) const {}
+  // Moves the ends of a part of the steps away from there, for points that were not there before.
+  // The points stay distinct.
+  virtual void Constrain(ConstPointSpan<Dimension>, PointSpan<Dimension>, Progress&) const {}
 };
 
 } // namespace RectifiedTransport

@@ -32,7 +32,8 @@ public:
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->X.size()) / Dimension; }
   ConstPointSpan<Dimension> Get() const { return { this->X.data(), this->Size() }; }
-  // The coordinates, to be changed.
+  // To be changed, as points and as coordinates.
+  PointSpan<Dimension> Get() { return { this->X.data(), this->Size() }; }
   std::vector<double>& Coordinates() { return this->X; }
 
   // Moves all but one of coincident points by a part of the spacing at a place, in directions that

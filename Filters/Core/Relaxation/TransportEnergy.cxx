@@ -2,7 +2,9 @@
 #include "Core/Relaxation/TransportEnergy.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/PowerCells/SeparateSites.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace RectifiedTransport
@@ -29,29 +31,63 @@ double TransportEnergy::Evaluate(
   return 0.5 * cost;
 }
 
-void TransportEnergy::Constrain(PointSpan<2> points, Progress& progress) const
+template <class Visit>
+void TransportEnergy::VisitPoints(
+  ConstPointSpan<2> points, bool haveMass, Progress& progress, const Visit& visit) const
 {
-  if (!this->Partition.Density().HasEmptyCells())
+  constexpr std::int64_t grain = 256;
+  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      if (this->Partition.Density().HasMass({ points[i][0], points[i][1] }) == haveMass)
+      {
+        visit(i);
+      }
+    }
+  });
+}
+
+void TransportEnergy::Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress& progress) const
+{
+  const RowMoments& density = this->Partition.Density();
+  if (!density.HasEmptyCells())
   {
     return;
   }
-  // What is left of the way to the nearest mass: distinct points stay distinct.
-  constexpr double rest = 1e-7;
-  constexpr std::int64_t grain = 256;
-  progress.For(
-    points.size(), grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        double* x = points[i];
-        const Point<2> nearest = this->Partition.Density().NearestMass({ x[0], x[1] });
-        for (std::size_t axis = 0; axis < 2; ++axis)
-        {
-          x[axis] = nearest[axis] + rest * (x[axis] - nearest[axis]);
-        }
-      }
-    },
-    grain * 16);
+  const Point<2> lengths = density.Lengths();
+  this->VisitPoints(points, false, progress, [&](std::int64_t i) {
+    Point<2> end;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      end[axis] = std::clamp(points[i][axis] + steps[i][axis], 0.0, lengths[axis]);
+    }
+    end = density.NearestMass(end);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      steps[i][axis] = end[axis] - points[i][axis];
+    }
+  });
+}
+
+void TransportEnergy::Constrain(
+  ConstPointSpan<2> from, PointSpan<2> points, Progress& progress) const
+{
+  const RowMoments& density = this->Partition.Density();
+  if (!density.HasEmptyCells())
+  {
+    return;
+  }
+  this->VisitPoints(from, true, progress, [&](std::int64_t i) {
+    const Point<2> nearest = density.NearestMass({ points[i][0], points[i][1] });
+    std::copy(nearest.begin(), nearest.end(), points[i]);
+  });
+  this->Separate(points, progress);
+}
+
+void TransportEnergy::Separate(PointSpan<2> points, Progress& progress) const
+{
+  separateSites(
+    points, leastSiteDistance, { { 0.0, 0.0 }, this->Partition.Density().Lengths() }, progress);
 }
 
 } // namespace RectifiedTransport

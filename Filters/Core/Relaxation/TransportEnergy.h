@@ -23,11 +23,20 @@ public:
   // All spacings are 1, the unit. Infinite where the masses cannot be made equal.
   double Evaluate(
     ConstPointSpan<2> points, PointSpan<2> gradient, double* spacings, Progress& progress) override;
-  // Points stay where the density has mass: others go to the nearest place, which lowers the cost
-  // most.
-  void Constrain(PointSpan<2> points, Progress& progress) const override;
+  // Points go to the nearest place where the density has mass, which lowers the cost most, and stay
+  // apart there. Those that begin where it has none take the whole way only with a whole step: the
+  // cost may rise over long ways.
+  void Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress& progress) const override;
+  void Constrain(ConstPointSpan<2> from, PointSpan<2> points, Progress& progress) const override;
+  // Moves points that the diagram cannot tell apart, in the domain.
+  void Separate(PointSpan<2> points, Progress& progress) const;
 
 private:
+  // For what has mass at the points, or has none.
+  template <class Visit>
+  void VisitPoints(
+    ConstPointSpan<2> points, bool haveMass, Progress& progress, const Visit& visit) const;
+
   EqualMassPartition& Partition;
 };
 

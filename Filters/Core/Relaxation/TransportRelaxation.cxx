@@ -25,13 +25,15 @@ RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2
   const auto count = static_cast<double>(points.size());
   const RelaxationFrame<2> frame(density.Size, spacing, points.size());
   RelaxedPoints<2> relaxed(points, frame);
-  relaxed.Separate([](const Point<2>&) { return 1.0; }, progress);
   relaxed.Arrange(progress);
   EqualMassPartition partition(
     RowMoments(density, frame.CellSides, count, progress), points.size());
   TransportEnergy energy(partition);
-  // Steps may be as long as they come: the cells of other points do not change by themselves.
-  const DescentSettings settings = { std::numeric_limits<double>::infinity(), 0.0, 2.0 / count };
+  energy.Separate(relaxed.Get(), progress);
+  // Steps may be as long as they come: the cells of other points do not change by themselves. The
+  // function is half the cost, and the frame's area is no unit where one side is thin.
+  const double area = frame.Sides[0] * frame.Sides[1];
+  const DescentSettings settings = { std::numeric_limits<double>::infinity(), 0.0, 2.0 / area };
   progress.BeginStage(0.2);
   const RelaxationReport report =
     RelaxationDescent<2>(energy, frame, settings, relaxed.Coordinates(), progress).Run(options);

@@ -5,7 +5,7 @@
 #include "Core/PowerCells/EqualMassPartition.h"
 #include "Core/PowerCells/RectangleFit.h"
 #include "Core/SiteCells/LabelPolygons.h"
-#include "Core/SiteCells/SeparateSites.h"
+#include "Core/PowerCells/SeparateSites.h"
 #include "Core/Tables/Density.h"
 
 #include <algorithm>
@@ -17,9 +17,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// In units of the mean spacing. At less a pair's bisector has too few digits.
-constexpr double leastDistance = 1e-5;
 
 class Ones final : public DensityValues
 {
@@ -111,7 +108,7 @@ PowerSiteCells::PowerSiteCells(
   const std::vector<Point<2>> given = flat;
   // A site far outside leaves little room to the others.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
-  separateSites(flat, leastDistance * scale, progress);
+  separateSites(flat, leastSiteDistance * scale, SiteBounds(), progress);
 
   progress.BeginStage(1.0);
   EqualMassPartition partition(

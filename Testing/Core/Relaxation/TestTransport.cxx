@@ -128,6 +128,66 @@ TEST(Transport, LeavesHoles)
   EXPECT_GT(after.MeanSpacing, 0.75);
 }
 
+// One point between parts that the others are in: it leaves, and does not hold the others.
+TEST(Transport, OnePointInAHole)
+{
+  TestDensity<2> density = uniformDensity<2>({ 90, 30 }, 0.0);
+  for (std::int64_t row = 0; row < 30; ++row)
+  {
+    for (std::int64_t column = 0; column < 25; ++column)
+    {
+      density.Values[static_cast<std::size_t>(row * 90 + column)] = 1.0;
+      density.Values[static_cast<std::size_t>(row * 90 + column + 60)] = 1.0;
+    }
+  }
+  Points<2> points = flowStart<2>(density, 100);
+  points.push_back({ 40.0, 12.5 });
+  const RelaxationReport report = relax(density, points, iterations(5));
+  EXPECT_EQ(report.Energy.size(), 6u);
+  EXPECT_LT(report.Energy.back(), report.Energy.front() - 0.02);
+  EXPECT_EQ(qualityOf<2>(density, points).InEmptyCells, 0);
+}
+
+// Copies that differ by rounding, and points so near that their bisectors have no digits.
+TEST(Transport, NearlyCoincidentPoints)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 40, 40 });
+  for (const double apart : { 1e-15, 1e-11, 1e-7 })
+  {
+    Points<2> points = randomPoints<2>(density.Size, 40);
+    for (std::size_t i = 0; i < 20; ++i)
+    {
+      const Point<2> copied = points[i];
+      points.push_back({ copied[0] * (1.0 + apart), copied[1] });
+    }
+    Points<2> reversed(points.rbegin(), points.rend());
+    const RelaxationReport report = relax(density, points, iterations(3));
+    EXPECT_EQ(report.Energy.size(), 4u);
+    expectDescent<2>(report, points, density.Size);
+    EXPECT_GT(qualityOf<2>(density, points).SmallestSpacing, 0.01);
+    EXPECT_EQ(relax(density, reversed, iterations(3)).Energy, report.Energy);
+  }
+}
+
+// A side that is thinner than the mean spacing: the energy has the same unit.
+TEST(Transport, EnergyOfAThinDomain)
+{
+  const TestDensity<2> density = uniformDensity<2>({ 100, 1 });
+  Points<2> points;
+  for (int i = 0; i < 10; ++i)
+  {
+    points.push_back({ 10.0 * i + 5.0, 0.5 });
+  }
+  // N / A times the mean of (x^2 + y^2) over a cell of sides 10 and `height`.
+  for (const double height : { 0.01, 1.0, 40.0 })
+  {
+    const double expected = 10.0 / (100.0 * height) * (100.0 + height * height) / 12.0;
+    const RelaxationReport report =
+      relax(density, points, iterations(0), Context(), { 1.0, height });
+    EXPECT_NEAR(report.Energy.front(), expected, 1e-9 * expected) << height;
+  }
+}
+
 // Parts that do not touch, with masses that are no whole numbers of points.
 TEST(Transport, PartsApart)
 {

@@ -4,7 +4,6 @@
 
 #include "Core/Parallel/Progress.h"
 #include "Core/SiteCells/LabelPolygons.h"
-#include "Core/SiteCells/SeparateSites.h"
 #include "Core/SiteCells/SiteCells.h"
 
 #include "RecordingContext.h"
@@ -295,33 +294,6 @@ TEST(PowerSiteCells, CoincidentSites)
   const PowerSiteCells shared(one, grid);
   expectCells(shared, grid);
   EXPECT_NEAR(measure(shared).Total, 2.0 * 16.0 / 12.0 + 1.0 + 0.25, 1e-6);
-}
-
-TEST(PowerSiteCells, SeparatedSitesAreApart)
-{
-  Points<2> places = randomPoints<2>({ 1, 1 }, 3000, 8);
-  for (std::size_t i = 1000; i < 2500; ++i)
-  {
-    places[i] = i % 2 == 0 ? places[7] : Point<2>{ 0.5 + 1e-4 * places[i][0], 0.5 };
-  }
-  const Points<2> given = places;
-  Progress progress{ Context() };
-  progress.BeginStage(1.0);
-  constexpr double distance = 1e-3;
-  separateSites(places, distance, progress);
-  std::size_t stayed = 0;
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    stayed += places[i] == given[i] ? 1 : 0;
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      ASSERT_GE(std::hypot(places[i][0] - places[j][0], places[i][1] - places[j][1]),
-        distance * (1.0 - 1e-12));
-    }
-    // A disc that holds 1500 of them.
-    EXPECT_LT(std::hypot(places[i][0] - given[i][0], places[i][1] - given[i][1]), 0.15);
-  }
-  EXPECT_GT(stayed, 1300u);
 }
 
 // Lattices put borders through the centres of pixels, strips a border into every row or column.

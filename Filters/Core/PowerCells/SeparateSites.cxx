@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/SiteCells/SeparateSites.h"
+#include "Core/PowerCells/SeparateSites.h"
 
 #include "Core/Parallel/Progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +21,10 @@ namespace
 class SiteSquares
 {
 public:
-  SiteSquares(PointSpan<2> sites, double distance)
+  SiteSquares(PointSpan<2> sites, double distance, const SiteBounds& bounds)
     : Sites(sites)
     , Distance(distance)
+    , Bounds(bounds)
   {
     this->Squares.reserve(static_cast<std::size_t>(sites.size()));
     this->Next.assign(static_cast<std::size_t>(sites.size()), none);
@@ -42,7 +44,11 @@ public:
       home.Turn = { cosine * home.Turn[0] - sine * home.Turn[1],
         sine * home.Turn[0] + cosine * home.Turn[1] };
       const double radius = 2.0 * this->Distance * std::sqrt(static_cast<double>(++home.Tried));
-      x = { given[0] + radius * home.Turn[0], given[1] + radius * home.Turn[1] };
+      for (std::size_t a = 0; a < 2; ++a)
+      {
+        const double place = given[a] + radius * home.Turn[a];
+        x[a] = std::clamp(place, this->Bounds.Low[a], this->Bounds.High[a]);
+      }
     }
     this->Sites[site][0] = x[0];
     this->Sites[site][1] = x[1];
@@ -102,15 +108,17 @@ private:
 
   const PointSpan<2> Sites;
   const double Distance;
+  const SiteBounds Bounds;
   std::unordered_map<Key, Square, Hash> Squares;
   std::vector<std::int64_t> Next; // in the same square
 };
 
 } // namespace
 
-void separateSites(PointSpan<2> sites, double distance, Progress& progress)
+void separateSites(
+  PointSpan<2> sites, double distance, const SiteBounds& bounds, Progress& progress)
 {
-  SiteSquares squares(sites, distance);
+  SiteSquares squares(sites, distance, bounds);
   progress.ForInOrder(
     sites.size(), 1,
     [&squares](std::int64_t first, std::int64_t last) {
