@@ -42,6 +42,8 @@ public:
   DensityImage& operator=(const DensityImage&) = delete;
 
   const ImageGrid& Grid() const { return this->Geometry; }
+  // What messages call it.
+  const std::string& GetName() const { return this->Name; }
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }

@@ -162,6 +162,12 @@ RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const DensityI
   {
     density.ThrowInvalid(invalid.Summary());
   }
+  catch (const NoEqualMasses&)
+  {
+    throw Failure("The " + density.GetName() + " has no cells of equal mass, as Method " +
+      "OptimalTransport needs them, that were found for these " + std::to_string(points.size()) +
+      " points: they are too far from distributed like it; start from Sample Density");
+  }
 }
 
 template <int D>

@@ -12,6 +12,7 @@
 #include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
 
+#include <stdexcept>
 #include <vector>
 
 namespace RectifiedTransport
@@ -28,6 +29,13 @@ struct RelaxationReport
 {
   // That of the points as they were given, then that after each iteration: never more than before.
   std::vector<double> Energy;
+};
+
+// Points for which no cells of equal masses were found.
+class NoEqualMasses : public std::runtime_error
+{
+public:
+  NoEqualMasses();
 };
 
 // Points are in index space, where grid cell i is [i, i + 1], and `spacing` has the lengths of a
@@ -53,13 +61,12 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
 // through Optimal Transport", ACM TOG 31(6), 2012): the weights of a power diagram that give all
 // points equal masses, then the points to the centroids of their cells. The energy is
 // N / (M A) times the integral of density * |x - point of x|^2 over the cells, for N points, the
-// density's mass M and the domain's area A, whose sides must both be longer than the mean spacing.
-// Masses are equal to 1e-6 of each other. Points that an iteration moves stay where the density has
-// mass: at the nearest place, in cells, to a centroid that has none. Limits: a point that begins
-// where there is none may hold all points where they are; points nearer than about 1e-10 of the
-// spacing, but not at one place, and points far from distributed like a density with large holes or
-// a narrow peak take minutes, or have no weights, which is a std::runtime_error. Also throws
-// std::invalid_argument for points that are not finite.
+// density's mass M and the domain's area A. Masses are equal to 1e-6 of each other. Points that an
+// iteration moves stay where the density has mass, at the nearest place to where they should go;
+// those that begin where it has none leave with their first whole step. Points far from distributed
+// like a density with large holes or narrow peaks take long before the first iteration, up to
+// minutes where they are thousands; where no cells of equal masses are found, that is a
+// NoEqualMasses. Also throws std::invalid_argument for points that are not finite.
 RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2>& spacing,
   PointSpan<2> points, const RelaxationOptions& options = {}, const Context& context = Context());
 

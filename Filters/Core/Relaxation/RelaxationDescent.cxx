@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace RectifiedTransport
@@ -39,11 +38,6 @@ RelaxationDescent<Dimension>::RelaxationDescent(RelaxationEnergy<Dimension>& ene
 {
   this->Function.Sort({ x.data(), static_cast<std::int64_t>(x.size()) / Dimension }, progress);
   this->Value = this->Evaluate(this->X, this->Gradient, this->Spacings);
-  if (!std::isfinite(this->Value))
-  {
-    throw std::runtime_error("the energy of the points cannot be computed: they are too far from "
-                             "distributed like the density (begin with particles of it)");
-  }
 }
 
 template <int Dimension>

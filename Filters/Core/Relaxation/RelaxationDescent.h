@@ -8,6 +8,7 @@
 #include "Core/Relaxation/RelaxationEnergy.h"
 #include "Core/Relaxation/RelaxationFrame.h"
 
+#include <cmath>
 #include <vector>
 
 namespace RectifiedTransport
@@ -24,11 +25,12 @@ template <int Dimension>
 class RelaxationDescent
 {
 public:
-  // The coordinates `x` of the points, in `frame`, are changed by each step. An energy that is not
-  // finite is a std::runtime_error.
+  // The coordinates `x` of the points, in `frame`, are changed by each step.
   RelaxationDescent(RelaxationEnergy<Dimension>& energy, const RelaxationFrame<Dimension>& frame,
     const DescentSettings& settings, std::vector<double>& x, Progress& progress);
 
+  // Whether the energy of the points could be computed; there is no run else.
+  bool HasEnergy() const { return std::isfinite(this->Value); }
   // Takes steps as the options say; each is a stage, the last of which ends at 1.
   RelaxationReport Run(const RelaxationOptions& options);
 

@@ -12,6 +12,12 @@
 namespace RectifiedTransport
 {
 
+NoEqualMasses::NoEqualMasses()
+  : std::runtime_error("no cells of equal masses were found: the points are too far from "
+                       "distributed like the density")
+{
+}
+
 RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2>& spacing,
   PointSpan<2> points, const RelaxationOptions& options, const Context& context)
 {
@@ -35,8 +41,12 @@ RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2
   const double area = frame.Sides[0] * frame.Sides[1];
   const DescentSettings settings = { std::numeric_limits<double>::infinity(), 0.0, 2.0 / area };
   progress.BeginStage(0.2);
-  const RelaxationReport report =
-    RelaxationDescent<2>(energy, frame, settings, relaxed.Coordinates(), progress).Run(options);
+  RelaxationDescent<2> descent(energy, frame, settings, relaxed.Coordinates(), progress);
+  if (!descent.HasEnergy())
+  {
+    throw NoEqualMasses();
+  }
+  const RelaxationReport report = descent.Run(options);
   relaxed.Write(density.Size, points);
   progress.BeginStage(1.0);
   progress.EndSlice(1);

@@ -274,6 +274,8 @@ TEST(Transport, WhatIsRefused)
   EXPECT_EQ(run(iterations(-1), { 1.0, 1.0 }), "MaximumIterations is -1, it must be 0 or more");
   EXPECT_NE(run(iterations(5, 1.0), { 1.0, 1.0 }).find("Tolerance"), std::string::npos);
   EXPECT_NE(run(iterations(5), { 1.0, 0.0 }).find("spacing"), std::string::npos);
+  EXPECT_THROW(
+    relax(density, points, iterations(5), Context(), Point<2>{ 1.0, 1e-70 }), NoEqualMasses);
   points[4][1] = std::nan("");
   EXPECT_EQ(run(iterations(5), { 1.0, 1.0 }), "point 4 is not finite");
   points[4][1] = 1.0;
