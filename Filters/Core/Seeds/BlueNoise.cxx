@@ -4,6 +4,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Seeds/BlueNoiseTile.h"
+#include "Core/Seeds/WindowBorder.h"
 
 #include <Eigen/Core>
 
@@ -457,6 +458,10 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed
     else
     {
       Window<Dimension>(lengths, count, randomSeed, progress).Generate(unitPoints);
+      if constexpr (Dimension == 2)
+      {
+        relaxBorder(lengths, unitPoints, progress);
+      }
     }
   }
 }

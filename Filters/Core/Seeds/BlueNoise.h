@@ -14,7 +14,7 @@ class Progress;
 
 // Fills unitPoints with `count` points of the unit box, evenly spaced in a box of sides `lengths`;
 // O(count) time, O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already
-// checked. Adds about 2 * count to the progress. Throws Cancelled.
+// checked. Adds about 3 * count to the progress in 2D, else 2 * count. Throws Cancelled.
 //
 // 2D and 3D: a relaxed toroidal tile is repeated periodically, and the points are those of a window
 // of the box's shape at a corner, of the size that holds `count`. The window is rotated against the
@@ -22,6 +22,12 @@ class Progress;
 // tile and no period is visible. The random seed chooses the corner and one of the tile's 8 or 48
 // symmetries. A box less than about one mean spacing thick gets the pattern of one dimension less,
 // and an additive recurrence across.
+// 2D: the points within two mean spacings of the faces then move towards the centroids of their
+// Voronoi cells (WindowBorder.h). The tile does not know of the cut, which makes the mean squared
+// distance from the nearest point larger, by 0.14 / sqrt(count) of area by number in a square: 0.06
+// stay of the 0.14. Points at a face then tend to stand in rows along it; layers of whole rows have
+// their share of the points. The cells of the first row are about 2 % smaller than the mean, those
+// of the second as much larger. In 3D the window stays as it is cut.
 // 1D: one point in each of `count` equal intervals, jittered over half of it: spacings are between
 // 0.5 and 1.5 of the mean.
 template <int Dimension>

@@ -287,7 +287,9 @@ void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::ui
     return;
   }
   Progress progress(context);
-  progress.BeginStage(1.0, (pattern == SeedPattern::BlueNoise ? 2 : Dimension) * count);
+  constexpr int unitsOfBlueNoise = Dimension == 2 ? 3 : 2;
+  progress.BeginStage(
+    1.0, (pattern == SeedPattern::BlueNoise ? unitsOfBlueNoise : Dimension) * count);
   switch (pattern)
   {
     case SeedPattern::BlueNoise:

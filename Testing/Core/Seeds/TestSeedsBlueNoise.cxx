@@ -175,9 +175,9 @@ void expectSpacing(const Point<Dimension>& lengths, std::int64_t count, int numb
   }
 }
 
-// The project's promise is 0.65 and 0.85; it reaches 0.85 and 0.87 for any box and count from 100.
+// The project's promise is 0.65 and 0.85.
 constexpr double smallest2D = 0.83;
-constexpr double mean2D = 0.86;
+constexpr double mean2D = 0.88;
 
 TEST(BlueNoise, KeepsItsSpacingInTheRectangle)
 {
@@ -187,11 +187,13 @@ TEST(BlueNoise, KeepsItsSpacingInTheRectangle)
   {
     for (std::int64_t count : { 100, 101, 127, 200, 333, 1000 })
     {
-      expectSpacing<2>(lengths, count, 100, smallest2D, mean2D);
+      // Two rows in a strip are less than a hexagonal lattice.
+      const bool isStrip = static_cast<double>(count) < 2.5 * lengths[1] / lengths[0];
+      expectSpacing<2>(lengths, count, 25, smallest2D, isStrip ? 0.86 : mean2D);
     }
-    expectSpacing<2>(lengths, 4096, 20, smallest2D, mean2D);
-    expectSpacing<2>(lengths, 8192, 10, smallest2D, mean2D);
-    expectSpacing<2>(lengths, 40000, 3, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 4096, 8, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 8192, 4, smallest2D, mean2D);
+    expectSpacing<2>(lengths, 40000, 1, smallest2D, mean2D);
     expectSpacing<2>(lengths, 100000, 1, smallest2D, mean2D);
   }
 }
@@ -200,7 +202,7 @@ TEST(BlueNoise, KeepsItsSpacingForEveryCount)
 {
   for (std::int64_t count = 100; count < 700; ++count)
   {
-    expectSpacing<2>({ 1.5, 1.0 }, count, 3, smallest2D, mean2D);
+    expectSpacing<2>({ 1.5, 1.0 }, count, 1, smallest2D, mean2D);
   }
 }
 
@@ -376,63 +378,71 @@ TEST(BlueNoiseTile, IsSpacedAndHasNoPeaks)
 // The box of `count` points ends half way between the last of them and the first outside: the one
 // that the box of count + 1 has besides, in another unit. Returns where the two are, in the first
 // box's unit.
-template <int Dimension>
 std::array<double, 2> lastAndNext(
-  const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed)
+  const Point<3>& lengths, std::int64_t count, std::uint64_t randomSeed)
 {
   double unit = 1.0;
   std::array<double, 2> largest{};
   for (int more = 0; more < 2; ++more)
   {
-    const auto points = seeds<Dimension>(SeedPattern::BlueNoise, lengths, count + more, randomSeed);
+    const auto points = seeds<3>(SeedPattern::BlueNoise, lengths, count + more, randomSeed);
     largest[more] = *std::max_element(points.begin(), points.end());
     // The same point is the nearest to the corner in both.
-    double nearest = Dimension;
-    for (std::size_t i = 0; i < points.size(); i += Dimension)
+    double nearest = 3.0;
+    for (std::size_t i = 0; i < points.size(); i += 3)
     {
-      nearest =
-        std::min(nearest, std::accumulate(points.begin() + i, points.begin() + i + Dimension, 0.0));
+      nearest = std::min(nearest, std::accumulate(points.begin() + i, points.begin() + i + 3, 0.0));
     }
     unit = more == 0 ? nearest : unit / nearest;
   }
   return { largest[0], largest[1] * unit };
 }
 
+// In 3D: in 2D windows end there too, but the points at their faces move.
 TEST(BlueNoise, EndsHalfWayToTheNextPoint)
 {
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
   {
     for (const std::int64_t count : { 100, 101, 1000 })
     {
-      for (const auto& [last, next] : { lastAndNext<2>({ 4.0, 3.0 }, count, seed),
-             lastAndNext<3>({ 1.0, 2.0, 1.5 }, count, seed) })
-      {
-        EXPECT_LT(last, 1.0) << count << ", seed " << seed;
-        EXPECT_NEAR(1.0 - last, next - 1.0, 1e-11) << count << ", seed " << seed;
-      }
+      const auto [last, next] = lastAndNext({ 1.0, 2.0, 1.5 }, count, seed);
+      EXPECT_LT(last, 1.0) << count << ", seed " << seed;
+      EXPECT_NEAR(1.0 - last, next - 1.0, 1e-11) << count << ", seed " << seed;
     }
   }
 }
 
+// Seeds at a face stand in rows as those of a relaxed pattern do, the first half a row from it:
+// within half a mean spacing of the face their share says where that row is, not how dense it is
+// (it is 1.17). Layers that hold whole rows have the share of a uniform density.
 TEST(BlueNoise, IsAsDenseAtTheFacesAsInside)
 {
-  // Layers half a mean spacing thick.
   constexpr int count = 400;
   constexpr int numberOfSeeds = 500;
-  const double layer = 0.025;
-  double share[4] = {};
+  const std::array<double, 2> layersAndTolerances[] = { { 1.0, 0.02 }, { 2.0, 0.01 },
+    { 3.0, 0.01 } };
+  double share[3][4] = {};
   for (int seed = 0; seed < numberOfSeeds; ++seed)
   {
     const auto points = seeds<2>(SeedPattern::BlueNoise, { 1.0, 1.0 }, count, seed);
-    for (int i = 0; i < 2 * count; ++i)
+    for (int layer = 0; layer < 3; ++layer)
     {
-      share[i % 2] += points[i] < layer ? 1.0 : 0.0;
-      share[2 + i % 2] += points[i] > 1.0 - layer ? 1.0 : 0.0;
+      const double thickness = layersAndTolerances[layer][0] / std::sqrt(count);
+      for (int i = 0; i < 2 * count; ++i)
+      {
+        share[layer][i % 2] += points[i] < thickness ? 1.0 : 0.0;
+        share[layer][2 + i % 2] += points[i] > 1.0 - thickness ? 1.0 : 0.0;
+      }
     }
   }
-  for (double found : share)
+  for (int layer = 0; layer < 3; ++layer)
   {
-    EXPECT_NEAR(found / (layer * count * numberOfSeeds), 1.0, 0.06);
+    const auto& [spacings, tolerance] = layersAndTolerances[layer];
+    for (double found : share[layer])
+    {
+      EXPECT_NEAR(found / (spacings * std::sqrt(count) * numberOfSeeds), 1.0, tolerance)
+        << spacings;
+    }
   }
 }
 
