@@ -5,7 +5,7 @@
  *
  * A source of seeds for vtkTransportSampler, and of uniform samples in general. The output is a
  * vtkPolyData with double points and one vertex a point. Cost: O(points); blue noise takes less
- * than 10 ms for 100,000 points, 0.1 s in a strip that is a few points thick. Memory: 40 bytes a
+ * than 10 ms for 100,000 points, 0.05 s in a strip that is a few points thick. Memory: 40 bytes a
  * point, and while it runs 16 more in 2D, 50 more for blue noise in such a strip.
  *
  * Bounds that are not finite or not in ascending order, a Dimension other than 2 and 3 and a

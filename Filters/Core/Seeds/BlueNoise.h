@@ -22,9 +22,9 @@ class Progress;
 // tile and no period is visible. The random seed chooses the corner and one of the tile's 8 or 48
 // symmetries. A box less than about one mean spacing thick gets the pattern of one dimension less,
 // and an additive recurrence across.
-// 2D: the points within two mean spacings of the faces then move towards the centroids of their
+// 2D: the points within a mean spacing of the faces then move towards the centroids of their
 // Voronoi cells (WindowBorder.h). The tile does not know of the cut, which makes the mean squared
-// distance from the nearest point larger, by 0.14 / sqrt(count) of area by number in a square: 0.06
+// distance from the nearest point larger, by 0.14 / sqrt(count) of area by number in a square: 0.07
 // stay of the 0.14. Points at a face then tend to stand in rows along it; layers of whole rows have
 // their share of the points. The cells of the first row are about 2 % smaller than the mean, those
 // of the second as much larger. In 3D the window stays as it is cut.

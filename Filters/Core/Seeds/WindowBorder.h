@@ -11,7 +11,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Moves the seeds within two mean spacings of the faces of a rectangle of sides `lengths` towards
+// Moves the seeds within a mean spacing of the faces of a rectangle of sides `lengths` towards
 // the centroids of their Voronoi cells (Lloyd's method, over-relaxed); the others stay, and so does
 // the order. The mean squared distance of the rectangle from the nearest seed falls, and no two
 // seeds come nearer to each other than 0.86 of the spacing of the hexagonal lattice, or than they
@@ -20,8 +20,8 @@ class Progress;
 // There is at least one seed, and no two are in one place. Seeds that move should have their
 // neighbours within two mean spacings, as in any even pattern: those that are farther inside are
 // not regarded. Takes O(sqrt(count)) memory, and as much time after a pass over all seeds; O(count)
-// in strips, where all are at the border. Adds to the progress the number of seeds, and twice that
-// of those that move. Throws Cancelled.
+// in strips, where all are at the border. Adds to the progress the number of seeds, and that of
+// those that move. Throws Cancelled.
 void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -414,7 +414,7 @@ TEST(BlueNoise, EndsHalfWayToTheNextPoint)
 
 // Seeds at a face stand in rows as those of a relaxed pattern do, the first half a row from it:
 // within half a mean spacing of the face their share says where that row is, not how dense it is
-// (it is 1.17). Layers that hold whole rows have the share of a uniform density.
+// (it is 1.13). Layers that hold whole rows have the share of a uniform density.
 TEST(BlueNoise, IsAsDenseAtTheFacesAsInside)
 {
   constexpr int count = 400;
