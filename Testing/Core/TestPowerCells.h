@@ -4,6 +4,7 @@
 #define RectifiedTransport_TestPowerCells_h
 
 #include "Core/Parallel/Progress.h"
+#include "Core/PowerCells/EqualMassPartition.h"
 #include "Core/PowerCells/PowerDiagram.h"
 #include "Core/PowerCells/RowMoments.h"
 
@@ -185,6 +186,30 @@ inline TestDensity<2> spots(const GridSize<2>& size)
     return 0.01 + 0.4 * spot(0.3, 0.35, 0.2) + spot(0.7, 0.6, 0.08) + 3.0 * spot(0.55, 0.2, 0.02) +
       0.8 * spot(0.2, 0.8, 0.05);
   });
+}
+
+// As the work of a stage of its own.
+inline bool solve(
+  EqualMassPartition& partition, const Points<2>& sites, const Context& context = Context())
+{
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  return partition.Solve(sites, progress);
+}
+
+inline EqualMassPartition makePartition(const TestDensity<2>& density, std::size_t sites,
+  const Point<2>& scale = { 1.0, 1.0 }, const Context& context = Context())
+{
+  const auto count = static_cast<std::int64_t>(sites);
+  return { makeRows(density, scale, static_cast<double>(count), context), count };
+}
+
+inline EqualMassPartition solved(const TestDensity<2>& density, const Points<2>& sites,
+  const Point<2>& scale = { 1.0, 1.0 }, const Context& context = Context())
+{
+  EqualMassPartition partition = makePartition(density, sites.size(), scale, context);
+  EXPECT_TRUE(solve(partition, sites, context));
+  return partition;
 }
 
 } // namespace RectifiedTransport

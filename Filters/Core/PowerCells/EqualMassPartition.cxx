@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/PowerCells/EqualMassPartition.h"
 
-#include "Core/Algebra/SparseCholesky.h"
+#include "Core/Algebra/GraphLaplacian.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/PowerCells/RectangleFit.h"
 
@@ -401,10 +401,7 @@ double EqualMassPartition::Slope(const Vector& weights) const
 // strengths. Weights are determined up to a constant; damping determines it.
 bool EqualMassPartition::FindDirection(double damping, Progress& progress)
 {
-  using Real = InterruptibleReal;
-  const auto count = static_cast<Eigen::Index>(this->Masses.size());
-  std::vector<Eigen::Triplet<Real>> values;
-  values.reserve(this->Masses.size() * 8);
+  GraphLaplacian system(this->Cells.NumberOfCells());
   for (std::int64_t place = 0; place < this->Cells.NumberOfCells(); ++place)
   {
     const std::int64_t i = this->Cells.SiteAt(place);
@@ -415,44 +412,15 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
       const std::int64_t j = cell[k].Neighbour;
       if (j >= 0 && j < i)
       {
-        values.emplace_back(i, i, sides[k].Strength);
-        values.emplace_back(j, j, sides[k].Strength);
-        values.emplace_back(i, j, -sides[k].Strength);
+        system.AddEdge(j, i, sides[k].Strength);
       }
     }
   }
   progress.Check();
-  double trace = 0.0;
-  for (const Eigen::Triplet<Real>& value : values)
-  {
-    trace += value.row() == value.col() ? value.value().Value : 0.0;
-  }
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    values.emplace_back(i, i, damping * trace / static_cast<double>(count));
-  }
-  SparseCholesky::Matrix lower(count, count);
-  lower.setFromTriplets(values.begin(), values.end());
-  SparseCholesky system;
-  system.Analyze(lower);
-  progress.Check();
-  if (!system.Factorize(lower, progress))
-  {
-    return false;
-  }
-  SparseCholesky::Vector lacking(count);
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    lacking[i] = 1.0 - this->Masses[static_cast<std::size_t>(i)];
-  }
-  const SparseCholesky::Vector direction = system.Solve(lacking);
   this->Direction.resize(this->Masses.size());
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    this->Direction[static_cast<std::size_t>(i)] = direction[i].Value;
-  }
-  return std::all_of(this->Direction.begin(), this->Direction.end(),
-    [](double value) { return std::isfinite(value); });
+  std::transform(this->Masses.begin(), this->Masses.end(), this->Direction.begin(),
+    [](double mass) { return 1.0 - mass; });
+  return system.Solve(damping, this->Direction, progress);
 }
 
 void EqualMassPartition::FindMoments(Progress& progress)

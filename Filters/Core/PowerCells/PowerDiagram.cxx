@@ -128,7 +128,7 @@ void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
 
 void PowerDiagram::Update(const double* weights, Progress& progress)
 {
-  this->Tree.SetWeights(weights);
+  this->Tree.SetWeights(weights, progress);
   this->LastChunks.swap(this->Chunks);
   this->Chunks.resize(static_cast<std::size_t>(this->NumberOfChunks()));
   this->LastChunks.resize(this->Chunks.size());

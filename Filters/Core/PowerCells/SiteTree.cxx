@@ -74,16 +74,26 @@ void SiteTree::Bound(Box& box) const
   }
 }
 
-void SiteTree::SetWeights(const double* weights)
+void SiteTree::SetWeights(const double* weights, Progress& progress)
 {
-  for (WeightedSite& site : this->Sites)
-  {
-    site.Weight = weights[site.Id];
-  }
-  for (Box& box : this->Boxes)
-  {
-    this->BoundWeights(box);
-  }
+  constexpr std::int64_t sitesOfRange = 1 << 12;
+  progress.For(this->Size(), sitesOfRange, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      WeightedSite& site = this->Sites[static_cast<std::size_t>(i)];
+      site.Weight = weights[site.Id];
+    }
+  });
+  constexpr std::int64_t boxesOfRange = 64; // some have all sites
+  progress.For(
+    static_cast<std::int64_t>(this->Boxes.size()), boxesOfRange,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        this->BoundWeights(this->Boxes[static_cast<std::size_t>(i)]);
+      }
+    },
+    boxesOfRange);
 }
 
 // With the slope of the plane that fits the weights best, by least squares; any other would do.

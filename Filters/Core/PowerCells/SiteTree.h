@@ -23,8 +23,8 @@ public:
   // The sites are divided about the median along the widest axis of their box: O(count log count),
   // as the work of the current stage. Throws Cancelled.
   void Build(ConstPointSpan<2> sites, Progress& progress);
-  // To be called before a visit: a weight for each site.
-  void SetWeights(const double* weights);
+  // To be called before a visit: a weight for each site. As the work of the current stage.
+  void SetWeights(const double* weights, Progress& progress);
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sites.size()); }
   // The sites in the order of the tree, in which neighbours are near each other.

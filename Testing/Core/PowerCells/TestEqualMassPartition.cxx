@@ -3,9 +3,7 @@
 // no other partition can undercut.
 #include "Core/PowerCells/EqualMassPartition.h"
 
-#include "RecordingContext.h"
 #include "TestPowerCells.h"
-#include "ThreadsExecutor.h"
 
 #include <gtest/gtest.h>
 
@@ -17,29 +15,6 @@ namespace
 {
 
 constexpr double tolerance = EqualMassPartition::massTolerance;
-
-bool solve(
-  EqualMassPartition& partition, const Points<2>& sites, const Context& context = Context())
-{
-  Progress progress(context);
-  progress.BeginStage(1.0);
-  return partition.Solve(sites, progress);
-}
-
-EqualMassPartition makePartition(const TestDensity<2>& density, std::size_t sites,
-  const Point<2>& scale = { 1.0, 1.0 }, const Context& context = Context())
-{
-  const auto count = static_cast<std::int64_t>(sites);
-  return { makeRows(density, scale, static_cast<double>(count), context), count };
-}
-
-EqualMassPartition solved(const TestDensity<2>& density, const Points<2>& sites,
-  const Point<2>& scale = { 1.0, 1.0 }, const Context& context = Context())
-{
-  EqualMassPartition partition = makePartition(density, sites.size(), scale, context);
-  EXPECT_TRUE(solve(partition, sites, context));
-  return partition;
-}
 
 double totalCost(const EqualMassPartition& partition)
 {
@@ -406,47 +381,6 @@ TEST(EqualMassPartition, Lattice)
   EXPECT_NEAR(totalCost(partition) / 200.0, 0.2 / 12.0, 1e-12);
 }
 
-// A million cells in a row or a column: what is known of the last of them has all digits.
-TEST(EqualMassPartition, LongStrips)
-{
-  constexpr std::int64_t length = 1000000;
-  constexpr std::int64_t count = 500;
-  for (const std::size_t axis : { 0u, 1u })
-  {
-    GridSize<2> size = { 1, 1 };
-    size[axis] = length;
-    const TestDensity<2> density =
-      sampleDensity<2>(size, [axis](const Point<2>& p) { return 0.5 + p[axis] * (2.0 - p[axis]); });
-    Points<2> sites(count, evenPoint<2>(0.5));
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      sites[i][axis] = 2000.0 * (static_cast<double>(i) + 0.25 + 0.1 * static_cast<double>(i % 5));
-    }
-    const EqualMassPartition partition = solved(density, sites);
-    for (const std::size_t i : { std::size_t{ 0 }, std::size_t{ count - 2 } })
-    {
-      const Points<2> cell = cornersOf(partition.Diagram()[static_cast<std::int64_t>(i)]);
-      const auto range = std::minmax_element(cell.begin(), cell.end(),
-        [axis](const Point<2>& a, const Point<2>& b) { return a[axis] < b[axis]; });
-      GridSize<2> first{};
-      first[axis] = static_cast<std::int64_t>((*range.first)[axis]);
-      GridSize<2> window = { 1, 1 };
-      window[axis] = static_cast<std::int64_t>((*range.second)[axis]) + 1 - first[axis];
-      const PolygonMoments expected =
-        windowMoments(density, { 1.0, 1.0 }, count, first, window, cell);
-      EXPECT_NEAR(expected.Mass, 1.0, tolerance);
-      Point<2> site = sites[i];
-      site[axis] -= static_cast<double>(first[axis]);
-      const auto found = static_cast<std::int64_t>(i);
-      const double cost = costOf(expected, site);
-      EXPECT_NEAR(partition.Cost(found), cost, 1e-11 * cost);
-      EXPECT_NEAR(partition.Centroid(found)[axis] - static_cast<double>(first[axis]),
-        expected.First[axis] / expected.Mass, 1e-12 * 2000.0);
-      EXPECT_NEAR(partition.Centroid(found)[1 - axis], 0.5, 1e-12);
-    }
-  }
-}
-
 // The next solution begins from the last one, and is that of a fresh partition.
 TEST(EqualMassPartition, MovedSitesAreAsIfFresh)
 {
@@ -501,42 +435,6 @@ TEST(EqualMassPartition, UnitsAndMirrors)
     EXPECT_NEAR(mirror.Centroid(i)[0], 28.0 - partition.Centroid(i)[0], 1e-4);
     EXPECT_NEAR(mirror.Centroid(i)[1], partition.Centroid(i)[1], 1e-4);
   }
-}
-
-TEST(EqualMassPartition, ThreadsDoNotMatter)
-{
-  const TestDensity<2> density = spots({ 40, 40 });
-  const Points<2> sites = randomPoints<2>(density.Size, 500, 6);
-  const auto result = [&](const Executor& threads) {
-    const EqualMassPartition partition = solved(density, sites, { 1.0, 1.0 }, threads);
-    std::vector<Points<2>> all;
-    for (std::int64_t i = 0; i < 500; ++i)
-    {
-      all.push_back(cornersOf(partition.Diagram()[i]));
-      all.push_back({ partition.Centroid(i), { partition.Cost(i), 0.0 } });
-    }
-    return all;
-  };
-  const auto serial = result(SerialExecutor());
-  for (const int threads : { 1, 2, 3 })
-  {
-    EXPECT_EQ(result(ThreadsExecutor(threads)), serial) << threads;
-  }
-}
-
-TEST(EqualMassPartition, IsCancelled)
-{
-  const TestDensity<2> density = spots({ 40, 40 });
-  const Points<2> sites = randomPoints<2>(density.Size, 600, 6);
-  EqualMassPartition partition = makePartition(density, sites.size());
-  const SerialExecutor threads;
-  for (const int queries : { 0, 3 })
-  {
-    RecordingContext recording(threads);
-    recording.MaximumQueries = queries;
-    EXPECT_THROW(solve(partition, sites, recording.Context()), Cancelled);
-  }
-  EXPECT_TRUE(solve(partition, sites));
 }
 
 } // namespace

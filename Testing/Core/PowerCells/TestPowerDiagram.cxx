@@ -357,5 +357,28 @@ TEST(PowerDiagram, IsCancelled)
   EXPECT_THROW(setSites(diagram, sites, recording.Context()), Cancelled);
 }
 
+// The weights of a million sites take longer than a stop may.
+TEST(PowerDiagram, WeightsAreCancelled)
+{
+  const SerialExecutor threads;
+  const Points<2> sites = randomSites(70000, 12);
+  SiteTree tree;
+  Progress building(threads);
+  tree.Build(sites, building);
+  const std::vector<double> weights(sites.size(), 0.0);
+  RecordingContext whole(threads);
+  Progress progress(whole.Context());
+  tree.SetWeights(weights.data(), progress);
+  EXPECT_GT(whole.Queries, 5);
+  for (int most = 0; most < 5; ++most)
+  {
+    RecordingContext stopped(threads);
+    stopped.MaximumQueries = most;
+    Progress cancelled(stopped.Context());
+    EXPECT_THROW(tree.SetWeights(weights.data(), cancelled), Cancelled);
+    EXPECT_EQ(stopped.Queries, most + 1);
+  }
+}
+
 } // namespace
 } // namespace RectifiedTransport
