@@ -18,7 +18,8 @@
  *
  * Field data `Energy` (double) has the energy that the method lowers: the first value is that of
  * the points before the first iteration, and each iteration adds one, which is never greater than
- * the one before it. There are at most MaximumIterations + 1. It has no unit.
+ * the one before it. There are at most MaximumIterations + 1, and none where all points are ghosts.
+ * It has no unit.
  *
  * - GaussianBlueNoise (Ahmed, Ren and Wonka, "Gaussian Blue Noise", ACM Transactions on Graphics
  *   41(6), 2022): points repel each other by Gaussians as wide as their distance at the local
@@ -36,7 +37,8 @@
  *
  * Points outside of the domain, and off the plane of a density of two dimensions, are moved to the
  * nearest point of the domain (axis by axis) first; one warning counts those that are farther from
- * it than a millionth of its diagonal. Of points that coincide all but one are moved a little.
+ * it than a millionth of its diagonal. Of points that coincide (OptimalTransport: to 1e-5 of their
+ * mean distance) all but one are moved a little.
  * Points that the ghost array marks as duplicate or hidden stay where they are, and the others do
  * not see them. NaN or infinite coordinates are an error. An input without points gives an empty
  * output without an error.
@@ -46,14 +48,13 @@
  * for the cells and O(n^1.5) for the linear system of each step of Newton's method, of which an
  * iteration has several, and no tables. Memory: 24 bytes a point for the output
  * and while it runs, GaussianBlueNoise about 2.5 kB a point in two dimensions and 4.6 kB in three
- * beside the tables, OptimalTransport about 2 kB a point and 32 bytes a cell of the density. The
+ * beside the tables, OptimalTransport about 2 kB a point and 18 bytes a cell of the density. The
  * results are the same to the last bit for every number of threads.
  *
- * @warning With OptimalTransport, points far from distributed like a density with large holes or a
- * narrow peak, such as random ones, take long for the weights before the first iteration: hundreds
- * of them minutes. So do points that nearly coincide, by less than about 1e-10 of their spacing.
- * Where there are no weights to be found, that is an error. A point that begins where the density
- * has no mass may keep all points where they are: begin with particles of the density.
+ * @warning With OptimalTransport, points far from distributed like a density with large holes or
+ * narrow peaks, such as random ones, take long for the weights before the first iteration:
+ * hundreds of them seconds, thousands a minute. Begin with particles of the density. Where no
+ * weights are found, that is an error.
  * @warning Axes of the image that are not perpendicular count as if they were.
  *
  * \code{.cpp}

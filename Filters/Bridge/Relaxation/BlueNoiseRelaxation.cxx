@@ -31,7 +31,7 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 // The bytes that the core takes while it runs.
 double coreMemory(bool byTransport, int dimension, double cells, double points)
 {
-  constexpr double rowMoments = 32.0; // a cell of the density
+  constexpr double rowMoments = 18.0; // a cell of the density
   constexpr double diagram = 2048.0;  // a point
   const double neighbours = dimension == 2 ? 2500.0 : 4600.0;
   return byTransport ? rowMoments * cells + diagram * points : neighbours * points;

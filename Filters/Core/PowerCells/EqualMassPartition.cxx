@@ -117,7 +117,7 @@ bool EqualMassPartition::SolveFromEvenDensity(Progress& progress)
   constexpr double largestRatio = 64.0;
   constexpr int mostShortSteps = 500;
   // So little changes no cell's mass by more than a part of the tolerance.
-  const double smallest = 0.4 * massTolerance / static_cast<double>(this->Sites.size());
+  const double smallest = 0.2 * massTolerance / static_cast<double>(this->Sites.size());
   this->FindFirstWeights();
   Vector solved;
   double share = 1.0;
