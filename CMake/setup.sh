@@ -5,7 +5,7 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="$root/build"
 apt_log="$build/apt.log"
 packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
-  libopenmpi-dev libglew-dev libopengl-dev libx11-dev"
+  libopenmpi-dev libfreetype-dev libglew-dev libopengl-dev libx11-dev"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python3-reportlab python-matplotlib-data"
 packages_test="libgtest-dev libbenchmark-dev poppler-utils $packages_examples"

@@ -250,8 +250,8 @@ const EqualMassPartition::Side* EqualMassPartition::SidesOf(std::int64_t site) c
 EqualMassPartition::Deviation EqualMassPartition::EvaluateRevived(
   Vector& weights, double least, Progress& progress)
 {
-  constexpr int mostRounds = 4; // one cell's gain is another's loss
-  constexpr std::int64_t firstPiece = 16;
+  constexpr int mostRounds = 4;          // one cell's gain is another's loss
+  constexpr std::int64_t firstPiece = 1; // weights that vary much make some cells slow
   const std::size_t few = weights.size() / 10;
   Deviation found = this->Evaluate(weights, progress);
   for (int round = 0; round < mostRounds && !(found.Least >= least); ++round)

@@ -4,6 +4,7 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,11 @@ public:
       const double radius = 2.0 * this->Distance * std::sqrt(static_cast<double>(++home.Tried));
       for (std::size_t a = 0; a < 2; ++a)
       {
-        const double place = given[a] + radius * home.Turn[a];
+        // Where the bounds are thin the places are on a line, one after the other on both sides.
+        const bool isAlone = this->IsThin(1 - a);
+        const double along = (home.Tried % 2 == 0 ? 0.5 : -0.5) * static_cast<double>(home.Tried);
+        const double place =
+          given[a] + (isAlone ? 2.0 * this->Distance * along : radius * home.Turn[a]);
         x[a] = std::clamp(place, this->Bounds.Low[a], this->Bounds.High[a]);
       }
     }
@@ -83,6 +88,11 @@ private:
   {
     return { static_cast<std::int64_t>(std::floor(x[0] / this->Distance)),
       static_cast<std::int64_t>(std::floor(x[1] / this->Distance)) };
+  }
+
+  bool IsThin(std::size_t axis) const
+  {
+    return this->Bounds.High[axis] - this->Bounds.Low[axis] < 4.0 * this->Distance;
   }
 
   bool IsFree(const Point<2>& x) const
@@ -127,7 +137,7 @@ void separateSites(
         squares.Place(site);
       }
     },
-    1 << 14);
+    1 << 10);
 }
 
 } // namespace RectifiedTransport

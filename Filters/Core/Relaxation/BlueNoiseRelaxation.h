@@ -49,8 +49,9 @@ public:
 // attracts them, so that its mass and theirs cancel. `flow` has the tables of `density`. 2D and 3D.
 // The energy is the squared norm of the difference of both, blurred: 1 on the average for
 // independent random points of the density, near 0 at best. Points that are far from distributed
-// like the density, such as uniform ones for one with large holes, take many iterations: start from
-// those of the flow. Also throws std::invalid_argument for points that are not finite.
+// like the density, such as uniform ones for one with large holes, take many iterations, and n
+// points in a spot the time of n^2 for each: start from those of the flow. Also throws
+// std::invalid_argument for points that are not finite.
 template <int Dimension>
 RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
   const RectifiedFlow<Dimension>& flow, const Point<Dimension>& spacing,
@@ -63,10 +64,10 @@ RelaxationReport relaxByRepulsion(const DensitySource<Dimension>& density,
 // N / (M A) times the integral of density * |x - point of x|^2 over the cells, for N points, the
 // density's mass M and the domain's area A. Masses are equal to 1e-6 of each other. Points that an
 // iteration moves stay where the density has mass, at the nearest place to where they should go;
-// those that begin where it has none leave with their first whole step. Points far from distributed
-// like a density with large holes or narrow peaks take long before the first iteration, up to
-// minutes where they are thousands; where no cells of equal masses are found, that is a
-// NoEqualMasses. Also throws std::invalid_argument for points that are not finite.
+// those that begin where it has none leave as soon as that does not raise the energy. Points far
+// from distributed like a density with large holes or narrow peaks take long before the first
+// iteration, up to minutes where they are thousands; where no cells of equal masses are found, that
+// is a NoEqualMasses. Also throws std::invalid_argument for points that are not finite.
 RelaxationReport relaxByTransport(const DensitySource<2>& density, const Point<2>& spacing,
   PointSpan<2> points, const RelaxationOptions& options = {}, const Context& context = Context());
 

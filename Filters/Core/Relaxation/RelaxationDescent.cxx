@@ -74,13 +74,16 @@ template <int Dimension>
 bool RelaxationDescent<Dimension>::Step()
 {
   const bool isFresh = this->Hessian.IsEmpty();
-  if (!this->Search(this->Direction()))
+  bool isDone = this->Search(this->Direction(), true);
+  if (!isDone)
   {
     this->Hessian.Forget();
-    if (isFresh || !this->Search(this->Direction()))
-    {
-      return false;
-    }
+    isDone = (!isFresh && this->Search(this->Direction(), true)) ||
+      (!this->Aimed.empty() && this->Search(this->Direction(), false));
+  }
+  if (!isDone)
+  {
+    return false;
   }
   if (++this->Steps % stepsBetweenSorts == 0)
   {
@@ -147,10 +150,15 @@ void RelaxationDescent<Dimension>::Shorten(Vector& direction) const
 }
 
 template <int Dimension>
-bool RelaxationDescent<Dimension>::Search(Vector direction)
+bool RelaxationDescent<Dimension>::Search(Vector direction, bool hasAims)
 {
-  const auto count = static_cast<std::int64_t>(this->Spacings.size());
-  this->Function.Aim({ this->X.data(), count }, { direction.data(), count }, this->Work);
+  this->Aimed.clear();
+  if (hasAims)
+  {
+    const auto count = static_cast<std::int64_t>(this->Spacings.size());
+    this->Function.Aim(
+      { this->X.data(), count }, { direction.data(), count }, this->Aimed, this->Work);
+  }
   double part = 1.0;
   for (int tries = 0; tries < mostEvaluations; ++tries)
   {
@@ -176,11 +184,13 @@ double RelaxationDescent<Dimension>::Move(const Vector& direction, double part)
 {
   // The least part of the distance to the border that stays: points that met at a corner would
   // never leave each other.
-  constexpr double rest = 0.125;
+  constexpr double usualRest = 0.125;
   for (std::size_t i = 0; i < direction.size(); ++i)
   {
     const double x = this->X[i];
     const double side = this->Side(i);
+    const bool isAimed = !this->Aimed.empty() && this->Aimed[i / Dimension] != 0;
+    const double rest = isAimed ? 0.0 : usualRest;
     this->Next[i] = std::clamp(x + part * direction[i], rest * x, side - rest * (side - x));
   }
   const auto count = static_cast<std::int64_t>(this->Spacings.size());

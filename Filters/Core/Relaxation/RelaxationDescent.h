@@ -46,7 +46,8 @@ private:
   bool IsHeld(std::size_t i) const;
   Vector Direction();
   void Shorten(Vector& direction) const;
-  bool Search(Vector direction);
+  // Without aims, points may stay where none shall be.
+  bool Search(Vector direction, bool hasAims);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
   double Move(const Vector& direction, double part);
   void Accept(double found);
@@ -63,6 +64,7 @@ private:
   Vector Next;
   Vector NextGradient;
   Vector NextSpacings;
+  std::vector<char> Aimed; // points whose whole step leads away from where none shall be, if any
   int Steps = 0;
 };
 

@@ -5,6 +5,8 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <vector>
+
 namespace RectifiedTransport
 {
 
@@ -24,8 +26,11 @@ public:
   // Called now and then with the points that will be evaluated next, or some near them.
   virtual void Sort(ConstPointSpan<Dimension>, Progress&) {}
   // There may be places in the domain where no point shall be. Changes the steps of points that are
-  // there: whole steps lead away.
-  virtual void Aim(ConstPointSpan<Dimension>, PointSpan<Dimension>, Progress&) const {}
+  // there: whole steps lead away. Notes for which points, where there are any.
+  virtual void Aim(
+    ConstPointSpan<Dimension>, PointSpan<Dimension>, std::vector<char>&, Progress&) const
+  {
+  }
   // Moves the ends of a part of the steps away from there, for points that were not there before.
   // The points stay distinct.
   virtual void Constrain(ConstPointSpan<Dimension>, PointSpan<Dimension>, Progress&) const {}

@@ -14,8 +14,8 @@ namespace RectifiedTransport
 namespace
 {
 
-// Sides in proportion below this are thin beyond all counts of points.
-constexpr double thinnest = 1e-60;
+// Sides in proportion below this are thin beyond all counts of points, and have too few digits.
+constexpr double thinnest = 1e-15;
 
 } // namespace
 

@@ -47,7 +47,8 @@ void TransportEnergy::VisitPoints(
   });
 }
 
-void TransportEnergy::Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress& progress) const
+void TransportEnergy::Aim(
+  ConstPointSpan<2> points, PointSpan<2> steps, std::vector<char>& aimed, Progress& progress) const
 {
   const RowMoments& density = this->Partition.Density();
   if (!density.HasEmptyCells())
@@ -55,6 +56,7 @@ void TransportEnergy::Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress
     return;
   }
   const Point<2> lengths = density.Lengths();
+  aimed.assign(static_cast<std::size_t>(points.size()), 0);
   this->VisitPoints(points, false, progress, [&](std::int64_t i) {
     Point<2> end;
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -62,6 +64,7 @@ void TransportEnergy::Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress
       end[axis] = std::clamp(points[i][axis] + steps[i][axis], 0.0, lengths[axis]);
     }
     end = density.NearestMass(end);
+    aimed[static_cast<std::size_t>(i)] = 1;
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       steps[i][axis] = end[axis] - points[i][axis];

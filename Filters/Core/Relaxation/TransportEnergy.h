@@ -26,7 +26,8 @@ public:
   // Points go to the nearest place where the density has mass, which lowers the cost most, and stay
   // apart there. Those that begin where it has none take the whole way only with a whole step: the
   // cost may rise over long ways.
-  void Aim(ConstPointSpan<2> points, PointSpan<2> steps, Progress& progress) const override;
+  void Aim(ConstPointSpan<2> points, PointSpan<2> steps, std::vector<char>& aimed,
+    Progress& progress) const override;
   void Constrain(ConstPointSpan<2> from, PointSpan<2> points, Progress& progress) const override;
   // Moves points that the diagram cannot tell apart, in the domain.
   void Separate(PointSpan<2> points, Progress& progress) const;

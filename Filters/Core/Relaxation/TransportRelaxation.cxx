@@ -7,7 +7,6 @@
 
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace RectifiedTransport
 {

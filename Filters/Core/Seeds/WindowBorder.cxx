@@ -166,6 +166,10 @@ private:
     Point<2>& x = this->Seeds[seed].X;
     this->Cut(seed);
     const Point<2> centroid = this->Cell.Centroid();
+    if (!std::isfinite(centroid[0]) || !std::isfinite(centroid[1]))
+    {
+      return; // seeds so near that the area of the cell has no digits
+    }
     const Point<2> step = { relaxation * centroid[0], relaxation * centroid[1] };
     const double part = this->FreePart(seed, step);
     const Bin before = this->BinOf(x);

@@ -46,7 +46,7 @@ public:
 
   void Run(Progress& progress)
   {
-    this->FindBands();
+    this->FindBands(progress);
     const std::int64_t bands = static_cast<std::int64_t>(this->FirstOfBand.size()) - 1;
     progress.For(
       bands, 1,
@@ -66,14 +66,13 @@ private:
     std::int64_t End;
   };
 
-  // Of the coordinate along axis 1.
-  Interval ExtentOf(std::int64_t polygon) const
+  Interval ExtentOf(std::int64_t polygon, std::size_t axis) const
   {
     Interval extent;
     for (std::int64_t k = this->First[static_cast<std::size_t>(polygon)];
          k < this->First[static_cast<std::size_t>(polygon) + 1]; ++k)
     {
-      extent.Add(this->Corners[static_cast<std::size_t>(k)][1]);
+      extent.Add(this->Corners[static_cast<std::size_t>(k)][axis]);
     }
     return extent;
   }
@@ -90,21 +89,26 @@ private:
   }
 
   // Lists the polygons that reach into each band, ascending.
-  void FindBands()
+  void FindBands(Progress& progress)
   {
     const std::int64_t bands = (this->Size[1] + rowsOfBand - 1) / rowsOfBand;
     const auto polygons = static_cast<std::int64_t>(this->First.size()) - 1;
     std::vector<std::int64_t> next(static_cast<std::size_t>(bands) + 1, 0);
     const auto visit = [&](const auto& call) {
-      for (std::int64_t polygon = 0; polygon < polygons; ++polygon)
-      {
-        const Range rows = PixelsOf(this->ExtentOf(polygon), this->Size[1]);
-        for (std::int64_t band = rows.Begin / rowsOfBand;
-             rows.Begin < rows.End && band <= (rows.End - 1) / rowsOfBand; ++band)
+      progress.ForInOrder(polygons, 1 << 10, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t polygon = first; polygon < last; ++polygon)
         {
-          call(static_cast<std::size_t>(band), polygon);
+          const Range columns = PixelsOf(this->ExtentOf(polygon, 0), this->Size[0]);
+          const Range rows = PixelsOf(this->ExtentOf(polygon, 1), this->Size[1]);
+          // Many may lie between the centres of columns.
+          const std::int64_t end = columns.Begin < columns.End ? rows.End : rows.Begin;
+          for (std::int64_t band = rows.Begin / rowsOfBand;
+               rows.Begin < end && band <= (end - 1) / rowsOfBand; ++band)
+          {
+            call(static_cast<std::size_t>(band), polygon);
+          }
         }
-      }
+      });
     };
     visit([&next](std::size_t band, std::int64_t) { ++next[band + 1]; });
     for (std::size_t band = 1; band < next.size(); ++band)
@@ -127,7 +131,7 @@ private:
          k < this->FirstOfBand[static_cast<std::size_t>(band) + 1]; ++k)
     {
       const std::int64_t polygon = this->OfBands[static_cast<std::size_t>(k)];
-      const Interval extent = this->ExtentOf(polygon);
+      const Interval extent = this->ExtentOf(polygon, 1);
       const Range rows = PixelsOf(extent, this->Size[1]);
       for (std::int64_t row = std::max(rows.Begin, begin); row < std::min(rows.End, end); ++row)
       {

@@ -4,8 +4,8 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/PowerCells/EqualMassPartition.h"
 #include "Core/PowerCells/RectangleFit.h"
-#include "Core/SiteCells/LabelPolygons.h"
 #include "Core/PowerCells/SeparateSites.h"
+#include "Core/SiteCells/LabelPolygons.h"
 #include "Core/Tables/Density.h"
 
 #include <algorithm>
@@ -35,8 +35,14 @@ bool hasRightAngles(const ImageGrid& grid)
   double b[3];
   grid.VectorToPhysical<2>(axes[0], a);
   grid.VectorToPhysical<2>(axes[1], b);
-  const double lengths = std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]);
-  return std::abs(a[0] / lengths * b[0] + a[1] / lengths * b[1] + a[2] / lengths * b[2]) < rounding;
+  const double first = std::hypot(a[0], a[1], a[2]);
+  const double second = std::hypot(b[0], b[1], b[2]);
+  double cosine = 0.0;
+  for (std::size_t r = 0; r < 3; ++r)
+  {
+    cosine += a[r] / first * (b[r] / second);
+  }
+  return std::abs(cosine) < rounding;
 }
 
 double squaredLength(const Point<2>& x)
@@ -109,6 +115,7 @@ PowerSiteCells::PowerSiteCells(
   // A site far outside leaves little room to the others.
   const double scale = std::clamp(moveIntoDomain(sides, flat), 1e-5, 1.0);
   separateSites(flat, leastSiteDistance * scale, SiteBounds(), progress);
+  moveIntoDomain(sides, flat); // those that were at one point are still crowded
 
   progress.BeginStage(1.0);
   EqualMassPartition partition(

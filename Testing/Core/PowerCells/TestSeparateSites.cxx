@@ -67,6 +67,7 @@ TEST(SeparateSites, StayInTheBounds)
     expectApart(sites, 1e-3);
     for (const Point<2>& site : sites)
     {
+      EXPECT_LT(std::hypot(site[0] - place[0], site[1] - place[1]), 0.25);
       for (std::size_t a = 0; a < 2; ++a)
       {
         EXPECT_GE(site[a], bounds.Low[a]);

@@ -290,7 +290,7 @@ TEST(PowerSiteCells, CoincidentSites)
   std::fill(places.begin() + 10, places.begin() + 25, Point<2>{ 1.0, 3.0 });
   std::fill(places.begin() + 25, places.begin() + 30, Point<2>{ 1.0, 3.0 + 1e-12 });
   expectCells(PowerSiteCells(inPlane(places), grid), grid);
-  const Points<3> one(500, Point<3>{ 1.0, 1.5, 0.0 });
+  const Points<3> one(1500, Point<3>{ 1.0, 1.5, 0.0 });
   const PowerSiteCells shared(one, grid);
   expectCells(shared, grid);
   EXPECT_NEAR(measure(shared).Total, 2.0 * 16.0 / 12.0 + 1.0 + 0.25, 1e-6);

@@ -60,7 +60,7 @@ RT_INLINE Lanes squareRoot(const Lanes& a)
   return root;
 }
 
-// exp(-q) for q in [0, 16], to a few 1e-11 of it: the 16th power of the Taylor polynomial of
+// exp(-q) for q in [0, 16], to 4e-10 of it: the 16th power of the Taylor polynomial of
 // exp(-q / 16) about 1/2.
 template <class Value>
 RT_INLINE Value exponential(const Value& q)
