@@ -35,6 +35,9 @@ def draw_example(path, name, picture, *arguments):
         sys.argv[1:] = [*arguments, "--output", folder]
         example.script(name).main()
         shutil.move(os.path.join(folder, picture), path)
+    # What is left of it would be drawn and updated with the pictures that follow.
+    for proxy in [*simple.GetViews(), *simple.GetSources().values()]:
+        simple.Delete(proxy)
 
 
 def draw_row(path, parts, size, radius, pixels, stipple):
