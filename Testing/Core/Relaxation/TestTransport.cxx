@@ -165,6 +165,14 @@ TEST(Transport, LeavesHolesForTheCorner)
   }
 }
 
+TEST(Transport, ArrivesInACorner)
+{
+  const TestDensity<2> density = dirac<2>({ 20, 20 }, { 0, 0 });
+  Points<2> points = randomPoints<2>(density.Size, 5);
+  relax(density, points, iterations(1));
+  EXPECT_EQ(qualityOf<2>(density, points).InEmptyCells, 0);
+}
+
 // Thin beyond what numbers tell apart: as good as a line.
 TEST(Transport, DomainLikeALine)
 {
