@@ -225,4 +225,17 @@ OTHERS = [
     E(CORE + "Flow/PivotLattice.cxx", "positions.Part(place * each, each), «same», progress", "options"),
     E(CORE + "Flow/RectifiedFlow.cxx", "return «steps == this->Of» ?", "true"),
     E(CORE + "Flow/RectifiedFlow.cxx", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
+    # relaxation and power cells
+    E(CORE + "Relaxation/RelaxationDescent.cxx", "const double rest = «isAimed» ? 0.0", "false"),
+    E(CORE + "Relaxation/TransportRelaxation.cxx", "const double area = «frame.Sides[0] * frame.Sides[1]»",
+      "count"),
+    E(CORE + "Relaxation/TransportEnergy.cxx", "end = «density.NearestMass(end)»", "end"),
+    E(CORE + "PowerCells/EqualMassPartition.cxx", "const std::size_t few = «weights.size() / 10»", "0"),
+    E(CORE + "PowerCells/EqualMassPartition.cxx", "(«mass > 1.0» ? high : low) = found", "false"),
+    E(CORE + "PowerCells/SeparateSites.cxx",
+      "x[a] = «std::clamp(place, this->Bounds.Low[a], this->Bounds.High[a])»", "place"),
+    E(CORE + "SiteCells/LabelPolygons.cxx", "const std::int64_t end = «columns.Begin < columns.End» ?",
+      "columns.Begin + 1 < columns.End"),
+    E(CORE + "Algebra/GraphLaplacian.cxx", "const double added = «damping * trace»", "damping"),
+    E(CORE + "Seeds/WindowBorder.cxx", "constexpr double relaxation = «1.5»", "1.9"),
 ]

@@ -312,7 +312,7 @@ TEST(EqualMassPartition, NarrowPeaks)
     const Points<2> sites = randomPoints<2>(density.Size, 80, 5);
     const EqualMassPartition partition = solved(density, sites);
     expectEqualMasses(partition, density);
-    EXPECT_LT(partition.NewtonSteps(), 200) << background;
+    EXPECT_LT(partition.NewtonSteps(), 100) << background;
   }
 }
 

@@ -165,6 +165,23 @@ TEST(Transport, LeavesHolesForTheCorner)
   }
 }
 
+// The centroids of a frame's corners are not in it.
+TEST(Transport, LeavesAHoleForItsRim)
+{
+  TestDensity<2> density = uniformDensity<2>({ 20, 20 });
+  for (std::size_t row = 1; row < 19; ++row)
+  {
+    std::fill_n(density.Values.begin() + static_cast<std::ptrdiff_t>(row * 20 + 1), 18, 0.0);
+  }
+  Points<2> points = randomPoints<2>({ 10, 10 }, 12);
+  for (Point<2>& point : points)
+  {
+    point = { point[0] + 5.0, point[1] + 5.0 };
+  }
+  ASSERT_EQ(relax(density, points, iterations(1)).Energy.size(), 2u);
+  EXPECT_EQ(qualityOf<2>(density, points).InEmptyCells, 0);
+}
+
 TEST(Transport, ArrivesInACorner)
 {
   const TestDensity<2> density = dirac<2>({ 20, 20 }, { 0, 0 });
