@@ -26,9 +26,9 @@ struct SiteBounds
 constexpr double leastSiteDistance = 1e-5;
 
 // The first of sites that are nearer than `distance` to each other stays; the others move aside, to
-// places in `bounds`, on a spiral about where they were, that are as far from every other site. The
-// same for the same sites in the same order. As the work of the current stage. Throws
-// std::bad_alloc and Cancelled.
+// places in `bounds`, on a spiral about where they were (in thin bounds on a line), that are as far
+// from every other site. The same for the same sites in the same order. As the work of the current
+// stage. Throws std::bad_alloc and Cancelled.
 void separateSites(
   PointSpan<2> sites, double distance, const SiteBounds& bounds, Progress& progress);
 

@@ -127,7 +127,7 @@ private:
     Point<2> high;
     for (std::size_t a = 0; a < 2; ++a)
     {
-      expected *= this->Sides[a] / static_cast<double>(this->Bins[a]);
+      expected *= this->BinSides[a];
       low[a] = static_cast<double>(knownBins) / static_cast<double>(this->Bins[a]);
       high[a] = 1.0 - low[a];
     }

@@ -30,6 +30,16 @@ const auto relaxIn = [](const TestDensity<2>& density, Points<2>& points,
                        const RelaxationOptions& options,
                        const Context& context) { return relax(density, points, options, context); };
 
+void fillBlock(
+  TestDensity<2>& density, const GridSize<2>& first, const GridSize<2>& size, double value)
+{
+  for (std::int64_t row = first[1]; row < first[1] + size[1]; ++row)
+  {
+    const auto begin = static_cast<std::ptrdiff_t>(row * density.Size[0] + first[0]);
+    std::fill_n(density.Values.begin() + begin, size[0], value);
+  }
+}
+
 TEST(Transport, RandomPointsBecomeBlueNoise)
 {
   const TestDensity<2> density = uniformDensity<2>({ 64, 64 });
@@ -132,14 +142,8 @@ TEST(Transport, LeavesHoles)
 TEST(Transport, OnePointInAHole)
 {
   TestDensity<2> density = uniformDensity<2>({ 90, 30 }, 0.0);
-  for (std::int64_t row = 0; row < 30; ++row)
-  {
-    for (std::int64_t column = 0; column < 25; ++column)
-    {
-      density.Values[static_cast<std::size_t>(row * 90 + column)] = 1.0;
-      density.Values[static_cast<std::size_t>(row * 90 + column + 60)] = 1.0;
-    }
-  }
+  fillBlock(density, { 0, 0 }, { 25, 30 }, 1.0);
+  fillBlock(density, { 60, 0 }, { 25, 30 }, 1.0);
   Points<2> points = flowStart<2>(density, 100);
   points.push_back({ 40.0, 12.5 });
   const RelaxationReport report = relax(density, points, iterations(5));
@@ -169,10 +173,7 @@ TEST(Transport, LeavesHolesForTheCorner)
 TEST(Transport, LeavesAHoleForItsRim)
 {
   TestDensity<2> density = uniformDensity<2>({ 20, 20 });
-  for (std::size_t row = 1; row < 19; ++row)
-  {
-    std::fill_n(density.Values.begin() + static_cast<std::ptrdiff_t>(row * 20 + 1), 18, 0.0);
-  }
+  fillBlock(density, { 1, 1 }, { 18, 18 }, 0.0);
   Points<2> points = randomPoints<2>({ 10, 10 }, 12);
   for (Point<2>& point : points)
   {
@@ -247,14 +248,8 @@ TEST(Transport, EnergyOfAThinDomain)
 TEST(Transport, PartsApart)
 {
   TestDensity<2> density = uniformDensity<2>({ 60, 40 }, 0.0);
-  for (std::int64_t row = 5; row < 25; ++row)
-  {
-    for (std::int64_t column = 0; column < 20; ++column)
-    {
-      density.Values[static_cast<std::size_t>(row * 60 + column)] = 1.0;
-      density.Values[static_cast<std::size_t>(row * 60 + column + 39)] = 1.3;
-    }
-  }
+  fillBlock(density, { 0, 5 }, { 20, 20 }, 1.0);
+  fillBlock(density, { 39, 5 }, { 20, 20 }, 1.3);
   Points<2> points = flowStart<2>(density, 100);
   const RelaxationReport report = relax(density, points, iterations(6));
   EXPECT_GT(report.Energy.size(), 3u);
