@@ -2,12 +2,21 @@
 #include "Core/PowerCells/PowerDiagram.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace RectifiedTransport
 {
+
+namespace
+{
+
+constexpr std::int64_t firstSlice = 1 << 8; // where all cells meet in a point they are slow
+
+} // namespace
 
 // One cell while it is cut; coordinates are relative to its site.
 class PowerDiagram::Cutter
@@ -123,55 +132,173 @@ void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
   if (this->Places.size() != this->Sites.size())
   {
     this->Places.assign(this->Sites.size(), Place());
+    this->States = std::vector<std::atomic<CutBy>>(this->Sites.size());
   }
 }
 
 void PowerDiagram::Update(const double* weights, Progress& progress)
 {
   this->Tree.SetWeights(weights, progress);
+  this->CutByKnown(weights, progress);
+  std::vector<std::int64_t> doubtful = this->FindDoubtful(progress);
+  while (!doubtful.empty())
+  {
+    this->CutByAll(doubtful, weights, progress);
+    doubtful = this->FindDoubtful(progress);
+  }
+}
+
+void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
+{
   this->LastChunks.swap(this->Chunks);
   this->Chunks.resize(static_cast<std::size_t>(this->NumberOfChunks()));
-  this->LastChunks.resize(this->Chunks.size());
-  constexpr std::int64_t firstSlice = 1 << 8; // where all cells meet in a point they are slow
+  this->LastChunks.resize(std::max(this->LastChunks.size(), this->Chunks.size()));
   progress.For(
     this->NumberOfCells(), cellsOfChunk,
     [&](std::int64_t first, std::int64_t last) {
       Cutter cutter;
       for (std::int64_t place = first; place < last; ++place)
       {
+        const std::int64_t chunk = place / cellsOfChunk;
         if (place % cellsOfChunk == 0)
         {
-          this->Chunks[static_cast<std::size_t>(place / cellsOfChunk)].clear();
+          this->Chunks[static_cast<std::size_t>(chunk)].clear();
         }
-        this->UpdateCell(place, weights, cutter);
+        const std::int64_t site = this->SiteAt(place);
+        this->StateOf(site).store(CutBy::Known, std::memory_order_relaxed);
+        this->CutByNeighbours(this->CellAt(this->LastChunks, site), site, weights, cutter);
+        this->Store(site, chunk, cutter);
+      }
+    },
+    firstSlice);
+  this->LastChunks.resize(this->Chunks.size());
+}
+
+// Cells that were cut by some of the sites have all points of the true ones. Where they fit
+// together, side to side and corner to corner, they cover the rectangle equally often everywhere:
+// once, where only four of their corners are the rectangle's. Then none of them is too large.
+std::vector<std::int64_t> PowerDiagram::FindDoubtful(Progress& progress)
+{
+  const std::int64_t corners = reduceChunks(
+    progress, this->NumberOfCells(), cellsOfChunk, std::int64_t{ 0 },
+    [this](std::int64_t first, std::int64_t last) {
+      std::int64_t count = 0;
+      for (std::int64_t place = first; place < last; ++place)
+      {
+        count += this->Compare(this->SiteAt(place));
+      }
+      return count;
+    },
+    std::plus<>());
+  std::vector<std::int64_t> doubtful;
+  const auto add = [&](CutBy state) {
+    for (std::int64_t place = 0; place < this->NumberOfCells(); ++place)
+    {
+      const std::int64_t site = this->SiteAt(place);
+      if (this->StateOf(site).load(std::memory_order_relaxed) == state)
+      {
+        doubtful.push_back(site);
+      }
+    }
+  };
+  add(CutBy::Doubtful);
+  if (doubtful.empty() && corners != 4)
+  {
+    add(CutBy::Known);
+  }
+  return doubtful;
+}
+
+// Doubts a cell and its neighbours where they do not fit. Returns how many corners of the rectangle
+// are its own.
+std::int64_t PowerDiagram::Compare(std::int64_t site)
+{
+  const Cell cell = (*this)[site];
+  const auto isNeighbour = [](const Corner& corner) { return corner.Neighbour >= 0; };
+  if (this->NumberOfCells() > 1 && std::none_of(cell.First, cell.First + cell.Count, isNeighbour))
+  {
+    this->Doubt(site);
+  }
+  std::int64_t corners = 0;
+  std::int64_t before = cell.Count - 1;
+  for (std::int64_t k = 0; k < cell.Count; before = k++)
+  {
+    const std::int64_t j = cell[k].Neighbour;
+    if (j < 0)
+    {
+      corners += cell[before].Neighbour < 0 ? 1 : 0;
+      continue;
+    }
+    const Cell other = (*this)[j];
+    std::int64_t same = 0;
+    while (same < other.Count && other[same].Neighbour != site)
+    {
+      ++same;
+    }
+    // Around a corner the cells follow each other in the order of their sides'.
+    const bool fits = same < other.Count && other.After(same).Neighbour == cell[before].Neighbour &&
+      other.Before(same).Neighbour == cell.After(k).Neighbour;
+    if (!fits)
+    {
+      this->Doubt(site);
+      this->Doubt(j);
+    }
+  }
+  return corners;
+}
+
+void PowerDiagram::Doubt(std::int64_t site)
+{
+  CutBy known = CutBy::Known;
+  this->StateOf(site).compare_exchange_strong(
+    known, CutBy::Doubtful, std::memory_order_relaxed, std::memory_order_relaxed);
+}
+
+void PowerDiagram::CutByAll(
+  const std::vector<std::int64_t>& sites, const double* weights, Progress& progress)
+{
+  const auto count = static_cast<std::int64_t>(sites.size());
+  const auto firstChunk = static_cast<std::int64_t>(this->Chunks.size());
+  this->Chunks.resize(
+    this->Chunks.size() + static_cast<std::size_t>((count + cellsOfChunk - 1) / cellsOfChunk));
+  progress.For(
+    count, cellsOfChunk,
+    [&](std::int64_t first, std::int64_t last) {
+      Cutter cutter;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const std::int64_t site = sites[static_cast<std::size_t>(i)];
+        this->CutByNeighbours((*this)[site], site, weights, cutter);
+        this->CutByRivals(site, weights[site], cutter);
+        this->Store(site, firstChunk + i / cellsOfChunk, cutter);
+        this->StateOf(site).store(CutBy::All, std::memory_order_relaxed);
       }
     },
     firstSlice);
 }
 
-void PowerDiagram::UpdateCell(std::int64_t at, const double* weights, Cutter& cutter)
+void PowerDiagram::CutByNeighbours(
+  const Cell& known, std::int64_t id, const double* weights, Cutter& cutter) const
 {
-  const std::int64_t id = this->Tree.Site(at);
   const Point<2>& site = this->Sites[static_cast<std::size_t>(id)];
-  const double weight = weights[id];
-  Place& place = this->Places[static_cast<std::size_t>(id)];
   cutter.Begin(site, this->Lengths);
-  const Corner* known =
-    this->LastChunks[static_cast<std::size_t>(place.Chunk)].data() + place.First;
-  for (std::int64_t k = 0; k < place.Count; ++k)
+  for (std::int64_t k = 0; k < known.Count; ++k)
   {
     const std::int64_t j = known[k].Neighbour;
     if (j >= 0)
     {
       const Point<2>& other = this->Sites[static_cast<std::size_t>(j)];
-      cutter.Cut(j, { other[0] - site[0], other[1] - site[1] }, weights[j] - weight);
+      cutter.Cut(j, { other[0] - site[0], other[1] - site[1] }, weights[j] - weights[id]);
     }
   }
-  this->CutByRivals(id, weight, cutter);
-  const std::int64_t chunk = at / cellsOfChunk;
+}
+
+void PowerDiagram::Store(std::int64_t site, std::int64_t chunk, const Cutter& cutter)
+{
   std::vector<Corner>& corners = this->Chunks[static_cast<std::size_t>(chunk)];
-  place = { chunk, static_cast<std::int64_t>(corners.size()), cutter.Size() };
-  cutter.Append(site, corners);
+  this->Places[static_cast<std::size_t>(site)] = { chunk, static_cast<std::int64_t>(corners.size()),
+    cutter.Size() };
+  cutter.Append(this->Sites[static_cast<std::size_t>(site)], corners);
 }
 
 void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter) const

@@ -7,6 +7,7 @@
 #include "Core/Geometry/Points.h"
 #include "Core/PowerCells/SiteTree.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,8 +19,8 @@ class Progress;
 
 // Each cell is cut out of the rectangle by the bisectors of its site and the others, independently
 // of other cells, so that the cells are computed in parallel and no arrangement of the sites is
-// special. The neighbours of the last update come first: where they are the neighbours still, a
-// cell takes about a microsecond.
+// special. The neighbours of the last update come first. Where the cells that they leave fit
+// together they are the diagram already; for the others further neighbours are searched.
 class PowerDiagram
 {
 public:
@@ -39,6 +40,10 @@ public:
     {
       return this->First[corner + 1 < this->Count ? corner + 1 : 0];
     }
+    const Corner& Before(std::int64_t corner) const
+    {
+      return this->First[(corner > 0 ? corner : this->Count) - 1];
+    }
   };
 
   // The rectangle [0, lengths].
@@ -54,12 +59,7 @@ public:
   void Update(const double* weights, Progress& progress);
 
   std::int64_t NumberOfCells() const { return this->Tree.Size(); }
-  Cell operator[](std::int64_t site) const
-  {
-    const Place& place = this->Places[static_cast<std::size_t>(site)];
-    return { this->Chunks[static_cast<std::size_t>(place.Chunk)].data() + place.First,
-      place.Count };
-  }
+  Cell operator[](std::int64_t site) const { return this->CellAt(this->Chunks, site); }
 
   // Writes the corners of the cell that a site would have with another weight than in the last
   // update, the others as they were there.
@@ -81,15 +81,39 @@ private:
     std::int64_t First = 0;
     std::int64_t Count = 0;
   };
+  // By which sites a cell was cut.
+  enum class CutBy : char
+  {
+    Known,    // the neighbours of the last update
+    Doubtful, // the same, and it may be too large
+    All
+  };
   class Cutter;
 
-  void UpdateCell(std::int64_t at, const double* weights, Cutter& cutter);
+  Cell CellAt(const std::vector<std::vector<Corner>>& chunks, std::int64_t site) const
+  {
+    const Place& place = this->Places[static_cast<std::size_t>(site)];
+    return { chunks[static_cast<std::size_t>(place.Chunk)].data() + place.First, place.Count };
+  }
+  std::atomic<CutBy>& StateOf(std::int64_t site)
+  {
+    return this->States[static_cast<std::size_t>(site)];
+  }
+  void CutByKnown(const double* weights, Progress& progress);
+  std::vector<std::int64_t> FindDoubtful(Progress& progress);
+  std::int64_t Compare(std::int64_t site);
+  void Doubt(std::int64_t site);
+  void CutByAll(const std::vector<std::int64_t>& sites, const double* weights, Progress& progress);
+  void CutByNeighbours(
+    const Cell& known, std::int64_t site, const double* weights, Cutter& cutter) const;
   void CutByRivals(std::int64_t site, double weight, Cutter& cutter) const;
+  void Store(std::int64_t site, std::int64_t chunk, const Cutter& cutter);
 
   const Point<2> Lengths;
   SiteTree Tree;
   std::vector<Point<2>> Sites;
   std::vector<Place> Places;
+  std::vector<std::atomic<CutBy>> States;
   std::vector<std::vector<Corner>> Chunks;
   std::vector<std::vector<Corner>> LastChunks; // of the update before, for their neighbours
 };

@@ -292,6 +292,39 @@ TEST(PowerDiagram, UpdatesAreAsIfFresh)
   }
 }
 
+// Two of the sites know each other only, and so do the two others, once they have moved: each
+// pair's cells fit together and fill the rectangle.
+TEST(PowerDiagram, CellsThatCoverTheRectangleTwice)
+{
+  PowerDiagram diagram(lengths);
+  const std::vector<double> none(4, 0.0);
+  setSites(diagram, { { 0.5, 1.0 }, { 1.0, 1.0 }, { 1.5, 1.0 }, { 2.0, 1.0 } });
+  update(diagram, none);
+  const Points<2> sites = { { 2.5, 1.0 }, { 0.5, 1.0 }, { 2.6, 1.0 }, { 0.6, 1.0 } };
+  setSites(diagram, sites);
+  update(diagram, none);
+  expectDiagram(diagram, sites, none);
+  EXPECT_NEAR(fanMoments(cornersOf(diagram[0])).Mass, 2.0 * (2.55 - 1.55), 1e-12);
+}
+
+TEST(PowerDiagram, HiddenSitesReturn)
+{
+  PowerDiagram diagram(lengths);
+  const Points<2> sites = randomSites(200, 16);
+  setSites(diagram, sites);
+  std::vector<double> weights(sites.size(), 0.0);
+  for (const std::size_t every : { 3u, 2u, 1000u, 1u, 3u })
+  {
+    for (std::size_t i = 0; i < sites.size(); ++i)
+    {
+      weights[i] = i % every == 1 ? -1.0 : 0.0;
+    }
+    update(diagram, weights);
+    expectDiagram(diagram, sites, weights);
+    expectEqualCells(diagram, makeDiagram(sites, weights), 1e-12);
+  }
+}
+
 TEST(PowerDiagram, OneCellWithAnotherWeight)
 {
   const Points<2> sites = randomSites(40, 8);
