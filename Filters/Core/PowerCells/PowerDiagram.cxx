@@ -235,9 +235,9 @@ std::int64_t PowerDiagram::Compare(std::int64_t site)
     {
       ++same;
     }
-    // Around a corner the cells follow each other in the order of their sides'.
-    const bool fits = same < other.Count && other.After(same).Neighbour == cell[before].Neighbour &&
-      other.Before(same).Neighbour == cell.After(k).Neighbour;
+    // The cell at the end of the side is the next one there for both; the other end is the other
+    // cell's to compare.
+    const bool fits = same < other.Count && other.Before(same).Neighbour == cell.After(k).Neighbour;
     if (!fits)
     {
       this->Doubt(site);
