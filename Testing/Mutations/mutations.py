@@ -240,6 +240,8 @@ OTHERS = [
       "x[a] = «std::clamp(place, this->Bounds.Low[a], this->Bounds.High[a])»", "place"),
     E(CORE + "SiteCells/LabelPolygons.cxx", "const std::int64_t end = «columns.Begin < columns.End» ?",
       "columns.Begin + 1 < columns.End"),
+    S(CORE + "Algebra/GraphLaplacian.cxx", "this->Edges.clear();", ""),
+    E(CORE + "PowerCells/RowMoments.h", "«this->Second + this->First» + this->Mass / 3.0", "this->Second"),
     E(CORE + "Algebra/GraphLaplacian.cxx", "const double added = «damping * trace»", "damping"),
     E(CORE + "Seeds/WindowBorder.cxx", "constexpr double relaxation = «1.5»", "1.9"),
 ]

@@ -10,30 +10,54 @@
 namespace RectifiedTransport
 {
 
-bool GraphLaplacian::Solve(double damping, std::vector<double>& values, Progress& progress) const
+void GraphLaplacian::RemoveEdges()
+{
+  std::fill(this->Diagonal.begin(), this->Diagonal.end(), 0.0);
+  this->Edges.clear();
+}
+
+bool GraphLaplacian::Factorize(double damping, Progress& progress)
 {
   const auto count = static_cast<Eigen::Index>(this->Diagonal.size());
   const double trace = std::accumulate(this->Diagonal.begin(), this->Diagonal.end(), 0.0);
   const double added = damping * trace / static_cast<double>(count);
-  std::vector<Eigen::Triplet<InterruptibleReal>> entries = this->Edges;
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    entries.emplace_back(i, i, this->Diagonal[static_cast<std::size_t>(i)] + added);
-  }
-  progress.Check();
   SparseCholesky::Matrix lower(count, count);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  progress.Check();
-  SparseCholesky system;
-  system.Analyze(lower);
-  progress.Check();
-  if (!system.Factorize(lower, progress))
   {
-    return false;
+    std::vector<Eigen::Triplet<InterruptibleReal>> entries = this->Edges;
+    for (Eigen::Index i = 0; i < count; ++i)
+    {
+      entries.emplace_back(i, i, this->Diagonal[static_cast<std::size_t>(i)] + added);
+    }
+    progress.Check();
+    lower.setFromTriplets(entries.begin(), entries.end());
   }
-  SparseCholesky::Vector right(count);
+  progress.Check();
+  this->Analyze(lower);
+  progress.Check();
+  return this->System.Factorize(lower, progress);
+}
+
+void GraphLaplacian::Analyze(const SparseCholesky::Matrix& lower)
+{
+  constexpr double mostGrowth = 1.1;
+  if (this->Ordered > 0)
+  {
+    this->System.AnalyzeInOrder(lower);
+    if (static_cast<double>(this->System.NonZeros()) <=
+      mostGrowth * static_cast<double>(this->Ordered))
+    {
+      return;
+    }
+  }
+  this->System.Analyze(lower);
+  this->Ordered = this->System.NonZeros();
+}
+
+bool GraphLaplacian::Solve(std::vector<double>& values) const
+{
+  SparseCholesky::Vector right(static_cast<Eigen::Index>(values.size()));
   std::copy(values.begin(), values.end(), right.begin());
-  const SparseCholesky::Vector solution = system.Solve(right);
+  const SparseCholesky::Vector solution = this->System.Solve(right);
   std::transform(solution.begin(), solution.end(), values.begin(),
     [](const InterruptibleReal& value) { return value.Value; });
   return std::all_of(

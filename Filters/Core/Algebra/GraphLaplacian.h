@@ -25,6 +25,8 @@ public:
     this->Edges.reserve(edgesOfNode * this->Diagonal.size());
   }
 
+  // Begins another graph of the nodes.
+  void RemoveEdges();
   // Each edge once, of its two nodes the smaller first.
   void AddEdge(std::int64_t first, std::int64_t second, double strength)
   {
@@ -33,15 +35,22 @@ public:
     this->Edges.emplace_back(second, first, -strength);
   }
 
-  // Replaces the right side by the solution, with this part of the mean of the diagonal added to
-  // it. Returns false for a pivot of zero and a solution that is not finite. The order of
-  // elimination is found in one piece, which cannot be cancelled: about a second for a million
-  // nodes. Throws std::bad_alloc and Cancelled.
-  bool Solve(double damping, std::vector<double>& values, Progress& progress) const;
+  // With this part of the mean of the diagonal added to it. Returns false for a pivot of zero. A
+  // graph that differs little from the one before keeps its order of elimination. The search of an
+  // order is one piece, which cannot be cancelled: about a second for a million nodes. Throws
+  // std::bad_alloc and Cancelled.
+  bool Factorize(double damping, Progress& progress);
+  // Replaces the right side by the solution for the matrix that was factorized last. Returns false
+  // where it is not finite.
+  bool Solve(std::vector<double>& values) const;
 
 private:
+  void Analyze(const SparseCholesky::Matrix& lower);
+
   std::vector<double> Diagonal;
   std::vector<Eigen::Triplet<InterruptibleReal>> Edges; // of the lower triangle
+  SparseCholesky System;
+  Eigen::Index Ordered = 0; // entries of the factor for which the order was found
 };
 
 } // namespace RectifiedTransport

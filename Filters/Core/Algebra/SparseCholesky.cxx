@@ -42,19 +42,33 @@ void DivisionPoll::Poll()
 
 void SparseCholesky::Analyze(const Matrix& lower)
 {
-  this->Factor.analyzePattern(lower);
+  this->Factor->analyzePattern(lower);
+}
+
+void SparseCholesky::AnalyzeInOrder(const Matrix& lower)
+{
+  this->Factor->AnalyzeInOrder(lower);
+}
+
+// Eigen's analyzePattern() after its search of an order.
+void SparseCholesky::Factorization::AnalyzeInOrder(const Matrix& lower)
+{
+  Matrix upper(lower.rows(), lower.cols());
+  upper.selfadjointView<Eigen::Upper>() =
+    lower.selfadjointView<Eigen::Lower>().twistedBy(this->m_P);
+  this->analyzePattern_preordered(upper, true);
 }
 
 bool SparseCholesky::Factorize(const Matrix& lower, Progress& progress, const StagePart& part)
 {
-  const DivisionPoll poll(progress, part, static_cast<double>(this->Factor.NonZeros()));
-  this->Factor.factorize(lower);
-  return this->Factor.info() == Eigen::Success;
+  const DivisionPoll poll(progress, part, static_cast<double>(this->NonZeros()));
+  this->Factor->factorize(lower);
+  return this->Factor->info() == Eigen::Success;
 }
 
 SparseCholesky::Vector SparseCholesky::Solve(const Vector& right) const
 {
-  return this->Factor.solve(right);
+  return this->Factor->solve(right);
 }
 
 } // namespace RectifiedTransport

@@ -9,22 +9,27 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include <vector>
+#include <memory>
 
 namespace RectifiedTransport
 {
 
 class Progress;
 
-// Solves A x = b for symmetric matrices of one pattern, of which the lower triangle is given.
+// Solves A x = b for symmetric matrices, of which the lower triangle is given.
 class SparseCholesky
 {
 public:
   using Matrix = Eigen::SparseMatrix<InterruptibleReal>;
   using Vector = Eigen::Matrix<InterruptibleReal, Eigen::Dynamic, 1>;
 
-  // The order of elimination of a pattern and that of its factor.
+  // The order of elimination of a pattern, which the matrices to come have, and the pattern of the
+  // factor.
   void Analyze(const Matrix& lower);
+  // The pattern of the factor of another pattern, in the order that was found last.
+  void AnalyzeInOrder(const Matrix& lower);
+  // Of the factor, known from the analysis on.
+  Eigen::Index NonZeros() const { return this->Factor->NonZeros(); }
   // Returns false for a matrix that has a pivot of zero. On any thread; reports a part of the
   // progress's stage. Throws Cancelled and std::bad_alloc.
   bool Factorize(const Matrix& lower, Progress& progress, const StagePart& part = { 0.0, 0.0 });
@@ -33,11 +38,11 @@ public:
 private:
   struct Factorization : Eigen::SimplicialLDLT<Matrix, Eigen::Lower>
   {
-    // Of the factor, known from the analysis on.
+    void AnalyzeInOrder(const Matrix& lower);
     Eigen::Index NonZeros() const { return this->m_matrix.nonZeros(); }
   };
 
-  Factorization Factor;
+  std::unique_ptr<Factorization> Factor = std::make_unique<Factorization>(); // does not move
 };
 
 } // namespace RectifiedTransport

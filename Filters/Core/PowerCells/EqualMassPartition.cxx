@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/PowerCells/EqualMassPartition.h"
 
-#include "Core/Algebra/GraphLaplacian.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/PowerCells/RectangleFit.h"
 
@@ -38,6 +37,7 @@ EqualMassPartition::EqualMassPartition(RowMoments density, std::int64_t sites)
   , SolvedWeights(Weights)
   , Masses(Weights)
   , Places(static_cast<std::size_t>(sites))
+  , System(sites)
 {
 }
 
@@ -336,6 +336,7 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
   Vector trial(this->Weights.size());
   double damping = smallestDamping;
   double firstPart = 1.0;
+  double reduction = std::numeric_limits<double>::infinity(); // of the deviation, by the last step
   bool isRetry = false;
   for (int shortSteps = 0; this->Found.Largest > tolerance;)
   {
@@ -347,9 +348,13 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
     const auto dampMore = [&]() {
       damping = std::max(damping, firstDamping) * 10.0;
       isRetry = true;
+      reduction = std::numeric_limits<double>::infinity();
       ++shortSteps;
     };
-    if (!this->FindDirection(damping, progress))
+    // With the matrix of a step that reduced the deviation to a part, another one reduces it to
+    // about twice that part: enough for the last step.
+    const bool isLast = 2.0 * reduction * this->Found.Largest < tolerance;
+    if (!(isLast || this->FactorizeHere(damping, progress)) || !this->FindDirection())
     {
       dampMore();
       continue;
@@ -379,7 +384,8 @@ bool EqualMassPartition::Ascend(double tolerance, int mostShort, Progress& progr
     this->Weights.swap(trial);
     shortSteps += part < isShort ? 1 : 0;
     firstPart = std::min(1.0, 4.0 * part);
-    const bool isGood = this->Found.Norm < 0.25 * before.Norm;
+    reduction = this->Found.Norm / before.Norm;
+    const bool isGood = reduction < 0.25;
     damping = std::max(smallestDamping, damping * (isGood ? 0.01 : isRetry ? 1.0 : 0.1));
     isRetry = false;
   }
@@ -399,9 +405,9 @@ double EqualMassPartition::Slope(const Vector& weights) const
 
 // Minus the second derivatives are a graph's Laplacian: the sides of the cells with their
 // strengths. Weights are determined up to a constant; damping determines it.
-bool EqualMassPartition::FindDirection(double damping, Progress& progress)
+bool EqualMassPartition::FactorizeHere(double damping, Progress& progress)
 {
-  GraphLaplacian system(this->Cells.NumberOfCells());
+  this->System.RemoveEdges();
   for (std::int64_t place = 0; place < this->Cells.NumberOfCells(); ++place)
   {
     const std::int64_t i = this->Cells.SiteAt(place);
@@ -412,15 +418,20 @@ bool EqualMassPartition::FindDirection(double damping, Progress& progress)
       const std::int64_t j = cell[k].Neighbour;
       if (j >= 0 && j < i)
       {
-        system.AddEdge(j, i, sides[k].Strength);
+        this->System.AddEdge(j, i, sides[k].Strength);
       }
     }
   }
   progress.Check();
+  return this->System.Factorize(damping, progress);
+}
+
+bool EqualMassPartition::FindDirection()
+{
   this->Direction.resize(this->Masses.size());
   std::transform(this->Masses.begin(), this->Masses.end(), this->Direction.begin(),
     [](double mass) { return 1.0 - mass; });
-  return system.Solve(damping, this->Direction, progress);
+  return this->System.Solve(this->Direction);
 }
 
 void EqualMassPartition::FindMoments(Progress& progress)

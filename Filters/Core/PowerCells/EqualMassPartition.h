@@ -5,6 +5,7 @@
 #ifndef RectifiedTransport_EqualMassPartition_h
 #define RectifiedTransport_EqualMassPartition_h
 
+#include "Core/Algebra/GraphLaplacian.h"
 #include "Core/PowerCells/PowerDiagram.h"
 #include "Core/PowerCells/RowMoments.h"
 
@@ -85,7 +86,8 @@ private:
   bool SolveFromHere(Progress& progress);
   bool SolveFromEvenDensity(Progress& progress);
   bool Ascend(double tolerance, int mostShort, Progress& progress);
-  bool FindDirection(double damping, Progress& progress);
+  bool FactorizeHere(double damping, Progress& progress);
+  bool FindDirection();
   double Slope(const Vector& weights) const;
   void FindMoments(Progress& progress);
   void FindMomentsOf(std::int64_t site);
@@ -105,6 +107,7 @@ private:
   Vector Masses;                        // as well
   std::vector<std::vector<Side>> Sides; // as well, by the diagram's chunks
   std::vector<Place> Places;            // of the sides of each site's cell
+  GraphLaplacian System;                // Newton's
   Vector Direction;
   int Steps = 0;
 };
