@@ -97,7 +97,7 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
         const double own = masses[i].Own * unit * scale;
         masses[i] = { before, own };
         before += own;
-        blocks[i / cellsOfBlock].Add(Moments::OfCell(own), static_cast<double>(i % cellsOfBlock));
+        blocks[i / cellsOfBlock].Add(own, static_cast<double>(i % cellsOfBlock));
       }
     }
   });
@@ -126,35 +126,6 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
   }
   const Point<2> nearest = nearestMass<2>(this->Occupation(), this->ToIndex(point), this->Scale);
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
-}
-
-RowMoments::Masses RowMoments::MassesAt(std::int64_t column, std::int64_t row) const
-{
-  Masses masses = this->CellMasses.data()[row * this->Size[0] + column];
-  if (this->EvenShare > 0.0)
-  {
-    const double rest = 1.0 - this->EvenShare;
-    const double even = this->EvenShare * this->MeanMass;
-    masses.Before = rest * masses.Before + even * static_cast<double>(column);
-    masses.Own = rest * masses.Own + even;
-  }
-  return masses;
-}
-
-double RowMoments::MassAt(std::int64_t column, std::int64_t row) const
-{
-  const double own = this->CellMasses.data()[row * this->Size[0] + column].Own;
-  return (1.0 - this->EvenShare) * own + this->EvenShare * this->MeanMass;
-}
-
-RowMoments::Moments RowMoments::BlockAt(std::int64_t block, std::int64_t row) const
-{
-  constexpr auto width = static_cast<double>(cellsOfBlock);
-  const Moments& moments = this->Blocks.data()[row * this->BlocksPerRow() + block];
-  const double rest = 1.0 - this->EvenShare;
-  const double even = this->EvenShare * this->MeanMass * width;
-  return { rest * moments.Mass + even, rest * moments.First + even * width / 2.0,
-    rest * moments.Second + even * width * width / 3.0 };
 }
 
 // The way of a side through the cells along one axis.
@@ -245,11 +216,12 @@ public:
   {
   }
 
-  const Moments& To(std::int64_t column, std::int64_t row)
+  Moments To(std::int64_t column, std::int64_t row)
   {
     if (row != this->Row)
     {
       this->Row = row;
+      this->Cells = this->Rows.RowAt(row);
       this->Sum = {};
       const double sign = column < this->Origin ? -1.0 : 1.0;
       this->AddCells(std::min(column, this->Origin), std::max(column, this->Origin));
@@ -257,42 +229,46 @@ public:
     }
     else if (column > this->Column)
     {
-      this->AddCell(this->Column, 1.0);
+      this->Sum.Add(this->Cells[this->Column].Own, this->Offset(this->Column));
     }
     else if (column < this->Column)
     {
-      this->AddCell(column, -1.0);
+      this->Sum.Add(-this->Cells[column].Own, this->Offset(column));
     }
     this->Column = column;
-    return this->Sum;
+    const Moments spread = this->Sum.Spread();
+    const double width = this->Offset(column);
+    return { this->Rows.WithEven(spread.Mass, width),
+      this->Rows.WithEven(spread.First, width * width / 2.0),
+      this->Rows.WithEven(spread.Second, width * width * width / 3.0) };
   }
+  // Of the cell of the point.
+  double Own() const { return this->Rows.WithEven(this->Cells[this->Column].Own, 1.0); }
 
 private:
-  void AddCell(std::int64_t column, double sign)
-  {
-    this->Sum.Add(
-      Moments::OfCell(sign * this->Rows.MassAt(column, this->Row)), this->Offset(column));
-  }
   void AddCells(std::int64_t first, std::int64_t last)
   {
+    const Moments* blocks = this->Rows.Blocks.data() + this->Row * this->Rows.BlocksPerRow();
     while (first < last)
     {
       if (first % cellsOfBlock == 0 && first + cellsOfBlock <= last)
       {
-        this->Sum.Add(this->Rows.BlockAt(first / cellsOfBlock, this->Row), this->Offset(first));
+        this->Sum.Add(blocks[first / cellsOfBlock], this->Offset(first));
         first += cellsOfBlock;
         continue;
       }
-      this->AddCell(first++, 1.0);
+      this->Sum.Add(this->Cells[first].Own, this->Offset(first));
+      ++first;
     }
   }
   double Offset(std::int64_t column) const { return static_cast<double>(column - this->Origin); }
 
   const RowMoments& Rows;
   const std::int64_t Origin;
+  const Masses* Cells = nullptr; // of the row
   std::int64_t Row = -1;
   std::int64_t Column = 0;
-  Moments Sum{};
+  Moments Sum{}; // of the beginnings of the cells
 };
 
 void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSize<2>& origin,
@@ -307,8 +283,8 @@ void RowMoments::AddSide(const Point<2>& from, const Point<2>& to, const GridSiz
   const auto zero = static_cast<double>(origin[1]);
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double) {
-      const Moments& before = integral.To(column, row);
-      const double own = this->MassAt(column, row);
+      const Moments before = integral.To(column, row);
+      const double own = integral.Own();
       const auto low = static_cast<double>(column - origin[0]);
       const double half = (b[1] - a[1]) / 2.0;
       for (const double side : { -place, place })
@@ -338,10 +314,12 @@ double RowMoments::AddSideMass(const Point<2>& from, const Point<2>& to, double&
   double below = 0.0;
   this->VisitCells(from, to,
     [&](std::int64_t column, std::int64_t row, const Point<2>& a, const Point<2>& b, double part) {
-      const Masses masses = this->MassesAt(column, row);
-      const double u = (a[0] + b[0]) / 2.0 - static_cast<double>(column);
-      below += (b[1] - a[1]) * (masses.Before + masses.Own * u);
-      along += part * masses.Own;
+      const Masses& masses = this->RowAt(row)[column];
+      const auto begin = static_cast<double>(column);
+      const double own = this->WithEven(masses.Own, 1.0);
+      const double u = (a[0] + b[0]) / 2.0 - begin;
+      below += (b[1] - a[1]) * (this->WithEven(masses.Before, begin) + own * u);
+      along += part * own;
     });
   mass += below;
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);

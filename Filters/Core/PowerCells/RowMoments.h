@@ -76,17 +76,28 @@ private:
     double Before;
     double Own;
   };
-  // Integrals over cells of a row of 1, x and x^2 (x in cells) times density.
+  // Sums or integrals over cells of a row of their masses times 1, x and x^2 (x in cells).
   struct Moments
   {
-    // Of a cell, from its beginning on.
-    static Moments OfCell(double mass) { return { mass, mass / 2.0, mass / 3.0 }; }
+    void Add(double mass, double x)
+    {
+      const double first = x * mass;
+      this->Mass += mass;
+      this->First += first;
+      this->Second += x * first;
+    }
     // Those of `part`, whose x are from `offset` on.
     void Add(const Moments& part, double offset)
     {
       this->Second += part.Second + offset * (2.0 * part.First + offset * part.Mass);
       this->First += part.First + offset * part.Mass;
       this->Mass += part.Mass;
+    }
+    // From masses at the beginnings of cells to those of even cells.
+    Moments Spread() const
+    {
+      return { this->Mass, this->First + this->Mass / 2.0,
+        this->Second + this->First + this->Mass / 3.0 };
     }
 
     double Mass;
@@ -108,9 +119,15 @@ private:
   std::int64_t WordsPerRow() const { return (this->Size[0] + 63) / 64; }
   DensitySummary ReadValues(const DensityValues& values, Progress& progress);
   void Accumulate(double total, const DensitySummary& found, Progress& progress);
-  Masses MassesAt(std::int64_t column, std::int64_t row) const;
-  double MassAt(std::int64_t column, std::int64_t row) const;
-  Moments BlockAt(std::int64_t block, std::int64_t row) const;
+  const Masses* RowAt(std::int64_t row) const
+  {
+    return this->CellMasses.data() + row * this->Size[0];
+  }
+  // With the even share.
+  double WithEven(double mass, double evenMasses) const
+  {
+    return (1.0 - this->EvenShare) * mass + this->EvenShare * this->MeanMass * evenMasses;
+  }
   // Calls visit(column, row, from, to, part) for the part of a side in each cell, in their order,
   // which is from `from` to `to` in cells and makes up `part` of the side.
   template <class Visit>
@@ -122,7 +139,7 @@ private:
   double EvenShare = 0.0;
   bool Empty = false;
   LargeBuffer<Masses> CellMasses;
-  LargeBuffer<Moments> Blocks;         // of cells of a row, from their first cell on
+  LargeBuffer<Moments> Blocks;         // of the beginnings of cells, from their first cell on
   LargeBuffer<std::uint64_t> Occupied; // a bit a cell, rows of whole words
 };
 
