@@ -182,9 +182,35 @@ EqualMassPartition::Deviation EqualMassPartition::Evaluate(
   return this->Found;
 }
 
+// The cells of the diagram are small parts of a table that is larger than the caches.
+void EqualMassPartition::PrefetchCell(std::int64_t place) const
+{
+  if (place >= this->Cells.NumberOfCells())
+  {
+    return;
+  }
+  const PowerDiagram::Cell cell = this->Cells[this->Cells.SiteAt(place)];
+  if (cell.Count == 0)
+  {
+    return;
+  }
+  Point<2> low = cell[0].X;
+  Point<2> high = low;
+  for (std::int64_t k = 1; k < cell.Count; ++k)
+  {
+    for (std::size_t a = 0; a < 2; ++a)
+    {
+      low[a] = std::min(low[a], cell[k].X[a]);
+      high[a] = std::max(high[a], cell[k].X[a]);
+    }
+  }
+  this->Rows.Prefetch(low, high);
+}
+
 // Of the two cells at a side, the one of the larger site integrates along it.
 void EqualMassPartition::IntegrateSides(std::int64_t place)
 {
+  this->PrefetchCell(place + 1);
   const std::int64_t chunk = place / PowerDiagram::cellsOfChunk;
   std::vector<Side>& sides = this->Sides[static_cast<std::size_t>(chunk)];
   if (place % PowerDiagram::cellsOfChunk == 0)
@@ -439,8 +465,10 @@ void EqualMassPartition::FindMoments(Progress& progress)
   this->CellMoments.resize(this->Sites.size());
   this->Centroids.resize(this->Sites.size());
   this->Costs.resize(this->Sites.size());
-  this->VisitCells(
-    progress, [this](std::int64_t place) { this->FindMomentsOf(this->Cells.SiteAt(place)); });
+  this->VisitCells(progress, [this](std::int64_t place) {
+    this->PrefetchCell(place + 1);
+    this->FindMomentsOf(this->Cells.SiteAt(place));
+  });
 }
 
 void EqualMassPartition::FindMomentsOf(std::int64_t site)

@@ -78,6 +78,7 @@ private:
   // Calls visit(place) for the cells, in chunks.
   template <class Visit>
   void VisitCells(Progress& progress, const Visit& visit);
+  void PrefetchCell(std::int64_t place) const;
   void IntegrateSides(std::int64_t place);
   void AddSides(std::int64_t site);
   Side Integrate(std::int64_t site, std::int64_t side) const;

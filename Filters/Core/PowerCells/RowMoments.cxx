@@ -51,7 +51,7 @@ DensitySummary RowMoments::ReadValues(const DensityValues& values, Progress& pro
         this->Occupied.data() + j * this->WordsPerRow(), part.Summary);
       part.Summary.Total += inspection.Sum;
       part.Empty = part.Empty || !(inspection.Smallest > 0.0);
-      Masses* masses = this->CellMasses.data() + j * columns;
+      Masses* masses = this->RowAt(j);
       for (std::int64_t i = 0; i < columns; ++i)
       {
         masses[i].Own = row[static_cast<std::size_t>(i)];
@@ -89,7 +89,7 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
     for (std::int64_t j = first; j < last; ++j)
     {
       double before = 0.0;
-      Masses* masses = this->CellMasses.data() + j * columns;
+      Masses* masses = this->RowAt(j);
       Moments* blocks = this->Blocks.data() + j * this->BlocksPerRow();
       std::fill_n(blocks, this->BlocksPerRow(), Moments{});
       for (std::int64_t i = 0; i < columns; ++i)
@@ -128,7 +128,8 @@ Point<2> RowMoments::NearestMass(const Point<2>& point) const
   return { nearest[0] * this->Scale[0], nearest[1] * this->Scale[1] };
 }
 
-// The way of a side through the cells along one axis.
+// The way of a side through the cells along one axis. Whether the next face is one of x or one of y
+// is nothing that a processor could predict, so that no branch depends on it.
 struct RowMoments::Way
 {
   // From `start` to `end`, in cells, of which there are `count`.
@@ -136,9 +137,9 @@ struct RowMoments::Way
   {
     // A side along a face belongs to the cells on either side of it.
     const auto cellOf = [count](double x, bool below) {
-      const double floor = std::floor(x);
-      const auto cell = static_cast<std::int64_t>(floor) - (below && x == floor ? 1 : 0);
-      return std::clamp<std::int64_t>(cell, 0, count - 1);
+      const auto cell = static_cast<std::int64_t>(x);
+      const bool isFace = x == static_cast<double>(cell);
+      return std::clamp<std::int64_t>(cell - (below && isFace ? 1 : 0), 0, count - 1);
     };
     const double length = end - start;
     this->Cell = cellOf(start, length < 0.0);
@@ -146,23 +147,28 @@ struct RowMoments::Way
     this->Direction = length < 0.0 ? -1 : 1;
     if (this->Faces > 0)
     {
-      this->Between = 1.0 / std::abs(length);
+      this->Steps[1] = 1.0 / std::abs(length);
       this->Next = (static_cast<double>(this->Cell + (length < 0.0 ? 0 : 1)) - start) / length;
     }
   }
 
-  void Cross()
+  // Crosses the next face, or none.
+  void Cross(bool isCrossed)
   {
-    this->Cell += this->Direction;
-    this->Next = --this->Faces > 0 ? this->Next + this->Between : never;
+    const std::int64_t crossed = isCrossed ? 1 : 0;
+    const bool isLast = this->Faces <= 1;
+    this->Cell += crossed * this->Direction;
+    this->Faces -= crossed;
+    this->Next += this->Steps[crossed << static_cast<int>(isLast)];
   }
 
   static constexpr double never = 2.0;
   std::int64_t Cell;
   std::int64_t Direction;
-  std::int64_t Faces;   // that are left to cross
-  double Next = never;  // the part of the side before the next face
-  double Between = 0.0; // faces, as a part of the side
+  std::int64_t Faces;  // that are left to cross
+  double Next = never; // the part of the side before the next face
+  // What crossing adds to it: none, one of several faces, the last one.
+  double Steps[3] = { 0.0, 0.0, never };
 };
 
 template <class Visit>
@@ -174,18 +180,41 @@ void RowMoments::VisitCells(const Point<2>& from, const Point<2>& to, const Visi
   Way y(start[1], end[1], this->Size[1]);
   double done = 0.0;
   Point<2> at = start;
-  while (x.Faces + y.Faces > 0)
+  for (std::int64_t faces = x.Faces + y.Faces; faces > 0; --faces)
   {
-    Way& next = y.Next < x.Next ? y : x;
-    const double part = std::clamp(next.Next, done, 1.0);
+    const bool isRow = y.Next < x.Next;
+    const double part = std::clamp(std::min(x.Next, y.Next), done, 1.0);
     const Point<2> face = { start[0] + part * (end[0] - start[0]),
       start[1] + part * (end[1] - start[1]) };
     visit(x.Cell, y.Cell, at, face, part - done);
-    next.Cross();
+    x.Cross(!isRow);
+    y.Cross(isRow);
     at = face;
     done = part;
   }
   visit(x.Cell, y.Cell, at, end, 1.0 - done);
+}
+
+void RowMoments::Prefetch(const Point<2>& low, const Point<2>& high) const
+{
+  constexpr std::int64_t cellsOfLine = 64 / sizeof(Masses);
+  constexpr std::int64_t mostLines = 256; // a part of the nearest cache
+  const GridSize<2> first = this->CellAt(low);
+  const GridSize<2> last = this->CellAt(high);
+  const std::int64_t lines = (last[0] - first[0]) / cellsOfLine + 2;
+  if (lines * (last[1] - first[1] + 1) > mostLines)
+  {
+    return;
+  }
+  for (std::int64_t row = first[1]; row <= last[1]; ++row)
+  {
+    const Masses* cells = this->RowAt(row);
+    for (std::int64_t column = first[0]; column < last[0]; column += cellsOfLine)
+    {
+      __builtin_prefetch(cells + column);
+    }
+    __builtin_prefetch(cells + last[0]);
+  }
 }
 
 GridSize<2> RowMoments::CellAt(const Point<2>& point) const

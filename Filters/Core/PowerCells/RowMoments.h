@@ -56,6 +56,8 @@ public:
   // above 0 no part of the domain is empty.
   void SetEvenShare(double share) { this->EvenShare = share; }
 
+  // Asks for the memory of the cells of a box ahead of their use, where it fits into the caches.
+  void Prefetch(const Point<2>& low, const Point<2>& high) const;
   // The cell of the grid that holds a point, or one beside it.
   GridSize<2> CellAt(const Point<2>& point) const;
   // Its corner nearest to the origin.
@@ -123,6 +125,7 @@ private:
   {
     return this->CellMasses.data() + row * this->Size[0];
   }
+  Masses* RowAt(std::int64_t row) { return this->CellMasses.data() + row * this->Size[0]; }
   // With the even share.
   double WithEven(double mass, double evenMasses) const
   {
