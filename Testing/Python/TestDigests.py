@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bits that the filters compute: digests of the outputs of 112 runs, which take every filter,
+"""The bits that the filters compute: digests of the outputs of runs which take every filter,
 dimension and family of options.
 
 usage: python3 TestDigests.py [--record | --against FILE]
