@@ -53,7 +53,7 @@ bool EqualMassPartition::Solve(ConstPointSpan<2> sites, Progress& progress)
   this->SolvedSites = this->Sites;
   this->SolvedWeights = this->Weights;
   this->Rows.SetEvenShare(0.0); // what is left of it belongs to the way, not to the moments
-  this->FindMoments(progress);
+  this->IntegrateCells(progress);
   return true;
 }
 
@@ -69,7 +69,7 @@ void EqualMassPartition::SetSites(ConstPointSpan<2> sites, Progress& progress)
   this->Weights = this->SolvedWeights;
   for (std::size_t i = 0; i < this->SolvedSites.size(); ++i)
   {
-    const Point<2> centroid = this->Centroid(static_cast<std::int64_t>(i));
+    const Point<2>& centroid = this->Centroid(static_cast<std::int64_t>(i));
     this->Weights[i] +=
       squaredDistance(centroid, this->Sites[i]) - squaredDistance(centroid, this->SolvedSites[i]);
   }
@@ -460,18 +460,17 @@ bool EqualMassPartition::FindDirection()
   return this->System.Solve(this->Direction);
 }
 
-void EqualMassPartition::FindMoments(Progress& progress)
+void EqualMassPartition::IntegrateCells(Progress& progress)
 {
-  this->CellMoments.resize(this->Sites.size());
-  this->Centroids.resize(this->Sites.size());
-  this->Costs.resize(this->Sites.size());
+  this->Integrated.resize(this->Sites.size());
   this->VisitCells(progress, [this](std::int64_t place) {
     this->PrefetchCell(place + 1);
-    this->FindMomentsOf(this->Cells.SiteAt(place));
+    const std::int64_t site = this->Cells.SiteAt(place);
+    this->Integrated[static_cast<std::size_t>(site)] = this->IntegrateCell(site);
   });
 }
 
-void EqualMassPartition::FindMomentsOf(std::int64_t site)
+EqualMassPartition::CellIntegrals EqualMassPartition::IntegrateCell(std::int64_t site) const
 {
   const PowerDiagram::Cell cell = this->Cells[site];
   Point<2> middle{};
@@ -487,12 +486,16 @@ void EqualMassPartition::FindMomentsOf(std::int64_t site)
   {
     this->Rows.AddSide(cell[k].X, cell.After(k).X, near, moments);
   }
-  const auto i = static_cast<std::size_t>(site);
-  const Point<2>& x = this->Sites[i];
-  this->CellMoments[i] = moments.MovedBy(origin);
-  this->Centroids[i] = { origin[0] + moments.First[0] / moments.Mass,
-    origin[1] + moments.First[1] / moments.Mass };
-  this->Costs[i] = moments.MovedBy({ origin[0] - x[0], origin[1] - x[1] }).Second;
+  const Point<2> offset = { moments.First[0] / moments.Mass, moments.First[1] / moments.Mass };
+  return { moments.Mass, { origin[0] + offset[0], origin[1] + offset[1] },
+    moments.MovedBy({ -offset[0], -offset[1] }).Second };
+}
+
+double EqualMassPartition::Cost(std::int64_t site) const
+{
+  const CellIntegrals& cell = this->Integrals(site);
+  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+  return cell.Spread + squaredDistance(cell.Centroid, x) * cell.Mass;
 }
 
 } // namespace RectifiedTransport

@@ -25,6 +25,14 @@ class Progress;
 class EqualMassPartition
 {
 public:
+  // Over a cell.
+  struct CellIntegrals
+  {
+    double Mass;
+    Point<2> Centroid;
+    double Spread; // of |x - centroid|^2
+  };
+
   // The mass of the density is the number of sites: each cell is to have 1.
   EqualMassPartition(RowMoments density, std::int64_t sites);
 
@@ -38,14 +46,13 @@ public:
   // After a solution:
   const RowMoments& Density() const { return this->Rows; }
   const PowerDiagram& Diagram() const { return this->Cells; }
-  // The integrals over the cells, in the order of the sites, relative to the origin.
-  const std::vector<PolygonMoments>& Moments() const { return this->CellMoments; }
-  // The integral of |x - site|^2 over a cell.
-  double Cost(std::int64_t site) const { return this->Costs[static_cast<std::size_t>(site)]; }
-  Point<2> Centroid(std::int64_t site) const
+  const CellIntegrals& Integrals(std::int64_t site) const
   {
-    return this->Centroids[static_cast<std::size_t>(site)];
+    return this->Integrated[static_cast<std::size_t>(site)];
   }
+  const Point<2>& Centroid(std::int64_t site) const { return this->Integrals(site).Centroid; }
+  // The integral of |x - site|^2 over a cell.
+  double Cost(std::int64_t site) const;
   // How many linear systems the last call solved.
   int NewtonSteps() const { return this->Steps; }
 
@@ -90,19 +97,16 @@ private:
   bool FactorizeHere(double damping, Progress& progress);
   bool FindDirection();
   double Slope(const Vector& weights) const;
-  void FindMoments(Progress& progress);
-  void FindMomentsOf(std::int64_t site);
+  void IntegrateCells(Progress& progress);
+  CellIntegrals IntegrateCell(std::int64_t site) const;
 
   RowMoments Rows;
   PowerDiagram Cells;
   std::vector<Point<2>> Sites;
   Vector Weights;
-  std::vector<Point<2>> SolvedSites; // of the last solution, with Centroids
+  std::vector<Point<2>> SolvedSites; // of the last solution, with its integrals
   Vector SolvedWeights;
-  std::vector<PolygonMoments> CellMoments;
-  // These have digits of their own: far from the origin they are lost in the moments.
-  std::vector<Point<2>> Centroids;
-  Vector Costs;
+  std::vector<CellIntegrals> Integrated;
 
   Deviation Found{};                    // of the weights that were evaluated last
   Vector Masses;                        // as well

@@ -20,7 +20,7 @@ double TransportEnergy::Evaluate(
   double cost = 0.0;
   for (std::int64_t i = 0; i < points.size(); ++i)
   {
-    const Point<2> centroid = this->Partition.Centroid(i);
+    const Point<2>& centroid = this->Partition.Centroid(i);
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       gradient[i][axis] = points[i][axis] - centroid[axis];

@@ -156,16 +156,15 @@ void PowerSiteCells::Keep(const EqualMassPartition& partition, const std::vector
       }
       this->Corners.push_back(index);
     }
-    const PolygonMoments& moments = partition.Moments()[i];
-    const Point<2> centroid = partition.Centroid(site);
-    this->Shares.push_back(moments.Mass / count);
+    const EqualMassPartition::CellIntegrals& integrals = partition.Integrals(site);
+    const Point<2>& centroid = integrals.Centroid;
+    this->Shares.push_back(integrals.Mass / count);
     this->Centroids.push_back(
       { centroid[0] / this->PixelSides[0], centroid[1] / this->PixelSides[1] });
     // About the centroid, and from it to where the site was given.
     const Point<2> offset = { sites[i][0] - centroid[0], sites[i][1] - centroid[1] };
-    const double spread = moments.Second - squaredLength(centroid) * moments.Mass;
     this->Costs.push_back(
-      (spread + (squaredLength(offset) + this->Heights[i]) * moments.Mass) / count);
+      (integrals.Spread + (squaredLength(offset) + this->Heights[i]) * integrals.Mass) / count);
   }
   this->First.push_back(static_cast<std::int64_t>(this->Corners.size()));
   this->Heights = {};
