@@ -85,6 +85,7 @@ parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress
 parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*:SiteCells*"
 parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
+parallel_tests="$parallel_tests:PowerDiagram*:EqualMassPartition*:PowerSiteCells*:Repulsion*"
 
 # run_tests FOLDER CTEST-ARGUMENT...
 run_tests()
