@@ -128,7 +128,7 @@ OTHERS = [
       "right[m] += this->Smoothing * value * (a[axis] - b[axis])"),
     E(CORE + "Parameterization/AreaPolish.cxx", "«this->Energy(this->Moved) < before»", "true"),
     S(CORE + "Parameterization/FlipRepair.cxx", "addRing(parts, isIn, points);", ";"),
-    E(CORE + "Parameterization/AreaPreservingMap.cxx", "inside = «1.0 / 512.0»", "0.0"),
+    E(CORE + "Parameterization/AreaPreservingMap.cxx", "std::clamp(position, «inside», 1.0", "0.0"),
     E(CORE + "Parameterization/AreaPreservingMap.cxx", "map.Distortion.Area95 > «distant»", "1e9"),
     # particles on surfaces
     E(CORE + "SurfaceSampling/Turn.cxx", "«std::abs(turn) > bound * (std::abs(left) + std::abs(right))»",
@@ -180,7 +180,7 @@ OTHERS = [
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),
     E(BRIDGE + "Splat/MassSplatter.cxx", "splatMassIn(density, target, progress)",
-      "masses.Total()"),
+      "given.Total()"),
     E(BRIDGE + "Flow/TransportSampler.cxx", "count *= «sampler.SamplesPerCell»",
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),
     E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
@@ -243,5 +243,5 @@ OTHERS = [
     S(CORE + "Algebra/GraphLaplacian.cxx", "this->Edges.clear();", ""),
     E(CORE + "PowerCells/RowMoments.h", "«this->Second + this->First» + this->Mass / 3.0", "this->Second"),
     E(CORE + "Algebra/GraphLaplacian.cxx", "const double added = «damping * trace»", "damping"),
-    E(CORE + "Seeds/WindowBorder.cxx", "constexpr double relaxation = «1.5»", "1.9"),
+    E(CORE + "Seeds/WindowBorder.cxx", "«relaxation» * centroid[0]", "1.9"),
 ]
