@@ -104,8 +104,12 @@ template <class Cell>
 bool SiteTree::MayCut(const Box& box, const Point<2>& centre, double weight, const Cell& cell)
 {
   const Point<2>& g = box.Slope;
-  const double offset = box.Offset + g[0] * centre[0] + g[1] * centre[1];
-  const double constant = weight - offset - (g[0] * g[0] + g[1] * g[1]) / 4.0;
+  const double atCentre = g[0] * centre[0] + g[1] * centre[1];
+  const double square = (g[0] * g[0] + g[1] * g[1]) / 4.0;
+  // Sites near each other may have weights far from each other: steep slopes round.
+  const double rounding =
+    1e-15 * (std::abs(weight) + std::abs(box.Offset) + std::abs(atCentre) + 4.0 * square);
+  const double constant = weight - (box.Offset + atCentre) - square - rounding;
   const Point<2> low = { box.Low[0] - centre[0] - g[0] / 2.0, box.Low[1] - centre[1] - g[1] / 2.0 };
   const Point<2> high = { box.High[0] - centre[0] - g[0] / 2.0,
     box.High[1] - centre[1] - g[1] / 2.0 };

@@ -220,6 +220,30 @@ TEST(PowerDiagram, TwoSites)
   EXPECT_EQ(makeDiagram(sites, { 0.0, 4.0 })[0].Count, 0);
 }
 
+// Weights that differ much over little way make planes through them steep.
+TEST(PowerDiagram, NearbySitesOfOtherWeights)
+{
+  for (std::uint64_t seed = 0; seed < 60; ++seed)
+  {
+    Points<2> sites = randomSites(160, seed);
+    const Points<2> offsets = randomSites(160, seed + 100);
+    std::vector<double> weights = randomWeights(160, 1.0, seed + 200);
+    for (std::size_t i = 0; i < sites.size(); ++i)
+    {
+      const std::size_t other = i % 4 == 0 ? i : i / 3;
+      sites[i] = { sites[other][0] + 1e-7 * offsets[i][0], sites[other][1] + 1e-7 * offsets[i][1] };
+      weights[i] = weights[i] < 0.4 ? 0.0 : weights[i] < 0.7 ? -6.0 : -0.006;
+    }
+    double area = 0.0;
+    const PowerDiagram diagram = makeDiagram(sites, weights);
+    for (std::int64_t i = 0; i < diagram.NumberOfCells(); ++i)
+    {
+      area += fanMoments(cornersOf(diagram[i])).Mass;
+    }
+    EXPECT_NEAR(area, lengths[0] * lengths[1], 1e-7) << seed;
+  }
+}
+
 TEST(PowerDiagram, SitesOutsideOfTheRectangle)
 {
   Points<2> sites = randomSites(60, 8);
