@@ -170,7 +170,8 @@ int vtkTransportInterpolator::RequestData(
   requireThat(isNumberOfTimeSteps(this->NumberOfTimeSteps), "NumberOfTimeSteps",
     this->NumberOfTimeSteps, "from 2 to 1000000");
   const double parameter = this->FindParameter(request, outputVector);
-  const BlendSettings settings = this->GetBlendSettings();
+  BlendSettings settings = this->GetBlendSettings();
+  settings.AddCost = true;
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.

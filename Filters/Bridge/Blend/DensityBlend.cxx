@@ -11,7 +11,9 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/MassSplat.h"
 #include "Core/Flow/WeightedMean.h"
+#include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -25,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -34,7 +37,9 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double partOfMean = 0.2; // of the progress after the maps
+// Of the progress after the maps, where each ends.
+constexpr double partOfMean = 0.2;
+constexpr double partOfCost = 0.25;
 constexpr double partOfParticles = 0.4;
 
 ImageGrid gridBetween(const std::vector<BlendInput>& inputs, const int dimensions[3])
@@ -118,6 +123,13 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
+  if (settings.AddCost)
+  {
+    progress.BeginStage(maps + partOfCost * (1.0 - maps));
+    const double cost = this->CostBetweenEnds(geometry, progress);
+    addFieldValue(output.Density, "TransportCost", cost);
+    addFieldValue(output.Particles, "TransportCost", cost);
+  }
   const double particles = maps + partOfParticles * (1.0 - maps);
   this->WriteParticles(inputs, massEach, progress, particles, output.Particles);
   addFieldValue(output.Particles, "TotalMass", mass);
@@ -217,6 +229,39 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
   const PointSpan<3> means(this->Means->GetPointer(0), count);
   progress.For(count, grain,
     [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
+}
+
+// The mean of |y - x|^2 over the particles' positions x and y in the two inputs. As the work of the
+// current stage, but where the maps are those of the last call.
+double DensityBlend::CostBetweenEnds(const ImageGrid& geometry, Progress& progress)
+{
+  const std::array<vtkDoubleArray*, 2> ends = { this->Maps[0].Positions(),
+    this->Maps[1].Positions() };
+  if (this->Ends[0] == ends[0] && this->Ends[1] == ends[1])
+  {
+    return this->EndsCost;
+  }
+  const std::int64_t count = ends[0]->GetNumberOfTuples();
+  const ConstPointSpan<3> from(ends[0]->GetPointer(0), count);
+  const ConstPointSpan<3> to(ends[1]->GetPointer(0), count);
+  const LengthScale scale(geometry);
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
+  const double squares = reduceChunks(
+    progress, count, grain, 0.0,
+    [&](std::int64_t first, std::int64_t last) {
+      double sum = 0.0;
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const double way[3] = { to[i][0] - from[i][0], to[i][1] - from[i][1],
+          to[i][2] - from[i][2] };
+        sum += scale.SquareInUnits(way);
+      }
+      return sum;
+    },
+    std::plus<>());
+  this->EndsCost = scale.CostFromUnits(squares / static_cast<double>(count));
+  this->Ends = { ends[0], ends[1] };
+  return this->EndsCost;
 }
 
 double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const

@@ -9,6 +9,9 @@
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Splat/Splat.h"
 
+#include "vtkWeakPointer.h"
+
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +51,7 @@ struct BlendSettings
   MassMode Mode;
   FlowOptions Flow;
   SplatOptions Splat;
+  bool AddCost; // of two inputs: TransportCost
 };
 
 // Of vtkTransportBlend: the density on port 0, the particles on port 1.
@@ -74,12 +78,16 @@ private:
     const LinearizedMapSettings& settings, Progress& progress);
   std::int64_t MakeMaps(const std::vector<BlendInput>& inputs,
     const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
+  double CostBetweenEnds(const ImageGrid& geometry, Progress& progress);
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, double massEach, Progress& progress,
     double end, vtkPolyData* output);
 
   std::vector<LinearizedMap> Maps;
+  // Of the last CostBetweenEnds.
+  std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
+  double EndsCost = 0.0;
   vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same
   // The arrays of the last output, reused where they have no other owner: new memory is cleared by
   // the system, which takes as long as all other work after the maps.

@@ -252,6 +252,16 @@ void checkDensities(Checks& checks)
   test.Expect("Target: The field association of the density array is ", __LINE__);
   morph->SetInputArrayToProcess(1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
   test.ExpectNone(30, __LINE__);
+  const auto huge = [](double slope) {
+    auto line = makeDensity({ 40, 1, 1 }, true, [=](vtkIdType i) { return 50.0 + slope * i; });
+    line->SetSpacing(1e155, 1.0, 1.0);
+    return line;
+  };
+  morph->SetInputData(huge(1.0));
+  morph->SetTargetData(huge(-1.0));
+  test.Expect("TransportCost, the mean of the squared displacements, passes the largest double; "
+              "the spacing of the density must be smaller",
+    __LINE__);
 }
 
 // Nothing upstream yet is no error.

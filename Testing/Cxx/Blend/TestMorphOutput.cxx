@@ -103,6 +103,45 @@ void checkMass(Checks& checks)
   checkMass(checks, makeDensity({ 1, 50, 1 }, true, bumpy), makeDensity({ 1, 20, 1 }, true, bumpy));
 }
 
+// The mean of |Target - Source|^2, on both ports, whatever the parameter is.
+void checkCost(Checks& checks)
+{
+  auto source = makeDensity({ 30, 20, 1 }, true, smoothDensity(30, 20));
+  auto target = makeDensity({ 30, 20, 1 }, true, otherDensity(30, 20));
+  target->SetOrigin(3.0, -1.0, 0.0);
+  auto morph = makeMorph(source, target);
+  morph->SetParticlesPerCell(4);
+  double cost = 0.0;
+  for (const double t : { 0.0, 0.3, 1.0 })
+  {
+    morph->SetParameter(t);
+    morph->Update();
+    const Values from = particleValues(morph, "SourcePosition");
+    const Values to = particleValues(morph, "TargetPosition");
+    double squares = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+    {
+      squares += (to[i] - from[i]) * (to[i] - from[i]);
+    }
+    const double mean = squares / static_cast<double>(from.size() / 3);
+    cost = fieldValue(morph->GetDensity(), "TransportCost");
+    CHECK_NEAR(checks, cost, mean, 1e-12 * mean);
+    CHECK(checks, fieldValue(morph->GetParticles(), "TransportCost") == cost);
+  }
+  // The same mass elsewhere has the square of the way between; new maps have a cost of their own.
+  auto moved = makeDensity({ 30, 20, 1 }, true, smoothDensity(30, 20));
+  moved->SetOrigin(3.0, -4.0, 0.0);
+  morph->SetTargetData(moved);
+  morph->Update();
+  CHECK_NEAR(checks, fieldValue(morph->GetDensity(), "TransportCost"), 25.0, 1e-11);
+  morph->SetTargetData(source);
+  morph->Update();
+  CHECK(checks, fieldValue(morph->GetDensity(), "TransportCost") == 0.0);
+  morph->SetTargetData(target);
+  morph->Update();
+  CHECK(checks, fieldValue(morph->GetDensity(), "TransportCost") == cost);
+}
+
 // The places that a sampler takes the particles of the pivot to: the centres of the cells of a grid
 // over the domain of an image of cells.
 Values sampleOf(vtkImageData* image, const Counts& grid)
@@ -371,6 +410,6 @@ void checkGhosts(Checks& checks)
 
 int TestMorphOutput(int, char*[])
 {
-  return runChecks({ checkEnds, checkMass, checkPlaces, checkPivot, checkTranslation, checkReverse,
-    checkArrays, checkChoice, checkGhosts });
+  return runChecks({ checkEnds, checkMass, checkCost, checkPlaces, checkPivot, checkTranslation,
+    checkReverse, checkArrays, checkChoice, checkGhosts });
 }
