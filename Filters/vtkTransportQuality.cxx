@@ -39,7 +39,7 @@ void addColumn(vtkTable* table, const char* name, Value value)
 //------------------------------------------------------------------------------
 vtkTransportQuality::vtkTransportQuality()
   : vtkDensityAlgorithm(1)
-  , BlockSize(8)
+  , BlockSize(0)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -84,7 +84,8 @@ int vtkTransportQuality::FillOutputPortInformation(int, vtkInformation* info)
 int vtkTransportQuality::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  requireThat(this->BlockSize >= 1, "BlockSize", this->BlockSize, "at least 1");
+  requireThat(this->BlockSize >= 0, "BlockSize", this->BlockSize,
+    "at least 1, or 0 for blocks of about 64 particles");
   AlgorithmProgress progress(this, this->Threading);
   // The row is in piece 0, whatever pieces are requested.
   if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))

@@ -39,7 +39,8 @@
  * points, of Mass and of Displacement take 24, 8 and 24 more. The numbers are the same to the last
  * bit for every number of threads.
  *
- * @warning With fewer than several particles a block, DensityError measures their noise.
+ * @warning With fewer than several particles a block, DensityError measures their noise: about
+ * 1 / sqrt(particles a block) for independent ones.
  *
  * \code{.cpp}
  * vtkNew<vtkTransportQuality> quality;
@@ -72,7 +73,9 @@ public:
   ///@{
   /**
    * The number of cells of the density along each axis in a block of DensityError, at least 1; the
-   * last block of an axis may have fewer. Default 8.
+   * last block of an axis may have fewer. Default 0: the least number with which blocks have 64
+   * particles on average over the domain. DensityError is then about 1/8 for independent particles,
+   * and less for those that are spread more evenly.
    */
   vtkSetMacro(BlockSize, int);
   vtkGetMacro(BlockSize, int);

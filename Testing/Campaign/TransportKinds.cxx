@@ -301,7 +301,7 @@ using Quality = vtkTransportQuality;
 void drawQuality(Settings& settings)
 {
   settings.Draw<Quality, int>("BlockSize", &Quality::SetBlockSize,
-    { 1, 2, 8, 100, std::numeric_limits<int>::max() }, { 0, -3 });
+    { 0, 1, 2, 8, 100, std::numeric_limits<int>::max() }, { -1, -3 });
   drawDensitySettings(settings);
 }
 

@@ -112,10 +112,10 @@ class Errors(unittest.TestCase):
 
     def test_quality(self):
         image = producer(simple, density_image())
-        quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=0)
+        quality = simple.TransportQuality(Input=simple.Plane(), Density=image, BlockSize=-1)
         reported = Listener(quality.GetClientSideObject())
         self.assertEqual(output_of(quality).GetNumberOfRows(), 0)
-        self.assertIn("BlockSize is 0; it must be at least 1", reported.errors[0])
+        self.assertIn("BlockSize is -1; it must be at least 1, or 0 ", reported.errors[0])
         quality.BlockSize = 3
         self.assertEqual(output_of(quality).GetValueByName(0, "Outside").ToInt(), 3)
 

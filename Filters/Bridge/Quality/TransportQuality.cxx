@@ -151,12 +151,17 @@ private:
 };
 
 template <int D>
-ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid, int blockSize,
-  const SharedFlow& flow, Progress& progress)
+ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
+  std::int64_t blockSize, const SharedFlow& flow, Progress& progress)
 {
   constexpr double eachParticle = 11 * sizeof(double); // of measureQuality
   constexpr double eachBlock = 2 * sizeof(double);
+  constexpr double usualParticles = 64.0; // of a block
   const auto count = particles.Points.size();
+  if (blockSize == 0)
+  {
+    blockSize = blockSizeFor<D>(grid.Size<D>(), count, usualParticles);
+  }
   const double blocks = numberOfCells<D>(numberOfBlocks<D>(grid.Size<D>(), blockSize));
   const std::string purpose = "the comparison of " + std::to_string(count) + " particles with " +
     std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";

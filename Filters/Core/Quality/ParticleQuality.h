@@ -7,6 +7,7 @@
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Context.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace RectifiedTransport
@@ -35,6 +36,31 @@ struct ParticleQuality
   double SmallestSpacing = 0.0;
   double MeanSpacing = 0.0;
 };
+
+// The smallest size of blocks, in grid cells along each axis, that have `particles` of `all` on
+// average over the grid.
+template <int Dimension>
+std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, double particles)
+{
+  const double wanted =
+    std::min(1.0, particles / static_cast<double>(all)) * numberOfCells<Dimension>(cells);
+  const auto cellsOfBlock = [&cells](std::int64_t size) {
+    double product = 1.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      product *= static_cast<double>(std::min(size, cells[axis]));
+    }
+    return product;
+  };
+  std::int64_t tooSmall = 0;
+  std::int64_t large = *std::max_element(cells.begin(), cells.end());
+  while (large - tooSmall > 1)
+  {
+    const std::int64_t size = tooSmall + (large - tooSmall) / 2;
+    (cellsOfBlock(size) < wanted ? tooSmall : large) = size;
+  }
+  return large;
+}
 
 // Blocks of `blockSize` grid cells along each axis; the last one may have fewer.
 template <int Dimension>

@@ -89,6 +89,17 @@ TEST(ParticleQuality, AllInOneHalf)
   EXPECT_NEAR(qualityOf<2>(density, grid, { points }, 8).DensityError, 0.0, 1e-14);
 }
 
+TEST(ParticleQuality, BlocksOfManyParticles)
+{
+  EXPECT_EQ(blockSizeFor<2>({ 1024, 1024 }, 16384, 64.0), 64);
+  EXPECT_EQ(blockSizeFor<2>({ 1024, 1024 }, 16383, 64.0), 65); // at least as many
+  EXPECT_EQ(blockSizeFor<3>({ 40, 20, 10 }, 8000, 64.0), 4);
+  EXPECT_EQ(blockSizeFor<1>({ 1000 }, 6400, 64.0), 10);
+  EXPECT_EQ(blockSizeFor<2>({ 1000, 2 }, 2000, 64.0), 32); // the second axis has no more
+  EXPECT_EQ(blockSizeFor<2>({ 30, 50 }, 10, 64.0), 50);    // one block
+  EXPECT_EQ(blockSizeFor<2>({ 8, 8 }, 1000000, 64.0), 1);
+}
+
 TEST(ParticleQuality, MassesWeigh)
 {
   const auto grid = makeGrid<1>({ 2 }, { 3.0, 1.0, 1.0 });

@@ -253,7 +253,8 @@ void checkDensities(Checks& checks)
   morph->SetInputArrayToProcess(1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
   test.ExpectNone(30, __LINE__);
   const auto huge = [](double slope) {
-    auto line = makeDensity({ 40, 1, 1 }, true, [=](vtkIdType i) { return 50.0 + slope * i; });
+    auto line = makeDensity(
+      { 40, 1, 1 }, true, [=](vtkIdType i) { return 50.0 + slope * static_cast<double>(i); });
     line->SetSpacing(1e155, 1.0, 1.0);
     return line;
   };

@@ -180,6 +180,26 @@ void checkBlocks(Checks& checks)
   CHECK_NEAR(checks, measured(quality, "TransportCost"), (70 * 9 + 150 * 25) / all, 1e-12);
 }
 
+// Of as many cells as hold 64 particles on average.
+void checkUsualBlocks(Checks& checks)
+{
+  auto image = makeImage(60, 40, 1, true, bumpy);
+  std::vector<double> x;
+  for (int i = 0; i < 1600; ++i)
+  {
+    x.insert(x.end(), { std::fmod(7.3 * i, 60.0), std::fmod(3.1 * i, 40.0), 0.0 });
+  }
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(makePoints(x));
+  quality->SetDensityData(image);
+  const double usual = measured(quality, "DensityError");
+  for (const int size : { 8, 9, 10, 11, 12 })
+  {
+    quality->SetBlockSize(size);
+    CHECK(checks, (measured(quality, "DensityError") == usual) == (size == 10));
+  }
+}
+
 // The DensityError to expect of particles at random, and of evenly spread ones.
 struct ExpectedErrors
 {
@@ -300,7 +320,7 @@ void checkErrors(Checks& checks)
   const auto points = []() { return makePoints({ 1, 1, 0, 2, 2, 0 }); };
   quality->SetInputData(points());
   quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
-  for (const int size : { 0, -8 })
+  for (const int size : { -1, -8 })
   {
     quality->SetBlockSize(size);
     test.Expect({ "BlockSize is " + std::to_string(size), "at least 1" }, __LINE__);
@@ -366,6 +386,6 @@ void checkErrors(Checks& checks)
 
 int TestTransportQuality(int, char*[])
 {
-  return runChecks(
-    { checkLattices, checkUnevenDensity, checkBlocks, checkSampler, checkOutside, checkErrors });
+  return runChecks({ checkLattices, checkUnevenDensity, checkBlocks, checkUsualBlocks, checkSampler,
+    checkOutside, checkErrors });
 }
