@@ -9,6 +9,7 @@
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
 
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -29,6 +30,7 @@ vtkTransportSampler::vtkTransportSampler()
   , SamplesPerCell(0)
   , FlowTime(1.0)
   , OutputPaths(false)
+  , SampleArrays(true)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -83,7 +85,7 @@ int vtkTransportSampler::RequestData(
   const RectifiedTransport::SeedPattern pattern = this->GetSeedSettings().Pattern();
   const TransportSampler sampler{ this->GetFlowSettings().Options(), pattern,
     this->NumberOfParticles, this->RandomSeed, this->SamplesPerCell, this->FlowTime,
-    this->OutputPaths != 0 };
+    this->OutputPaths != 0, this->SampleArrays != 0 };
   requireThat(
     this->SamplesPerCell >= 0, "SamplesPerCell", this->SamplesPerCell, "0 (not used) or greater");
   requireThat(this->NumberOfParticles >= 1 || seeds || sampler.UsesGrid(), "NumberOfParticles",
@@ -103,8 +105,8 @@ int vtkTransportSampler::RequestData(
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const TransportSampler::Report report =
-    sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
+  const TransportSampler::Report report = sampler.Run(
+    *density, vtkImageData::GetData(inputVector[0]), seeds, this->GetFlowCache(), progress, output);
   if (report.SeedsMoved > 0)
   {
     vtkWarningMacro(<< report.SeedsMoved << " of " << seeds->GetNumberOfPoints()
@@ -128,5 +130,6 @@ void vtkTransportSampler::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SamplesPerCell: " << this->SamplesPerCell << "\n";
   os << indent << "FlowTime: " << this->FlowTime << "\n";
   os << indent << "OutputPaths: " << (this->OutputPaths ? "On" : "Off") << "\n";
+  os << indent << "SampleArrays: " << (this->SampleArrays ? "On" : "Off") << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -107,6 +107,18 @@ public:
 
   ///@{
   /**
+   * Give each particle the values of the density's image where it is, as point arrays of their
+   * names: those of cell arrays are the cell's, those of point arrays linear between the points.
+   * Arrays whose names the particles or the seeds have already are left out, and so are ghost
+   * arrays, ids of points (vtkIdTypeArray) and global ids. Not with OutputPaths. On by default.
+   */
+  vtkSetMacro(SampleArrays, vtkTypeBool);
+  vtkGetMacro(SampleArrays, vtkTypeBool);
+  vtkBooleanMacro(SampleArrays, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Set the seeds (input 1), as the output of another filter or as a data object. nullptr: none.
    */
   void SetSeedsConnection(vtkAlgorithmOutput* seeds);
@@ -131,6 +143,7 @@ protected:
   int SamplesPerCell;
   double FlowTime;
   vtkTypeBool OutputPaths;
+  vtkTypeBool SampleArrays;
 
 private:
   vtkTransportSampler(const vtkTransportSampler&) = delete;

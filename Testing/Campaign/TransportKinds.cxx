@@ -49,6 +49,7 @@ void drawSampler(Settings& settings)
     "FlowTime", &Sampler::SetFlowTime, { 0.0, 0.25, 0.999, 1.0, 5e-324 }, { -0.1, 1.1, NaN }, 0.4);
   settings.Draw<Sampler, vtkTypeBool>(
     "OutputPaths", &Sampler::SetOutputPaths, { 0, 1 }, {}, settings.IsLarge() ? 0.0 : 0.15);
+  settings.Draw<Sampler, vtkTypeBool>("SampleArrays", &Sampler::SetSampleArrays, { 0, 1 }, {});
   drawFlowSettings<vtkTransportAlgorithm>(settings);
   drawDensitySettings(settings);
 }

@@ -145,8 +145,8 @@ OTHERS = [
     E(BRIDGE + "SurfaceSampling/SurfaceMasses.cxx", "if («ghosts && (ghosts[cell] & ghostCell)»)", "false"),
     E(BRIDGE + "SurfaceSampling/SurfaceSampler.cxx", "cell[i] = «surface.InputCellOf(place.Triangle)»",
       "surface.CellOf(place.Triangle)"),
-    E(BRIDGE + "SurfaceSampling/SampledArrays.cxx", "ofCells, «surface.CellOf(places.data()[i].Triangle)»",
-      "static_cast<vtkIdType>(places.data()[i].Triangle)"),
+    E(BRIDGE + "SurfaceSampling/SurfaceSampler.cxx", "found.Cell = «this->Surface.CellOf(on.Triangle)»",
+      "static_cast<vtkIdType>(on.Triangle)"),
     # the bridge
     E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] + «0.5»", "0.0"),
     E(BRIDGE + "SiteCells/DataStamp.h", "«this->Bits != 0 && this->Bits == previous.Bits»",

@@ -166,6 +166,8 @@ def sheet(columns=24, rows=17, quads=False):
 def run(filter_class, *inputs, array=None, **properties):
     """The outputs of a filter; inputs are those of its ports, None for none."""
     algorithm = filter_class()
+    if filter_class is rt.vtkTransportSampler and "SampleArrays" not in properties:
+        algorithm.SampleArraysOff()
     for port, data in enumerate(inputs):
         for part in data if isinstance(data, list) else [data]:
             if part is None:
@@ -216,6 +218,11 @@ def sampler_runs():
     yield "sample turned", sampler, [image(direction=TURN)], dict(NumberOfParticles=2000)
     yield "sample turned 3D", sampler, [image((23, 17, 19), direction=TURN, spacing=(1, -2, 0.5))], \
         dict(NumberOfParticles=2000)
+    for data, dimension in ((line, 1), (plane, 2), (space, 3)):
+        yield f"sample arrays {dimension}D", sampler, [data], dict(
+            SampleArrays=1, NumberOfParticles=2000)
+    yield "sample arrays of colours", sampler, [colours(3)], dict(
+        SampleArrays=1, NumberOfParticles=2000)
     yield "sample ghosts", sampler, [with_ghosts(image())], {}
     for components in (2, 3, 4):
         yield f"sample {components} colours", sampler, [colours(components)], dict(
@@ -306,7 +313,8 @@ def other_runs():
             BlockSize=5)
     density = image()
     yield "quality of given points", rt.vtkTransportQuality, [
-        with_ghosts(points_in(density), cells=False), density], {}
+        with_ghosts(points_in(density), cells=False), density], dict(BlockSize=8)
+    yield "quality in usual blocks", rt.vtkTransportQuality, [points_in(density), density], {}
     for pattern, name in enumerate(PATTERNS):
         yield f"seeds {name}", rt.vtkUniformSeedSource, [], dict(
             Pattern=pattern, Dimension=2 + pattern % 2, NumberOfPoints=4000,

@@ -4,6 +4,7 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Points/ParticleSet.h"
+#include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
@@ -11,8 +12,11 @@
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -87,14 +91,16 @@ void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::
 
 template <int D>
 TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& density,
-  vtkPointSet* given, FlowCache& cache, Progress& progress, vtkPolyData* output)
+  vtkImageData* image, vtkPointSet* given, FlowCache& cache, Progress& progress,
+  vtkPolyData* output)
 {
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
   const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern.Count();
   const std::vector<double> times = timesOf(sampler);
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
-    Cost::flow(sampler.Flow, D) * count, Cost::Write * count * static_cast<double>(times.size()) });
+    Cost::flow(sampler.Flow, D) * count, Cost::Write * count * static_cast<double>(times.size()),
+    sampler.SampleArrays && !sampler.OutputPaths ? Cost::Write * count : 0.0 });
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
@@ -144,8 +150,17 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
     data->PassData(given->GetPointData());
   }
   const double mass = flow.TotalMass();
-  const double cost = sampler.OutputPaths ? particles.WritePaths(mass, times, progress, 1.0, output)
-                                          : particles.WriteParticles(mass, progress, 1.0, output);
+  const double cost = sampler.OutputPaths
+    ? particles.WritePaths(mass, times, progress, ends[3], output)
+    : particles.WriteParticles(mass, progress, ends[3], output);
+  if (sampler.SampleArrays && !sampler.OutputPaths)
+  {
+    const ConstPointSpan<3> places(
+      vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData())->GetPointer(0),
+      output->GetNumberOfPoints());
+    sampleArrays({ image, "input image", false }, PlacesInImage<D>(grid, places), progress, 1.0,
+      output->GetPointData());
+  }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
   return report;
@@ -153,11 +168,11 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 
 } // namespace
 
-TransportSampler::Report TransportSampler::Run(DensityImage& density, vtkPointSet* seeds,
-  FlowCache& cache, Progress& progress, vtkPolyData* output) const
+TransportSampler::Report TransportSampler::Run(DensityImage& density, vtkImageData* image,
+  vtkPointSet* seeds, FlowCache& cache, Progress& progress, vtkPolyData* output) const
 {
   return dispatchDimension(density.Grid().Dimension(), sample<1>, sample<2>, sample<3>)(
-    *this, density, seeds, cache, progress, output);
+    *this, density, image, seeds, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

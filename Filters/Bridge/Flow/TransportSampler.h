@@ -10,6 +10,7 @@
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
@@ -31,6 +32,7 @@ struct TransportSampler
   int SamplesPerCell;
   double FlowTime;
   bool OutputPaths;
+  bool SampleArrays;
 
   // Numbers for warnings.
   struct Report
@@ -47,9 +49,10 @@ struct TransportSampler
   }
 
   // Writes particles, or their paths, from the given seeds, or from those of the pattern where
-  // `seeds` is nullptr. Throws Failure and Cancelled.
-  Report Run(DensityImage& density, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
-    vtkPolyData* output) const;
+  // `seeds` is nullptr; `image` has the density, and the arrays that particles get. Throws Failure
+  // and Cancelled.
+  Report Run(DensityImage& density, vtkImageData* image, vtkPointSet* seeds, FlowCache& cache,
+    Progress& progress, vtkPolyData* output) const;
 };
 
 } // namespace RectifiedTransport

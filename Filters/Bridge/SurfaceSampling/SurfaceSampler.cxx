@@ -3,12 +3,12 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
-#include "Bridge/SurfaceSampling/SampledArrays.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
@@ -97,6 +97,32 @@ void writeParticles(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangl
   data->SetNormals(normals);
 }
 
+class PlacesOnSurface : public SampledPlaces
+{
+public:
+  PlacesOnSurface(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places)
+    : Surface(surface)
+    , Places(places)
+  {
+  }
+
+  std::int64_t Count() const override { return this->Places.size(); }
+  SampledPlace Find(std::int64_t place) const override
+  {
+    const PlaceOnTriangle& on = this->Places.data()[place];
+    SampledPlace found{};
+    found.Count = 3;
+    std::copy_n(this->Surface.Disk().Triangle(on.Triangle), 3, found.Points);
+    std::copy_n(on.Weights.data(), 3, found.Weights);
+    found.Cell = this->Surface.CellOf(on.Triangle);
+    return found;
+  }
+
+private:
+  const DiskSurface& Surface;
+  const LargeBuffer<PlaceOnTriangle>& Places;
+};
+
 } // namespace
 
 void SurfaceSampler::Check() const
@@ -182,7 +208,8 @@ SurfaceSamplingReport SurfaceSampler::Run(
   writeParticles(surface, samples.Places, masses.Total(), progress, output);
   progress.BeginStage(ends[5]);
   output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
-  sampleArrays(surface, samples.Places, progress, ends[6], output->GetPointData());
+  sampleArrays({ surface.Triangulated(), "input surface", true },
+    PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
   return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),
     countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving };

@@ -37,7 +37,7 @@ void checkArrays(Checks& checks, vtkPolyData* output, double mass)
       return;
     }
   }
-  CHECK(checks, output->GetPointData()->GetNumberOfArrays() == 4);
+  CHECK(checks, output->GetPointData()->GetNumberOfArrays() == 5); // with the image's
   CHECK(checks, output->GetPointData()->GetVectors() == displacements);
   CHECK(checks, seeds->GetNumberOfComponents() == 3);
   CHECK(checks, displacements->GetNumberOfComponents() == 3);

@@ -140,7 +140,7 @@ void checkData(Checks& checks)
   vtkPointData* data = sampler->GetOutput()->GetPointData();
   CHECK(checks, data->GetScalars() == colour);
   CHECK(checks, data->GetArray("SeedId")->GetComponent(2, 0) == 2.0);
-  CHECK(checks, data->GetNumberOfArrays() == 5);
+  CHECK(checks, data->GetNumberOfArrays() == 6); // with the image's
   sampler->OutputPathsOn();
   sampler->Update();
   CHECK(checks, sampler->GetOutput()->GetCellData()->GetArray("Colour") == colour);

@@ -41,7 +41,8 @@ int TestPrintSelf(int, char*[])
     { "Component: -1", "InvertDensity: Off", "NegativeValues: Error", "Integrator: Multistep",
       "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "FlowMaps: Auto",
       "Threading: Auto", "TableBuildTime: 0", "NumberOfParticles: 8192", "SeedPattern: BlueNoise",
-      "RandomSeed: 1", "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off" });
+      "RandomSeed: 1", "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off",
+      "SampleArrays: On" });
   sampler->SetComponent(2);
   sampler->InvertDensityOn();
   sampler->SetNegativeValuesToClamp();
@@ -57,11 +58,13 @@ int TestPrintSelf(int, char*[])
   sampler->SetSamplesPerCell(3);
   sampler->SetFlowTime(0.25);
   sampler->OutputPathsOn();
+  sampler->SampleArraysOff();
   expectLines(checks, sampler,
     { "Component: 2", "InvertDensity: On", "NegativeValues: Clamp", "Integrator: RungeKutta4",
       "NumberOfSteps: 7", "Tolerance: 0.5", "TableLookup: Nearest", "FlowMaps: Off",
       "Threading: OpenMP", "NumberOfParticles: 12345678901", "SeedPattern: LowDiscrepancy",
-      "RandomSeed: -4", "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On" });
+      "RandomSeed: -4", "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On",
+      "SampleArrays: Off" });
 
   const char* const integrators[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
   const char* const threadings[] = { "Auto", "VTK", "OpenMP", "Serial" };

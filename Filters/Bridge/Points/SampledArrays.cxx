@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/SampledArrays.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 10;
+// Units of a slice of work.
+constexpr std::int64_t Units = std::int64_t{ 1 } << 14;
+
+struct NewArray
+{
+  vtkAbstractArray* From;
+  int Attribute; // that it is, else negative
+};
+
+std::string nameOf(vtkAbstractArray* array)
+{
+  return array->GetName() ? array->GetName() : "";
+}
+
+// The arrays whose names `known` has not; `owner` is "point" or "cell".
+std::vector<NewArray> newArrays(vtkDataSetAttributes* from, vtkIdType tuples,
+  const std::string& owner, const std::string& what, vtkPointData* known)
+{
+  std::vector<NewArray> arrays;
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(i);
+    const std::string name = nameOf(array);
+    const int attribute = from->IsArrayAnAttribute(i);
+    const bool isTaken = array->GetName() && known->HasArray(array->GetName());
+    const bool isGhost = name == vtkDataSetAttributes::GhostArrayName();
+    // Between the names of points there is nothing, and a cell's would be of several particles.
+    const bool isIds = attribute == vtkDataSetAttributes::GLOBALIDS ||
+      (owner == "point" &&
+        (attribute == vtkDataSetAttributes::PEDIGREEIDS || vtkIdTypeArray::SafeDownCast(array)));
+    if (isTaken || isGhost || isIds)
+    {
+      continue;
+    }
+    if (array->GetNumberOfTuples() < tuples)
+    {
+      throw Failure("The " + owner + " array '" + name + "' of the " + what + " has " +
+        std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
+        std::to_string(tuples) + " " + owner + "s");
+    }
+    arrays.push_back({ array, attribute });
+  }
+  return arrays;
+}
+
+vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t tuples)
+{
+  const std::string purpose =
+    "the array " + (array->GetName() ? nameOf(array) : std::string("without name"));
+  const double bytes = static_cast<double>(tuples) * array->GetNumberOfComponents() *
+    std::max(1, array->GetDataTypeSize());
+  requireMemory(purpose, bytes);
+  const auto made = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
+  made->SetName(array->GetName());
+  made->SetNumberOfComponents(array->GetNumberOfComponents());
+  made->CopyComponentNames(array);
+  if (array->HasInformation())
+  {
+    made->CopyInformation(array->GetInformation(), 0);
+  }
+  if (auto* data = vtkDataArray::SafeDownCast(made))
+  {
+    data->SetLookupTable(vtkDataArray::SafeDownCast(array)->GetLookupTable());
+  }
+  withMemory(purpose, bytes, [&]() { made->SetNumberOfTuples(static_cast<vtkIdType>(tuples)); });
+  return made;
+}
+
+// Writes tuples of an array whose values lie apart in memory: on any threads.
+struct SampleValues
+{
+  template <class Array>
+  void operator()(Array* from, vtkDataArray* to, const SampledPlaces& places, bool ofCells,
+    Progress& progress) const
+  {
+    using Value = vtk::GetAPIType<Array>;
+    const auto given = vtk::DataArrayTupleRange(from);
+    auto found = vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(to));
+    const auto components = static_cast<vtk::ComponentIdType>(from->GetNumberOfComponents());
+    progress.For(
+      places.Count(), Grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          const SampledPlace place = places.Find(i);
+          auto tuple = found[static_cast<vtk::TupleIdType>(i)];
+          for (vtk::ComponentIdType c = 0; c < components; ++c)
+          {
+            if (ofCells)
+            {
+              tuple[c] = static_cast<Value>(given[place.Cell][c]);
+              continue;
+            }
+            double sum = 0.0;
+            for (int k = 0; k < place.Count; ++k)
+            {
+              sum += place.Weights[k] * static_cast<double>(given[place.Points[k]][c]);
+            }
+            Value value;
+            vtkMath::RoundDoubleToIntegralIfNecessary(sum, &value);
+            tuple[c] = value;
+          }
+        }
+      },
+      Units);
+  }
+};
+
+// Of strings, bits and the like.
+void sampleTuples(vtkAbstractArray* from, vtkAbstractArray* to, const SampledPlaces& places,
+  bool ofCells, Progress& progress)
+{
+  vtkNew<vtkIdList> points;
+  progress.ForInOrder(
+    places.Count(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        SampledPlace place = places.Find(i);
+        if (ofCells)
+        {
+          to->SetTuple(static_cast<vtkIdType>(i), place.Cell, from);
+          continue;
+        }
+        points->SetNumberOfIds(place.Count);
+        std::copy_n(place.Points, place.Count, points->GetPointer(0));
+        to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, place.Weights);
+      }
+    },
+    Units);
+}
+
+void sample(const std::vector<NewArray>& arrays, const SampledPlaces& places, bool ofCells,
+  bool keepActive, Progress& progress, double end, vtkPointData* output)
+{
+  const double begin = progress.StageEnd();
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    const NewArray& array = arrays[i];
+    progress.BeginStage(
+      begin + (end - begin) * static_cast<double>(i + 1) / static_cast<double>(arrays.size()));
+    const auto made = makeLike(array.From, places.Count());
+    auto* from = vtkDataArray::SafeDownCast(array.From);
+    auto* to = vtkDataArray::SafeDownCast(made);
+    if (!from || from->GetDataType() == VTK_BIT ||
+      !vtkArrayDispatch::Dispatch::Execute(from, SampleValues(), to, places, ofCells, progress))
+    {
+      sampleTuples(array.From, made, places, ofCells, progress);
+    }
+    const int index = output->AddArray(made);
+    if (keepActive && array.Attribute >= 0 && !output->GetAbstractAttribute(array.Attribute))
+    {
+      output->SetActiveAttribute(index, array.Attribute);
+    }
+  }
+}
+
+} // namespace
+
+void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
+  double end, vtkPointData* output)
+{
+  vtkDataSet* data = source.Data;
+  const auto ofPointsAlone = static_cast<double>(data->GetPointData()->GetNumberOfArrays());
+  const double all = ofPointsAlone + data->GetCellData()->GetNumberOfArrays();
+  const double begin = progress.StageEnd();
+  const double middle = begin + (end - begin) * ofPointsAlone / std::max(all, 1.0);
+  const std::vector<NewArray> ofPoints =
+    newArrays(data->GetPointData(), data->GetNumberOfPoints(), "point", source.Name, output);
+  sample(ofPoints, places, false, source.KeepActive, progress, middle, output);
+  const std::vector<NewArray> ofCells =
+    newArrays(data->GetCellData(), data->GetNumberOfCells(), "cell", source.Name, output);
+  sample(ofCells, places, true, false, progress, end, output);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays of a data set at points in its cells.
+#ifndef RectifiedTransport_SampledArrays_h
+#define RectifiedTransport_SampledArrays_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataSet;
+class vtkPointData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// A place in a data set: between points that have weights, and in a cell.
+struct SampledPlace
+{
+  vtkIdType Points[8];
+  double Weights[8];
+  int Count; // of points
+  vtkIdType Cell;
+};
+
+class SampledPlaces
+{
+public:
+  virtual ~SampledPlaces() = default;
+
+  virtual std::int64_t Count() const = 0;
+  // On any thread.
+  virtual SampledPlace Find(std::int64_t place) const = 0;
+};
+
+struct ArraySource
+{
+  vtkDataSet* Data;
+  const char* Name; // in messages
+  bool KeepActive;  // whether active attributes of points stay active, where there are no others
+};
+
+// Adds the point arrays, interpolated, and the values of the cell arrays at the given places to the
+// data of points, but for names that there are already, ghost arrays, ids of points and global ids.
+// As stages up to the progress `end`. Throws Failure and Cancelled.
+void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
+  double end, vtkPointData* output);
+
+} // namespace RectifiedTransport
+
+#endif
