@@ -123,6 +123,31 @@ class State(unittest.TestCase):
         self.assertEqual(len(barycenter.Input), 3)
         self.assertEqual(digests(), expected)
 
+    def test_state_of_before(self):
+        """A state without the properties and defaults of now gives what it gave."""
+        path = os.path.join(SOURCE, "Testing", "Data", "before-sample-arrays.pvsm")
+        with open(path, encoding="utf-8") as file:
+            state = file.read().replace("@SOURCE@", SOURCE)
+        path = os.path.join(OUTPUT, "before-sample-arrays.pvsm")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(state)
+        simple.LoadState(path)
+        quality = simple.FindSource("Quality")
+        self.assertEqual(quality.BlockSize, 8)
+        row = output_of(quality)
+        self.assertAlmostEqual(row.GetValueByName(0, "DensityError").ToDouble(),
+                               0.6272852234266574, 12)
+        self.assertAlmostEqual(row.GetValueByName(0, "MeanSpacing").ToDouble(),
+                               0.8476155747182829, 12)
+        particles = output_of(simple.FindSource("Sampler"))
+        self.assertEqual(particles.GetNumberOfPoints(), 3000)
+        expected = (358.728611330922, 103.61377915596726, 0.0)
+        for found, coordinate in zip(particles.GetPoint(1234), expected):
+            self.assertAlmostEqual(found, coordinate, 9)
+        arrays = particles.GetPointData()
+        self.assertEqual([arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())],
+                         ["SeedId", "SeedPosition", "Displacement", "Mass", "PNGImage"])
+
     def test_python_state(self):
         from paraview import smstate
         pipeline()
