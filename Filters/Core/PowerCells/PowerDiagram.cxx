@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -129,49 +130,48 @@ void PowerDiagram::SetSites(ConstPointSpan<2> sites, Progress& progress)
   {
     this->Sites[static_cast<std::size_t>(i)] = { sites[i][0], sites[i][1] };
   }
-  if (this->Places.size() != this->Sites.size())
+  if (this->States.size() != this->Sites.size())
   {
-    this->Places.assign(this->Sites.size(), Place());
+    this->Now.Clear(sites.size(), 1);
     this->States = std::vector<std::atomic<CutBy>>(this->Sites.size());
   }
 }
 
 void PowerDiagram::Update(const double* weights, Progress& progress)
 {
+  // Doubt spreads by a ring of cells a round; a change of half of the diagram needs no more.
+  constexpr int mostRounds = 8;
   this->Tree.SetWeights(weights, progress);
   this->CutByKnown(weights, progress);
-  std::vector<std::int64_t> doubtful = this->FindDoubtful(progress);
-  while (!doubtful.empty())
+  for (int round = 0; round < mostRounds; ++round)
   {
+    const std::vector<std::int64_t> doubtful = this->FindDoubtful(progress);
+    if (doubtful.empty())
+    {
+      return;
+    }
     this->CutByAll(doubtful, weights, progress);
-    doubtful = this->FindDoubtful(progress);
   }
+  this->CutByAll(this->SitesCutBy(CutBy::Known), weights, progress);
 }
 
 void PowerDiagram::CutByKnown(const double* weights, Progress& progress)
 {
-  this->LastChunks.swap(this->Chunks);
-  this->Chunks.resize(static_cast<std::size_t>(this->NumberOfChunks()));
-  this->LastChunks.resize(std::max(this->LastChunks.size(), this->Chunks.size()));
+  std::swap(this->Last, this->Now);
+  this->Now.Clear(this->NumberOfCells(), this->NumberOfChunks());
   progress.For(
     this->NumberOfCells(), cellsOfChunk,
     [&](std::int64_t first, std::int64_t last) {
       Cutter cutter;
       for (std::int64_t place = first; place < last; ++place)
       {
-        const std::int64_t chunk = place / cellsOfChunk;
-        if (place % cellsOfChunk == 0)
-        {
-          this->Chunks[static_cast<std::size_t>(chunk)].clear();
-        }
         const std::int64_t site = this->SiteAt(place);
         this->StateOf(site).store(CutBy::Known, std::memory_order_relaxed);
-        this->CutByNeighbours(this->CellAt(this->LastChunks, site), site, weights, cutter);
-        this->Store(site, chunk, cutter);
+        this->CutByNeighbours(this->Last.At(site), site, weights, cutter);
+        this->Now.Store(this->SiteOf(site), site, place / cellsOfChunk, cutter);
       }
     },
     firstSlice);
-  this->LastChunks.resize(this->Chunks.size());
 }
 
 // Cells that were cut by some of the sites have all points of the true ones. Where they fit
@@ -190,23 +190,22 @@ std::vector<std::int64_t> PowerDiagram::FindDoubtful(Progress& progress)
       return count;
     },
     std::plus<>());
-  std::vector<std::int64_t> doubtful;
-  const auto add = [&](CutBy state) {
-    for (std::int64_t place = 0; place < this->NumberOfCells(); ++place)
-    {
-      const std::int64_t site = this->SiteAt(place);
-      if (this->StateOf(site).load(std::memory_order_relaxed) == state)
-      {
-        doubtful.push_back(site);
-      }
-    }
-  };
-  add(CutBy::Doubtful);
-  if (doubtful.empty() && corners != 4)
+  const std::vector<std::int64_t> doubtful = this->SitesCutBy(CutBy::Doubtful);
+  return doubtful.empty() && corners != 4 ? this->SitesCutBy(CutBy::Known) : doubtful;
+}
+
+std::vector<std::int64_t> PowerDiagram::SitesCutBy(CutBy state)
+{
+  std::vector<std::int64_t> sites;
+  for (std::int64_t place = 0; place < this->NumberOfCells(); ++place)
   {
-    add(CutBy::Known);
+    const std::int64_t site = this->SiteAt(place);
+    if (this->StateOf(site).load(std::memory_order_relaxed) == state)
+    {
+      sites.push_back(site);
+    }
   }
-  return doubtful;
+  return sites;
 }
 
 // Doubts a cell and its neighbours where they do not fit. Returns how many corners of the rectangle
@@ -258,9 +257,9 @@ void PowerDiagram::CutByAll(
   const std::vector<std::int64_t>& sites, const double* weights, Progress& progress)
 {
   const auto count = static_cast<std::int64_t>(sites.size());
-  const auto firstChunk = static_cast<std::int64_t>(this->Chunks.size());
-  this->Chunks.resize(
-    this->Chunks.size() + static_cast<std::size_t>((count + cellsOfChunk - 1) / cellsOfChunk));
+  const auto firstChunk = static_cast<std::int64_t>(this->Now.Chunks.size());
+  this->Now.Chunks.resize(
+    static_cast<std::size_t>(firstChunk + (count + cellsOfChunk - 1) / cellsOfChunk));
   progress.For(
     count, cellsOfChunk,
     [&](std::int64_t first, std::int64_t last) {
@@ -270,7 +269,7 @@ void PowerDiagram::CutByAll(
         const std::int64_t site = sites[static_cast<std::size_t>(i)];
         this->CutByNeighbours((*this)[site], site, weights, cutter);
         this->CutByRivals(site, weights[site], cutter);
-        this->Store(site, firstChunk + i / cellsOfChunk, cutter);
+        this->Now.Store(this->SiteOf(site), site, firstChunk + i / cellsOfChunk, cutter);
         this->StateOf(site).store(CutBy::All, std::memory_order_relaxed);
       }
     },
@@ -280,30 +279,41 @@ void PowerDiagram::CutByAll(
 void PowerDiagram::CutByNeighbours(
   const Cell& known, std::int64_t id, const double* weights, Cutter& cutter) const
 {
-  const Point<2>& site = this->Sites[static_cast<std::size_t>(id)];
+  const Point<2>& site = this->SiteOf(id);
   cutter.Begin(site, this->Lengths);
   for (std::int64_t k = 0; k < known.Count; ++k)
   {
     const std::int64_t j = known[k].Neighbour;
     if (j >= 0)
     {
-      const Point<2>& other = this->Sites[static_cast<std::size_t>(j)];
+      const Point<2>& other = this->SiteOf(j);
       cutter.Cut(j, { other[0] - site[0], other[1] - site[1] }, weights[j] - weights[id]);
     }
   }
 }
 
-void PowerDiagram::Store(std::int64_t site, std::int64_t chunk, const Cutter& cutter)
+void PowerDiagram::Cells::Clear(std::int64_t sites, std::int64_t chunks)
+{
+  this->Places.assign(static_cast<std::size_t>(sites), Place());
+  this->Chunks.resize(static_cast<std::size_t>(chunks));
+  for (std::vector<Corner>& chunk : this->Chunks)
+  {
+    chunk.clear();
+  }
+}
+
+void PowerDiagram::Cells::Store(
+  const Point<2>& at, std::int64_t site, std::int64_t chunk, const Cutter& cutter)
 {
   std::vector<Corner>& corners = this->Chunks[static_cast<std::size_t>(chunk)];
-  this->Places[static_cast<std::size_t>(site)] = { chunk, static_cast<std::int64_t>(corners.size()),
-    cutter.Size() };
-  cutter.Append(this->Sites[static_cast<std::size_t>(site)], corners);
+  const auto first = static_cast<std::int64_t>(corners.size());
+  cutter.Append(at, corners);
+  this->Places[static_cast<std::size_t>(site)] = { chunk, first, cutter.Size() };
 }
 
 void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter) const
 {
-  this->Tree.VisitRivals(this->Sites[static_cast<std::size_t>(site)], weight, cutter,
+  this->Tree.VisitRivals(this->SiteOf(site), weight, cutter,
     [&](std::int64_t j, const Point<2>& offset, double otherWeight) {
       if (j != site)
       {
@@ -314,7 +324,7 @@ void PowerDiagram::CutByRivals(std::int64_t site, double weight, Cutter& cutter)
 
 void PowerDiagram::CutCell(std::int64_t site, double weight, std::vector<Corner>& corners) const
 {
-  const Point<2>& x = this->Sites[static_cast<std::size_t>(site)];
+  const Point<2>& x = this->SiteOf(site);
   Cutter cutter;
   cutter.Begin(x, this->Lengths);
   this->CutByRivals(site, weight, cutter);

@@ -55,11 +55,11 @@ public:
   // Sets the sites, at least one, as the work of the current stage. Sites need not lie in the
   // rectangle, nor apart. Throws std::bad_alloc and Cancelled.
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
-  // Computes the cells, as above.
+  // Computes the cells, as above. After an exception there are some of them, for the next update.
   void Update(const double* weights, Progress& progress);
 
   std::int64_t NumberOfCells() const { return this->Tree.Size(); }
-  Cell operator[](std::int64_t site) const { return this->CellAt(this->Chunks, site); }
+  Cell operator[](std::int64_t site) const { return this->Now.At(site); }
 
   // Writes the corners of the cell that a site would have with another weight than in the last
   // update, the others as they were there.
@@ -75,11 +75,27 @@ public:
   std::int64_t SiteAt(std::int64_t place) const { return this->Tree.Site(place); }
 
 private:
+  class Cutter;
   struct Place
   {
     std::int64_t Chunk = 0;
     std::int64_t First = 0;
     std::int64_t Count = 0;
+  };
+  // The cells of all sites, empty at first.
+  struct Cells
+  {
+    Cell At(std::int64_t site) const
+    {
+      const Place& place = this->Places[static_cast<std::size_t>(site)];
+      return { this->Chunks[static_cast<std::size_t>(place.Chunk)].data() + place.First,
+        place.Count };
+    }
+    void Clear(std::int64_t sites, std::int64_t chunks);
+    void Store(const Point<2>& at, std::int64_t site, std::int64_t chunk, const Cutter& cutter);
+
+    std::vector<Place> Places;
+    std::vector<std::vector<Corner>> Chunks;
   };
   // By which sites a cell was cut.
   enum class CutBy : char
@@ -88,12 +104,10 @@ private:
     Doubtful, // the same, and it may be too large
     All
   };
-  class Cutter;
 
-  Cell CellAt(const std::vector<std::vector<Corner>>& chunks, std::int64_t site) const
+  const Point<2>& SiteOf(std::int64_t site) const
   {
-    const Place& place = this->Places[static_cast<std::size_t>(site)];
-    return { chunks[static_cast<std::size_t>(place.Chunk)].data() + place.First, place.Count };
+    return this->Sites[static_cast<std::size_t>(site)];
   }
   std::atomic<CutBy>& StateOf(std::int64_t site)
   {
@@ -101,21 +115,20 @@ private:
   }
   void CutByKnown(const double* weights, Progress& progress);
   std::vector<std::int64_t> FindDoubtful(Progress& progress);
+  std::vector<std::int64_t> SitesCutBy(CutBy state);
   std::int64_t Compare(std::int64_t site);
   void Doubt(std::int64_t site);
   void CutByAll(const std::vector<std::int64_t>& sites, const double* weights, Progress& progress);
   void CutByNeighbours(
     const Cell& known, std::int64_t site, const double* weights, Cutter& cutter) const;
   void CutByRivals(std::int64_t site, double weight, Cutter& cutter) const;
-  void Store(std::int64_t site, std::int64_t chunk, const Cutter& cutter);
 
   const Point<2> Lengths;
   SiteTree Tree;
   std::vector<Point<2>> Sites;
-  std::vector<Place> Places;
   std::vector<std::atomic<CutBy>> States;
-  std::vector<std::vector<Corner>> Chunks;
-  std::vector<std::vector<Corner>> LastChunks; // of the update before, for their neighbours
+  Cells Now;
+  Cells Last; // of the update before, for their neighbours
 };
 
 } // namespace RectifiedTransport

@@ -40,7 +40,8 @@ struct PolygonMoments
 class RowMoments
 {
 public:
-  // As the work of the current stage of the progress. Takes 18 bytes a cell. Throws InvalidDensity,
+  // As the work of the current stage of the progress. Takes 16 bytes a cell and
+  // 24 for 16 cells of a row. Throws InvalidDensity,
   // std::bad_alloc and Cancelled.
   RowMoments(
     const DensitySource<2>& density, const Point<2>& scale, double total, Progress& progress);

@@ -414,6 +414,58 @@ TEST(PowerDiagram, IsCancelled)
   EXPECT_THROW(setSites(diagram, sites, recording.Context()), Cancelled);
 }
 
+// Whatever an update had done until it ended; before and after it there are whole ones.
+TEST(PowerDiagram, IsUsedAgainAfterItWasCancelled)
+{
+  constexpr std::size_t count = 1500;
+  PowerDiagram diagram(lengths);
+  const SerialExecutor threads;
+  int cancelled = 0;
+  for (int queries = 0; queries < 16; ++queries)
+  {
+    const auto seed = static_cast<std::uint64_t>(queries);
+    const Points<2> sites = randomSites(count, seed);
+    std::vector<double> weights = randomWeights(count, 0.001, seed);
+    setSites(diagram, sites);
+    RecordingContext recording(threads);
+    recording.MaximumQueries = queries;
+    try
+    {
+      update(diagram, weights, recording.Context());
+    }
+    catch (const Cancelled&)
+    {
+      ++cancelled;
+    }
+    weights = randomWeights(count, 0.001, seed + 50);
+    update(diagram, weights);
+    expectEqualCells(diagram, makeDiagram(sites, weights), 1e-12);
+  }
+  EXPECT_GT(cancelled, 5);
+}
+
+// The hidden cells fit each other; doubt begins at one end and would go on from cell to cell.
+TEST(PowerDiagram, HalfOfALineIsHidden)
+{
+  constexpr std::size_t count = 4000;
+  PowerDiagram diagram(lengths);
+  Points<2> sites(count);
+  std::vector<double> weights(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    sites[i] = { 3.0 * (static_cast<double>(i) + 0.5) / count, 1.0 };
+  }
+  setSites(diagram, sites);
+  update(diagram, weights);
+  std::fill(weights.begin() + count / 2, weights.end(), -30.0);
+  const SerialExecutor threads;
+  RecordingContext recording(threads);
+  update(diagram, weights, recording.Context());
+  EXPECT_EQ(emptyCells(diagram).size(), count / 2);
+  expectEqualCells(diagram, makeDiagram(sites, weights), 1e-12);
+  EXPECT_LT(recording.Queries, 1000);
+}
+
 // The weights of a million sites take longer than a stop may.
 TEST(PowerDiagram, WeightsAreCancelled)
 {
