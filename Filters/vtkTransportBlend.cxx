@@ -119,7 +119,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
   requireChoice("MassMode", this->MassMode, MassModeTexts);
   return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
     this->ParticlesPerCell, static_cast<RectifiedTransport::MassMode>(this->MassMode),
-    this->GetFlowSettings().Options(), this->GetSplatSettings().Options(), false };
+    this->GetFlowSettings().Options(), this->GetSplatSettings().Options() };
 }
 
 //------------------------------------------------------------------------------

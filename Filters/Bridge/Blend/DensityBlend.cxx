@@ -252,9 +252,7 @@ double DensityBlend::CostBetweenEnds(const ImageGrid& geometry, Progress& progre
       double sum = 0.0;
       for (std::int64_t i = first; i < last; ++i)
       {
-        const double way[3] = { to[i][0] - from[i][0], to[i][1] - from[i][1],
-          to[i][2] - from[i][2] };
-        sum += scale.SquareInUnits(way);
+        sum += scale.SquaredDistanceInUnits(to[i], from[i]);
       }
       return sum;
     },

@@ -51,7 +51,7 @@ struct BlendSettings
   MassMode Mode;
   FlowOptions Flow;
   SplatOptions Splat;
-  bool AddCost; // of two inputs: TransportCost
+  bool AddCost = false; // of two inputs: TransportCost
 };
 
 // Of vtkTransportBlend: the density on port 0, the particles on port 1.

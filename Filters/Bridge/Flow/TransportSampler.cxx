@@ -12,11 +12,9 @@
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -98,9 +96,10 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
   const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern.Count();
   const std::vector<double> times = timesOf(sampler);
+  const bool addsArrays = sampler.SampleArrays && !sampler.OutputPaths;
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
     Cost::flow(sampler.Flow, D) * count, Cost::Write * count * static_cast<double>(times.size()),
-    sampler.SampleArrays && !sampler.OutputPaths ? Cost::Write * count : 0.0 });
+    addsArrays ? Cost::Write * count : 0.0 });
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
@@ -153,13 +152,10 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
-  if (sampler.SampleArrays && !sampler.OutputPaths)
+  if (addsArrays)
   {
-    const ConstPointSpan<3> places(
-      vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData())->GetPointer(0),
-      output->GetNumberOfPoints());
-    sampleArrays({ image, "input image", false }, PlacesInImage<D>(grid, places), progress, 1.0,
-      output->GetPointData());
+    sampleArrays({ image, "input image", false },
+      PlacesInImage<D>(grid, particles.PhysicalPoints()), progress, 1.0, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

@@ -26,12 +26,6 @@ namespace
 
 constexpr double partOfPoints = 0.8; // of the time to write; the rest is for the vtkCells
 
-double squaredDistance(const LengthScale& scale, const double* a, const double* b)
-{
-  const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  return scale.SquareInUnits(d);
-}
-
 } // namespace
 
 template <int D>
@@ -88,6 +82,12 @@ template <int D>
 PointSpan<3> ParticleSet<D>::PhysicalSeeds()
 {
   return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
+}
+
+template <int D>
+ConstPointSpan<3> ParticleSet<D>::PhysicalPoints() const
+{
+  return { this->Points->GetPointer(0), this->NumberOfParticles * this->Times };
 }
 
 // The mean of particle(i).
@@ -176,7 +176,7 @@ double ParticleSet<D>::WriteParticles(
     }
     id[i] = i;
     mass[i] = share;
-    return squaredDistance(scale, x, seed);
+    return scale.SquaredDistanceInUnits(x, seed);
   });
 
   const double cost = scale.CostFromUnits(squares);
@@ -221,7 +221,7 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
       time[p] = times[static_cast<std::size_t>(p - i * each)];
       mass[p] = share;
     }
-    return squaredDistance(scale, points + ((i + 1) * each - 1) * 3, seed);
+    return scale.SquaredDistanceInUnits(points + ((i + 1) * each - 1) * 3, seed);
   });
 
   const double cost = scale.CostFromUnits(squares);

@@ -40,8 +40,9 @@ public:
   // In index space; the positions of a particle are consecutive.
   PointSpan<D> Seeds();
   PointSpan<D> Positions();
-  // In physical space.
+  // In physical space; points are written with the output.
   PointSpan<3> PhysicalSeeds();
+  ConstPointSpan<3> PhysicalPoints() const;
 
   // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass; positions are
   // undefined afterwards. Returns the mean squared displacement. Progress reaches `end`. Throws

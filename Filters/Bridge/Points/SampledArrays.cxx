@@ -42,10 +42,14 @@ std::string nameOf(vtkAbstractArray* array)
   return array->GetName() ? array->GetName() : "";
 }
 
-// The arrays whose names `known` has not; `owner` is "point" or "cell".
-std::vector<NewArray> newArrays(vtkDataSetAttributes* from, vtkIdType tuples,
-  const std::string& owner, const std::string& what, vtkPointData* known)
+// The arrays of the cells, or else of the points, whose names `known` has not.
+std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPointData* known)
 {
+  const std::string owner = ofCells ? "cell" : "point";
+  vtkDataSetAttributes* from =
+    source.Data->GetAttributes(ofCells ? vtkDataObject::CELL : vtkDataObject::POINT);
+  const vtkIdType tuples =
+    ofCells ? source.Data->GetNumberOfCells() : source.Data->GetNumberOfPoints();
   std::vector<NewArray> arrays;
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
@@ -56,7 +60,7 @@ std::vector<NewArray> newArrays(vtkDataSetAttributes* from, vtkIdType tuples,
     const bool isGhost = name == vtkDataSetAttributes::GhostArrayName();
     // Between the names of points there is nothing, and a cell's would be of several particles.
     const bool isIds = attribute == vtkDataSetAttributes::GLOBALIDS ||
-      (owner == "point" &&
+      (!ofCells &&
         (attribute == vtkDataSetAttributes::PEDIGREEIDS || vtkIdTypeArray::SafeDownCast(array)));
     if (isTaken || isGhost || isIds)
     {
@@ -64,7 +68,7 @@ std::vector<NewArray> newArrays(vtkDataSetAttributes* from, vtkIdType tuples,
     }
     if (array->GetNumberOfTuples() < tuples)
     {
-      throw Failure("The " + owner + " array '" + name + "' of the " + what + " has " +
+      throw Failure("The " + owner + " array '" + name + "' of the " + source.Name + " has " +
         std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
         std::to_string(tuples) + " " + owner + "s");
     }
@@ -114,13 +118,13 @@ struct SampleValues
         {
           const SampledPlace place = places.Find(i);
           auto tuple = found[static_cast<vtk::TupleIdType>(i)];
+          if (ofCells)
+          {
+            tuple = given[static_cast<vtk::TupleIdType>(place.Cell)];
+            continue;
+          }
           for (vtk::ComponentIdType c = 0; c < components; ++c)
           {
-            if (ofCells)
-            {
-              tuple[c] = static_cast<Value>(given[place.Cell][c]);
-              continue;
-            }
             double sum = 0.0;
             for (int k = 0; k < place.Count; ++k)
             {
@@ -195,12 +199,9 @@ void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progre
   const double all = ofPointsAlone + data->GetCellData()->GetNumberOfArrays();
   const double begin = progress.StageEnd();
   const double middle = begin + (end - begin) * ofPointsAlone / std::max(all, 1.0);
-  const std::vector<NewArray> ofPoints =
-    newArrays(data->GetPointData(), data->GetNumberOfPoints(), "point", source.Name, output);
-  sample(ofPoints, places, false, source.KeepActive, progress, middle, output);
-  const std::vector<NewArray> ofCells =
-    newArrays(data->GetCellData(), data->GetNumberOfCells(), "cell", source.Name, output);
-  sample(ofCells, places, true, false, progress, end, output);
+  sample(
+    newArrays(source, false, output), places, false, source.KeepActive, progress, middle, output);
+  sample(newArrays(source, true, output), places, true, false, progress, end, output);
 }
 
 } // namespace RectifiedTransport

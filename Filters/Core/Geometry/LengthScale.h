@@ -33,6 +33,12 @@ public:
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   }
 
+  double SquaredDistanceInUnits(const double* a, const double* b) const
+  {
+    const double way[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+    return this->SquareInUnits(way);
+  }
+
   // A mean of such squares in physical units. Throws std::overflow_error past the largest double.
   double CostFromUnits(double squares) const
   {
