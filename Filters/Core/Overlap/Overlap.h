@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The integrals of linear functions on simplices, and of multilinear ones on boxes, over the cells
+// of a grid: the conservative way of meshes to grids.
+#ifndef RectifiedTransport_Overlap_h
+#define RectifiedTransport_Overlap_h
+
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/Points.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// In index space, where grid cell (i0, i1, i2) is [i0, i0+1] x ...; vertices may be beyond the
+// grid.
+template <int Dimension>
+struct LinearSimplex
+{
+  std::array<Point<Dimension>, Dimension + 1> Vertices;
+  std::array<double, Dimension + 1> Values; // at the vertices
+};
+
+template <int Dimension>
+struct MultilinearBox
+{
+  Point<Dimension> Low;
+  Point<Dimension> High;
+  std::array<double, std::size_t{ 1 } << Dimension> Values; // at the corners, axis 0 fastest
+};
+
+// Grid cells [First, Last) along the last axis: the part of the grid that one thread adds to. What
+// it adds does not depend on where the slab begins and ends.
+template <int Dimension>
+struct GridSlab
+{
+  GridSize<Dimension> Size;
+  std::int64_t First;
+  std::int64_t Last;
+  double* Sums; // of all grid cells, axis 0 fastest
+};
+
+// Adds to each grid cell of the slab the integral over what the cell and the simplex share. It is
+// exact but for rounding, and so is the sum of all of it, except for simplices of a volume whose
+// shadow along axis 0 is wider than a grid cell: these are integrated exactly along axis 0 on 4 x 4
+// lines through each grid cell, which meet neighbouring simplices where these share a face.
+template <int Dimension>
+void addOverlaps(const LinearSimplex<Dimension>& simplex, const GridSlab<Dimension>& slab);
+
+// The same of a box; exact but for rounding.
+template <int Dimension>
+void addOverlaps(const MultilinearBox<Dimension>& box, const GridSlab<Dimension>& slab);
+
+} // namespace RectifiedTransport
+
+#endif
