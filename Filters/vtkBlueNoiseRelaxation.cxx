@@ -69,7 +69,12 @@ vtkPointSet* vtkBlueNoiseRelaxation::GetOutput()
 //------------------------------------------------------------------------------
 int vtkBlueNoiseRelaxation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkImageData");
+  if (port == 1)
+  {
+    vtkDensityAlgorithm::FillDensityPortInformation(info);
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   return 1;
 }
 
@@ -104,7 +109,7 @@ int vtkBlueNoiseRelaxation::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {
     return 1;

@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Resampling/ResampledDensity.h"
+#include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPointData.h"
 
+#include <map>
 #include <string>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
+
+using namespace RectifiedTransport;
 
 namespace
 {
@@ -35,7 +45,8 @@ bool isAssociation(int association)
 
 struct vtkDensityAlgorithm::vtkInternals
 {
-  RectifiedTransport::FlowCache Cache;
+  FlowCache Cache;
+  std::map<int, ResampledDensity> Resampled; // by the number of the input
 };
 
 //------------------------------------------------------------------------------
@@ -43,6 +54,7 @@ vtkDensityAlgorithm::vtkDensityAlgorithm(int densityPort)
   : Component(-1)
   , InvertDensity(false)
   , NegativeValues(NEGATIVE_VALUES_ERROR)
+  , DensityResolution(256)
   , DensityPort(densityPort)
   , Internals(new vtkInternals)
 {
@@ -56,7 +68,7 @@ vtkDensityAlgorithm::~vtkDensityAlgorithm() = default;
 //------------------------------------------------------------------------------
 const char* vtkDensityAlgorithm::GetNegativeValuesAsString()
 {
-  return RectifiedTransport::choiceText(NegativeValuesTexts, this->NegativeValues);
+  return choiceText(NegativeValuesTexts, this->NegativeValues);
 }
 
 //------------------------------------------------------------------------------
@@ -66,59 +78,148 @@ vtkMTimeType vtkDensityAlgorithm::GetTableBuildTime()
 }
 
 //------------------------------------------------------------------------------
-RectifiedTransport::FlowCache& vtkDensityAlgorithm::GetFlowCache()
+FlowCache& vtkDensityAlgorithm::GetFlowCache()
 {
   return this->Internals->Cache;
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::DensityImage> vtkDensityAlgorithm::ReadDensity(
-  vtkInformationVector** inputVector)
+void vtkDensityAlgorithm::FillDensityPortInformation(vtkInformation* info)
 {
-  return this->ReadDensity(vtkDataObject::GetData(inputVector[this->DensityPort], 0));
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  // Without this the executive would execute the filter once for each block.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<RectifiedTransport::DensityImage> vtkDensityAlgorithm::ReadDensity(
-  vtkDataObject* input, int arrayIndex)
+std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
+  vtkInformationVector** inputVector, RectifiedTransport::Progress& progress)
 {
-  RectifiedTransport::requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
-  auto* image = RectifiedTransport::requireBlock<vtkImageData>(
-    input, "The density", "a vtkImageData, as Resample To Image makes one of it");
-  if (!image || image->GetNumberOfPoints() == 0)
+  return this->ReadDensity(vtkDataObject::GetData(inputVector[this->DensityPort], 0), progress);
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
+  vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
+{
+  requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
+  requireResolution("DensityResolution", this->DensityResolution);
+  const int association =
+    this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
+  auto* image = vtkImageData::SafeDownCast(input);
+  if (!input || (image && image->GetNumberOfPoints() == 0))
   {
     return nullptr;
   }
-  vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
-  int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
   if (!isAssociation(association))
   {
-    throw RectifiedTransport::Failure("The field association of the density array is " +
-      std::to_string(association) + "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
+    throw Failure("The field association of the density array is " + std::to_string(association) +
+      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
-  const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  vtkAbstractArray* chosen = this->FindDensityArray(image, arrayIndex, association);
-  vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
-  if (!array)
+  if (!image)
   {
-    throw RectifiedTransport::Failure(
-      (chosen ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
-          : name && *name ? "The input image has no density array '" + std::string(name) + "'"
-                          : std::string("The input image has no active scalars for a density")) +
-      "; it has " + RectifiedTransport::listArrays(image->GetPointData(), "point") + " and " +
-      RectifiedTransport::listArrays(image->GetCellData(), "cell"));
+    return this->ReadResampled(input, progress, arrayIndex, number);
   }
-  RectifiedTransport::DensityRules rules;
+  this->Internals->Resampled.erase(number);
+  int found = 0;
+  vtkDataArray* array = this->RequireDensityArray(image, arrayIndex, "input image", found);
+  return std::make_unique<DensityImage>(
+    image, array, found == vtkDataObject::FIELD_ASSOCIATION_POINTS, this->GetDensityRules());
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
+  vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
+{
+  std::vector<DensityBlock> blocks = densityBlocks(input);
+  if (blocks.empty())
+  {
+    return nullptr;
+  }
+  const int dimension = largestCellDimension(blocks);
+  if (dimension == 0)
+  {
+    throw Failure("The input has no cells of a length, area or volume, so that it has no density; "
+                  "Splat Mass makes one of points");
+  }
+  keepBlocksOfDimension(dimension, blocks);
+  int association = 0;
+  blocks[0].Array =
+    this->RequireDensityArray(blocks[0].Data, arrayIndex, blocks[0].Name, association);
+  const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const char* name = blocks[0].Array->GetName();
+  for (std::size_t i = 1; i < blocks.size(); ++i)
+  {
+    DensityBlock& block = blocks[i];
+    vtkDataSetAttributes* attributes =
+      block.Data->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+    block.Array = name ? attributes->GetArray(name) : nullptr;
+    if (!block.Array)
+    {
+      throw Failure("The " + block.Name + " has no numeric " + (onPoints ? "point" : "cell") +
+        " array '" + (name ? name : "") + "', but the " + blocks[0].Name + " has; it has " +
+        listArrays(block.Data->GetPointData(), "point") + " and " +
+        listArrays(block.Data->GetCellData(), "cell") +
+        ". All blocks must have it (Extract Block leaves blocks out)");
+    }
+  }
+  for (const DensityBlock& block : blocks)
+  {
+    requireTuples(block.Array, block.Data, onPoints, block.Name);
+  }
+  ResampledDensity& made = this->Internals->Resampled[number];
+  made.Update(
+    blocks, onPoints, dimension, this->DensityResolution, this->GetDensityRules(), progress);
+  if (made.CellsLeftOut() > 0)
+  {
+    vtkWarningMacro(<< made.CellsLeftOut()
+                    << " cells of the input could not be divided into simplices and carry no mass");
+  }
+  return std::make_unique<DensityImage>(made.Image(), made.Array(), made.IsOnPoints(),
+    made.IsResampled() ? DensityRules() : this->GetDensityRules());
+}
+
+//------------------------------------------------------------------------------
+const std::vector<BlockValues>* vtkDensityAlgorithm::GetMeshes(int number) const
+{
+  const auto made = this->Internals->Resampled.find(number);
+  return made == this->Internals->Resampled.end() || !made->second.IsResampled()
+    ? nullptr
+    : &made->second.Meshes();
+}
+
+//------------------------------------------------------------------------------
+DensityRules vtkDensityAlgorithm::GetDensityRules()
+{
+  DensityRules rules;
   rules.Component = this->Component;
   rules.Invert = this->InvertDensity != 0;
   rules.ClampNegative = this->NegativeValues == NEGATIVE_VALUES_CLAMP;
-  return std::make_unique<RectifiedTransport::DensityImage>(
-    image, array, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, rules);
+  return rules;
+}
+
+//------------------------------------------------------------------------------
+vtkDataArray* vtkDensityAlgorithm::RequireDensityArray(
+  vtkDataSet* data, int arrayIndex, const std::string& what, int& association)
+{
+  const char* name = this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_NAME());
+  vtkAbstractArray* chosen = this->FindDensityArray(data, arrayIndex, association);
+  vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
+  if (!array)
+  {
+    throw Failure(
+      (chosen ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
+          : name && *name ? "The " + what + " has no density array '" + std::string(name) + "'"
+                          : "The " + what + " has no active scalars for a density") +
+      "; it has " + listArrays(data->GetPointData(), "point") + " and " +
+      listArrays(data->GetCellData(), "cell"));
+  }
+  return array;
 }
 
 //------------------------------------------------------------------------------
 vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
-  vtkImageData* image, int arrayIndex, int& association)
+  vtkDataSet* data, int arrayIndex, int& association)
 {
   vtkInformation* choice = this->GetInputArrayInformation(arrayIndex);
   association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
@@ -127,8 +228,28 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
     return nullptr; // GetInputAbstractArrayToProcess would report another error
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
-  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, image, association);
-  return chosen || (name && *name) ? chosen : RectifiedTransport::defaultArray(image, association);
+  vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, data, association);
+  return chosen || (name && *name) ? chosen : defaultArray(data, association);
+}
+
+//------------------------------------------------------------------------------
+ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
+  vtkInformation* inputInformation, int arrayIndex, int number)
+{
+  vtkDataObject* data = vtkDataObject::GetData(inputInformation);
+  if (!data || vtkImageData::SafeDownCast(data))
+  {
+    return announcedGrid(inputInformation, this->IsDensityOnPoints(inputInformation, arrayIndex));
+  }
+  return this->FindDensityGrid(data, arrayIndex, number);
+}
+
+//------------------------------------------------------------------------------
+ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayIndex, int number)
+{
+  AlgorithmProgress progress(this, this->Threading);
+  const auto density = this->ReadDensity(data, progress, arrayIndex, number);
+  return density ? density->Grid() : ImageGrid();
 }
 
 //------------------------------------------------------------------------------
@@ -143,7 +264,6 @@ bool vtkDensityAlgorithm::IsDensityOnPoints(vtkInformation* inputInformation, in
   }
   if (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
   {
-    using RectifiedTransport::announcesScalars;
     return announcesScalars(inputInformation, vtkDataObject::FIELD_ASSOCIATION_POINTS) ||
       !announcesScalars(inputInformation, vtkDataObject::FIELD_ASSOCIATION_CELLS);
   }
@@ -157,6 +277,7 @@ void vtkDensityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Component: " << this->Component << "\n";
   os << indent << "InvertDensity: " << (this->InvertDensity ? "On" : "Off") << "\n";
   os << indent << "NegativeValues: " << this->GetNegativeValuesAsString() << "\n";
+  os << indent << "DensityResolution: " << this->DensityResolution << "\n";
   os << indent << "DensityPort: " << this->DensityPort << "\n";
   os << indent << "TableBuildTime: " << this->GetTableBuildTime() << "\n";
 }

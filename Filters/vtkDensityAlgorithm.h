@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDensityAlgorithm
- * @brief   superclass of the filters that read a density from an image
+ * @brief   superclass of the filters that read a density
  *
- * The density is an array of a vtkImageData, chosen with SetInputArrayToProcess(0, ...), where the
- * port is that of the image; without a choice it is the active scalars of the points, else of the
- * cells, else the only array. It is piecewise constant on cells: cell arrays are taken as they are;
- * the values of a point array are those of the dual cells, so that the domain is the image's bounds
- * grown by half a spacing on each side of every axis. An axis of one point is no axis, so that
- * images may be 1D, 2D (in any coordinate plane) or 3D; one cell between two points is an axis of
- * one cell. Origin, spacing, extent and direction matrix are arbitrary, and so is the numeric type.
- * Cells and points that the ghost array marks as duplicate or hidden carry no mass, and neither do
- * the cells of a hidden point.
+ * The density is an array of a data set, or of the data sets of a composite one, chosen with
+ * SetInputArrayToProcess(0, ...), where the port is that of the image; without a choice it is the
+ * active scalars of the points, else of the cells, else the only array. That of a vtkImageData is
+ * piecewise constant on cells: cell arrays are taken as they are; the values of a point array are
+ * those of the dual cells, so that the domain is the image's bounds grown by half a spacing on each
+ * side of every axis. An axis of one point is no axis, so that images may be 1D, 2D (in any
+ * coordinate plane) or 3D; one cell between two points is an axis of one cell. Origin, spacing,
+ * extent and direction matrix are arbitrary, and so is the numeric type. Cells and points that the
+ * ghost array marks as duplicate or hidden carry no mass, and neither do the cells of a hidden
+ * point.
+ *
+ * Any other data set (rectilinear, structured and unstructured grids, polygons in one plane, lines
+ * on one straight line), and any composite of data sets, is one domain: an image on the bounds of
+ * its cells of the highest dimension, with DensityResolution cells along the longest axis. The
+ * value of a grid cell is the mean over it, 0 outside the data sets: point arrays are linear on the
+ * simplices into which VTK divides the cells, cell arrays constant, cells that overlap add up.
+ * Cells of a plane or line that is oblique get an image in it. Images that tile one lattice are
+ * joined to one image instead, value by value. Blanked cells and cells of AMR grids that finer ones
+ * cover carry no mass. An input of surfaces that lie in no plane, or without cells of a measure, is
+ * an error.
  *
  * Mass is physical: density times cell measure, which is the length, area or volume that the
  * image's axes of more than one point span.
@@ -34,17 +45,24 @@
 #include "vtkGuardedAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <string> // for the protected interface
+#include <vector> // for the protected interface
 
 namespace RectifiedTransport
 {
+class BlockValues;
 class DensityImage;
+struct DensityRules;
 class FlowCache;
+class ImageGrid;
+class Progress;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
+class vtkDataArray;
 class vtkDataObject;
-class vtkImageData;
+class vtkDataSet;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkGuardedAlgorithm
 {
@@ -96,6 +114,16 @@ public:
   const char* GetNegativeValuesAsString();
   ///@}
 
+  ///@{
+  /**
+   * For inputs that are no images: the number of cells along the longest axis of the image that the
+   * density is put on; along the others as many as make the cells nearest to cubes. From 1 to 2^30.
+   * Default 256. Images, and images that tile one lattice, are taken as they are.
+   */
+  vtkSetMacro(DensityResolution, int);
+  vtkGetMacro(DensityResolution, int);
+  ///@}
+
   /**
    * The modification time of the density's tables: increases with each build, 0 before the first.
    */
@@ -109,27 +137,43 @@ protected:
   ~vtkDensityAlgorithm() override;
 
   /**
-   * The array that ReadDensity reads, and its field association; nullptr if there is none.
+   * For FillInputPortInformation: the port takes any data sets, and composites of these as one.
    */
-  vtkAbstractArray* FindDensityArray(vtkImageData* image, int arrayIndex, int& association);
+  static void FillDensityPortInformation(vtkInformation* info);
 
   /**
-   * Whether the density is point data, as far as the information object of an input determines it
-   * before the data.
+   * The grid of the density of an input, as far as its information object determines it before the
+   * data; of data that are no images, those that are there. Without points where it is not known.
+   * `number` is that of the input among those of the filter.
    */
-  bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex = 0);
+  RectifiedTransport::ImageGrid AnnouncedDensityGrid(
+    vtkInformation* inputInformation, int arrayIndex = 0, int number = 0);
 
   /**
-   * The density of an image, input array `arrayIndex`; nullptr if the image has no points. Throws
+   * The grid of the density of data that are there; without points if they have none. Throws what
+   * RequestData may throw.
+   */
+  RectifiedTransport::ImageGrid FindDensityGrid(
+    vtkDataObject* data, int arrayIndex = 0, int number = 0);
+
+  /**
+   * The density of a data object, input array `arrayIndex`; nullptr if it has no points. Throws
    * what RequestData may throw.
    */
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(
-    vtkDataObject* input, int arrayIndex = 0);
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkDataObject* input,
+    RectifiedTransport::Progress& progress, int arrayIndex = 0, int number = 0);
 
   /**
    * The density on the constructor's port, input array 0; as above.
    */
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkInformationVector** inputVector);
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(
+    vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);
+
+  /**
+   * The data sets of the last ReadDensity of an input; nullptr where it was an image, or images
+   * that tile one.
+   */
+  const std::vector<RectifiedTransport::BlockValues>* GetMeshes(int number = 0) const;
 
   /**
    * The tables that are kept between executions.
@@ -139,8 +183,17 @@ protected:
   int Component;
   vtkTypeBool InvertDensity;
   int NegativeValues;
+  int DensityResolution;
 
 private:
+  vtkAbstractArray* FindDensityArray(vtkDataSet* data, int arrayIndex, int& association);
+  vtkDataArray* RequireDensityArray(
+    vtkDataSet* data, int arrayIndex, const std::string& what, int& association);
+  bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex);
+  RectifiedTransport::DensityRules GetDensityRules();
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadResampled(
+    vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
+
   const int DensityPort;
   struct vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

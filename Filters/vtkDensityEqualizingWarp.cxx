@@ -56,7 +56,12 @@ vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
 //------------------------------------------------------------------------------
 int vtkDensityEqualizingWarp::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkImageData");
+  if (port == 1)
+  {
+    vtkDensityAlgorithm::FillDensityPortInformation(info);
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   return 1;
 }
 
@@ -83,7 +88,7 @@ int vtkDensityEqualizingWarp::RequestData(
   const DensityEqualizingWarp warp{ this->GetFlowSettings().Options(), this->Blend };
   AlgorithmProgress progress(this, this->Threading);
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {
     return 1;

@@ -175,13 +175,13 @@ int vtkGuardedAlgorithm::ProcessInformation(
 int vtkGuardedAlgorithm::ProcessTimeDependentInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!this->UpdatedProducer)
+  if (this->Updated.empty())
   {
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
   const RectifiedTransport::ImageGrid before = RectifiedTransport::announcedGrid(output, true);
-  this->UpdatedProducer = nullptr;
+  this->Updated.clear();
   const int result = this->ProcessInformation(request, inputVector, outputVector);
   if (result && !(RectifiedTransport::announcedGrid(output, true) == before))
   {
@@ -226,16 +226,16 @@ int vtkGuardedAlgorithm::RequestInformation(
 
 //------------------------------------------------------------------------------
 void vtkGuardedAlgorithm::UpdateInputBeforeData(
-  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[port]->GetInformationObject(0);
+  vtkInformation* input = inputVector[port]->GetInformationObject(connection);
   if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
   {
     outputVector->GetInformationObject(0)->Set(Pipeline::TIME_DEPENDENT_INFORMATION(), 1);
   }
   int outputPort = 0;
-  vtkAlgorithm* producer = this->GetInputAlgorithm(port, 0, outputPort);
+  vtkAlgorithm* producer = this->GetInputAlgorithm(port, connection, outputPort);
   auto* pipeline =
     vtkDemandDrivenPipeline::SafeDownCast(producer ? producer->GetExecutive() : nullptr);
   if (!pipeline)
@@ -245,15 +245,15 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
   // While the executive iterates over blocks the producer's output is replaced by one of them; the
   // producer must not run then.
   vtkDataObject* data = producer->GetOutputDataObject(outputPort);
-  if (producer == this->UpdatedProducer && outputPort == this->UpdatedPort && data &&
-    !data->GetDataReleased() && pipeline->GetPipelineMTime() == this->UpdatedTime)
+  const auto updated = this->Updated.find({ port, connection });
+  if (updated != this->Updated.end() && producer == updated->second.Producer &&
+    outputPort == updated->second.Port && data && !data->GetDataReleased() &&
+    pipeline->GetPipelineMTime() == updated->second.Time)
   {
     return;
   }
   producer->Update(outputPort);
-  this->UpdatedProducer = producer;
-  this->UpdatedPort = outputPort;
-  this->UpdatedTime = pipeline->GetPipelineMTime();
+  this->Updated[{ port, connection }] = { producer, outputPort, pipeline->GetPipelineMTime() };
 }
 
 //------------------------------------------------------------------------------

@@ -19,7 +19,9 @@
 #include "vtkAlgorithm.h"
 #include "vtkRectifiedTransportModule.h" // for the export macro
 
-#include <memory> // for std::unique_ptr
+#include <map>     // for what was updated
+#include <memory>  // for std::unique_ptr
+#include <utility> // for what was updated
 
 namespace RectifiedTransport
 {
@@ -101,13 +103,13 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Update the producer of a port from RequestInformation: where the extent of an image follows
-   * from points, image filters downstream would otherwise get no data, or read past the end of an
-   * image that is smaller than announced. Where the points change with time, RequestInformation is
-   * called again for the time that is requested downstream.
+   * Update the producer of an input from RequestInformation: where the extent of an image follows
+   * from points or cells, image filters downstream would otherwise get no data, or read past the
+   * end of an image that is smaller than announced. Where the points change with time,
+   * RequestInformation is called again for the time that is requested downstream.
    */
-  void UpdateInputBeforeData(
-    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  void UpdateInputBeforeData(int port, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int connection = 0);
 
   /**
    * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
@@ -155,10 +157,14 @@ private:
     vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
 
-  // The last call of UpdateInputBeforeData.
-  const vtkAlgorithm* UpdatedProducer = nullptr; // compared, never dereferenced
-  int UpdatedPort = 0;
-  vtkMTimeType UpdatedTime = 0;
+  // What UpdateInputBeforeData updated last.
+  struct vtkUpdated
+  {
+    const vtkAlgorithm* Producer; // compared, never dereferenced
+    int Port;
+    vtkMTimeType Time;
+  };
+  std::map<std::pair<int, int>, vtkUpdated> Updated; // by port and connection
 
   vtkGuardedAlgorithm(const vtkGuardedAlgorithm&) = delete;
   void operator=(const vtkGuardedAlgorithm&) = delete;

@@ -30,7 +30,8 @@ struct vtkTransportBarycenter::vtkWeights
 
 //------------------------------------------------------------------------------
 vtkTransportBarycenter::vtkTransportBarycenter()
-  : Weights(new vtkWeights)
+  : vtkTransportBlend(true)
+  , Weights(new vtkWeights)
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(1);
@@ -90,9 +91,7 @@ double vtkTransportBarycenter::GetWeight(int index)
 //------------------------------------------------------------------------------
 int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  // Without this the executive would execute the filter once for each block.
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
 }
@@ -109,7 +108,7 @@ int vtkTransportBarycenter::RequestData(
   {
     return 1;
   }
-  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr);
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, progress);
   if (inputs.empty())
   {
     return 1;

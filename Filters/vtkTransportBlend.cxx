@@ -38,10 +38,10 @@ struct GivenInput
   int Port;
 };
 
-// The leaves of composite data that are not null; other data are one block.
-void gatherBlocks(vtkDataObject* data, std::vector<vtkDataObject*>& blocks)
+// The leaves of composite data that are not null, where these are inputs; other data are one.
+void gatherBlocks(vtkDataObject* data, bool blocksAreInputs, std::vector<vtkDataObject*>& blocks)
 {
-  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
   if (!composite)
   {
     blocks.push_back(data);
@@ -54,8 +54,8 @@ void gatherBlocks(vtkDataObject* data, std::vector<vtkDataObject*>& blocks)
   }
 }
 
-// The blocks of composite inputs are inputs of their own.
-std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int numberOfPorts)
+std::vector<GivenInput> gatherInputs(
+  vtkInformationVector** inputVector, int numberOfPorts, bool blocksAreInputs)
 {
   std::vector<GivenInput> inputs;
   for (int port = 0; port < numberOfPorts; ++port)
@@ -63,7 +63,7 @@ std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int num
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       std::vector<vtkDataObject*> blocks;
-      gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocks);
+      gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs, blocks);
       for (vtkDataObject* block : blocks)
       {
         inputs.push_back({ block, port });
@@ -75,10 +75,11 @@ std::vector<GivenInput> gatherInputs(vtkInformationVector** inputVector, int num
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkTransportBlend::vtkTransportBlend()
+vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   : Dimensions{ 0, 0, 0 }
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
+  , BlocksAreInputs(blocksAreInputs)
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -133,24 +134,20 @@ int vtkTransportBlend::RequestInformation(
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
       vtkDataObject* data = vtkDataObject::GetData(input);
-      if (vtkCompositeDataSet::SafeDownCast(data))
+      if (!data || vtkImageData::SafeDownCast(data))
       {
-        // Its information has no extents of blocks: they are known if the blocks are there already.
-        std::vector<vtkDataObject*> blocks;
-        gatherBlocks(data, blocks);
-        for (vtkDataObject* block : blocks)
-        {
-          if (auto* image = vtkImageData::SafeDownCast(block))
-          {
-            int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-            this->FindDensityArray(image, port, association);
-            const bool onPoints = association != vtkDataObject::FIELD_ASSOCIATION_CELLS;
-            grids.push_back({ gridOf(image, onPoints), "" });
-          }
-        }
+        grids.push_back({ this->AnnouncedDensityGrid(input, port), "" });
         continue;
       }
-      grids.push_back({ announcedGrid(input, this->IsDensityOnPoints(input, port)), "" });
+      // The information of other data has no extents.
+      this->UpdateInputBeforeData(port, inputVector, outputVector, i);
+      std::vector<vtkDataObject*> blocks;
+      gatherBlocks(vtkDataObject::GetData(input), this->BlocksAreInputs, blocks);
+      for (vtkDataObject* block : blocks)
+      {
+        const int number = static_cast<int>(grids.size());
+        grids.push_back({ this->FindDensityGrid(block, port, number), "" });
+      }
     }
   }
   for (const NamedGrid& grid : grids)
@@ -169,10 +166,11 @@ int vtkTransportBlend::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-std::vector<BlendInput> vtkTransportBlend::ReadInputs(
-  vtkInformationVector** inputVector, const char* const* names)
+std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
+  const char* const* names, RectifiedTransport::Progress& progress)
 {
-  const std::vector<GivenInput> allGiven = gatherInputs(inputVector, this->GetNumberOfInputPorts());
+  const std::vector<GivenInput> allGiven =
+    gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   std::vector<BlendInput> inputs;
   for (const GivenInput& given : allGiven)
   {
@@ -185,7 +183,8 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(
     input.PositionName = names ? input.Name + "Position" : "";
     try
     {
-      input.Density = this->ReadDensity(given.Data, given.Port);
+      input.Density =
+        this->ReadDensity(given.Data, progress, given.Port, static_cast<int>(number) - 1);
     }
     catch (const Failure& failure)
     {

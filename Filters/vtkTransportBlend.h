@@ -9,7 +9,7 @@
  * the densities every particle is at the weighted mean of its positions, in physical space. Their
  * mass is spread on an image (see vtkMassSplatter).
  *
- * The inputs are vtkImageData (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
+ * The inputs are densities (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
  * axes of more than one point along the same directions. The outputs are
  * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), point
  *   or cell data as in the first input, and field data `TotalMass`;
@@ -117,17 +117,20 @@ public:
   vtkPolyData* GetParticles();
 
 protected:
-  vtkTransportBlend();
+  /**
+   * Whether each block of a composite input is an input of its own, or all of them are one density.
+   */
+  explicit vtkTransportBlend(bool blocksAreInputs);
   ~vtkTransportBlend() override;
 
   /**
-   * Read the densities of all inputs; each block of a composite input is an input. `names` are used
+   * Read the densities of all inputs. `names` are used
    * in messages and, with "Position" appended, for arrays of the particles; where nullptr, messages
    * have numbers. Returns no inputs if one of them has no points. Throws what RequestData may
    * throw.
    */
-  std::vector<RectifiedTransport::BlendInput> ReadInputs(
-    vtkInformationVector** inputVector, const char* const* names);
+  std::vector<RectifiedTransport::BlendInput> ReadInputs(vtkInformationVector** inputVector,
+    const char* const* names, RectifiedTransport::Progress& progress);
 
   /**
    * Warn of particles that ended in empty cells, if there are any.
@@ -148,6 +151,8 @@ protected:
   int MassMode;
 
 private:
+  const bool BlocksAreInputs;
+
   vtkTransportBlend(const vtkTransportBlend&) = delete;
   void operator=(const vtkTransportBlend&) = delete;
 };

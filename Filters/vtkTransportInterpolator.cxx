@@ -34,7 +34,8 @@ bool isNumberOfTimeSteps(int count)
 
 //------------------------------------------------------------------------------
 vtkTransportInterpolator::vtkTransportInterpolator()
-  : Parameter(0.5)
+  : vtkTransportBlend(false)
+  , Parameter(0.5)
   , PublishTime(false)
   , NumberOfTimeSteps(11)
   , Blend(new DensityBlend)
@@ -73,7 +74,7 @@ void vtkTransportInterpolator::SetInputArrayToProcess(
 //------------------------------------------------------------------------------
 int vtkTransportInterpolator::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
   return 1;
 }
 
@@ -178,7 +179,7 @@ int vtkTransportInterpolator::RequestData(
   if (!vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
   {
     static const char* const names[] = { "Source", "Target" };
-    std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names);
+    std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);
     if (!inputs.empty())
     {
       inputs[0].Weight = 1.0 - parameter;

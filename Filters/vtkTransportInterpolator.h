@@ -14,7 +14,8 @@
  * vtkTransportBlend, and the particles have also `SourcePosition` and `TargetPosition` (3
  * components each, physical). Both outputs have the field data `TransportCost`: the mean of
  * |TargetPosition - SourcePosition|^2 over the mass, in squared physical units, which does not
- * depend on Parameter. It is an upper bound on W2^2 between the densities, each divided by its mass.
+ * depend on Parameter. It is an upper bound on W2^2 between the densities, each divided by its
+ * mass.
  *
  * A Parameter of 0 gives the source and one of 1 the target, up to what the kernel and the number
  * of particles resolve. Cost and memory: see vtkTransportBlend. The maps are kept: a change of

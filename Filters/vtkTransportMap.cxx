@@ -52,7 +52,7 @@ vtkImageData* vtkTransportMap::GetOutput()
 //------------------------------------------------------------------------------
 int vtkTransportMap::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
   return 1;
 }
 
@@ -69,8 +69,11 @@ int vtkTransportMap::RequestInformation(
 {
   vtkInformation* inputInformation = inputVector[0]->GetInformationObject(0);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const ImageGrid inputGrid =
-    announcedGrid(inputInformation, this->IsDensityOnPoints(inputInformation));
+  if (!vtkImageData::GetData(inputInformation))
+  {
+    this->UpdateInputBeforeData(0, inputVector, outputVector);
+  }
+  const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation);
   announceGrid(inputGrid, outputInformation);
   if (inputGrid.IsEmpty())
   {
@@ -106,14 +109,13 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {
     return 1;
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const TransportMap::Report result = map.Run(
-    *density, vtkImageData::GetData(inputVector[0], 0), this->GetFlowCache(), progress, output);
+  const TransportMap::Report result = map.Run(*density, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
   announceGrid(gridOf(output, density->Grid().IsOnPoints()), outputVector->GetInformationObject(0));
   if (result.MovedToMass > 0)

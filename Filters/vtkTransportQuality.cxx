@@ -69,7 +69,12 @@ vtkTable* vtkTransportQuality::GetOutput()
 //------------------------------------------------------------------------------
 int vtkTransportQuality::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkImageData");
+  if (port == 1)
+  {
+    vtkDensityAlgorithm::FillDensityPortInformation(info);
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   return 1;
 }
 
@@ -93,7 +98,7 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   vtkPointSet* particles = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
   if (!density || !particles || particles->GetNumberOfPoints() == 0)
   {
     return 1;

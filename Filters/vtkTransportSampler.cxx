@@ -9,7 +9,6 @@
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -62,7 +61,7 @@ int vtkTransportSampler::FillInputPortInformation(int port, vtkInformation* info
 {
   if (port == 0)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    vtkDensityAlgorithm::FillDensityPortInformation(info);
     return 1;
   }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
@@ -99,14 +98,14 @@ int vtkTransportSampler::RequestData(
   {
     return 1;
   }
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector);
+  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
   if (!density || (seeds && seeds->GetNumberOfPoints() == 0))
   {
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  const TransportSampler::Report report = sampler.Run(
-    *density, vtkImageData::GetData(inputVector[0]), seeds, this->GetFlowCache(), progress, output);
+  const TransportSampler::Report report =
+    sampler.Run(*density, this->GetMeshes(), seeds, this->GetFlowCache(), progress, output);
   if (report.SeedsMoved > 0)
   {
     vtkWarningMacro(<< report.SeedsMoved << " of " << seeds->GetNumberOfPoints()

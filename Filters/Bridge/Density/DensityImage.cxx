@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityImage.h"
 
+#include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
@@ -29,49 +30,16 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-void requireComponent(const std::string& name, int component, int count)
-{
-  constexpr int mostColours = 4;
-  if (component >= -1 && component < count && (component >= 0 || count <= mostColours))
-  {
-    return;
-  }
-  std::ostringstream message;
-  message << "Component is " << component << ", but the " << name << " has " << count
-          << (count == 1 ? " component" : " components") << "; it must be ";
-  if (count <= mostColours)
-  {
-    message << "-1 (luminance)" << (count == 1 ? " or 0" : " or an index from 0 to ");
-  }
-  else
-  {
-    message << "an index from 0 to ";
-  }
-  if (count > 1)
-  {
-    message << count - 1;
-  }
-  throw Failure(message.str());
-}
-
 } // namespace
 
 DensityImage::DensityImage(
   vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
-  : Array(array)
+  : Input(image)
+  , Array(array)
   , Rules(rules)
-  , Name(array->GetName() ? std::string("density array '") + array->GetName() + "'"
-                          : std::string("density array (which has no name)"))
+  , Name(describeArray(array))
 {
-  const vtkIdType expected = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
-  if (array->GetNumberOfTuples() != expected)
-  {
-    std::ostringstream message;
-    message << "The " << this->Name << " has " << array->GetNumberOfTuples()
-            << " tuples, but the input image has " << expected << (onPoints ? " points" : " cells")
-            << "; there must be one for each";
-    throw Failure(message.str());
-  }
+  requireTuples(array, image, onPoints, "input image");
   requireComponent(this->Name, rules.Component, array->GetNumberOfComponents());
   this->Geometry = gridOf(image, onPoints);
   requireCells(this->Geometry);
@@ -99,6 +67,11 @@ DensityImage::DensityImage(
 }
 
 DensityImage::~DensityImage() = default;
+
+vtkImageData* DensityImage::Image() const
+{
+  return this->Input;
+}
 
 const DensityImage::Content& DensityImage::GetContent(Progress& progress)
 {
@@ -132,9 +105,7 @@ void DensityImage::Prepare(Progress& progress)
   {
     this->BlankCellsOfHiddenPoints(progress);
   }
-  const int components = this->Array->GetNumberOfComponents();
-  const bool alpha = this->Rules.Component < 0 && (components == 2 || components == 4);
-  if (this->Rules.Invert || alpha)
+  if (needsWhite(this->Rules, this->Array->GetNumberOfComponents()))
   {
     this->Reader->SetWhite(this->Array->GetDataType() == VTK_UNSIGNED_CHAR
         ? std::numeric_limits<unsigned char>::max()
@@ -190,31 +161,7 @@ double DensityImage::FindWhite(Progress& progress) const
 
 void DensityImage::ThrowInvalid(const DensitySummary& summary) const
 {
-  std::ostringstream message;
-  message << "The " << this->Name << " has ";
-  if (summary.NotFinite > 0)
-  {
-    message << summary.NotFinite << (summary.NotFinite == 1 ? " value that is" : " values that are")
-            << " NaN or infinite, the first at index " << summary.FirstNotFinite
-            << "; every value must be finite";
-  }
-  else if (summary.Negative > 0)
-  {
-    message << summary.Negative << (summary.Negative == 1 ? " negative value" : " negative values")
-            << ", the first at index " << summary.FirstNegative
-            << "; a density must not be negative (NegativeValues = Clamp takes them as 0)";
-  }
-  else if (std::isinf(summary.Total))
-  {
-    message << "a total mass past the largest double; its values must be smaller";
-  }
-  else
-  {
-    message << "a total mass of zero"
-            << (this->Reader->HasBlanks() ? " (duplicate and blanked ghosts carry none)" : "")
-            << "; at least one value must be positive";
-  }
-  throw Failure(message.str());
+  throwInvalidDensity(this->Name, summary, this->Reader->HasBlanks());
 }
 
 } // namespace RectifiedTransport

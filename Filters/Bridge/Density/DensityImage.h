@@ -42,6 +42,7 @@ public:
   DensityImage& operator=(const DensityImage&) = delete;
 
   const ImageGrid& Grid() const { return this->Geometry; }
+  vtkImageData* Image() const;
   // What messages call it.
   const std::string& GetName() const { return this->Name; }
   const Times& GetTimes() const { return this->Changed; }
@@ -67,6 +68,7 @@ private:
   double FindWhite(Progress& progress) const;
 
   ImageGrid Geometry;
+  vtkSmartPointer<vtkImageData> Input;
   vtkSmartPointer<vtkDataArray> Array;
   const DensityRules Rules;
   const std::string Name;

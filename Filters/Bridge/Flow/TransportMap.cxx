@@ -47,15 +47,15 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 
 } // namespace
 
-TransportMap::Report TransportMap::Run(DensityImage& density, vtkImageData* input, FlowCache& cache,
-  Progress& progress, vtkImageData* output) const
+TransportMap::Report TransportMap::Run(
+  DensityImage& density, FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples =
     gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
   if (samples.Extent() == density.Grid().Extent())
   {
-    output->GetPointData()->PassData(input->GetPointData());
-    output->GetCellData()->PassData(input->GetCellData());
+    output->GetPointData()->PassData(density.Image()->GetPointData());
+    output->GetCellData()->PassData(density.Image()->GetCellData());
   }
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
     *this, density, samples, cache, progress, output);

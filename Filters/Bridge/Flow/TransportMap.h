@@ -36,8 +36,8 @@ struct TransportMap
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid; where it is that of the density, the image gets the arrays of the input, too. Throws
   // Failure and Cancelled.
-  Report Run(DensityImage& density, vtkImageData* input, FlowCache& cache, Progress& progress,
-    vtkImageData* output) const;
+  Report Run(
+    DensityImage& density, FlowCache& cache, Progress& progress, vtkImageData* output) const;
 };
 
 } // namespace RectifiedTransport

@@ -6,6 +6,7 @@
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Points/SeedInput.h"
+#include "Bridge/Resampling/PlacesInMeshes.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
@@ -87,9 +88,31 @@ void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::
   });
 }
 
+// The arrays of the data that the density was read from.
+template <int D>
+void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>* meshes,
+  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
+{
+  if (!meshes)
+  {
+    sampleArrays({ { density.Image() }, "input image", false },
+      PlacesInImage<D>(density.Grid(), particles), progress, 1.0, output);
+    return;
+  }
+  constexpr double partOfSearch = 0.5;
+  progress.BeginStage(progress.StageEnd() + partOfSearch * (1.0 - progress.StageEnd()));
+  const PlacesInMeshes places(*meshes, density.Grid(), particles, progress);
+  ArraySource source{ {}, "input", false };
+  for (const BlockValues& mesh : *meshes)
+  {
+    source.Sets.push_back(mesh.Data());
+  }
+  sampleArrays(source, places, progress, 1.0, output);
+}
+
 template <int D>
 TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& density,
-  vtkImageData* image, vtkPointSet* given, FlowCache& cache, Progress& progress,
+  const std::vector<BlockValues>* meshes, vtkPointSet* given, FlowCache& cache, Progress& progress,
   vtkPolyData* output)
 {
   const ImageGrid& grid = density.Grid();
@@ -154,8 +177,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
     : particles.WriteParticles(mass, progress, ends[3], output);
   if (addsArrays)
   {
-    sampleArrays({ image, "input image", false },
-      PlacesInImage<D>(grid, particles.PhysicalPoints()), progress, 1.0, output->GetPointData());
+    sampleArraysOf<D>(
+      density, meshes, particles.PhysicalPoints(), progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
@@ -164,11 +187,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 
 } // namespace
 
-TransportSampler::Report TransportSampler::Run(DensityImage& density, vtkImageData* image,
-  vtkPointSet* seeds, FlowCache& cache, Progress& progress, vtkPolyData* output) const
+TransportSampler::Report TransportSampler::Run(DensityImage& density,
+  const std::vector<BlockValues>* meshes, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
+  vtkPolyData* output) const
 {
   return dispatchDimension(density.Grid().Dimension(), sample<1>, sample<2>, sample<3>)(
-    *this, density, image, seeds, cache, progress, output);
+    *this, density, meshes, seeds, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

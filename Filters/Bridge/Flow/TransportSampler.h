@@ -8,9 +8,9 @@
 #include "Core/Seeds/Seeds.h"
 
 #include <cstdint>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
 VTK_ABI_NAMESPACE_END
@@ -18,6 +18,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class BlockValues;
 class DensityImage;
 class FlowCache;
 class Progress;
@@ -49,10 +50,10 @@ struct TransportSampler
   }
 
   // Writes particles, or their paths, from the given seeds, or from those of the pattern where
-  // `seeds` is nullptr; `image` has the density, and the arrays that particles get. Throws Failure
-  // and Cancelled.
-  Report Run(DensityImage& density, vtkImageData* image, vtkPointSet* seeds, FlowCache& cache,
-    Progress& progress, vtkPolyData* output) const;
+  // `seeds` is nullptr; `meshes` are the data whose arrays particles get, nullptr for those of the
+  // image. Throws Failure and Cancelled.
+  Report Run(DensityImage& density, const std::vector<BlockValues>* meshes, vtkPointSet* seeds,
+    FlowCache& cache, Progress& progress, vtkPolyData* output) const;
 };
 
 } // namespace RectifiedTransport

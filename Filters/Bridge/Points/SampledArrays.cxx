@@ -18,6 +18,8 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,8 +35,8 @@ constexpr std::int64_t Units = std::int64_t{ 1 } << 14;
 
 struct NewArray
 {
-  vtkAbstractArray* From;
-  int Attribute; // that it is, else negative
+  std::vector<vtkAbstractArray*> From; // of each data set
+  int Attribute;                       // that it is, else negative
 };
 
 std::string nameOf(vtkAbstractArray* array)
@@ -46,10 +48,8 @@ std::string nameOf(vtkAbstractArray* array)
 std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPointData* known)
 {
   const std::string owner = ofCells ? "cell" : "point";
-  vtkDataSetAttributes* from =
-    source.Data->GetAttributes(ofCells ? vtkDataObject::CELL : vtkDataObject::POINT);
-  const vtkIdType tuples =
-    ofCells ? source.Data->GetNumberOfCells() : source.Data->GetNumberOfPoints();
+  const int type = ofCells ? vtkDataObject::CELL : vtkDataObject::POINT;
+  vtkDataSetAttributes* from = source.Sets.front()->GetAttributes(type);
   std::vector<NewArray> arrays;
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
@@ -66,13 +66,30 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
     {
       continue;
     }
-    if (array->GetNumberOfTuples() < tuples)
+    NewArray made{ {}, attribute };
+    for (vtkDataSet* set : source.Sets)
     {
-      throw Failure("The " + owner + " array '" + name + "' of the " + source.Name + " has " +
-        std::to_string(array->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
-        std::to_string(tuples) + " " + owner + "s");
+      vtkAbstractArray* own = set == source.Sets.front()
+        ? array
+        : set->GetAttributes(type)->GetAbstractArray(name.c_str());
+      if (!own || std::strcmp(own->GetClassName(), array->GetClassName()) != 0 ||
+        own->GetNumberOfComponents() != array->GetNumberOfComponents())
+      {
+        break;
+      }
+      const vtkIdType tuples = set->GetNumberOfElements(type);
+      if (own->GetNumberOfTuples() < tuples)
+      {
+        throw Failure("The " + owner + " array '" + name + "' of the " + source.Name + " has " +
+          std::to_string(own->GetNumberOfTuples()) + " tuples; it must have one for each of the " +
+          std::to_string(tuples) + " " + owner + "s");
+      }
+      made.From.push_back(own);
     }
-    arrays.push_back({ array, attribute });
+    if (made.From.size() == source.Sets.size())
+    {
+      arrays.push_back(made);
+    }
   }
   return arrays;
 }
@@ -104,20 +121,31 @@ vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t
 struct SampleValues
 {
   template <class Array>
-  void operator()(Array* from, vtkDataArray* to, const SampledPlaces& places, bool ofCells,
-    Progress& progress) const
+  void operator()(Array* first, const NewArray& array, vtkDataArray* to,
+    const SampledPlaces& places, bool ofCells, Progress& progress) const
   {
     using Value = vtk::GetAPIType<Array>;
-    const auto given = vtk::DataArrayTupleRange(from);
+    std::vector<decltype(vtk::DataArrayTupleRange(first))> sets;
+    for (vtkAbstractArray* from : array.From)
+    {
+      sets.push_back(vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(from)));
+    }
     auto found = vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(to));
-    const auto components = static_cast<vtk::ComponentIdType>(from->GetNumberOfComponents());
+    const auto components = static_cast<vtk::ComponentIdType>(first->GetNumberOfComponents());
     progress.For(
       places.Count(), Grain,
-      [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
+      [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i)
         {
           const SampledPlace place = places.Find(i);
           auto tuple = found[static_cast<vtk::TupleIdType>(i)];
+          if (place.Cell < 0)
+          {
+            constexpr bool hasNaN = std::numeric_limits<Value>::has_quiet_NaN;
+            tuple.fill(hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0));
+            continue;
+          }
+          const auto& given = sets[static_cast<std::size_t>(place.Set)];
           if (ofCells)
           {
             tuple = given[static_cast<vtk::TupleIdType>(place.Cell)];
@@ -141,7 +169,7 @@ struct SampleValues
 };
 
 // Of strings, bits and the like.
-void sampleTuples(vtkAbstractArray* from, vtkAbstractArray* to, const SampledPlaces& places,
+void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlaces& places,
   bool ofCells, Progress& progress)
 {
   vtkNew<vtkIdList> points;
@@ -151,6 +179,13 @@ void sampleTuples(vtkAbstractArray* from, vtkAbstractArray* to, const SampledPla
       for (std::int64_t i = first; i < last; ++i)
       {
         SampledPlace place = places.Find(i);
+        vtkAbstractArray* from = array.From[static_cast<std::size_t>(place.Set)];
+        if (place.Cell < 0)
+        {
+          points->Reset();
+          to->InterpolateTuple(static_cast<vtkIdType>(i), points, from, nullptr);
+          continue;
+        }
         if (ofCells)
         {
           to->SetTuple(static_cast<vtkIdType>(i), place.Cell, from);
@@ -173,13 +208,14 @@ void sample(const std::vector<NewArray>& arrays, const SampledPlaces& places, bo
     const NewArray& array = arrays[i];
     progress.BeginStage(
       begin + (end - begin) * static_cast<double>(i + 1) / static_cast<double>(arrays.size()));
-    const auto made = makeLike(array.From, places.Count());
-    auto* from = vtkDataArray::SafeDownCast(array.From);
+    const auto made = makeLike(array.From.front(), places.Count());
+    auto* from = vtkDataArray::SafeDownCast(array.From.front());
     auto* to = vtkDataArray::SafeDownCast(made);
     if (!from || from->GetDataType() == VTK_BIT ||
-      !vtkArrayDispatch::Dispatch::Execute(from, SampleValues(), to, places, ofCells, progress))
+      !vtkArrayDispatch::Dispatch::Execute(
+        from, SampleValues(), array, to, places, ofCells, progress))
     {
-      sampleTuples(array.From, made, places, ofCells, progress);
+      sampleTuples(array, made, places, ofCells, progress);
     }
     const int index = output->AddArray(made);
     if (keepActive && array.Attribute >= 0 && !output->GetAbstractAttribute(array.Attribute))
@@ -194,7 +230,7 @@ void sample(const std::vector<NewArray>& arrays, const SampledPlaces& places, bo
 void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
   double end, vtkPointData* output)
 {
-  vtkDataSet* data = source.Data;
+  vtkDataSet* data = source.Sets.front();
   const auto ofPointsAlone = static_cast<double>(data->GetPointData()->GetNumberOfArrays());
   const double all = ofPointsAlone + data->GetCellData()->GetNumberOfArrays();
   const double begin = progress.StageEnd();

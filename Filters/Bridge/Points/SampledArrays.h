@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrays of a data set at points in its cells.
+// The arrays of data sets at points in their cells.
 #ifndef RectifiedTransport_SampledArrays_h
 #define RectifiedTransport_SampledArrays_h
 
@@ -8,6 +8,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
@@ -24,8 +25,9 @@ struct SampledPlace
 {
   vtkIdType Points[8];
   double Weights[8];
-  int Count; // of points
-  vtkIdType Cell;
+  int Count;      // of points
+  vtkIdType Cell; // -1 for a place in none: values are NaN, or 0 where there is no NaN
+  int Set = 0;    // which of the data sets
 };
 
 class SampledPlaces
@@ -40,11 +42,13 @@ public:
 
 struct ArraySource
 {
-  vtkDataSet* Data;
+  std::vector<vtkDataSet*> Sets;
   const char* Name; // in messages
   bool KeepActive;  // whether active attributes of points stay active, where there are no others
 };
 
+// Of several data sets the arrays that all have, of one type and number of components.
+//
 // Adds the point arrays, interpolated, and the values of the cell arrays at the given places to the
 // data of points, but for names that there are already, ghost arrays, ids of points and global ids.
 // As stages up to the progress `end`. Throws Failure and Cancelled.

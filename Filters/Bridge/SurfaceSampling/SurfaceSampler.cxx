@@ -208,7 +208,7 @@ SurfaceSamplingReport SurfaceSampler::Run(
   writeParticles(surface, samples.Places, masses.Total(), progress, output);
   progress.BeginStage(ends[5]);
   output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
-  sampleArrays({ surface.Triangulated(), "input surface", true },
+  sampleArrays({ { surface.Triangulated() }, "input surface", true },
     PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
   return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Resampling/BlockValues.h"
+
+#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr unsigned char unused = 1; // of values that are not read
+
+} // namespace
+
+vtkDataSet* BlockValues::Data() const
+{
+  return this->Set;
+}
+
+// A block between the steps of reading it.
+class BlockReading
+{
+public:
+  BlockReading(const DensityBlock& block, bool onPoints, int dimension, const DensityRules& rules)
+    : Name(describeArray(block.Array) + " of the " + block.Name)
+    , Array(block.Array)
+    , Reader(makeDensityReader(block.Array, rules))
+  {
+    requireComponent(Name, rules.Component, block.Array->GetNumberOfComponents());
+    this->Read.Set = block.Data;
+    this->Read.OnPoints = onPoints;
+    this->FindCounted(block, dimension);
+    this->Reader->SetBlanks(this->Flags.data(), unused);
+  }
+
+  double LargestValue() const
+  {
+    return this->Reader->Maximum(0, static_cast<std::int64_t>(this->Flags.size()));
+  }
+
+  void SetWhite(double white) { this->Reader->SetWhite(white); }
+
+  void ReadValues(Progress& progress)
+  {
+    const auto count = static_cast<std::int64_t>(this->Flags.size());
+    withMemory("the values of the " + this->Name, static_cast<double>(count) * sizeof(double),
+      [&]() { this->Read.Density = LargeBuffer<double>(count); });
+    double* values = this->Read.Density.data();
+    progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+      this->Reader->Read(first, last - first, values + first);
+    });
+    DensitySummary summary;
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      if (!std::isfinite(values[i]))
+      {
+        summary.FirstNotFinite = summary.NotFinite++ == 0 ? i : summary.FirstNotFinite;
+      }
+      else if (values[i] < 0.0)
+      {
+        summary.FirstNegative = summary.Negative++ == 0 ? i : summary.FirstNegative;
+      }
+    }
+    if (summary.NotFinite > 0 || summary.Negative > 0)
+    {
+      throwInvalidDensity(this->Name, summary);
+    }
+  }
+
+  BlockValues Take() { return std::move(this->Read); }
+
+private:
+  void FindCounted(const DensityBlock& block, int dimension)
+  {
+    vtkDataSet* data = block.Data;
+    const unsigned char* cellFlags = ghostFlags(data, vtkDataObject::CELL, block.Name.c_str());
+    const unsigned char* pointFlags = ghostFlags(data, vtkDataObject::POINT, block.Name.c_str());
+    const vtkIdType cells = data->GetNumberOfCells();
+    this->Read.Counted.assign(static_cast<std::size_t>(cells), 0);
+    this->Flags.assign(
+      static_cast<std::size_t>(this->Read.OnPoints ? data->GetNumberOfPoints() : cells), unused);
+    vtkNew<vtkIdList> points;
+    for (vtkIdType cell = 0; cell < cells; ++cell)
+    {
+      if (dimensionOfCellType(data->GetCellType(cell)) != dimension ||
+        (cellFlags && (cellFlags[cell] & ghostCell)))
+      {
+        continue;
+      }
+      bool counts = true;
+      if (pointFlags || this->Read.OnPoints)
+      {
+        data->GetCellPoints(cell, points);
+        for (vtkIdType i = 0; pointFlags && i < points->GetNumberOfIds(); ++i)
+        {
+          counts = counts && !(pointFlags[points->GetId(i)] & vtkDataSetAttributes::HIDDENPOINT);
+        }
+      }
+      this->Read.Counted[static_cast<std::size_t>(cell)] = counts ? 1 : 0;
+      if (!counts)
+      {
+        continue;
+      }
+      if (!this->Read.OnPoints)
+      {
+        this->Flags[static_cast<std::size_t>(cell)] = 0;
+        continue;
+      }
+      for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+      {
+        this->Flags[static_cast<std::size_t>(points->GetId(i))] = 0;
+      }
+    }
+  }
+
+  const std::string Name;
+  vtkDataArray* Array;
+  std::unique_ptr<DensityReader> Reader;
+  std::vector<unsigned char> Flags; // of the values
+  BlockValues Read;
+};
+
+std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
+  int dimension, const DensityRules& rules, Progress& progress)
+{
+  std::vector<BlockReading> readings;
+  readings.reserve(blocks.size());
+  for (const DensityBlock& block : blocks)
+  {
+    withMemory("the flags of the cells of the " + block.Name,
+      static_cast<double>(block.Data->GetNumberOfCells()),
+      [&]() { readings.emplace_back(block, onPoints, dimension, rules); });
+  }
+  if (needsWhite(rules, blocks.front().Array->GetNumberOfComponents()))
+  {
+    double white = -std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      white = std::max(white,
+        blocks[b].Array->GetDataType() == VTK_UNSIGNED_CHAR
+          ? std::numeric_limits<unsigned char>::max()
+          : readings[b].LargestValue());
+    }
+    for (BlockReading& reading : readings)
+    {
+      reading.SetWhite(std::isfinite(white) ? white : 0.0);
+    }
+  }
+  std::vector<BlockValues> values;
+  values.reserve(readings.size());
+  for (BlockReading& reading : readings)
+  {
+    reading.ReadValues(progress);
+    values.push_back(reading.Take());
+  }
+  return values;
+}
+
+} // namespace RectifiedTransport

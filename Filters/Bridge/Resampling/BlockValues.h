@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The values of the densities of data sets, and which of their cells carry mass.
+#ifndef RectifiedTransport_BlockValues_h
+#define RectifiedTransport_BlockValues_h
+
+#include "Bridge/Density/DensityReader.h"
+#include "Bridge/Resampling/DensityBlocks.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+class BlockValues
+{
+public:
+  vtkDataSet* Data() const;
+  bool IsOnPoints() const { return this->OnPoints; }
+  // Of the points or the cells; 0 where no cell that counts needs them.
+  const double* Values() const { return this->Density.data(); }
+  bool IsCounted(vtkIdType cell) const
+  {
+    return this->Counted[static_cast<std::size_t>(cell)] != 0;
+  }
+
+private:
+  friend class BlockReading;
+
+  vtkSmartPointer<vtkDataSet> Set;
+  bool OnPoints = false;
+  LargeBuffer<double> Density;
+  std::vector<unsigned char> Counted;
+};
+
+// Cells count if they have the dimension, and neither they nor their points are blanked. Throws
+// Failure for values of these that are no density, and Cancelled.
+std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
+  int dimension, const DensityRules& rules, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Resampling/CellPieces.h"
+
+#include "vtkCellType.h"
+#include "vtkDataSet.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <int D>
+int boxType()
+{
+  return D == 1 ? VTK_LINE : D == 2 ? VTK_PIXEL : VTK_VOXEL;
+}
+
+template <int D>
+int simplexType()
+{
+  return D == 1 ? VTK_LINE : D == 2 ? VTK_TRIANGLE : VTK_TETRA;
+}
+
+} // namespace
+
+template <int D>
+CellPieces<D>::CellPieces(const BlockValues& values, const ImageGrid& grid)
+  : Data(values.Data())
+  , Grid(grid)
+  , Values(values.Values())
+  , OnPoints(values.IsOnPoints())
+  , HasBoxes(D > 1)
+{
+  this->Corners->SetDataTypeToDouble();
+}
+
+template <int D>
+CellPieces<D>::~CellPieces() = default;
+
+template <int D>
+bool CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell)
+{
+  if (this->HasBoxes && this->Data->GetCellType(cell) == boxType<D>() && this->AddBox(slab, cell))
+  {
+    return true;
+  }
+  if (!this->Divide(cell))
+  {
+    return false;
+  }
+  LinearSimplex<D> simplex;
+  for (vtkIdType s = 0; s < this->NumberOfSimplices(); ++s)
+  {
+    for (vtkIdType i = 0; i <= D; ++i)
+    {
+      const auto vertex = static_cast<std::size_t>(i);
+      simplex.Vertices[vertex] = this->Vertex(s, i);
+      simplex.Values[vertex] = this->Values[this->OnPoints ? this->VertexId(s, i) : cell];
+    }
+    addOverlaps<D>(simplex, slab);
+  }
+  return true;
+}
+
+template <int D>
+bool CellPieces<D>::Divide(vtkIdType cell)
+{
+  if (this->Data->GetCellType(cell) == simplexType<D>())
+  {
+    this->Data->GetCellPoints(cell, this->Ids);
+    return true;
+  }
+  this->Data->GetCell(cell, this->Cell);
+  return this->Cell->Triangulate(0, this->Ids, this->Corners) != 0;
+}
+
+template <int D>
+vtkIdType CellPieces<D>::NumberOfSimplices() const
+{
+  return this->Ids->GetNumberOfIds() / (D + 1);
+}
+
+template <int D>
+vtkIdType CellPieces<D>::VertexId(vtkIdType simplex, vtkIdType vertex) const
+{
+  return this->Ids->GetId(simplex * (D + 1) + vertex);
+}
+
+template <int D>
+Point<D> CellPieces<D>::Vertex(vtkIdType simplex, vtkIdType vertex) const
+{
+  double x[3];
+  this->Data->GetPoint(this->VertexId(simplex, vertex), x);
+  Point<D> index;
+  this->Grid.template ToIndex<D>(x, index.data());
+  return index;
+}
+
+// Returns whether the cell is a box of the grid's axes.
+template <int D>
+bool CellPieces<D>::AddBox(const GridSlab<D>& slab, vtkIdType cell)
+{
+  constexpr std::size_t corners = std::size_t{ 1 } << D;
+  this->Data->GetCellPoints(cell, this->Ids);
+  Point<D> index[corners];
+  MultilinearBox<D> box;
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    const vtkIdType point = this->Ids->GetId(static_cast<vtkIdType>(i));
+    double x[3];
+    this->Data->GetPoint(point, x);
+    this->Grid.template ToIndex<D>(x, index[i].data());
+    box.Values[i] = this->Values[this->OnPoints ? point : cell];
+  }
+  // A pixel's axes are in order, which need not be that of the grid's.
+  constexpr double rounding = 1e-9;
+  double longest = 0.0;
+  for (int a = 0; a < D; ++a)
+  {
+    longest = std::max(longest, std::abs(index[corners - 1][a] - index[0][a]));
+  }
+  for (std::size_t i = 0; i < corners; ++i)
+  {
+    for (int a = 0; a < D; ++a)
+    {
+      const double straight = index[(i >> a & 1) != 0 ? corners - 1 : 0][a];
+      if (std::abs(index[i][a] - straight) > rounding * longest)
+      {
+        this->HasBoxes = false;
+        return false;
+      }
+    }
+  }
+  for (int a = 0; a < D; ++a)
+  {
+    box.Low[a] = index[0][a];
+    box.High[a] = index[corners - 1][a];
+    if (!(box.Low[a] < box.High[a])) // flipped or without a measure
+    {
+      return false;
+    }
+  }
+  addOverlaps<D>(box, slab);
+  return true;
+}
+
+template class CellPieces<1>;
+template class CellPieces<2>;
+template class CellPieces<3>;
+
+} // namespace RectifiedTransport

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The density of data sets that are no images as one on an image: of each grid cell the mean over
+// it, 0 outside the data sets.
+#ifndef RectifiedTransport_MeshDensity_h
+#define RectifiedTransport_MeshDensity_h
+
+#include "Bridge/Resampling/BlockValues.h"
+#include "Core/Geometry/ImageGrid.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+struct MeshDensity
+{
+  // The image has one cell array, of doubles, called `name`.
+  vtkSmartPointer<vtkImageData> Image;
+  vtkIdType CellsLeftOut = 0; // that VTK could not divide into simplices
+
+  // Point values are linear on the simplices of a cell. Throws Failure and Cancelled.
+  static MeshDensity Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
+    const char* name, Progress& progress);
+};
+
+} // namespace RectifiedTransport
+
+#endif

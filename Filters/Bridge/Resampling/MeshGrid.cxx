@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Resampling/MeshGrid.h"
+
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/Failure.h"
+
+#include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+// Of the longest side: what a plane or a line may be off by. Single precision is ten times better.
+constexpr double flatness = 1e-5;
+
+// Calls visit(x) for the corners of all cells of the dimension; a point may come several times.
+template <class Visit>
+void visitCorners(const std::vector<DensityBlock>& blocks, int dimension, const Visit& visit)
+{
+  vtkNew<vtkIdList> points;
+  for (const DensityBlock& block : blocks)
+  {
+    vtkDataSet* data = block.Data;
+    std::vector<bool> visited(static_cast<std::size_t>(data->GetNumberOfPoints()), false);
+    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+    {
+      if (dimensionOfCellType(data->GetCellType(cell)) != dimension)
+      {
+        continue;
+      }
+      data->GetCellPoints(cell, points);
+      for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
+      {
+        const auto id = static_cast<std::size_t>(points->GetId(i));
+        if (!visited[id])
+        {
+          visited[id] = true;
+          Vector3d x;
+          data->GetPoint(points->GetId(i), x.data());
+          visit(x);
+        }
+      }
+    }
+  }
+}
+
+struct Bounds
+{
+  Vector3d Low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d High = Vector3d::Constant(-std::numeric_limits<double>::infinity());
+
+  void Add(const Vector3d& x)
+  {
+    this->Low = this->Low.cwiseMin(x);
+    this->High = this->High.cwiseMax(x);
+  }
+  Vector3d Lengths() const { return this->High - this->Low; }
+};
+
+// The eigenvectors of the points' covariance, by growing eigenvalue.
+Eigen::Matrix3d principalAxes(
+  const std::vector<DensityBlock>& blocks, int dimension, const Bounds& bounds)
+{
+  const Vector3d middle = 0.5 * (bounds.Low + bounds.High);
+  const double unit = bounds.Lengths().maxCoeff();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  Vector3d first = Vector3d::Zero();
+  double count = 0.0;
+  visitCorners(blocks, dimension, [&](const Vector3d& x) {
+    const Vector3d d = (x - middle) / unit;
+    first += d;
+    second += d * d.transpose();
+    count += 1.0;
+  });
+  first /= count;
+  const Eigen::Matrix3d covariance = second / count - first * first.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+}
+
+// Rounded, so that slices of one plane have the same axes, and with its largest component positive.
+Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
+{
+  constexpr double step = 1e-6;
+  v.cwiseAbs().maxCoeff(&largest);
+  v *= v[largest] < 0.0 ? -1.0 : 1.0;
+  v = (v / step).array().round() * step;
+  return v.normalized();
+}
+
+// Columns: right-handed axes, each nearest to that of space with its number, of which `flat` is the
+// one across a plane or, where `isLine`, the one along a line.
+ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
+{
+  ImageGrid::Matrix axes;
+  const Eigen::Index next = (main + 1) % 3;
+  const Vector3d along = (Vector3d::Unit(next) - direction * direction[next]).normalized();
+  axes.col(main) = direction;
+  axes.col(next) = along;
+  axes.col((main + 2) % 3) = direction.cross(along);
+  return axes;
+}
+
+struct Frame
+{
+  ImageGrid::Matrix Axes = ImageGrid::Matrix::Identity();
+  Bounds Box; // of the coordinates along the axes
+};
+
+[[noreturn]] void failFlat(int dimension, double off, double length)
+{
+  std::ostringstream message;
+  message << "The input's cells are " << (dimension == 2 ? "faces that lie in no plane" : "lines")
+          << (dimension == 2 ? "" : " that are not on one straight line") << ": points are " << off
+          << " off, with a longest side of " << length << "; "
+          << (dimension == 2 ? "they must lie in one plane, as a slice does (Sample Surface takes "
+                               "curved surfaces that are disks)"
+                             : "they must lie on one");
+  throw Failure(message.str());
+}
+
+Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension)
+{
+  Frame frame;
+  visitCorners(blocks, dimension, [&](const Vector3d& x) { frame.Box.Add(x); });
+  const Vector3d lengths = frame.Box.Lengths();
+  const double longest = lengths.maxCoeff();
+  if (!std::isfinite(longest) || !(longest > 0.0))
+  {
+    throw Failure(longest == 0.0
+        ? "The cells of the input are all at one place; they must have a length, area or volume"
+        : "The input has points whose coordinates are not finite; all must be");
+  }
+  const auto isFlat = [&](const Vector3d& sides) {
+    return (sides.array() <= flatness * longest).count() >= 3 - dimension;
+  };
+  if (dimension == 3 || isFlat(lengths))
+  {
+    return frame;
+  }
+  Eigen::Index main = 0;
+  const Vector3d direction =
+    roundedDirection(principalAxes(blocks, dimension, frame.Box).col(dimension == 2 ? 0 : 2), main);
+  frame.Axes = axesAround(direction, main);
+  frame.Box = Bounds();
+  const Eigen::Matrix3d toFrame = frame.Axes.transpose();
+  visitCorners(blocks, dimension, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
+  Vector3d sides = frame.Box.Lengths();
+  if (!isFlat(sides))
+  {
+    std::sort(sides.data(), sides.data() + 3);
+    failFlat(dimension, sides[2 - dimension], sides[2]);
+  }
+  return frame;
+}
+
+} // namespace
+
+ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, int dimension, int resolution)
+{
+  Frame frame = frameOf(blocks, dimension);
+  // Flat axes are those of the shortest sides.
+  Vector3d sides = frame.Box.Lengths();
+  double box[6];
+  for (int flat = dimension; flat < 3; ++flat)
+  {
+    Eigen::Index shortest = 0;
+    sides.minCoeff(&shortest);
+    sides[shortest] = std::numeric_limits<double>::infinity();
+    const double middle = 0.5 * (frame.Box.Low[shortest] + frame.Box.High[shortest]);
+    frame.Box.Low[shortest] = middle;
+    frame.Box.High[shortest] = middle;
+  }
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    box[2 * a] = frame.Box.Low[a];
+    box[2 * a + 1] = frame.Box.High[a];
+  }
+  const ImageGrid straight = gridWithResolution(gridOfBox(box), resolution, "DensityResolution");
+  return { straight.Extent(), frame.Axes * straight.Origin(), straight.Spacing(), frame.Axes,
+    straight.IsOnPoints() };
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The image on the bounds of data sets that their densities are put on.
+#ifndef RectifiedTransport_MeshGrid_h
+#define RectifiedTransport_MeshGrid_h
+
+#include "Bridge/Resampling/DensityBlocks.h"
+#include "Core/Geometry/ImageGrid.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Values on cells, with `resolution` cells along the longest axis and the others as near to cubes
+// as whole numbers allow. The axes are those of space, or where cells of a plane or a line are
+// oblique, axes in it. Throws Failure for blocks without cells of a measure, for surfaces that are
+// not plane and lines that are not straight, and for a resolution out of range.
+ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, int dimension, int resolution);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where particles lie among the points and cells of data sets whose density was resampled.
+#ifndef RectifiedTransport_PlacesInMeshes_h
+#define RectifiedTransport_PlacesInMeshes_h
+
+#include "Bridge/Points/SampledArrays.h"
+#include "Bridge/Resampling/BlockValues.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class ImageGrid;
+class Progress;
+
+// In the first cell that has the place, else in the one that is nearest of those within a grid
+// cell. Between points linearly on the simplices of the cell.
+class PlacesInMeshes : public SampledPlaces
+{
+public:
+  // `places` are physical, in grid cells that cells of the blocks reach. As the work of the current
+  // stage. Throws Failure and Cancelled.
+  PlacesInMeshes(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
+    ConstPointSpan<3> places, Progress& progress);
+
+  std::int64_t Count() const override { return this->Found.size(); }
+  SampledPlace Find(std::int64_t place) const override;
+
+private:
+  struct Place
+  {
+    double Distance; // squared, in grid cells; infinite while there is none
+    vtkIdType Cell;
+    vtkIdType Points[4];
+    double Weights[4];
+    int Set;
+  };
+  template <int D>
+  friend class PlaceSearch;
+
+  LargeBuffer<Place> Found;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Resampling/ResampledDensity.h"
+
+#include "Bridge/Resampling/MeshDensity.h"
+#include "Bridge/Resampling/MeshGrid.h"
+#include "Bridge/Resampling/TiledImages.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+namespace RectifiedTransport
+{
+
+vtkImageData* ResampledDensity::Image() const
+{
+  return this->Made;
+}
+
+void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension,
+  int resolution, const DensityRules& rules, Progress& progress)
+{
+  const auto number = [](auto value) { return static_cast<std::uint64_t>(value); };
+  std::vector<std::uint64_t> content{ number(onPoints), number(dimension), number(resolution),
+    number(rules.Component + 2), number(rules.Invert), number(rules.ClampNegative) };
+  for (const DensityBlock& block : blocks)
+  {
+    // The time alone may be that of what two data sets share.
+    content.insert(content.end(),
+      { number(block.Time), number(reinterpret_cast<std::uintptr_t>(block.Array)),
+        number(block.Array->GetMTime()) });
+  }
+  if (this->Made && content == this->Content)
+  {
+    return;
+  }
+  *this = ResampledDensity();
+  const char* name = blocks.front().Array->GetName();
+  if ((this->Made = joinTiles(blocks, onPoints)))
+  {
+    this->OnPoints = onPoints;
+    vtkDataSetAttributes* attributes =
+      this->Made->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+    this->Density = blocks.size() == 1 ? blocks.front().Array : attributes->GetArray(name);
+  }
+  else
+  {
+    const ImageGrid grid = meshGrid(blocks, dimension, resolution);
+    this->Blocks = readBlocks(blocks, onPoints, dimension, rules, progress);
+    const char* called = name ? name : "Density";
+    const MeshDensity made = MeshDensity::Make(this->Blocks, grid, called, progress);
+    this->Made = made.Image;
+    this->LeftOut = made.CellsLeftOut;
+    this->Resampled = true;
+    this->Density = made.Image->GetCellData()->GetScalars();
+  }
+  this->Content = content;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Any data object with a density as an image with one.
+#ifndef RectifiedTransport_ResampledDensity_h
+#define RectifiedTransport_ResampledDensity_h
+
+#include "Bridge/Density/DensityReader.h"
+#include "Bridge/Resampling/BlockValues.h"
+#include "Bridge/Resampling/DensityBlocks.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Keeps the last image: it is made again only where the data sets or the parameters change.
+class ResampledDensity
+{
+public:
+  // Of blocks that have an array each, of one name and association. Throws Failure and Cancelled.
+  void Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension, int resolution,
+    const DensityRules& rules, Progress& progress);
+
+  vtkImageData* Image() const;
+  vtkDataArray* Array() const { return this->Density; }
+  bool IsOnPoints() const { return this->OnPoints; }
+  // Whether the image's values are densities already, to which the rules were applied: the data
+  // sets are no images that tile a lattice.
+  bool IsResampled() const { return this->Resampled; }
+  // The data sets, where the image was resampled.
+  const std::vector<BlockValues>& Meshes() const { return this->Blocks; }
+  vtkIdType CellsLeftOut() const { return this->LeftOut; }
+
+private:
+  std::vector<std::uint64_t> Content; // of the last Update
+  vtkSmartPointer<vtkImageData> Made;
+  vtkDataArray* Density = nullptr;
+  bool OnPoints = false;
+  bool Resampled = false;
+  std::vector<BlockValues> Blocks;
+  vtkIdType LeftOut = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
