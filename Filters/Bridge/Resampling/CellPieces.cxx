@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/CellPieces.h"
 
+#include "Core/Overlap/OverlapLines.h"
+
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
@@ -44,13 +46,11 @@ CellPieces<D>::CellPieces(const BlockValues& values, const ImageGrid& grid)
 template <int D>
 CellPieces<D>::~CellPieces() = default;
 
+// Returns whether VTK could divide the cell.
 template <int D>
-bool CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell)
+template <class Visit>
+bool CellPieces<D>::VisitSimplices(vtkIdType cell, const Visit& visit)
 {
-  if (this->HasBoxes && this->Data->GetCellType(cell) == boxType<D>() && this->AddBox(slab, cell))
-  {
-    return true;
-  }
   if (!this->Divide(cell))
   {
     return false;
@@ -64,9 +64,68 @@ bool CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell)
       simplex.Vertices[vertex] = this->Vertex(s, i);
       simplex.Values[vertex] = this->Values[this->OnPoints ? this->VertexId(s, i) : cell];
     }
-    addOverlaps<D>(simplex, slab);
+    visit(simplex);
   }
   return true;
+}
+
+template <int D>
+void CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell, [[maybe_unused]] bool alongLines)
+{
+  MultilinearBox<D> box;
+  if (this->FindBox(cell, box))
+  {
+    addOverlaps<D>(box, slab);
+    return;
+  }
+  this->VisitSimplices(cell, [&](const LinearSimplex<D>& simplex) {
+    if constexpr (D == 3)
+    {
+      if (alongLines)
+      {
+        addAlongLines(simplex, slab);
+        return;
+      }
+    }
+    addOverlaps<D>(simplex, slab);
+  });
+}
+
+template <int D>
+typename CellPieces<D>::Size CellPieces<D>::SizeOf(vtkIdType cell)
+{
+  const auto meanOf = [](const auto& values) {
+    double sum = 0.0;
+    for (const double value : values)
+    {
+      sum += value;
+    }
+    return sum / static_cast<double>(values.size());
+  };
+  Size size;
+  MultilinearBox<D> box;
+  if (this->FindBox(cell, box))
+  {
+    size.Measure = 1.0;
+    for (int a = 0; a < D; ++a)
+    {
+      size.Measure *= box.High[a] - box.Low[a];
+    }
+    size.Wide = size.Measure;
+    size.Integral = size.Measure * meanOf(box.Values);
+    return size;
+  }
+  const bool divided = this->VisitSimplices(cell, [&](const LinearSimplex<D>& simplex) {
+    const double measure = measureOf<D>(simplex);
+    size.Measure += measure;
+    size.Integral += measure * meanOf(simplex.Values);
+    if constexpr (D == 3)
+    {
+      size.Wide += isWideAlongLines(simplex) ? measure : 0.0;
+    }
+  });
+  size.LeftOut = divided ? 0 : 1;
+  return size;
 }
 
 template <int D>
@@ -78,7 +137,9 @@ bool CellPieces<D>::Divide(vtkIdType cell)
     return true;
   }
   this->Data->GetCell(cell, this->Cell);
-  return this->Cell->Triangulate(0, this->Ids, this->Corners) != 0;
+  const bool divided = this->Cell->Triangulate(0, this->Ids, this->Corners) != 0;
+  // vtkPyramid divides itself, and then says that it has not where one diagonal is the shorter.
+  return divided || (D == 3 && this->Ids->GetNumberOfIds() > 0);
 }
 
 template <int D>
@@ -105,12 +166,15 @@ Point<D> CellPieces<D>::Vertex(vtkIdType simplex, vtkIdType vertex) const
 
 // Returns whether the cell is a box of the grid's axes.
 template <int D>
-bool CellPieces<D>::AddBox(const GridSlab<D>& slab, vtkIdType cell)
+bool CellPieces<D>::FindBox(vtkIdType cell, MultilinearBox<D>& box)
 {
+  if (!this->HasBoxes || this->Data->GetCellType(cell) != boxType<D>())
+  {
+    return false;
+  }
   constexpr std::size_t corners = std::size_t{ 1 } << D;
   this->Data->GetCellPoints(cell, this->Ids);
   Point<D> index[corners];
-  MultilinearBox<D> box;
   for (std::size_t i = 0; i < corners; ++i)
   {
     const vtkIdType point = this->Ids->GetId(static_cast<vtkIdType>(i));
@@ -147,7 +211,6 @@ bool CellPieces<D>::AddBox(const GridSlab<D>& slab, vtkIdType cell)
       return false;
     }
   }
-  addOverlaps<D>(box, slab);
   return true;
 }
 

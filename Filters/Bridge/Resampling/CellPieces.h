@@ -30,9 +30,18 @@ public:
   CellPieces(const CellPieces&) = delete;
   CellPieces& operator=(const CellPieces&) = delete;
 
-  // Adds the integrals over a cell, whose dimension is D. Returns whether VTK could divide it into
-  // simplices.
-  bool AddTo(const GridSlab<D>& slab, vtkIdType cell);
+  // Adds the integrals over a cell, whose dimension is D; those over simplices along lines or
+  // exactly.
+  void AddTo(const GridSlab<D>& slab, vtkIdType cell, bool alongLines);
+
+  struct Size
+  {
+    double Integral = 0.0; // of the density
+    double Measure = 0.0;
+    double Wide = 0.0;        // of the measure, that of simplices which several lines cross
+    std::int64_t LeftOut = 0; // cells that VTK could not divide into simplices
+  };
+  Size SizeOf(vtkIdType cell);
 
   // Divides a cell, whose dimension is D, into simplices. Returns whether VTK could.
   bool Divide(vtkIdType cell);
@@ -43,7 +52,9 @@ public:
   Point<D> Vertex(vtkIdType simplex, vtkIdType vertex) const;
 
 private:
-  bool AddBox(const GridSlab<D>& slab, vtkIdType cell);
+  bool FindBox(vtkIdType cell, MultilinearBox<D>& box);
+  template <class Visit>
+  bool VisitSimplices(vtkIdType cell, const Visit& visit);
 
   vtkDataSet* Data;
   const ImageGrid& Grid;

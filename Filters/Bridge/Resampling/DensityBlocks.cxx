@@ -5,19 +5,31 @@
 
 #include "vtkAMRUtilities.h"
 #include "vtkCell.h"
+#include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkOverlappingAMR.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUniformGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace RectifiedTransport
 {
@@ -72,6 +84,74 @@ vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids)
   return marked;
 }
 
+// The time of a data set itself does not do: in ParaView it is new at every run.
+std::vector<std::uint64_t> geometryOf(vtkDataSet* data)
+{
+  std::vector<std::uint64_t> stamp{ static_cast<std::uint64_t>(data->GetDataObjectType()),
+    static_cast<std::uint64_t>(data->GetNumberOfPoints()),
+    static_cast<std::uint64_t>(data->GetNumberOfCells()) };
+  const auto add = [&stamp](vtkObject* object) {
+    stamp.push_back(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(object)));
+    stamp.push_back(object ? static_cast<std::uint64_t>(object->GetMTime()) : 0);
+  };
+  const auto addNumbers = [&stamp](const double* numbers, int count) {
+    for (int i = 0; i < count; ++i)
+    {
+      stamp.emplace_back();
+      std::memcpy(&stamp.back(), numbers + i, sizeof(double));
+    }
+  };
+  const auto addExtent = [&stamp](
+                           const int* extent) { stamp.insert(stamp.end(), extent, extent + 6); };
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
+    if (auto* flags = attributes->GetArray(vtkDataSetAttributes::GhostArrayName()))
+    {
+      add(flags);
+    }
+  }
+  if (auto* points = vtkPointSet::SafeDownCast(data))
+  {
+    add(points->GetPoints() ? points->GetPoints()->GetData() : nullptr);
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    addExtent(image->GetExtent());
+    addNumbers(image->GetOrigin(), 3);
+    addNumbers(image->GetSpacing(), 3);
+    addNumbers(image->GetDirectionMatrix()->GetData(), 9);
+  }
+  else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    addExtent(lattice->GetExtent());
+    add(lattice->GetXCoordinates());
+    add(lattice->GetYCoordinates());
+    add(lattice->GetZCoordinates());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    addExtent(structured->GetExtent());
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    add(grid->GetCells());
+    add(grid->GetCellTypesArray());
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells : { surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      add(cells);
+    }
+  }
+  else
+  {
+    add(data);
+  }
+  return stamp;
+}
+
 std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
 {
   std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions;
@@ -98,7 +178,7 @@ int largestDimension(vtkDataSet* data)
 std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
 {
   std::vector<DensityBlock> blocks;
-  const auto add = [&blocks](vtkDataObject* object, const std::string& name, vtkMTimeType time) {
+  const auto add = [&blocks](vtkDataObject* object, const std::string& name) {
     auto* set = vtkDataSet::SafeDownCast(object);
     if (object && !set)
     {
@@ -107,13 +187,13 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
     }
     if (set && set->GetNumberOfPoints() > 0)
     {
-      blocks.push_back({ set, name, time });
+      blocks.push_back({ set, name, geometryOf(set) });
     }
   };
   vtkSmartPointer<vtkCompositeDataSet> composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
-    add(data, "input", data ? data->GetMTime() : 0);
+    add(data, "input");
     return blocks;
   }
   auto* grids = vtkOverlappingAMR::SafeDownCast(data);
@@ -124,8 +204,7 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    vtkDataObject* own = vtkCompositeDataSet::SafeDownCast(data)->GetDataSet(leaves);
-    add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), own->GetMTime());
+    add(leaves->GetCurrentDataObject(), nameOfBlock(leaves));
   }
   return blocks;
 }

@@ -8,6 +8,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ namespace RectifiedTransport
 struct DensityBlock
 {
   vtkSmartPointer<vtkDataSet> Data;
-  std::string Name;              // that messages call it by
-  vtkMTimeType Time;             // of the input's own data set
-  vtkDataArray* Array = nullptr; // the density; set by those who know its name
+  std::string Name;                    // that messages call it by
+  std::vector<std::uint64_t> Geometry; // changes with the input's own points and cells
+  vtkDataArray* Array = nullptr;       // the density; set by those who know its name
 };
 
 // The data sets with points: the object itself, or the leaves of composite ones. Cells of AMR grids

@@ -9,6 +9,7 @@
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Overlap/Overlap.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
@@ -16,9 +17,9 @@
 #include "vtkImageData.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -29,18 +30,44 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 template <int D>
-vtkIdType addBlocks(
-  const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
+using Size = typename CellPieces<D>::Size;
+
+template <int D>
+Size<D> sumOf(const Size<D>& a, const Size<D>& b)
 {
-  const GridSize<D> size = grid.Size<D>();
-  const MeshSlabs<D> slabs(size);
-  std::vector<CellsOfSlabs> cells;
-  cells.reserve(blocks.size());
+  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut };
+}
+
+template <int D>
+Size<D> sizeOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+{
+  Size<D> size;
   for (const BlockValues& block : blocks)
   {
-    cells.push_back(cellsOfSlabs<D>(block, grid, slabs, 0.0, progress));
+    size = sumOf<D>(size,
+      reduceChunks(
+        progress, block.Data()->GetNumberOfCells(), grain, Size<D>(),
+        [&](std::int64_t first, std::int64_t last) {
+          CellPieces<D> pieces(block, grid);
+          Size<D> part;
+          for (std::int64_t cell = first; cell < last; ++cell)
+          {
+            part = block.IsCounted(cell) ? sumOf<D>(part, pieces.SizeOf(cell)) : part;
+          }
+          return part;
+        },
+        sumOf<D>));
   }
-  std::atomic<vtkIdType> leftOut{ 0 };
+  return size;
+}
+
+template <int D>
+void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOfSlabs>& cells,
+  const MeshSlabs<D>& slabs, const ImageGrid& grid, bool alongLines, Progress& progress,
+  double* sums)
+{
+  const GridSize<D> size = grid.Size<D>();
+  std::fill_n(sums, grid.NumberOfCells(), 0.0);
   constexpr std::int64_t cellsBetweenPolls = 256;
   progress.For(
     slabs.Count, 1,
@@ -60,16 +87,46 @@ vtkIdType addBlocks(
             {
               return;
             }
-            if (!pieces.AddTo(slab, cells[b].Cells[static_cast<std::size_t>(i)]))
-            {
-              ++leftOut;
-            }
+            pieces.AddTo(slab, cells[b].Cells[static_cast<std::size_t>(i)], alongLines);
           }
         }
       }
     },
     1);
-  return leftOut;
+}
+
+template <int D>
+vtkIdType integrate(
+  const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
+{
+  const MeshSlabs<D> slabs(grid.Size<D>());
+  std::vector<CellsOfSlabs> cells;
+  cells.reserve(blocks.size());
+  for (const BlockValues& block : blocks)
+  {
+    cells.push_back(cellsOfSlabs<D>(block, grid, slabs, 0.0, progress));
+  }
+  const Size<D> size = sizeOf<D>(blocks, grid, progress);
+  constexpr double mostlyWide = 0.9;
+  constexpr double tolerance = 1e-3; // of the mass, for lines
+  bool alongLines = D == 3 && size.Wide >= mostlyWide * size.Measure;
+  addBlocks<D>(blocks, cells, slabs, grid, alongLines, progress, sums);
+  if (alongLines)
+  {
+    // Much of the mass may be in simplices that lines miss.
+    const double found = reduceChunks(
+      progress, grid.NumberOfCells(), grain, 0.0,
+      [sums](std::int64_t first, std::int64_t last) {
+        return std::accumulate(sums + first, sums + last, 0.0);
+      },
+      [](double a, double b) { return a + b; });
+    alongLines = std::abs(found - size.Integral) <= tolerance * size.Integral;
+    if (!alongLines)
+    {
+      addBlocks<D>(blocks, cells, slabs, grid, false, progress, sums);
+    }
+  }
+  return static_cast<vtkIdType>(size.LeftOut);
 }
 
 } // namespace
@@ -84,10 +141,8 @@ MeshDensity MeshDensity::Make(const std::vector<BlockValues>& blocks, const Imag
   applyGrid(grid, made.Image);
   auto density = newArray<vtkDoubleArray>(name, 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   double* sums = density->GetPointer(0);
-  progress.For(grid.NumberOfCells(), grain,
-    [=](std::int64_t first, std::int64_t last) { std::fill(sums + first, sums + last, 0.0); });
   made.CellsLeftOut = withMemory("the order of the input's cells", 0.0, [&]() {
-    return dispatchDimension(grid.Dimension(), addBlocks<1>, addBlocks<2>, addBlocks<3>)(
+    return dispatchDimension(grid.Dimension(), integrate<1>, integrate<2>, integrate<3>)(
       blocks, grid, progress, sums);
   });
   made.Image->GetCellData()->SetScalars(density);

@@ -27,10 +27,9 @@ void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPo
     number(rules.Component + 2), number(rules.Invert), number(rules.ClampNegative) };
   for (const DensityBlock& block : blocks)
   {
-    // The time alone may be that of what two data sets share.
     content.insert(content.end(),
-      { number(block.Time), number(reinterpret_cast<std::uintptr_t>(block.Array)),
-        number(block.Array->GetMTime()) });
+      { number(reinterpret_cast<std::uintptr_t>(block.Array)), number(block.Array->GetMTime()) });
+    content.insert(content.end(), block.Geometry.begin(), block.Geometry.end());
   }
   if (this->Made && content == this->Content)
   {

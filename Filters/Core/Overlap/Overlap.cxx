@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/Overlap.h"
 
-#include "Core/Overlap/OverlapLines.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -141,18 +139,16 @@ private:
 } // namespace
 
 template <int D>
-void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
+double measureOf(const LinearSimplex<D>& simplex)
 {
   constexpr double simplicesOfBox = D == 3 ? 6.0 : D;
-  const double measure = std::abs(determinant(simplex.Vertices)) / simplicesOfBox;
-  if constexpr (D == 3)
-  {
-    if (isWideAlongLines(simplex))
-    {
-      addAlongLines(simplex, slab);
-      return;
-    }
-  }
+  return std::abs(determinant(simplex.Vertices)) / simplicesOfBox;
+}
+
+template <int D>
+void addOverlaps(const LinearSimplex<D>& simplex, const GridSlab<D>& slab)
+{
+  const double measure = measureOf<D>(simplex);
   if (measure > 0.0)
   {
     Bisection<D>(slab).Add(simplex, measure);
@@ -211,6 +207,9 @@ void addOverlaps(const MultilinearBox<D>& box, const GridSlab<D>& slab)
   }
 }
 
+template double measureOf(const LinearSimplex<1>&);
+template double measureOf(const LinearSimplex<2>&);
+template double measureOf(const LinearSimplex<3>&);
 template void addOverlaps(const LinearSimplex<1>&, const GridSlab<1>&);
 template void addOverlaps(const LinearSimplex<2>&, const GridSlab<2>&);
 template void addOverlaps(const LinearSimplex<3>&, const GridSlab<3>&);

@@ -42,14 +42,15 @@ struct GridSlab
   double* Sums; // of all grid cells, axis 0 fastest
 };
 
+template <int Dimension>
+double measureOf(const LinearSimplex<Dimension>& simplex);
+
 // Adds to each grid cell of the slab the integral over what the cell and the simplex share. It is
-// exact but for rounding, and so is the sum of all of it, except for simplices of a volume whose
-// shadow along axis 0 is wider than a grid cell: these are integrated exactly along axis 0 on 4 x 4
-// lines through each grid cell, which meet neighbouring simplices where these share a face.
+// exact but for rounding, and so is the sum of all of it.
 template <int Dimension>
 void addOverlaps(const LinearSimplex<Dimension>& simplex, const GridSlab<Dimension>& slab);
 
-// The same of a box; exact but for rounding.
+// The same of a box.
 template <int Dimension>
 void addOverlaps(const MultilinearBox<Dimension>& box, const GridSlab<Dimension>& slab);
 

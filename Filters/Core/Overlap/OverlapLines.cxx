@@ -113,7 +113,8 @@ bool isWideAlongLines(const LinearSimplex<3>& simplex)
       longest = std::max(longest, std::hypot(v[i][1] - v[j][1], v[i][2] - v[j][2]));
     }
   }
-  return area > longest;
+  constexpr double narrowest = 0.5;
+  return area > narrowest * longest;
 }
 
 void addAlongLines(const LinearSimplex<3>& simplex, const GridSlab<3>& slab)
@@ -141,28 +142,40 @@ void addAlongLines(const LinearSimplex<3>& simplex, const GridSlab<3>& slab)
   high[0] = std::min(high[0], static_cast<double>(slab.Size[0]));
   const LineRange alongY = linesBetween(low[1], high[1], 0, slab.Size[1]);
   const LineRange alongZ = linesBetween(low[2], high[2], slab.First, slab.Last);
+  constexpr std::int64_t atOnce = 64;
+  double begin[atOnce];
+  double end[atOnce];
   for (std::int64_t k = alongZ.First; k < alongZ.Last; ++k)
   {
     const double z = lineAt(k);
     double* plane = slab.Sums + (k / linesPerCell) * slab.Size[1] * slab.Size[0];
-    for (std::int64_t j = alongY.First; j < alongY.Last; ++j)
+    for (std::int64_t first = alongY.First; first < alongY.Last; first += atOnce)
     {
-      const double y = lineAt(j);
-      double begin = low[0];
-      double end = high[0];
+      const auto count = static_cast<int>(std::min(atOnce, alongY.Last - first));
+      std::fill_n(begin, count, low[0]);
+      std::fill_n(end, count, high[0]);
       for (const Plane& face : planes)
       {
-        const double across = face[0] + face[2] * y + face[3] * z;
-        const double at = -across / face[1];
-        // A face along the line is on one side of all of it: at is infinite.
-        begin = face[1] > 0.0 ? std::max(begin, at) : begin;
-        end = face[1] < 0.0 ? std::min(end, at) : end;
-        end = face[1] == 0.0 && across < 0.0 ? -infinity : end;
+        const double scale = face[1] == 0.0 ? -1.0 : -1.0 / face[1];
+        const double base = scale * (face[0] + face[3] * z);
+        const double step = scale * face[2];
+        for (int i = 0; i < count; ++i)
+        {
+          const double at = base + step * lineAt(first + i);
+          // A face along the lines has each of them on one side.
+          begin[i] = face[1] > 0.0 ? std::max(begin[i], at) : begin[i];
+          end[i] = face[1] < 0.0 ? std::min(end[i], at) : end[i];
+          end[i] = face[1] == 0.0 && at > 0.0 ? -infinity : end[i];
+        }
       }
-      if (begin < end)
+      for (int i = 0; i < count; ++i)
       {
-        addAlongRow(begin, end, function[0] + function[2] * y + function[3] * z, function[1],
-          weight, plane + (j / linesPerCell) * slab.Size[0]);
+        if (begin[i] < end[i])
+        {
+          const std::int64_t line = first + i;
+          addAlongRow(begin[i], end[i], function[0] + function[2] * lineAt(line) + function[3] * z,
+            function[1], weight, plane + (line / linesPerCell) * slab.Size[0]);
+        }
       }
     }
   }

@@ -71,22 +71,6 @@ LinearSimplex<D> randomSimplex(const GridSize<D>& size, double extent, std::mt19
 }
 
 template <int D>
-double measureOf(const LinearSimplex<D>& simplex)
-{
-  Eigen::Matrix<double, D, D> edges;
-  double factorial = 1.0;
-  for (int i = 0; i < D; ++i)
-  {
-    factorial *= i + 1;
-    for (int a = 0; a < D; ++a)
-    {
-      edges(i, a) = simplex.Vertices[static_cast<std::size_t>(i) + 1][a] - simplex.Vertices[0][a];
-    }
-  }
-  return std::abs(edges.determinant()) / factorial;
-}
-
-template <int D>
 double meanOf(const LinearSimplex<D>& simplex)
 {
   return std::accumulate(simplex.Values.begin(), simplex.Values.end(), 0.0) / (D + 1);
@@ -121,21 +105,21 @@ double valueAt(const LinearSimplex<D>& simplex, const Point<D>& x)
   return value;
 }
 
-TYPED_TEST(Overlap, OfSmallSimplicesIsConserved)
+TYPED_TEST(Overlap, OfSimplicesIsConserved)
 {
   constexpr int D = TypeParam::value;
   const GridSize<D> size = someSize<D>();
   std::mt19937 engine(7);
   for (int i = 0; i < 300; ++i)
   {
-    LinearSimplex<D> simplex = randomSimplex<D>(size, D == 3 ? 0.2 : 0.9, engine);
+    LinearSimplex<D> simplex = randomSimplex<D>(size, 0.9, engine);
     if (i % 3 == 0) // faces on the grid's own planes
     {
       simplex.Vertices[0][D - 1] = std::round(simplex.Vertices[0][D - 1]);
       simplex.Vertices[1][D - 1] = simplex.Vertices[0][D - 1];
     }
     const double expected = measureOf<D>(simplex) * meanOf<D>(simplex);
-    EXPECT_NEAR(sumOf(overlapsOf<D>(simplex, size)), expected, 1e-12);
+    EXPECT_NEAR(sumOf(overlapsOf<D>(simplex, size)), expected, 1e-12 * std::max(expected, 1.0));
   }
 }
 
@@ -146,7 +130,7 @@ TYPED_TEST(Overlap, IsThatOfEachCell)
   std::mt19937 engine(11);
   for (int i = 0; i < 6; ++i)
   {
-    const LinearSimplex<D> simplex = randomSimplex<D>(size, D == 3 ? 0.3 : 0.9, engine);
+    const LinearSimplex<D> simplex = randomSimplex<D>(size, D == 3 ? 0.5 : 0.9, engine);
     const std::vector<double> sums = overlapsOf<D>(simplex, size);
     constexpr int samples = D == 1 ? 4000 : D == 2 ? 60 : 12;
     for (std::size_t cell = 0; cell < sums.size(); ++cell)
@@ -293,7 +277,7 @@ TEST(OverlapLines, LeaveNoGaps)
         tetrahedraOf({ lowX, 0.0, lowZ }, { highX, 20.0, highZ }))
       {
         wide += isWideAlongLines(simplex) ? 1 : 0;
-        addOverlaps<3>(simplex, slab);
+        addAlongLines(simplex, slab);
       }
     }
   }
@@ -324,8 +308,11 @@ TEST(OverlapLines, NearlyConserveWideTetrahedra)
     const LinearSimplex<3> simplex = randomSimplex<3>(size, 0.9, engine);
     if (isWideAlongLines(simplex))
     {
+      std::vector<double> sums(static_cast<std::size_t>(numberOfCells<3>(size)), 0.0);
+      addAlongLines(simplex, { size, 0, 25, sums.data() });
+      addAlongLines(simplex, { size, 25, 40, sums.data() });
       const double expected = measureOf<3>(simplex) * meanOf<3>(simplex);
-      worst = std::max(worst, std::abs(sumOf(overlapsOf<3>(simplex, size)) / expected - 1.0));
+      worst = std::max(worst, std::abs(sumOf(sums) / expected - 1.0));
       ++wide;
     }
   }
