@@ -176,7 +176,7 @@ OTHERS = [
       "this->Weights->List.resize(static_cast<std::size_t>(count));\n    this->Modified();",
       "this->Weights->List.resize(static_cast<std::size_t>(count));"),
     S(BRIDGE + "Flow/TransportMap.cxx",
-      "output->GetCellData()->PassData(input->GetCellData());", ";"),
+      "output->GetCellData()->PassData(density.Image()->GetCellData());", ";"),
     E(BRIDGE + "Flow/DensityEqualizingWarp.cxx", "«blend * (this->Index[i * D + a] - move[a])»",
       "this->Index[i * D + a] - move[a]"),
     E(BRIDGE + "Splat/MassSplatter.cxx", "splatMassIn(density, target, progress)",

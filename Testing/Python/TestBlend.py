@@ -175,14 +175,14 @@ class Morph(Blend):
         np.testing.assert_array_equal(run(morph), morph_of(self.images[2], self.images[1]))
         self.assertEqual(built(morph), when)
 
-    def test_only_images_are_accepted(self):
+    def test_only_data_sets_are_accepted(self):
         morph = self.morph()
-        sphere = simple.Sphere()
-        sphere.UpdatePipeline()
+        table = simple.ProgrammableSource(OutputDataSetType="vtkTable")
+        table.UpdatePipeline()
         for name in ("Input", "Target"):
             accepted = morph.SMProxy.GetProperty(name)
             self.assertTrue(accepted.IsInDomains())
-            accepted.SetUncheckedInputConnection(0, sphere.SMProxy, 0)
+            accepted.SetUncheckedInputConnection(0, table.SMProxy, 0)
             self.assertFalse(accepted.IsInDomains())
 
     def test_play(self):

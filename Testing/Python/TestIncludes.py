@@ -35,8 +35,10 @@ BRIDGE = {
     "Settings": RUN,
     "Surface": RUN | {"Points"},
     "Density": RUN | {"Image", "Points"},
+    "Resampling": RUN | {"Image", "Points", "Density"},
     "Blend": WORKERS | {"Splat"},
-    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "SiteCells", "Splat")},
+    **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "SiteCells", "Splat")},
+    "Flow": WORKERS | {"Resampling"},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }

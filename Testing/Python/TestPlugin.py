@@ -80,14 +80,19 @@ class Plugin(unittest.TestCase):
         self.assertNotEqual(output_of(sampler).GetPoint(7), first)
         self.assertEqual(sampler.GetClientSideObject().GetTableBuildTime(), built)
 
-    def test_only_images_are_accepted(self):
-        sampler = simple.SampleDensity(Input=producer(simple, density_image()))
-        sphere = simple.Sphere()
-        sphere.UpdatePipeline()
+    def test_all_data_sets_with_arrays_are_accepted(self):
+        image = producer(simple, density_image())
+        sampler = simple.SampleDensity(Input=image)
         accepted = sampler.SMProxy.GetProperty("Input")
         self.assertTrue(accepted.IsInDomains())
-        accepted.SetUncheckedInputConnection(0, sphere.SMProxy, 0)
-        self.assertFalse(accepted.IsInDomains())
+        blocks = simple.GroupDatasets(Input=[image])
+        mesh = simple.Tetrahedralize(Input=image)
+        fractal = simple.HierarchicalFractal()
+        table = simple.ProgrammableSource(OutputDataSetType="vtkTable")
+        for source, right in ((blocks, True), (mesh, True), (fractal, True), (table, False)):
+            source.UpdatePipeline()
+            accepted.SetUncheckedInputConnection(0, source.SMProxy, 0)
+            self.assertEqual(bool(accepted.IsInDomains()), right, source)
 
     def test_flow_time_is_animateable(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
@@ -134,18 +139,17 @@ class Plugin(unittest.TestCase):
             self.assertLess(values[-1], values[0])
             self.assertEqual(relaxed.GetProperty("Tolerance").GetPanelVisibility(), "advanced")
 
-    def test_second_inputs_accept_images_alone(self):
+    def test_second_inputs_accept_densities(self):
         image = producer(simple, density_image())
         sphere = simple.Sphere()
         sphere.UpdatePipeline()
         for make in (simple.DensityEqualizingWarp, simple.RelaxBlueNoise):
             filter_ = make(Input=sphere, Density=image)
-            for name, right, wrong in (("Input", sphere, image), ("Density", image, sphere)):
+            for name, source, right in (("Input", sphere, True), ("Input", image, False),
+                                        ("Density", image, True), ("Density", sphere, True)):
                 accepted = filter_.SMProxy.GetProperty(name)
-                accepted.SetUncheckedInputConnection(0, right.SMProxy, 0)
-                self.assertTrue(accepted.IsInDomains())
-                accepted.SetUncheckedInputConnection(0, wrong.SMProxy, 0)
-                self.assertFalse(accepted.IsInDomains())
+                accepted.SetUncheckedInputConnection(0, source.SMProxy, 0)
+                self.assertEqual(bool(accepted.IsInDomains()), right)
 
     def test_solid_is_a_density(self):
         """Points are active for Contour and volume rendering, and a density for other filters."""

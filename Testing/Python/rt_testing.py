@@ -90,7 +90,7 @@ def connect_inputs(algorithm, shape=(4, 3), number=50):
         if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
             image = density_image(shape)
             kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
-            algorithm.SetInputData(port, image if kind == "vtkImageData" else
+            algorithm.SetInputData(port, image if kind in ("vtkImageData", "vtkDataSet") else
                                    surface_for(algorithm) if kind == "vtkPolyData" else
                                    points_in(image, number))
 

@@ -8,6 +8,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkTable.h"
 #include "vtkTrivialProducer.h"
 
 #include <limits>
@@ -175,13 +176,13 @@ void checkErrors(Checks& checks)
   barycenter->SetMassMode(7);
   ErrorTest(checks, barycenter).Expect("MassMode is 7; it must be 0 (Linear)", __LINE__);
 
-  // A block that is no image is an error.
-  vtkNew<vtkPolyData> points;
-  auto blocks = makeBlocks({ in.A, points });
+  // A block that is no data set is an error.
+  vtkNew<vtkTable> table;
+  auto blocks = makeBlocks({ in.A, table });
   barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
   barycenter->SetInputDataObject(blocks);
   ErrorTest(checks, barycenter)
-    .Expect("Input 2 of 2: The density has a block of type vtkPolyData; it must be a vtkImageData",
+    .Expect("Input 2 of 2: The density has a block of type vtkTable, input; it must be a data set",
       __LINE__);
   blocks->SetBlock(1, in.B);
   blocks->Modified();

@@ -13,6 +13,7 @@
 #include "vtkPointDataToCellData.h"
 #include "vtkRTAnalyticSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 
@@ -119,24 +120,26 @@ void checkPieces(Checks& checks)
 
 void checkComposite(Checks& checks)
 {
-  auto blocks =
-    makeBlocks({ makeImage(9, 9, 1, true, bumpy), nullptr, makeImage(5, 6, 7, false, bumpy) });
+  auto image = makeImage(9, 9, 1, true, bumpy);
   vtkNew<vtkTransportMap> map;
+  map->SetInputData(image);
+  map->Update();
+  const Values expected = imageValues(map->GetOutput(), "Divergence");
+  auto blocks = makeTiles(image, 2);
   map->SetInputDataObject(blocks);
   map->Update();
-  for (const unsigned int block : { 0u, 2u })
-  {
-    auto* fields = outputBlock<vtkImageData>(map, block);
-    CHECK(checks, fields && imageValues(fields, "Divergence").size() == (block == 0 ? 64u : 210u));
-  }
+  CHECK(checks, expected.size() == 64);
+  CHECK(checks, imageValues(map->GetOutput(), "Divergence") == expected);
+  // What is passed on is that of all of them.
+  CHECK(checks, imageValues(map->GetOutput(), "Density") == imageValues(image, "Density"));
 
-  // A block that is no image is an error.
+  // A block that is no data set is an error.
   Messages messages(map);
-  vtkNew<vtkPolyData> points;
-  blocks->SetBlock(2, points);
+  vtkNew<vtkTable> table;
+  blocks->SetBlock(1, table);
   map->Modified();
   map->Update();
-  CHECK(checks, messages.IsOneError("a block of type vtkPolyData; it must be a vtkImageData"));
+  CHECK(checks, messages.IsOneError("a block of type vtkTable, block 2 of the input; it must be"));
 }
 
 // One table serves both directions and all samples.

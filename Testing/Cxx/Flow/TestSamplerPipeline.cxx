@@ -53,18 +53,18 @@ void checkUpstream(Checks& checks)
   CHECK(checks, sampler->GetTableBuildTime() > built);
 }
 
-// Every image of a composite input is sampled.
+// The images of a composite input are one density.
 void checkComposite(Checks& checks)
 {
-  vtkNew<vtkTransportSampler> sampler;
-  sampler->SetInputDataObject(
-    makeBlocks({ makeImage(9, 9, 1, true, bumpy), nullptr, makeImage(5, 6, 7, false, bumpy) }));
-  sampler->SetNumberOfParticles(60);
-  sampler->Update();
-  for (const unsigned int block : { 0u, 2u })
+  for (const bool cells : { true, false })
   {
-    auto* particles = outputBlock<vtkPolyData>(sampler, block);
-    CHECK(checks, particles && particles->GetNumberOfPoints() == 60);
+    auto image = makeImage(9, 7, 6, cells, bumpy);
+    vtkNew<vtkTransportSampler> sampler;
+    sampler->SetNumberOfParticles(60);
+    sampler->SetInputData(image);
+    const std::vector<double> expected = sampleCoordinates(sampler);
+    sampler->SetInputDataObject(makeTiles(image, 4));
+    CHECK(checks, expected.size() == 180 && sampleCoordinates(sampler) == expected);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <functional>
@@ -256,11 +257,11 @@ void checkTypesOfInputs(Checks& checks)
     const vtkSmartPointer<vtkDataObject> points = makePoints({ 3, 2, 0 });
     const vtkSmartPointer<vtkDataObject> image = flatDensity();
     warp->SetInputData(port == 0 ? image : points);
-    warp->SetDensityData(port == 0 ? image : points);
+    const vtkSmartPointer<vtkDataObject> table = vtkSmartPointer<vtkTable>::New();
+    warp->SetDensityData(port == 0 ? image : table);
     warp->Update();
     CHECK(checks, contains(errors, "input port index " + std::to_string(port)));
-    CHECK(
-      checks, contains(errors, port == 0 ? "vtkPointSet is required" : "vtkImageData is required"));
+    CHECK(checks, contains(errors, port == 0 ? "vtkPointSet is required" : "vtkDataSet"));
     warp->SetInputData(points);
     warp->SetDensityData(image);
     warp->Update();
