@@ -10,7 +10,7 @@
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147,
  * Section 5.1).
  *
- * Input 0 is the points, any vtkPointSet, input 1 the density, a vtkImageData of two or three
+ * Input 0 is the points, any vtkPointSet, input 1 the density, a data set of two or three
  * dimensions (see vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). The
  * output is of the type of input 0: the same points and cells in the same order with all their
  * data, the points moved and double. Arrays are passed on as they are, also those that tell of the

@@ -10,7 +10,7 @@
  * doi:10.1145/3731147, backward in time (Section 4.2). It is the inverse of the map of
  * vtkTransportSampler, and like that not an optimal transport.
  *
- * Input 0 is the vtkPointSet, input 1 the density, a vtkImageData (see vtkDensityAlgorithm), chosen
+ * Input 0 is the vtkPointSet, input 1 the density, a data set (see vtkDensityAlgorithm), chosen
  * with SetInputArrayToProcess(0, 1, 0, ...). The output is of the type of input 0: the same points
  * and cells in the same order with all their data, the points moved and double, and point data
  * `Displacement` (the new position less the old one, 3 components in physical units, active

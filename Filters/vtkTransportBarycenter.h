@@ -7,7 +7,7 @@
  * particle of the unit box is mapped to each density, and placed at the weighted mean of these
  * positions.
  *
- * Inputs: vtkImageData, by repeated connections to port 0 or as the blocks of a composite data set
+ * Inputs: data sets, by repeated connections to port 0 or as the blocks of a composite data set
  * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order; at least one. The one
  * density array (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are
  * those of vtkTransportBlend; their extent is announced in REQUEST_INFORMATION, for composite

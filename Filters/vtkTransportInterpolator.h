@@ -8,7 +8,7 @@
  * second, `TargetPosition`. Both come from one point of the unit box, the pivot (Section 3.4 of
  * the paper named in vtkTransportBlend; Section 5.2 shows results).
  *
- * Inputs: port 0 the source, port 1 the target, both vtkImageData; they may differ in size, spacing
+ * Inputs: port 0 the source, port 1 the target, both data sets; they may differ in size, spacing
  * and box. The density of the source is input array 0 (SetInputArrayToProcess(0, 0, ...)), that of
  * the target input array 1 (SetInputArrayToProcess(1, 1, ...)). The outputs are those of
  * vtkTransportBlend, and the particles have also `SourcePosition` and `TargetPosition` (3

@@ -8,7 +8,7 @@
  * doi:10.1145/3731147, from one point in each cell of an image: forward, from the uniform measure
  * to the density, or backward (Section 4.2), from the density to the uniform measure.
  *
- * The input is the density, a vtkImageData (see vtkDensityAlgorithm). The output is a vtkImageData
+ * The input is the density, a data set (see vtkDensityAlgorithm). The output is a vtkImageData
  * on the same domain with
  * - `Displacement` (active vectors): the mapped sample less the sample; 3 components in physical
  *   units along the physical axes;

@@ -3,7 +3,7 @@
  * @class   vtkTransportQuality
  * @brief   how well particles follow a density, in one row of numbers
  *
- * Input 0 is the particles, any vtkPointSet, input 1 the density, a vtkImageData (see
+ * Input 0 is the particles, any vtkPointSet, input 1 the density, a data set (see
  * vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). Particles weigh by their
  * point array `Mass` if they have it, else equally; weights count as shares of their sum. Points
  * that the ghost array marks as duplicate or hidden count neither as particles nor as neighbours.

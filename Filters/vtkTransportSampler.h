@@ -8,7 +8,7 @@
  * and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4),
  * 2025, doi:10.1145/3731147. It stipples pictures and samples volumes.
  *
- * Input 0 is the density, a vtkImageData (see vtkDensityAlgorithm). Input 1 is optional: a
+ * Input 0 is the density, a data set (see vtkDensityAlgorithm). Input 1 is optional: a
  * vtkPointSet of seeds in physical space, in place of SeedPattern. Seeds outside the domain are
  * moved to its border, with one warning that counts them; NaN or infinite ones are an error. Point
  * data of the seeds is passed on, to the particles or as cell data to their paths.
