@@ -7,6 +7,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/SeparateInputs.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 
@@ -80,6 +81,7 @@ vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
   , BlocksAreInputs(blocksAreInputs)
+  , Separate(new SeparateInputs)
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -169,6 +171,7 @@ int vtkTransportBlend::RequestInformation(
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
+  this->Separate->Update(this, inputVector);
   const std::vector<GivenInput> allGiven =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   std::vector<BlendInput> inputs;
