@@ -25,6 +25,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr vtkIdType cellsBetweenPolls = vtkIdType{ 1 } << 16;
 constexpr unsigned char unused = 1; // of values that are not read
 
 } // namespace
@@ -38,7 +39,8 @@ vtkDataSet* BlockValues::Data() const
 class BlockReading
 {
 public:
-  BlockReading(const DensityBlock& block, bool onPoints, int dimension, const DensityRules& rules)
+  BlockReading(const DensityBlock& block, bool onPoints, int dimension, const DensityRules& rules,
+    Progress& progress)
     : Name(describeArray(block.Array) + " of the " + block.Name)
     , Array(block.Array)
     , Reader(makeDensityReader(block.Array, rules))
@@ -46,7 +48,7 @@ public:
     requireComponent(Name, rules.Component, block.Array->GetNumberOfComponents());
     this->Read.Set = block.Data;
     this->Read.OnPoints = onPoints;
-    this->FindCounted(block, dimension);
+    this->FindCounted(block, dimension, progress);
     this->Reader->SetBlanks(this->Flags.data(), unused);
   }
 
@@ -87,7 +89,7 @@ public:
   BlockValues Take() { return std::move(this->Read); }
 
 private:
-  void FindCounted(const DensityBlock& block, int dimension)
+  void FindCounted(const DensityBlock& block, int dimension, Progress& progress)
   {
     vtkDataSet* data = block.Data;
     const unsigned char* cellFlags = ghostFlags(data, vtkDataObject::CELL, block.Name.c_str());
@@ -99,6 +101,10 @@ private:
     vtkNew<vtkIdList> points;
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
+      if (cell % cellsBetweenPolls == 0)
+      {
+        progress.Check();
+      }
       if (dimensionOfCellType(data->GetCellType(cell)) != dimension ||
         (cellFlags && (cellFlags[cell] & ghostCell)))
       {
@@ -146,7 +152,7 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
   {
     withMemory("the flags of the cells of the " + block.Name,
       static_cast<double>(block.Data->GetNumberOfCells()),
-      [&]() { readings.emplace_back(block, onPoints, dimension, rules); });
+      [&]() { readings.emplace_back(block, onPoints, dimension, rules, progress); });
   }
   if (needsWhite(rules, blocks.front().Array->GetNumberOfComponents()))
   {

@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
@@ -26,10 +27,12 @@ using Eigen::Vector3d;
 
 // Of the longest side: what a plane or a line may be off by. Single precision is ten times better.
 constexpr double flatness = 1e-5;
+constexpr vtkIdType cellsBetweenPolls = vtkIdType{ 1 } << 16;
 
 // Calls visit(x) for the corners of all cells of the dimension; a point may come several times.
 template <class Visit>
-void visitCorners(const std::vector<DensityBlock>& blocks, int dimension, const Visit& visit)
+void visitCorners(
+  const std::vector<DensityBlock>& blocks, int dimension, Progress& progress, const Visit& visit)
 {
   vtkNew<vtkIdList> points;
   for (const DensityBlock& block : blocks)
@@ -38,6 +41,10 @@ void visitCorners(const std::vector<DensityBlock>& blocks, int dimension, const 
     std::vector<bool> visited(static_cast<std::size_t>(data->GetNumberOfPoints()), false);
     for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
     {
+      if (cell % cellsBetweenPolls == 0)
+      {
+        progress.Check();
+      }
       if (dimensionOfCellType(data->GetCellType(cell)) != dimension)
       {
         continue;
@@ -73,14 +80,14 @@ struct Bounds
 
 // The eigenvectors of the points' covariance, by growing eigenvalue.
 Eigen::Matrix3d principalAxes(
-  const std::vector<DensityBlock>& blocks, int dimension, const Bounds& bounds)
+  const std::vector<DensityBlock>& blocks, int dimension, const Bounds& bounds, Progress& progress)
 {
   const Vector3d middle = 0.5 * (bounds.Low + bounds.High);
   const double unit = bounds.Lengths().maxCoeff();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Vector3d first = Vector3d::Zero();
   double count = 0.0;
-  visitCorners(blocks, dimension, [&](const Vector3d& x) {
+  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) {
     const Vector3d d = (x - middle) / unit;
     first += d;
     second += d * d.transpose();
@@ -132,10 +139,10 @@ struct Frame
   throw Failure(message.str());
 }
 
-Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension)
+Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension, Progress& progress)
 {
   Frame frame;
-  visitCorners(blocks, dimension, [&](const Vector3d& x) { frame.Box.Add(x); });
+  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) { frame.Box.Add(x); });
   const Vector3d lengths = frame.Box.Lengths();
   const double longest = lengths.maxCoeff();
   if (!std::isfinite(longest) || !(longest > 0.0))
@@ -152,12 +159,12 @@ Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension)
     return frame;
   }
   Eigen::Index main = 0;
-  const Vector3d direction =
-    roundedDirection(principalAxes(blocks, dimension, frame.Box).col(dimension == 2 ? 0 : 2), main);
+  const Vector3d direction = roundedDirection(
+    principalAxes(blocks, dimension, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
   frame.Axes = axesAround(direction, main);
   frame.Box = Bounds();
   const Eigen::Matrix3d toFrame = frame.Axes.transpose();
-  visitCorners(blocks, dimension, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
+  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
   Vector3d sides = frame.Box.Lengths();
   if (!isFlat(sides))
   {
@@ -169,9 +176,10 @@ Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension)
 
 } // namespace
 
-ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, int dimension, int resolution)
+ImageGrid meshGrid(
+  const std::vector<DensityBlock>& blocks, int dimension, int resolution, Progress& progress)
 {
-  Frame frame = frameOf(blocks, dimension);
+  Frame frame = frameOf(blocks, dimension, progress);
   // Flat axes are those of the shortest sides.
   Vector3d sides = frame.Box.Lengths();
   double box[6];

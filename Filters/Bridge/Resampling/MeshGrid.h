@@ -11,11 +11,15 @@
 namespace RectifiedTransport
 {
 
+class Progress;
+
 // Values on cells, with `resolution` cells along the longest axis and the others as near to cubes
 // as whole numbers allow. The axes are those of space, or where cells of a plane or a line are
 // oblique, axes in it. Throws Failure for blocks without cells of a measure, for surfaces that are
-// not plane and lines that are not straight, and for a resolution out of range.
-ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, int dimension, int resolution);
+// not plane and lines that are not straight, and for a resolution out of range; and
+// Cancelled.
+ImageGrid meshGrid(
+  const std::vector<DensityBlock>& blocks, int dimension, int resolution, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -4,6 +4,10 @@
 #include "Core/Parallel/Progress.h"
 
 #include "vtkDataSet.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <limits>
 
 namespace RectifiedTransport
 {
@@ -28,24 +32,25 @@ CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
   const vtkIdType count = data->GetNumberOfCells();
   std::vector<Reach> reaches(static_cast<std::size_t>(count), Reach{ 0, -1 });
   progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
+    vtkNew<vtkIdList> points;
     for (std::int64_t cell = first; cell < last; ++cell)
     {
       if (!values.IsCounted(cell))
       {
         continue;
       }
-      double bounds[6];
-      data->GetCellBounds(cell, bounds);
-      double low = 0.0;
-      double high = 0.0;
-      for (int corner = 0; corner < 8; ++corner)
+      // vtkDataSet::GetCellBounds starts threads for every cell.
+      data->GetCellPoints(cell, points);
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
+      for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
       {
-        const double x[3] = { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)],
-          bounds[4 + (corner >> 2)] };
+        double x[3];
+        data->GetPoint(points->GetId(i), x);
         double index[D];
         grid.ToIndex<D>(x, index);
-        low = corner == 0 ? index[D - 1] : std::min(low, index[D - 1]);
-        high = corner == 0 ? index[D - 1] : std::max(high, index[D - 1]);
+        low = std::min(low, index[D - 1]);
+        high = std::max(high, index[D - 1]);
       }
       reaches[static_cast<std::size_t>(cell)] = { static_cast<std::int32_t>(slabs.At(low - margin)),
         static_cast<std::int32_t>(slabs.At(high + margin)) };

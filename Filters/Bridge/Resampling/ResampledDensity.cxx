@@ -46,7 +46,7 @@ void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPo
   }
   else
   {
-    const ImageGrid grid = meshGrid(blocks, dimension, resolution);
+    const ImageGrid grid = meshGrid(blocks, dimension, resolution, progress);
     this->Blocks = readBlocks(blocks, onPoints, dimension, rules, progress);
     const char* called = name ? name : "Density";
     const MeshDensity made = MeshDensity::Make(this->Blocks, grid, called, progress);
