@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The density of a mesh on an image: what it is where the mesh is, aborts, threads.
+#include "ProgressTest.h"
+#include "TestData.h"
+
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkImageData.h"
+#include "vtkTransportMap.h"
+#include "vtkTransportSampler.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace
+{
+
+// The tetrahedra of an image's cells.
+vtkSmartPointer<vtkUnstructuredGrid> makeTetrahedra(int points, bool cells)
+{
+  vtkNew<vtkDataSetTriangleFilter> triangulate;
+  triangulate->SetInputData(makeImage(points, points, points, cells, bumpy));
+  triangulate->Update();
+  return triangulate->GetOutput();
+}
+
+// On the image's own cells the means are the values of these.
+void checkMeans(Checks& checks)
+{
+  auto image = makeImage(9, 9, 9, true, bumpy);
+  const Values expected = imageValues(image, "Density");
+  vtkNew<vtkTransportMap> map;
+  map->SetInputDataObject(makeTetrahedra(9, true));
+  map->SetDensityResolution(8);
+  map->Update();
+  const Values found = imageValues(map->GetOutput(), "Density");
+  CHECK(checks, found.size() == expected.size());
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i)
+  {
+    checks.Near(found[i], expected[i], 1e-12 * expected[i], "the value of a cell", __LINE__);
+  }
+}
+
+void checkAborts(Checks& checks)
+{
+  auto mesh = makeTetrahedra(64, false);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputDataObject(mesh);
+  sampler->SetNumberOfParticles(1000);
+  int resolution = 128;
+  for (const int delay : { 0, 20, 200 })
+  {
+    checkAbort(
+      checks, sampler, 0.0, [&]() { sampler->SetDensityResolution(++resolution); }, __LINE__,
+      delay);
+  }
+  sampler->Modified();
+  sampler->Update();
+  CHECK(checks, sampler->GetOutput()->GetNumberOfPoints() == 1000);
+}
+
+} // namespace
+
+int TestMeshDensity(int, char*[])
+{
+  return runChecks({ checkMeans, checkAborts });
+}
