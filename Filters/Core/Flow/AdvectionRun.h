@@ -6,7 +6,6 @@
 
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMap.h"
-#include "Core/Flow/LatticeOrder.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 
@@ -16,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -222,13 +222,13 @@ private:
   std::vector<unsigned char> IsUnresolved;
 };
 
-// The samples of a lattice for one range, with local memory for their end points.
-template <int Dimension>
+// The particles of a source for one range, with local memory for their end points.
+template <int Dimension, class Source>
 class RangeCells
 {
 public:
-  RangeCells(const LatticeOrder<Dimension>& order, const FlowJob<Dimension>& job)
-    : Order(order)
+  RangeCells(const Source& source, const FlowJob<Dimension>& job)
+    : Order(source)
     , Job(job)
   {
     this->Job.Output = this->Ends;
@@ -242,7 +242,7 @@ public:
     std::iota(index, index + count, std::int64_t{ 0 });
   }
 
-  // Writes the number of the grid cell with mass that each sample ends in, or that is nearest.
+  // Writes the number of the grid cell with mass that each particle ends in, or that is nearest.
   // Returns how many end in empty cells.
   std::int64_t Write(int count, std::int64_t* cells) const
   {
@@ -280,7 +280,7 @@ private:
     return middle;
   }
 
-  const LatticeOrder<Dimension>& Order;
+  const Source& Order;
   FlowJob<Dimension> Job;
   std::int64_t Number[rangeBlocks * BlockSize];
   double Ends[rangeBlocks * BlockSize * Dimension];
@@ -383,25 +383,32 @@ public:
     return this->Report();
   }
 
-  // Advects the samples of a lattice and writes the grid cell that each ends in. Throws Cancelled.
-  FlowReport AdvectToCells(const LatticeOrder<Dimension>& lattice, std::int64_t* cells)
+  // Advects the particles of a source and writes the grid cell that each ends in. Throws Cancelled.
+  template <class Source>
+  FlowReport AdvectToCells(Source&& source, std::int64_t* cells)
   {
-    const auto advect = [&](std::int64_t first, std::int64_t last) {
-      const int length = static_cast<int>(last - first);
-      RangeCells<Dimension> ends(lattice, this->Job);
-      RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
-      range.Fill(ends, first, length);
-      range.Run(this->First, this->Shared.LastPass());
-      if (!this->Work.ShouldStop())
-      {
-        this->Count.MovedToMass += ends.Write(length, cells);
-      }
-    };
-    this->Work.BeginStage(1.0);
-    this->Work.For(
-      lattice.Count(), this->Grain,
-      [&](std::int64_t first, std::int64_t last) { forGrains(first, last, this->Grain, advect); },
-      this->Grain);
+    const auto all = static_cast<double>(source.Count());
+    for (std::int64_t chunk = 0; chunk < source.Count();)
+    {
+      const std::int64_t count = source.Prepare(chunk);
+      const auto advect = [&](std::int64_t first, std::int64_t last) {
+        const int length = static_cast<int>(last - first);
+        RangeCells<Dimension, std::decay_t<Source>> ends(source, this->Job);
+        RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
+        range.Fill(ends, first, length);
+        range.Run(this->First, this->Shared.LastPass());
+        if (!this->Work.ShouldStop())
+        {
+          this->Count.MovedToMass += ends.Write(length, cells);
+        }
+      };
+      chunk += count;
+      this->Work.BeginStage(static_cast<double>(chunk) / all);
+      this->Work.For(
+        count, this->Grain,
+        [&](std::int64_t first, std::int64_t last) { forGrains(first, last, this->Grain, advect); },
+        this->Grain);
+    }
     return this->Report();
   }
 

@@ -389,6 +389,16 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
 }
 
 template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardToCells(ConstPointSpan<Dimension> seeds,
+  std::int64_t* cells, const FlowOptions& options, const Context& context) const
+{
+  AdvectionRun<Dimension> run(
+    this->Data->Tables.View(), AdvectionKind::ForwardToCells, options, context);
+  this->Data->Prepare(run, options, static_cast<double>(seeds.size()));
+  return run.AdvectToCells(SortedPoints<Dimension>(seeds), cells);
+}
+
+template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
   ConstPointSpan<Dimension> seeds, const FlowOptions& options, const Context& context)
 {

@@ -96,6 +96,9 @@ public:
   // fewer than 128 steps become up to 32 times as many in the first pass.
   FlowReport ForwardLatticeToCells(const GridSize<Dimension>& lattice, std::int64_t* cells,
     const FlowOptions& options = {}, const Context& context = Context()) const;
+  // The same for any points: a number for each.
+  FlowReport ForwardToCells(ConstPointSpan<Dimension> seeds, std::int64_t* cells,
+    const FlowOptions& options = {}, const Context& context = Context()) const;
 
 private:
   struct Internals;

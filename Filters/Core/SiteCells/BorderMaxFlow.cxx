@@ -88,7 +88,7 @@ void BorderMaxFlow::FindNeighbours()
 std::int64_t BorderMaxFlow::Capacity(std::int64_t number, int sign) const
 {
   const SiteCellBorder& border = this->Borders[number];
-  return std::max<std::int64_t>(1, border.Faces / 2) - sign * border.Flow;
+  return std::max<std::int64_t>(1, border.Extent / 2) - sign * border.Flow;
 }
 
 // The distance in borders from each site cell to the nearest one with too few pixels. False if no

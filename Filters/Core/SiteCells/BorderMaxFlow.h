@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The adjacency of site cells, and the numbers of pixels to move over their borders so that each
-// cell gets its share: a maximum flow.
+// The adjacency of site cells, and the numbers of pixels, or the masses, to move over their borders
+// so that each cell gets its share: a maximum flow.
 #ifndef RectifiedTransport_BorderMaxFlow_h
 #define RectifiedTransport_BorderMaxFlow_h
 
@@ -18,8 +18,9 @@ struct SiteCellBorder
 {
   std::int64_t Low; // numbers of site cells, Low < High
   std::int64_t High;
-  std::int64_t Faces = 0; // between pixels of both
-  std::int64_t Flow = 0;  // pixels to move from Low to High
+  // Twice the most that moves over it: the faces between pixels of both, or the masses at these.
+  std::int64_t Extent = 0;
+  std::int64_t Flow = 0; // pixels, or mass, to move from Low to High
 };
 
 class BorderMaxFlow
@@ -41,8 +42,9 @@ public:
   // Computes the flow from site cells with too many pixels to those with too few (`excess`,
   // negative for these) along paths of neighbours, the shortest first: all paths of one length,
   // then the rest along longer ones (Dinic's algorithm for a maximum flow). The capacity of a
-  // border is half of its faces, so that it is not displaced far, and the outflow of a cell at most
-  // the pixels that it has (`count`). Excess without a path remains. Throws Cancelled.
+  // border is half of its extent, so that it is not displaced far, and the outflow of a cell at
+  // most the pixels that it has (`count`). With masses the same in units of mass. Excess without a
+  // path remains. Throws Cancelled.
   void Plan(const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count,
     Progress& progress);
 

@@ -216,7 +216,7 @@ private:
     this->Borders.Clear();
     this->VisitBorders([this](std::int64_t pixel, std::int64_t other) {
       const auto [low, high] = std::minmax(this->Owners[pixel], this->Owners[other]);
-      ++this->Borders[this->Borders.Add(low, high)].Faces;
+      ++this->Borders[this->Borders.Add(low, high)].Extent;
     });
   }
 
@@ -245,7 +245,7 @@ private:
     std::vector<std::int64_t> first(this->Borders.Size() + 1, 0);
     for (std::size_t i = 0; i < this->Borders.Size(); ++i)
     {
-      first[i + 1] = first[i] + (this->Borders[i].Flow != 0 ? this->Borders[i].Faces : 0);
+      first[i + 1] = first[i] + (this->Borders[i].Flow != 0 ? this->Borders[i].Extent : 0);
     }
     std::vector<Candidate> candidates(static_cast<std::size_t>(first.back()));
     std::vector<std::int64_t> next(first);

@@ -77,8 +77,23 @@ double moveIntoDomain(const Point<2>& sides, std::vector<Point<2>>& sites)
 PowerSiteCells::PowerSiteCells(
   ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context)
   : Place(grid)
-  , Heights(static_cast<std::size_t>(sites.size()))
 {
+  this->Solve(sites, { { 1, 1 }, Ones() }, context);
+}
+
+PowerSiteCells::PowerSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
+  const DensitySource<2>& density, double mass, const Context& context)
+  : Place(grid)
+  , DensityMass(mass)
+{
+  this->Solve(sites, density, context);
+}
+
+void PowerSiteCells::Solve(
+  ConstPointSpan<3> sites, const DensitySource<2>& density, const Context& context)
+{
+  const ImageGrid& grid = this->Place;
+  this->Heights.resize(static_cast<std::size_t>(sites.size()));
   if (!hasRightAngles(grid))
   {
     throw std::invalid_argument("The axes of the domain are not at right angles");
@@ -118,14 +133,18 @@ PowerSiteCells::PowerSiteCells(
   moveIntoDomain(sides, flat); // those that were at one point are still crowded
 
   progress.BeginStage(1.0);
-  EqualMassPartition partition(
-    RowMoments({ { 1, 1 }, Ones() }, sides, static_cast<double>(flat.size()), progress),
+  EqualMassPartition partition(RowMoments(density,
+                                 { sides[0] / static_cast<double>(density.Size[0]),
+                                   sides[1] / static_cast<double>(density.Size[1]) },
+                                 static_cast<double>(flat.size()), progress),
     sites.size());
   if (!partition.Solve(flat, progress))
   {
-    throw std::runtime_error(
-      "The areas of the sites' cells do not become equal: many sites are nearly at one "
-      "point, or as good as that beside one that is very far away");
+    throw std::runtime_error(this->DensityMass
+        ? "The masses of the sites' cells do not become equal: the sites are too far from "
+          "distributed like the density, or many of them nearly at one point"
+        : "The areas of the sites' cells do not become equal: many sites are nearly at one "
+          "point, or as good as that beside one that is very far away");
   }
   this->Keep(partition, given);
 }
@@ -179,9 +198,10 @@ void PowerSiteCells::Label(std::int64_t* labels, const Context& context) const
 
 double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
 {
-  const GridSize<2> size = this->Place.Size<2>();
-  const double area = numberOfCells<2>(size) * this->Place.CellMeasure();
-  if (!std::isfinite(area))
+  const double all = this->DensityMass
+    ? *this->DensityMass
+    : numberOfCells<2>(this->Place.Size<2>()) * this->Place.CellMeasure();
+  if (!std::isfinite(all))
   {
     throw std::overflow_error("The domain's area passes the largest double; scale the sites");
   }
@@ -189,7 +209,7 @@ double PowerSiteCells::Measure(const SiteCellStatistics& statistics) const
   for (std::size_t i = 0; i < this->Costs.size(); ++i)
   {
     const auto site = static_cast<std::int64_t>(i);
-    statistics.Mass[site] = this->Shares[i] * area;
+    statistics.Mass[site] = this->Shares[i] * all;
     this->Place.ToPhysical<2>(this->Centroids[i].data(), statistics.Centroid[site]);
     statistics.Cost[site] = this->Costs[i] * this->Unit * this->Unit;
     total += statistics.Cost[site];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Site cells of least cost in a plane: the power diagram whose cells have equal areas, which is the
-// optimal transport, for the squared distance, from the uniform measure to equal masses at the
-// sites.
+// Site cells of least cost in a plane: the power diagram whose cells have equal areas, or equal
+// masses of a density, which is the optimal transport, for the squared distance, from the uniform
+// measure, or the density, to equal masses at the sites.
 //
-//   const PowerSiteCells cells(sites, grid); // of two dimensions
+//   const PowerSiteCells cells(sites, grid);                // of two dimensions
+//   const PowerSiteCells cells(sites, grid, density, mass); // the same for a density
 //   std::vector<std::int64_t> labels(grid.NumberOfCells());
 //   cells.Label(labels.data());
 #ifndef RectifiedTransport_PowerSiteCells_h
@@ -14,8 +15,10 @@
 #include "Core/Parallel/Context.h"
 #include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCellStatistics.h"
+#include "Core/Tables/Density.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace RectifiedTransport
@@ -33,6 +36,11 @@ public:
   // away from the others by many millions of the domain's lengths), std::bad_alloc and Cancelled.
   PowerSiteCells(
     ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context = Context());
+  // The same for a density on the domain of the grid, of any number of cells, whose mass is `mass`.
+  // Throws also InvalidDensity, and std::runtime_error where sites are too far from distributed
+  // like the density.
+  PowerSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid, const DensitySource<2>& density,
+    double mass, const Context& context = Context());
 
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Costs.size()); }
   std::int64_t NumberOutside() const { return this->Outside; }
@@ -40,24 +48,26 @@ public:
   // Writes the number of the site of each pixel, axis 0 fastest: the one whose cell has the pixel's
   // centre. Throws std::bad_alloc and Cancelled.
   void Label(std::int64_t* labels, const Context& context = Context()) const;
-  // Writes the areas, centroids and costs of the cells, integrals over the polygons. Returns the
-  // cost: the mean of |x - site|^2 over all points x of the domain. Throws std::overflow_error for
-  // a cost or an area past the largest double.
+  // Writes the areas, or masses, centroids and costs of the cells, integrals over the polygons.
+  // Returns the cost: the mean of |x - site|^2 over all points x of the domain, or over the mass.
+  // Throws std::overflow_error for a cost or an area past the largest double.
   double Measure(const SiteCellStatistics& statistics) const;
   // The sides of the polygons; each cell has its own points. Throws std::bad_alloc.
   SiteCellOutlines<2> Outlines() const;
 
 private:
+  void Solve(ConstPointSpan<3> sites, const DensitySource<2>& density, const Context& context);
   void Keep(const EqualMassPartition& partition, const std::vector<Point<2>>& sites);
 
   ImageGrid Place;
-  Point<2> PixelSides{};       // in units of the sites' mean spacing
-  double Unit = 0.0;           // that spacing
-  std::vector<double> Heights; // squared distances of the sites from the plane
+  std::optional<double> DensityMass; // of a density
+  Point<2> PixelSides{};             // in units of the sites' mean spacing
+  double Unit = 0.0;                 // that spacing
+  std::vector<double> Heights;       // squared distances of the sites from the plane
   std::int64_t Outside = 0;
   std::vector<Point<2>> Corners;   // of the cells, counter-clockwise, in index space
   std::vector<std::int64_t> First; // of a site's corners, and the number of all
-  std::vector<double> Shares;      // of the area
+  std::vector<double> Shares;      // of the area or the mass
   std::vector<Point<2>> Centroids; // in index space
   std::vector<double> Costs;       // shares of the mean, in squared units
 };

@@ -18,18 +18,18 @@ namespace
 // Pixels that are summed between two polls for cancellation.
 constexpr std::int64_t sliceOfPixels = std::int64_t{ 1 } << 14;
 
-// Sums over the pixels of a site cell. Index sums half-integers: exact, however far from the cell
-// its site is.
+// Sums over the pixels of a site cell. Where pixels count equally Index sums half-integers: exact,
+// however far from the cell its site is.
 template <int Dimension>
 struct CellSum
 {
-  double Pixels = 0.0;
+  double Weight = 0.0; // number or mass of the pixels
   double Index[Dimension] = {};
   double Cost = 0.0;
 
   void Add(const CellSum& other)
   {
-    this->Pixels += other.Pixels;
+    this->Weight += other.Weight;
     this->Cost += other.Cost;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -69,15 +69,32 @@ double costOf(const double* d, const CostNorm& norm)
   return std::pow(length, norm.Exponent);
 }
 
+struct EqualPixels
+{
+  double operator()(std::int64_t) const { return 1.0; }
+};
+
 template <int Dimension>
+struct PixelsByMass
+{
+  const PixelMasses<Dimension>& Masses;
+  double operator()(std::int64_t pixel) const
+  {
+    return static_cast<double>(this->Masses[pixel]) / static_cast<double>(this->Masses.Total());
+  }
+};
+
+template <int Dimension, class Weight>
 class CellSums
 {
 public:
-  CellSums(const SiteCells<Dimension>& cells, const std::int64_t* labels)
-    : Grid(cells.Grid())
-    , Size(cells.Pixels().Size())
+  CellSums(const ImageGrid& grid, const std::int64_t* labels, ConstPointSpan<3> sites,
+    const Weight& weight)
+    : Grid(grid)
+    , Size(grid.Size<Dimension>())
     , Labels(labels)
-    , Sites(cells.Sites())
+    , Sites(sites)
+    , WeightOf(weight)
   {
   }
 
@@ -146,12 +163,13 @@ private:
       const double* site = this->Sites[label];
       const double d[3] = { x[0] - site[0], x[1] - site[1], x[2] - site[2] };
       CellSum<Dimension>& sum = sums[label];
-      sum.Pixels += 1.0;
+      const double weight = this->WeightOf(pixel);
+      sum.Weight += weight;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        sum.Index[axis] += index[axis];
+        sum.Index[axis] += weight * index[axis];
       }
-      sum.Cost += cost(d);
+      sum.Cost += weight * cost(d);
       for (int axis = 0; axis < Dimension; ++axis)
       {
         index[axis] += 1.0;
@@ -168,7 +186,17 @@ private:
   const GridSize<Dimension> Size;
   const std::int64_t* Labels;
   const ConstPointSpan<3> Sites;
+  const Weight WeightOf;
 };
+
+void requireCost(double cost, const CostNorm& norm)
+{
+  if (!std::isfinite(cost))
+  {
+    throw std::overflow_error("The cost of CostExponent " + std::to_string(norm.Exponent) +
+      " passes the largest double; it must be so low that distances to its power are finite");
+  }
+}
 
 } // namespace
 
@@ -179,7 +207,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
   Progress progress(context);
   progress.BeginStage(1.0);
   const std::vector<CellSum<Dimension>> sums =
-    CellSums<Dimension>(cells, labels).Run(norm, progress);
+    CellSums<Dimension, EqualPixels>(cells.Grid(), labels, cells.Sites(), {}).Run(norm, progress);
   const SiteDensity<Dimension>& shared = cells.Pixels();
   const double pixels = numberOfCells<Dimension>(shared.Size());
   double total = 0.0;
@@ -189,17 +217,13 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
     double mean[Dimension];
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      mean[axis] = sum.Index[axis] / sum.Pixels;
+      mean[axis] = sum.Index[axis] / sum.Weight;
     }
     cells.Grid().template ToPhysical<Dimension>(mean, statistics.Centroid[i]);
     statistics.Cost[i] = sum.Cost / pixels;
     total += statistics.Cost[i];
   }
-  if (!std::isfinite(total))
-  {
-    throw std::overflow_error("The cost of CostExponent " + std::to_string(norm.Exponent) +
-      " passes the largest double; it must be so low that distances to its power are finite");
-  }
+  requireCost(total, norm);
   const double measure = cells.Grid().CellMeasure();
   if (!std::isfinite(pixels * measure))
   {
@@ -211,7 +235,7 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
     double all = 0.0;
     for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)
     {
-      all += sums[static_cast<std::size_t>(shared.Site(k, i))].Pixels;
+      all += sums[static_cast<std::size_t>(shared.Site(k, i))].Weight;
     }
     const double share = all / static_cast<double>(shared.SitesIn(k)) * measure;
     for (std::int64_t i = 0; i < shared.SitesIn(k); ++i)
@@ -222,11 +246,46 @@ double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* l
   return total;
 }
 
+template <int Dimension>
+double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int64_t* labels,
+  double totalMass, const CostNorm& norm, const SiteCellStatistics& statistics,
+  const Context& context)
+{
+  Progress progress(context);
+  progress.BeginStage(1.0);
+  const std::vector<CellSum<Dimension>> sums = CellSums<Dimension, PixelsByMass<Dimension>>(
+    cells.Grid(), labels, cells.Sites(), { cells.Masses() })
+                                                 .Run(norm, progress);
+  double total = 0.0;
+  for (std::int64_t i = 0; i < cells.NumberOfSites(); ++i)
+  {
+    const CellSum<Dimension>& sum = sums[static_cast<std::size_t>(i)];
+    double mean[Dimension];
+    std::copy_n(cells.IndexSites()[i], Dimension, mean);
+    for (int axis = 0; axis < Dimension && sum.Weight > 0.0; ++axis)
+    {
+      mean[axis] = sum.Index[axis] / sum.Weight;
+    }
+    cells.Grid().template ToPhysical<Dimension>(mean, statistics.Centroid[i]);
+    statistics.Mass[i] = sum.Weight * totalMass;
+    statistics.Cost[i] = sum.Cost;
+    total += sum.Cost;
+  }
+  requireCost(total, norm);
+  return total;
+}
+
 template double measureSiteCells<1>(const SiteCells<1>&, const std::int64_t*, const CostNorm&,
   const SiteCellStatistics&, const Context&);
 template double measureSiteCells<2>(const SiteCells<2>&, const std::int64_t*, const CostNorm&,
   const SiteCellStatistics&, const Context&);
 template double measureSiteCells<3>(const SiteCells<3>&, const std::int64_t*, const CostNorm&,
   const SiteCellStatistics&, const Context&);
+template double measureSiteCells<1>(const DensitySiteCells<1>&, const std::int64_t*, double,
+  const CostNorm&, const SiteCellStatistics&, const Context&);
+template double measureSiteCells<2>(const DensitySiteCells<2>&, const std::int64_t*, double,
+  const CostNorm&, const SiteCellStatistics&, const Context&);
+template double measureSiteCells<3>(const DensitySiteCells<3>&, const std::int64_t*, double,
+  const CostNorm&, const SiteCellStatistics&, const Context&);
 
 } // namespace RectifiedTransport

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_SiteCellStatistics_h
 #define RectifiedTransport_SiteCellStatistics_h
 
+#include "Core/SiteCells/DensitySiteCells.h"
 #include "Core/SiteCells/SiteCells.h"
 
 #include <cstdint>
@@ -20,17 +21,26 @@ struct CostNorm
 // Output arrays of one value for each site.
 struct SiteCellStatistics
 {
-  double* Mass;          // sites in one pixel share their mass, to the last bit
+  double* Mass;
   PointSpan<3> Centroid; // in physical space
   double* Cost;          // the site cell's part of the cost
 };
 
-// Measures the site cells of `labels`. Returns the cost: the mean of |x - site|_p^q over the
-// pixels' centres x, for sites outside of the domain at their given positions. Throws
-// std::overflow_error for a cost or a domain past the largest double, std::bad_alloc and Cancelled.
+// Measures the site cells of `labels`; sites in one pixel share their mass, to the last bit.
+// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, for sites outside of the
+// domain at their given positions. Throws std::overflow_error for a cost or a domain past the
+// largest double, std::bad_alloc and Cancelled.
 template <int Dimension>
 double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context = Context());
+
+// The same by the mass of the density, of which there is `totalMass`: masses are those of the
+// pixels, centroids and the cost weigh pixels by them. The centroid of a site cell without mass is
+// its site.
+template <int Dimension>
+double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int64_t* labels,
+  double totalMass, const CostNorm& norm, const SiteCellStatistics& statistics,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -11,9 +11,10 @@ template <int Dimension>
 SiteDensity<Dimension>::SiteDensity(
   const GridSize<Dimension>& size, ConstPointSpan<Dimension> sites)
   : Grid(size)
-  , Sites(static_cast<std::size_t>(sites.size()))
 {
   const std::int64_t count = sites.size();
+  std::vector<std::int64_t>& order = this->Grouped.Sites;
+  order.resize(static_cast<std::size_t>(count));
   std::vector<std::int64_t> pixels(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -25,19 +26,19 @@ SiteDensity<Dimension>::SiteDensity(
     }
     pixels[i] = pixel;
   }
-  std::iota(this->Sites.begin(), this->Sites.end(), std::int64_t{ 0 });
-  std::stable_sort(this->Sites.begin(), this->Sites.end(),
+  std::iota(order.begin(), order.end(), std::int64_t{ 0 });
+  std::stable_sort(order.begin(), order.end(),
     [&](std::int64_t a, std::int64_t b) { return pixels[a] < pixels[b]; });
   for (std::int64_t i = 0; i < count; ++i)
   {
-    const std::int64_t pixel = pixels[this->Sites[i]];
+    const std::int64_t pixel = pixels[order[i]];
     if (this->Pixels.empty() || this->Pixels.back() != pixel)
     {
       this->Pixels.push_back(pixel);
-      this->First.push_back(i);
+      this->Grouped.First.push_back(i);
     }
   }
-  this->First.push_back(count);
+  this->Grouped.First.push_back(count);
 }
 
 template <int Dimension>

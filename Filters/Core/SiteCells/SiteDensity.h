@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_SiteDensity_h
 #define RectifiedTransport_SiteDensity_h
 
+#include "Core/SiteCells/SiteGroups.h"
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
@@ -24,23 +25,21 @@ public:
   const GridSize<Dimension>& Size() const { return this->Grid; }
   void Read(std::int64_t first, std::int64_t count, double* values) const override;
 
-  std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Sites.size()); }
+  // Of each pixel that holds sites; the sites of a group ascend.
+  const SiteGroups& Groups() const { return this->Grouped; }
+  std::int64_t NumberOfSites() const { return this->Grouped.NumberOfSites(); }
   std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }
   std::int64_t Pixel(std::int64_t k) const { return this->Pixels[k]; }
   // The k for which Pixel(k) is `pixel`, which must hold a site.
   std::int64_t Find(std::int64_t pixel) const;
-  std::int64_t SitesIn(std::int64_t k) const { return this->First[k + 1] - this->First[k]; }
+  std::int64_t SitesIn(std::int64_t k) const { return this->Grouped.SitesIn(k); }
   // Site i of those in pixel k; they ascend.
-  std::int64_t Site(std::int64_t k, std::int64_t i) const
-  {
-    return this->Sites[this->First[k] + i];
-  }
+  std::int64_t Site(std::int64_t k, std::int64_t i) const { return this->Grouped.Site(k, i); }
 
 private:
   GridSize<Dimension> Grid;
   std::vector<std::int64_t> Pixels;
-  std::vector<std::int64_t> First; // into Sites
-  std::vector<std::int64_t> Sites;
+  SiteGroups Grouped;
 };
 
 } // namespace RectifiedTransport

@@ -53,18 +53,44 @@ private:
   std::int64_t RowEnd = 0;
 };
 
+// The pixels count equally.
+struct EqualPixels
+{
+  static constexpr bool IsCount = true;
+  std::int64_t operator()(std::int64_t) const { return 1; }
+};
+
+// The pixels that have mass count equally, the others not.
 template <int Dimension>
+struct PixelsWithMass
+{
+  static constexpr bool IsCount = true;
+  const PixelMasses<Dimension>& Masses;
+  std::int64_t operator()(std::int64_t pixel) const { return this->Masses[pixel] > 0 ? 1 : 0; }
+};
+
+template <int Dimension>
+struct PixelsByMass
+{
+  static constexpr bool IsCount = false;
+  const PixelMasses<Dimension>& Masses;
+  std::int64_t operator()(std::int64_t pixel) const { return this->Masses[pixel]; }
+  PixelsWithMass<Dimension> Count() const { return { this->Masses }; }
+};
+
+template <int Dimension, class Weight>
 class CellBisection
 {
 public:
-  CellBisection(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
-    const Point<Dimension>& spacing, std::int64_t* labels, Progress& progress,
+  CellBisection(const GridSize<Dimension>& size, ConstPointSpan<Dimension> coordinates,
+    const Point<Dimension>& spacing, const Weight& weight, std::int64_t* labels, Progress& progress,
     std::int64_t largestCell)
     : Coordinates(coordinates)
     , Spacing(spacing)
+    , WeightOf(weight)
     , Labels(labels)
     , Work(progress)
-    , Place(sites.Size())
+    , Place(size)
     , Upper(largestCell)
   {
   }
@@ -84,17 +110,13 @@ public:
     const Box box = this->FindBox(pixels, pixelCount);
     const int axis = this->ChooseAxis(sites, siteCount, box);
     const std::int64_t half = siteCount / 2;
-    // Every site gets as many pixels as any other, or one more.
-    const std::int64_t each = pixelCount / siteCount;
-    const std::int64_t more = (pixelCount % siteCount * half + siteCount / 2) / siteCount;
-    const std::int64_t part = each * half + more;
     std::nth_element(
       sites, sites + half, sites + siteCount, [this, axis](std::int64_t a, std::int64_t b) {
         const double x = this->Coordinates[a][axis];
         const double y = this->Coordinates[b][axis];
         return x != y ? x < y : a < b;
       });
-    this->Divide(pixels, pixelCount, part, axis, box);
+    const std::int64_t part = this->Halve(pixels, pixelCount, siteCount, axis, box);
     this->Bisect(sites, half, pixels, part);
     this->Bisect(sites + half, siteCount - half, pixels + part, pixelCount - part);
   }
@@ -166,17 +188,59 @@ private:
     return bySites.second >= 0 ? bySites.second : byPixels.second;
   }
 
-  // Moves the `first` lowest pixels along an axis to the front, those of a layer by their numbers.
-  void Divide(
-    std::int64_t* pixels, std::int64_t count, std::int64_t first, int axis, const Box& box)
+  // Moves the pixels of the lower half of the sites to the front. Returns how many there are.
+  std::int64_t Halve(
+    std::int64_t* pixels, std::int64_t count, std::int64_t siteCount, int axis, const Box& box)
+  {
+    const std::int64_t half = siteCount / 2;
+    const std::int64_t part = this->Divide(pixels, count, this->WeightOf, siteCount, axis, box);
+    if constexpr (!Weight::IsCount)
+    {
+      // Heavy pixels may be too few for the sites of a half.
+      const auto number = this->WeightOf.Count();
+      std::int64_t lower = 0;
+      std::int64_t all = 0;
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        lower += i < part ? number(pixels[i]) : 0;
+        all += number(pixels[i]);
+      }
+      if (all >= siteCount && (lower < half || all - lower < siteCount - half))
+      {
+        std::sort(pixels, pixels + count);
+        return this->Divide(pixels, count, number, siteCount, axis, box);
+      }
+    }
+    return part;
+  }
+
+  // What the lower half of the sites gets of a weight: of pixels every site gets as many as any
+  // other, or one more.
+  static std::int64_t LowerPart(std::int64_t weight, std::int64_t siteCount)
+  {
+    const std::int64_t half = siteCount / 2;
+    const std::int64_t each = weight / siteCount;
+    const std::int64_t more = (weight % siteCount * half + siteCount / 2) / siteCount;
+    return each * half + more;
+  }
+
+  // Moves the lowest pixels along an axis to the front, as many as have, to half a pixel, the
+  // weight of the lower half of the sites; those of a layer by their numbers.
+  template <class AnyWeight>
+  std::int64_t Divide(std::int64_t* pixels, std::int64_t count, const AnyWeight& weight,
+    std::int64_t siteCount, int axis, const Box& box)
   {
     const std::int64_t low = box.Low[axis];
     this->Layers.assign(static_cast<std::size_t>(box.High[axis] - low + 1), 0);
-    this->ForPixels(pixels, count,
-      [&](std::int64_t, const GridSize<Dimension>& place) { ++this->Layers[place[axis] - low]; });
+    std::int64_t all = 0;
+    this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
+      this->Layers[place[axis] - low] += weight(pixel);
+      all += weight(pixel);
+    });
+    const std::int64_t last = box.High[axis] - low;
     std::int64_t border = 0; // the layer that the parts share
-    std::int64_t left = first;
-    while (left > this->Layers[border])
+    std::int64_t left = LowerPart(all, siteCount);
+    while (border < last && left > this->Layers[border])
     {
       left -= this->Layers[border++];
     }
@@ -185,21 +249,24 @@ private:
     std::int64_t* lower = pixels;
     this->ForPixels(pixels, count, [&](std::int64_t pixel, const GridSize<Dimension>& place) {
       const std::int64_t layer = place[axis];
-      if (layer < border || (layer == border && left-- > 0))
+      bool isLower = layer < border;
+      if (layer == border)
       {
-        *lower++ = pixel;
+        const std::int64_t own = weight(pixel);
+        isLower = left > 0 && 2 * left >= own;
+        left -= isLower ? own : 0;
       }
-      else
-      {
-        *upper++ = pixel;
-      }
+      *(isLower ? lower : upper)++ = pixel;
     });
-    this->ForPixels(this->Upper.data(), count - first,
+    const std::int64_t part = lower - pixels;
+    this->ForPixels(this->Upper.data(), count - part,
       [&lower](std::int64_t pixel, const GridSize<Dimension>&) { *lower++ = pixel; });
+    return part;
   }
 
   ConstPointSpan<Dimension> Coordinates;
   const Point<Dimension> Spacing;
+  const Weight WeightOf;
   std::int64_t* Labels;
   Progress& Work;
   PixelPlace<Dimension> Place;
@@ -208,26 +275,25 @@ private:
   LargeBuffer<std::int64_t> Upper; // of the size of the largest site cell
 };
 
-} // namespace
-
-template <int Dimension>
-void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
-  const Point<Dimension>& spacing, std::int64_t* owners, const Context& context)
+template <int Dimension, class Weight>
+void split(const SiteGroups& groups, const GridSize<Dimension>& size,
+  ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, const Weight& weight,
+  std::int64_t* owners, const Context& context)
 {
   Progress progress(context);
   std::int64_t pixels = 1;
-  for (const std::int64_t cells : sites.Size())
+  for (const std::int64_t cells : size)
   {
     pixels *= cells;
   }
   // The pixels of each site cell of several sites.
-  const std::int64_t cells = sites.NumberOfPixels();
+  const std::int64_t cells = groups.NumberOfGroups();
   Numbers first(static_cast<std::size_t>(cells) + 1, 0);
   progress.BeginStage(0.1);
   progress.ForInOrder(pixels, sliceOfPixels, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t pixel = begin; pixel < end; ++pixel)
     {
-      first[owners[pixel] + 1] += sites.SitesIn(owners[pixel]) > 1 ? 1 : 0;
+      first[owners[pixel] + 1] += groups.SitesIn(owners[pixel]) > 1 ? 1 : 0;
     }
   });
   const std::int64_t largest = *std::max_element(first.begin(), first.end());
@@ -242,29 +308,49 @@ void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimen
     for (std::int64_t pixel = begin; pixel < end; ++pixel)
     {
       const std::int64_t cell = owners[pixel];
-      if (sites.SitesIn(cell) > 1)
+      if (groups.SitesIn(cell) > 1)
       {
         members.data()[next[cell]++] = pixel;
       }
-      owners[pixel] = sites.Site(cell, 0);
+      owners[pixel] = groups.Site(cell, 0);
     }
   });
   progress.BeginStage(1.0, first.back());
-  CellBisection<Dimension> bisection(sites, coordinates, spacing, owners, progress, largest);
+  CellBisection<Dimension, Weight> bisection(
+    size, coordinates, spacing, weight, owners, progress, largest);
   Numbers group;
   for (std::int64_t cell = 0; cell < cells; ++cell)
   {
     group.clear();
-    for (std::int64_t i = 0; i < sites.SitesIn(cell); ++i)
+    for (std::int64_t i = 0; i < groups.SitesIn(cell); ++i)
     {
-      group.push_back(sites.Site(cell, i));
+      group.push_back(groups.Site(cell, i));
     }
     if (group.size() > 1)
     {
-      bisection.Bisect(group.data(), sites.SitesIn(cell), members.data() + first[cell],
+      bisection.Bisect(group.data(), groups.SitesIn(cell), members.data() + first[cell],
         first[cell + 1] - first[cell]);
     }
   }
+}
+
+} // namespace
+
+template <int Dimension>
+void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
+  const Point<Dimension>& spacing, std::int64_t* owners, const Context& context)
+{
+  split<Dimension>(
+    sites.Groups(), sites.Size(), coordinates, spacing, EqualPixels(), owners, context);
+}
+
+template <int Dimension>
+void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+  ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, std::int64_t* owners,
+  const Context& context)
+{
+  split<Dimension>(groups, masses.Size(), coordinates, spacing, PixelsByMass<Dimension>{ masses },
+    owners, context);
 }
 
 template void splitSharedPixels<1>(
@@ -273,5 +359,9 @@ template void splitSharedPixels<2>(
   const SiteDensity<2>&, ConstPointSpan<2>, const Point<2>&, std::int64_t*, const Context&);
 template void splitSharedPixels<3>(
   const SiteDensity<3>&, ConstPointSpan<3>, const Point<3>&, std::int64_t*, const Context&);
+template void splitGroupsByMass<2>(const SiteGroups&, const PixelMasses<2>&, ConstPointSpan<2>,
+  const Point<2>&, std::int64_t*, const Context&);
+template void splitGroupsByMass<3>(const SiteGroups&, const PixelMasses<3>&, ConstPointSpan<3>,
+  const Point<3>&, std::int64_t*, const Context&);
 
 } // namespace RectifiedTransport

@@ -4,7 +4,9 @@
 #define RectifiedTransport_SplitSharedPixels_h
 
 #include "Core/Parallel/Context.h"
+#include "Core/SiteCells/PixelMasses.h"
 #include "Core/SiteCells/SiteDensity.h"
+#include "Core/SiteCells/SiteGroups.h"
 
 #include <cstdint>
 
@@ -18,6 +20,13 @@ namespace RectifiedTransport
 template <int Dimension>
 void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
   const Point<Dimension>& spacing, std::int64_t* owners, const Context& context = Context());
+
+// The same for any groups of sites on pixels that have masses: parts are equal to the mass of the
+// pixel. Each has a pixel with mass, where the group has one for each of its sites.
+template <int Dimension>
+void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+  ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, std::int64_t* owners,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/DensitySiteCells.h"
+
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/SiteCells/EqualizeSiteMasses.h"
+#include "Core/SiteCells/SiteDensity.h"
+#include "Core/SiteCells/SplitSharedPixels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+
+// From the index space of one grid of cells to that of another one on the same domain.
+template <int Dimension>
+void rescale(PointSpan<Dimension> points, const GridSize<Dimension>& from,
+  const GridSize<Dimension>& to, Progress& progress)
+{
+  const Point<Dimension> step = latticeStep<Dimension>(from, to);
+  progress.For(points.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      double* x = points[i];
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        x[axis] = std::min(x[axis] * step[axis], static_cast<double>(to[axis]));
+      }
+    }
+  });
+}
+
+template <int Dimension>
+std::int64_t pixelAt(const double* point, const GridSize<Dimension>& size)
+{
+  std::int64_t pixel = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const auto along = static_cast<std::int64_t>(point[axis]);
+    pixel = pixel * size[axis] + std::min(along, size[axis] - 1);
+  }
+  return pixel;
+}
+
+// The means of the points of each group.
+template <int Dimension>
+std::vector<Point<Dimension>> meansOf(
+  const SiteGroups& groups, const std::vector<Point<Dimension>>& points)
+{
+  std::vector<Point<Dimension>> means(static_cast<std::size_t>(groups.NumberOfGroups()));
+  for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
+  {
+    const std::int64_t count = groups.SitesIn(group);
+    Point<Dimension>& mean = means[static_cast<std::size_t>(group)];
+    mean = {};
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        mean[axis] += points[static_cast<std::size_t>(groups.Site(group, i))][axis];
+      }
+    }
+    for (double& coordinate : mean)
+    {
+      coordinate /= static_cast<double>(count);
+    }
+  }
+  return means;
+}
+
+} // namespace
+
+TooFewPixels::TooFewPixels(std::int64_t sites, std::int64_t pixels)
+  : std::invalid_argument("There are " + std::to_string(sites) + " sites and " +
+      std::to_string(pixels) + " pixels with mass; there must be one for each")
+  , Pixels(pixels)
+{
+}
+
+template <int Dimension>
+DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
+  const DensitySource<Dimension>& density, double total, const Context& context)
+  : Place(grid)
+  , Given(static_cast<std::size_t>(sites.size()))
+  , Inside(static_cast<std::size_t>(sites.size()))
+{
+  std::atomic<std::int64_t> outside{ 0 };
+  const PointSpan<Dimension> inside(this->Inside);
+  Progress progress(context);
+  progress.BeginStage(0.3);
+  progress.For(sites.size(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      std::copy_n(sites[i], 3, this->Given[static_cast<std::size_t>(i)].begin());
+      outside += grid.NearestIndex<Dimension>(sites[i], inside[i]) ? 0 : 1;
+    }
+  });
+  this->Outside = outside;
+  progress.BeginStage(1.0);
+  this->Pixels.emplace(density, total, grid.Size<Dimension>(), progress);
+  if (sites.size() > this->Pixels->PixelsWithMass())
+  {
+    throw TooFewPixels(sites.size(), this->Pixels->PixelsWithMass());
+  }
+}
+
+template <int Dimension>
+void DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
+  const FlowOptions& options, const Context& context) const
+{
+  if constexpr (Dimension == 1)
+  {
+    this->LabelIntervals(labels);
+  }
+  else
+  {
+    Progress progress(context);
+    progress.BeginStage(0.95);
+    const SiteGroups groups = this->LabelGroups(flow, labels, options, progress.Stage());
+    Point<Dimension> spacing = this->Place.template Lengths<Dimension>();
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      spacing[axis] /= static_cast<double>(this->Masses().Size()[axis]);
+    }
+    progress.BeginStage(0.99);
+    equalizeSiteMasses<Dimension>(groups, this->Masses(), meansOf<Dimension>(groups, this->Inside),
+      spacing, labels, progress.Stage());
+    progress.BeginStage(1.0);
+    splitGroupsByMass<Dimension>(
+      groups, this->Masses(), this->Inside, spacing, labels, progress.Stage());
+  }
+}
+
+// In 1D intervals in the order of the sites are the optimal cells. A pixel belongs to the one that
+// has the middle of its mass.
+template <int Dimension>
+void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
+{
+  std::vector<std::int64_t> order(this->Inside.size());
+  std::iota(order.begin(), order.end(), std::int64_t{ 0 });
+  std::stable_sort(order.begin(), order.end(), [this](std::int64_t a, std::int64_t b) {
+    return this->Inside[static_cast<std::size_t>(a)] < this->Inside[static_cast<std::size_t>(b)];
+  });
+  const PixelMasses<Dimension>& masses = this->Masses();
+  const auto sites = static_cast<double>(order.size());
+  const auto total = static_cast<double>(masses.Total());
+  std::int64_t before = 0;
+  for (std::int64_t pixel = 0; pixel < masses.NumberOfPixels(); ++pixel)
+  {
+    const double middle = static_cast<double>(before) + 0.5 * static_cast<double>(masses[pixel]);
+    const auto place = static_cast<std::size_t>(std::min(middle / total * sites, sites - 1.0));
+    labels[pixel] = order[place];
+    before += masses[pixel];
+  }
+}
+
+// Labels pixels by groups of the sites that the map takes into one pixel.
+template <int Dimension>
+SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimension>& flow,
+  std::int64_t* labels, const FlowOptions& options, const Context& context) const
+{
+  const GridSize<Dimension> size = this->Masses().Size();
+  const std::int64_t pixels = this->Masses().NumberOfPixels();
+  Progress progress(context);
+  progress.BeginStage(0.02);
+  std::vector<Point<Dimension>> even(this->Inside); // where the sites come to
+  rescale<Dimension>(even, size, flow.Size(), progress);
+  progress.BeginStage(0.05);
+  flow.Backward(even, even, options, progress.Stage());
+  rescale<Dimension>(even, flow.Size(), size, progress);
+  const SiteDensity<Dimension> sites(size, even);
+  SiteGroups groups = sites.Groups();
+  if (groups.NumberOfGroups() == 1)
+  {
+    std::fill_n(labels, pixels, std::int64_t{ 0 });
+    return groups;
+  }
+  {
+    LargeBuffer<double> memory(pixels * Dimension);
+    const PointSpan<Dimension> positions(memory.data(), pixels);
+    progress.BeginStage(0.2);
+    flow.BackwardLattice(size, positions, options, progress.Stage());
+    progress.BeginStage(0.21);
+    rescale<Dimension>(positions, flow.Size(), size, progress);
+    progress.BeginStage(0.23);
+    const RectifiedFlow<Dimension> toSites(sites, progress.Stage());
+    progress.BeginStage(0.97);
+    toSites.ForwardToCells(positions, labels, options, progress.Stage());
+  }
+  progress.BeginStage(0.98);
+  progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
+    std::transform(labels + first, labels + last, labels + first,
+      [&sites](std::int64_t pixel) { return sites.Find(pixel); });
+  });
+  progress.BeginStage(1.0);
+  this->MergeGroups(flow, even, groups, labels, options, progress.Stage());
+  return groups;
+}
+
+// Where the mass of several groups lies in one pixel, only one of them has got it. The others join
+// it, and divide the pixels of all of them.
+template <int Dimension>
+void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& flow,
+  const std::vector<Point<Dimension>>& even, SiteGroups& groups, std::int64_t* labels,
+  const FlowOptions& options, const Context& context) const
+{
+  const PixelMasses<Dimension>& masses = this->Masses();
+  const GridSize<Dimension> size = masses.Size();
+  Progress progress(context);
+  progress.BeginStage(0.3);
+  std::vector<std::int64_t> mass(static_cast<std::size_t>(groups.NumberOfGroups()), 0);
+  std::int64_t heaviest = 0;
+  progress.ForInOrder(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t pixel = first; pixel < last; ++pixel)
+    {
+      mass[labels[pixel]] += masses[pixel];
+      heaviest = masses[pixel] > masses[heaviest] ? pixel : heaviest;
+    }
+  });
+  // Of each group without mass, a point of the density that comes to its sites.
+  std::vector<std::int64_t> without;
+  std::vector<Point<Dimension>> points;
+  for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
+  {
+    if (mass[group] == 0)
+    {
+      without.push_back(group);
+      points.push_back(even[static_cast<std::size_t>(groups.Site(group, 0))]);
+    }
+  }
+  if (without.empty())
+  {
+    return;
+  }
+  progress.BeginStage(0.6);
+  rescale<Dimension>(points, size, flow.Size(), progress);
+  flow.Forward(points, points, options, progress.Stage());
+  rescale<Dimension>(points, flow.Size(), size, progress);
+  std::vector<std::int64_t> joined(mass.size());
+  std::iota(joined.begin(), joined.end(), std::int64_t{ 0 });
+  for (std::size_t i = 0; i < without.size(); ++i)
+  {
+    const std::int64_t owner = labels[pixelAt<Dimension>(points[i].data(), size)];
+    joined[without[i]] = mass[owner] > 0 ? owner : labels[heaviest];
+  }
+  SiteGroups merged;
+  std::vector<std::int64_t> number(mass.size(), -1); // of the groups that stay
+  std::int64_t stay = 0;
+  for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
+  {
+    number[group] = joined[group] == group ? stay++ : -1;
+  }
+  merged.First.assign(static_cast<std::size_t>(stay) + 1, 0);
+  for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
+  {
+    merged.First[number[joined[group]] + 1] += groups.SitesIn(group);
+  }
+  std::partial_sum(merged.First.begin(), merged.First.end(), merged.First.begin());
+  merged.Sites.resize(groups.Sites.size());
+  std::vector<std::int64_t> next(merged.First);
+  for (std::int64_t group = 0; group < groups.NumberOfGroups(); ++group)
+  {
+    for (std::int64_t i = 0; i < groups.SitesIn(group); ++i)
+    {
+      merged.Sites[next[number[joined[group]]]++] = groups.Site(group, i);
+    }
+  }
+  groups = std::move(merged);
+  progress.BeginStage(1.0);
+  progress.For(masses.NumberOfPixels(), grain, [&](std::int64_t first, std::int64_t last) {
+    std::transform(labels + first, labels + last, labels + first,
+      [&](std::int64_t group) { return number[joined[group]]; });
+  });
+}
+
+template class DensitySiteCells<1>;
+template class DensitySiteCells<2>;
+template class DensitySiteCells<3>;
+
+} // namespace RectifiedTransport

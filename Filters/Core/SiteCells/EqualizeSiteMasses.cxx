@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/SiteCells/EqualizeSiteMasses.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+#include "Core/SiteCells/BorderMaxFlow.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int mostRounds = 1000;
+// Consecutive rounds of little gain, after which it ends: where no two groups differ by more than
+// the heaviest pixel, where none differs by more from its share, and anyway.
+constexpr int idleRounds = 3;
+constexpr int moreIdleRounds = 10;
+constexpr int mostIdleRounds = 64;
+
+template <int Dimension>
+class MassBalance
+{
+public:
+  MassBalance(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+    ConstPointSpan<Dimension> places, const Point<Dimension>& spacing, std::int64_t* owners,
+    Progress& progress)
+    : Groups(groups)
+    , Masses(masses)
+    , Size(masses.Size())
+    , Places(places)
+    , Owners(owners)
+    , Work(progress)
+    , Count(groups.NumberOfGroups())
+    , Mass(static_cast<std::size_t>(this->Count), 0)
+    , Excess(this->Mass)
+    , Planned(this->Mass)
+    , Borders(this->Count)
+  {
+    // Relative to the longest side: squares of lengths may overflow.
+    const double longest = *std::max_element(spacing.begin(), spacing.end());
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double side = spacing[axis] / longest;
+      this->Weight[axis] = side * side;
+      this->Stride[axis] = axis == 0 ? 1 : this->Stride[axis - 1] * this->Size[axis - 1];
+    }
+    this->Rows = masses.NumberOfPixels() / this->Size[0];
+    this->MeanMass = std::max<std::int64_t>(1, masses.Total() / masses.NumberOfPixels());
+    this->FirstFace.resize(static_cast<std::size_t>(this->Rows) + 1);
+  }
+
+  // Throws Cancelled.
+  void Run()
+  {
+    this->Work.BeginStage(0.2, this->Rows);
+    this->SumMasses();
+    double least = 2.0 * static_cast<double>(this->Masses.Total());
+    for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
+    {
+      constexpr double gain = 0.99;
+      constexpr std::int64_t rounding = 16; // of pixels of one mass
+      double all = 0.0;
+      for (const std::int64_t excess : this->Excess)
+      {
+        all += static_cast<double>(std::abs(excess));
+      }
+      const auto [lowest, highest] = std::minmax_element(this->Excess.begin(), this->Excess.end());
+      const std::int64_t range = *highest - *lowest;
+      if (all < gain * least)
+      {
+        least = all;
+        idle = 0;
+      }
+      const bool isSettled = idle >= idleRounds;
+      const std::int64_t heaviest = this->Masses.Heaviest();
+      if (range == 0 || (isSettled && range <= heaviest + rounding) ||
+        (idle >= moreIdleRounds && std::max(*highest, -*lowest) <= heaviest))
+      {
+        break;
+      }
+      this->Work.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      this->FindFaces();
+      this->FindBorders();
+      this->Borders.Plan(
+        isSettled ? this->LargeExcess(round % 2 == 0) : this->Excess, this->Mass, this->Work);
+      if (!this->Move())
+      {
+        break;
+      }
+    }
+  }
+
+private:
+  struct Face
+  {
+    std::int64_t Pixel;
+    std::int64_t Other;
+    std::int64_t Border;
+  };
+
+  struct Candidate
+  {
+    double Cost;
+    std::int64_t Pixel;
+    // The cheapest one is on top of a heap.
+    bool operator<(const Candidate& other) const
+    {
+      return this->Cost != other.Cost ? this->Cost > other.Cost : this->Pixel > other.Pixel;
+    }
+  };
+
+  // Calls visit(row) on all threads.
+  template <class Visit>
+  void VisitRows(const Visit& visit)
+  {
+    constexpr std::int64_t pixels = std::int64_t{ 1 } << 14;
+    const std::int64_t grain = std::max<std::int64_t>(1, pixels / this->Size[0]);
+    this->Work.For(
+      this->Rows, grain,
+      [&visit](std::int64_t first, std::int64_t last) {
+        for (std::int64_t row = first; row < last; ++row)
+        {
+          visit(row);
+        }
+      },
+      grain);
+  }
+
+  void SumMasses()
+  {
+    this->Work.ForInOrder(this->Masses.NumberOfPixels(), std::int64_t{ 1 } << 16,
+      [this](std::int64_t first, std::int64_t last) {
+        for (std::int64_t pixel = first; pixel < last; ++pixel)
+        {
+          this->Mass[this->Owners[pixel]] += this->Masses[pixel];
+        }
+      });
+    // In fractions that do not overflow; what rounding leaves is far below a pixel.
+    const std::int64_t sites = this->Groups.NumberOfSites();
+    const std::int64_t each = this->Masses.Total() / sites;
+    std::int64_t left = this->Masses.Total() % sites;
+    for (std::int64_t group = 0; group < this->Count; ++group)
+    {
+      const std::int64_t more = std::min(left, this->Groups.SitesIn(group));
+      left -= more;
+      this->Excess[group] = this->Mass[group] - each * this->Groups.SitesIn(group) - more;
+    }
+  }
+
+  // Calls visit(pixel, neighbour) for the faces of a row's pixels to the next ones along each axis
+  // that lie between two groups.
+  template <class Visit>
+  void VisitFaces(std::int64_t row, const Visit& visit) const
+  {
+    const std::int64_t first = row * this->Size[0];
+    std::int64_t rest = row;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t position = axis == 0 ? 0 : rest % this->Size[axis];
+      rest /= axis == 0 ? 1 : this->Size[axis];
+      if (axis > 0 && position + 1 == this->Size[axis])
+      {
+        continue;
+      }
+      const std::int64_t last = first + this->Size[0] - (axis == 0 ? 1 : 0);
+      for (std::int64_t pixel = first; pixel < last; ++pixel)
+      {
+        if (this->Owners[pixel] != this->Owners[pixel + this->Stride[axis]])
+        {
+          visit(pixel, pixel + this->Stride[axis]);
+        }
+      }
+    }
+  }
+
+  // The excess without that of groups with too much, or else too little, whose masses are as equal
+  // as pixels allow: they would only pass their pixels around.
+  const std::vector<std::int64_t>& LargeExcess(bool isOfTooMuch)
+  {
+    this->Planned = this->Excess;
+    for (std::int64_t& excess : this->Planned)
+    {
+      const bool isLarge = 2 * std::abs(excess) > this->Masses.Heaviest();
+      excess = isLarge || (excess > 0) != isOfTooMuch ? excess : 0;
+    }
+    return this->Planned;
+  }
+
+  // All faces between groups, in the order of the rows.
+  void FindFaces()
+  {
+    this->FirstFace[0] = 0;
+    this->VisitRows([this](std::int64_t row) {
+      std::int64_t faces = 0;
+      this->VisitFaces(row, [&faces](std::int64_t, std::int64_t) { ++faces; });
+      this->FirstFace[row + 1] = faces;
+    });
+    std::partial_sum(this->FirstFace.begin(), this->FirstFace.end(), this->FirstFace.begin());
+    this->Faces.resize(static_cast<std::size_t>(this->FirstFace.back()));
+    this->VisitRows([this](std::int64_t row) {
+      Face* face = this->Faces.data() + this->FirstFace[row];
+      this->VisitFaces(row, [&face](std::int64_t pixel, std::int64_t other) {
+        *face++ = { pixel, other, -1 };
+      });
+    });
+  }
+
+  // A border without mass has the capacity of one in a density that is even: what is behind it may
+  // have to move. A border of one face lets its pixel pass.
+  void FindBorders()
+  {
+    this->Borders.Clear();
+    for (Face& face : this->Faces)
+    {
+      const auto [low, high] = std::minmax(this->Owners[face.Pixel], this->Owners[face.Other]);
+      face.Border = this->Borders.Add(low, high);
+      const std::int64_t mass =
+        std::max({ this->Masses[face.Pixel], this->Masses[face.Other], this->MeanMass });
+      std::int64_t& extent = this->Borders[face.Border].Extent;
+      extent = std::max(extent + mass, 2 * mass);
+    }
+  }
+
+  // The change of a pixel's squared distance from its group when it moves to another one.
+  double CostOf(std::int64_t pixel, std::int64_t from, std::int64_t to) const
+  {
+    const double* a = this->Places[from];
+    const double* b = this->Places[to];
+    double cost = 0.0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double x = static_cast<double>(pixel % this->Size[axis]) + 0.5;
+      pixel /= this->Size[axis];
+      cost += this->Weight[axis] * (a[axis] - b[axis]) * (2.0 * x - a[axis] - b[axis]);
+    }
+    return cost;
+  }
+
+  // Returns whether a pixel with mass moved.
+  bool Move()
+  {
+    this->FirstCandidate.assign(this->Borders.Size() + 1, 0);
+    for (const Face& face : this->Faces)
+    {
+      this->FirstCandidate[face.Border + 1] += this->Borders[face.Border].Flow != 0 ? 1 : 0;
+    }
+    std::partial_sum(
+      this->FirstCandidate.begin(), this->FirstCandidate.end(), this->FirstCandidate.begin());
+    this->Candidates.resize(static_cast<std::size_t>(this->FirstCandidate.back()));
+    this->Next = this->FirstCandidate;
+    for (const Face& face : this->Faces)
+    {
+      const SiteCellBorder& border = this->Borders[face.Border];
+      if (border.Flow != 0)
+      {
+        const bool isGiving = this->Owners[face.Pixel] == Giver(border);
+        this->Candidates[this->Next[face.Border]++] = isGiving ? face.Pixel : face.Other;
+      }
+    }
+    // What each group is to have in excess when all flows are done.
+    this->Planned = this->Excess;
+    for (std::size_t i = 0; i < this->Borders.Size(); ++i)
+    {
+      this->Planned[this->Borders[i].Low] -= this->Borders[i].Flow;
+      this->Planned[this->Borders[i].High] += this->Borders[i].Flow;
+    }
+    bool isMoved = false;
+    for (std::size_t i = 0; i < this->Borders.Size(); ++i)
+    {
+      if (this->Borders[i].Flow != 0)
+      {
+        this->Work.Check();
+        isMoved =
+          this->MoveOver(this->Borders[i], this->FirstCandidate[i], this->FirstCandidate[i + 1]) ||
+          isMoved;
+      }
+    }
+    return isMoved;
+  }
+
+  static std::int64_t Giver(const SiteCellBorder& border)
+  {
+    return border.Flow > 0 ? border.Low : border.High;
+  }
+
+  // Pixels are no smaller than they are: one moves if that brings both groups nearer to each other,
+  // with what the borders before left of their flows. So no group collects many such rests.
+  bool MoveOver(const SiteCellBorder& border, std::int64_t first, std::int64_t last)
+  {
+    const std::int64_t from = Giver(border);
+    const std::int64_t to = border.Flow > 0 ? border.High : border.Low;
+    this->Planned[from] += std::abs(border.Flow);
+    this->Planned[to] -= std::abs(border.Flow);
+    this->Heap.clear();
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const std::int64_t pixel = this->Candidates[i];
+      this->Heap.push_back({ this->CostOf(pixel, from, to), pixel });
+    }
+    std::make_heap(this->Heap.begin(), this->Heap.end());
+    bool isMoved = false;
+    while (!this->Heap.empty() && this->Planned[from] > this->Planned[to])
+    {
+      std::pop_heap(this->Heap.begin(), this->Heap.end());
+      const std::int64_t pixel = this->Heap.back().Pixel;
+      this->Heap.pop_back();
+      const std::int64_t mass = this->Masses[pixel];
+      // A pixel with several faces is listed several times; a group keeps some of its mass.
+      if (this->Owners[pixel] != from || mass >= this->Mass[from] ||
+        (mass > 0 && this->Planned[from] - this->Planned[to] <= mass))
+      {
+        continue;
+      }
+      this->Owners[pixel] = to;
+      this->Shift(this->Mass, mass, from, to);
+      this->Shift(this->Excess, mass, from, to);
+      this->Shift(this->Planned, mass, from, to);
+      isMoved = isMoved || mass > 0;
+      this->PushBehind(pixel, from, to);
+    }
+    return isMoved;
+  }
+
+  static void Shift(
+    std::vector<std::int64_t>& values, std::int64_t mass, std::int64_t from, std::int64_t to)
+  {
+    values[from] -= mass;
+    values[to] += mass;
+  }
+
+  // Behind a pixel that is nearly without mass there may be those that are to move.
+  void PushBehind(std::int64_t pixel, std::int64_t from, std::int64_t to)
+  {
+    constexpr std::int64_t light = 64; // of them have the mass of a mean pixel
+    if (this->Masses[pixel] > this->MeanMass / light)
+    {
+      return;
+    }
+    std::int64_t rest = pixel;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const std::int64_t position = rest % this->Size[axis];
+      rest /= this->Size[axis];
+      for (const int step : { -1, 1 })
+      {
+        const std::int64_t other = pixel + step * this->Stride[axis];
+        if (position + step >= 0 && position + step < this->Size[axis] &&
+          this->Owners[other] == from)
+        {
+          this->Heap.push_back({ this->CostOf(other, from, to), other });
+          std::push_heap(this->Heap.begin(), this->Heap.end());
+        }
+      }
+    }
+  }
+
+  const SiteGroups& Groups;
+  const PixelMasses<Dimension>& Masses;
+  const GridSize<Dimension> Size;
+  const ConstPointSpan<Dimension> Places;
+  std::int64_t* Owners;
+  Progress& Work;
+  const std::int64_t Count;
+  std::vector<std::int64_t> Mass;
+  std::vector<std::int64_t> Excess; // mass of a group less its target
+  std::vector<std::int64_t> Planned;
+  double Weight[Dimension];
+  std::int64_t Stride[Dimension];
+  std::int64_t Rows;
+  std::int64_t MeanMass;               // of a pixel
+  std::vector<std::int64_t> FirstFace; // of each row
+  std::vector<Face> Faces;
+  BorderMaxFlow Borders;
+  std::vector<std::int64_t> FirstCandidate; // of each border
+  std::vector<std::int64_t> Next;
+  std::vector<std::int64_t> Candidates;
+  std::vector<Candidate> Heap;
+};
+
+} // namespace
+
+template <int Dimension>
+void equalizeSiteMasses(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
+  ConstPointSpan<Dimension> places, const Point<Dimension>& spacing, std::int64_t* owners,
+  const Context& context)
+{
+  Progress progress(context);
+  MassBalance<Dimension>(groups, masses, places, spacing, owners, progress).Run();
+}
+
+template void equalizeSiteMasses<2>(const SiteGroups&, const PixelMasses<2>&, ConstPointSpan<2>,
+  const Point<2>&, std::int64_t*, const Context&);
+template void equalizeSiteMasses<3>(const SiteGroups&, const PixelMasses<3>&, ConstPointSpan<3>,
+  const Point<3>&, std::int64_t*, const Context&);
+
+} // namespace RectifiedTransport
