@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
@@ -17,17 +19,18 @@
 #include "vtkPolyData.h"
 
 #include <cmath>
+#include <memory>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkEqualMassCells);
-vtkImplementFlowPropertiesMacro(vtkEqualMassCells);
 
 using namespace RectifiedTransport;
 
 namespace
 {
 constexpr const char* ShapeTexts[] = { "Flow", "Power" };
-}
+constexpr const char* MeasureTexts[] = { "Uniform", "Density" };
+} // namespace
 
 struct vtkEqualMassCells::vtkInternals
 {
@@ -36,10 +39,12 @@ struct vtkEqualMassCells::vtkInternals
 
 //------------------------------------------------------------------------------
 vtkEqualMassCells::vtkEqualMassCells()
-  : Resolution(512)
+  : vtkTransportAlgorithm(1)
+  , Resolution(512)
   , NormExponent(2.0)
   , CostExponent(2.0)
   , Shape(FLOW)
+  , Measure(UNIFORM)
   , Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
@@ -53,6 +58,12 @@ vtkEqualMassCells::~vtkEqualMassCells() = default;
 const char* vtkEqualMassCells::GetShapeAsString()
 {
   return choiceText(ShapeTexts, this->Shape);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkEqualMassCells::GetMeasureAsString()
+{
+  return choiceText(MeasureTexts, this->Measure);
 }
 
 //------------------------------------------------------------------------------
@@ -93,7 +104,7 @@ int vtkEqualMassCells::FillInputPortInformation(int port, vtkInformation* info)
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
     return 1;
   }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  vtkDensityAlgorithm::FillDensityPortInformation(info);
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
 }
@@ -124,15 +135,21 @@ int vtkEqualMassCells::RequestInformation(
   {
     // The announced association of the values may be missing or wrong.
     this->UpdateInputBeforeData(1, inputVector, outputVector);
-    vtkImageData* domain = vtkImageData::GetData(inputVector[1], 0);
-    if (domain && domain->GetNumberOfPoints() > 0)
+    vtkInformation* information = inputVector[1]->GetInformationObject(0);
+    vtkDataObject* domain = vtkDataObject::GetData(information);
+    if (this->Measure == DENSITY)
+    {
+      const ImageGrid density = this->AnnouncedDensityGrid(information);
+      grid = density.IsEmpty() ? density : cells.GridOn(density);
+    }
+    else if (domain)
     {
       grid = cells.GridOn(domain);
     }
-    else
+    if (grid.IsEmpty())
     {
-      const ImageGrid box = announcedGrid(inputVector[1]->GetInformationObject(0), false);
-      grid = box.IsEmpty() ? box : gridWithResolution(box, this->Resolution, "Resolution");
+      const ImageGrid box = announcedGrid(information, false);
+      grid = box.IsEmpty() ? box : cells.GridOn(box);
     }
   }
   else
@@ -158,6 +175,7 @@ int vtkEqualMassCells::RequestData(
     this->CostExponent, "a number above 0");
   requireResolution("Resolution", this->Resolution);
   requireChoice("Shape", this->Shape, ShapeTexts);
+  requireChoice("Measure", this->Measure, MeasureTexts);
   if (this->Shape == POWER)
   {
     constexpr const char* rule = "2, which Shape Power needs";
@@ -174,27 +192,53 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  auto* domain = requireBlock<vtkImageData>(
-    vtkDataObject::GetData(inputVector[1]), "The Domain", "a vtkImageData");
-  if (!input || input->GetNumberOfPoints() == 0 || (domain && domain->GetNumberOfPoints() == 0))
+  vtkDataObject* domain = vtkDataObject::GetData(inputVector[1], 0);
+  if (this->Measure == DENSITY && inputVector[1]->GetNumberOfInformationObjects() == 0)
   {
-    return 1;
+    throw Failure("Measure is Density, but there is no Domain; connect data with a density as the "
+                  "Domain, or set Measure to Uniform");
   }
   vtkImageData* labels = vtkImageData::GetData(outputVector, 0);
-  const std::int64_t outside = cells.Run(input, domain, this->Internals->Labels, progress,
-    { labels, vtkPointSet::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) });
+  const EqualMassCells::Outputs outputs{ labels, vtkPointSet::GetData(outputVector, 1),
+    vtkPolyData::GetData(outputVector, 2) };
+  EqualMassCells::Report report;
+  if (this->Measure == DENSITY)
+  {
+    const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+    if (!density || !input || input->GetNumberOfPoints() == 0)
+    {
+      return 1;
+    }
+    report =
+      cells.Run(input, *density, this->GetFlowCache(), this->Internals->Labels, progress, outputs);
+  }
+  else
+  {
+    this->GetFlowCache().Release();
+    if (!input || input->GetNumberOfPoints() == 0 || (domain && cells.GridOn(domain).IsEmpty()))
+    {
+      return 1;
+    }
+    report = cells.Run(input, domain, this->Internals->Labels, progress, outputs);
+  }
   // Without a Domain the grid may not be known before the data.
   announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
-  if (outside > 0)
+  if (report.Outside > 0)
   {
+    const bool isOne = report.Outside == 1;
     const char* const cell = this->Shape == POWER
-      ? (outside == 1 ? "its cell is of least cost for where it is"
-                      : "their cells are of least cost for where they are")
-      : (outside == 1 ? "its cell is that of the nearest point of the border"
-                      : "their cells are those of the nearest points of its border");
-    vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()
-                    << (outside == 1 ? " sites is" : " sites are") << " outside the domain; "
-                    << cell);
+      ? (isOne ? "its cell is of least cost for where it is"
+               : "their cells are of least cost for where they are")
+      : (isOne ? "its cell is that of the nearest point of the border"
+               : "their cells are those of the nearest points of its border");
+    vtkWarningMacro(<< report.Outside << " of " << input->GetNumberOfPoints()
+                    << (isOne ? " sites is" : " sites are") << " outside the domain; " << cell);
+  }
+  if (report.WithoutMass > 0)
+  {
+    vtkWarningMacro(<< report.WithoutMass << " of " << input->GetNumberOfPoints()
+                    << " sites have cells without mass, because single pixels have more than an "
+                       "equal share; raise Resolution, or set Shape to Power");
   }
   return 1;
 }
@@ -207,6 +251,6 @@ void vtkEqualMassCells::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NormExponent: " << this->NormExponent << "\n";
   os << indent << "CostExponent: " << this->CostExponent << "\n";
   os << indent << "Shape: " << this->GetShapeAsString() << "\n";
-  this->GetFlowSettings().Print(os, indent);
+  os << indent << "Measure: " << this->GetMeasureAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

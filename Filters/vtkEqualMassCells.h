@@ -18,12 +18,20 @@
  * doi:10.4171/JEMS/889). They are convex polygons whose areas are equal to 5e-7 of their mean. A
  * pixel then belongs to the cell that has its centre.
  *
- * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain, a vtkImageData of which
- * only the box is used: its bounds in its own axes, and where its values (the active scalars, of
- * points first, else any point array) are point data half a spacing more on each side, as of a
- * density. Without it the domain is the bounds of the sites, a tenth longer, about their centre.
- * Sides of no length are no axes: domains are 1D, 2D or 3D. The uniform measure has the density 1,
- * so that masses are lengths, areas or volumes.
+ * With Measure Density every site gets an equal share of the mass of a density on the domain. The
+ * flow of the density, backward in time, takes the pixels and the sites to the uniform measure, in
+ * which the pixels flow to the sites as above; then pixels are reassigned until the masses of the
+ * sites' cells differ by the mass of the heaviest pixel at most. With Shape Power the polygons have
+ * exactly equal masses, and the least mean squared distance over the mass.
+ *
+ * Input 0 is the sites, any vtkPointSet. Input 1 is optional: the domain. With Measure Uniform only
+ * its box is used: of a vtkImageData its bounds in its own axes, and where its values (the active
+ * scalars, of points first, else any point array) are point data half a spacing more on each side,
+ * as of a density; of other data sets and composites of them their bounds. Without it the domain is
+ * the bounds of the sites, a tenth longer, about their centre. Sides of no length are no axes:
+ * domains are 1D, 2D or 3D. The uniform measure has the density 1, so that masses are lengths,
+ * areas or volumes. With Measure Density input 1 has the density (see vtkDensityAlgorithm), chosen
+ * with SetInputArrayToProcess(0, 1, 0, ...), and pixels, of any number, are on its domain.
  *
  * Outputs:
  * - 0, `Labels`: a vtkImageData of the domain, with the cell array `SiteId` (active scalars): the
@@ -38,7 +46,9 @@
  * Labels and Sites have the field data `TransportCost`: the mean of |x - site|_p^q over the pixels'
  * centres x, an upper bound on W_p^q from the pixels' centres to the sites. With Shape Power
  * masses, centroids and costs are integrals over the polygons, TransportCost is W_2^2 from the
- * uniform measure to the sites, and Outlines are the sides of the polygons.
+ * uniform measure to the sites, and Outlines are the sides of the polygons. With Measure Density
+ * masses, centroids and costs are those of the density: pixels count by their mass, and W_p^q is
+ * from the density.
  *
  * Sites in one pixel share the mass of one cell, equally to the last bit; the cell's pixels are
  * divided into as many parts, equal to one pixel. Sites outside of the domain get the cells of the
@@ -48,12 +58,22 @@
  * sites outside of the domain count where they are, and there may be more sites than pixels. NaN or
  * infinite coordinates, and sites that are all at one point without a domain, are errors.
  *
+ * With Measure Density and Shape Flow there must be a pixel with mass for each site. Sites that the
+ * flow takes into one pixel divide the mass of their cell into parts that are equal to a pixel. The
+ * mass of a cell is that of its pixels; where one pixel has more than a share some cells may be
+ * left without mass: their centroid is the site, and a warning counts them. With Shape Power sites
+ * very far from distributed like the density may have no cells of equal mass that are found, which
+ * is an error.
+ *
  * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
  * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while
  * they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at 256^3, 5.5
- * GB at 512^3. Shape Power: O(sites^1.5) for each of some ten Newton steps, 1.4 kB a site, and
- * O(pixels) for the labels. The labels are kept until the sites, the domain, Shape or, with Shape
- * Flow, the integration change.
+ * GB at 512^3; Measure Density takes 24 and 32 bytes a pixel more in 2D and 3D, and the tables of
+ * the density. Shape Power: O(sites^1.5) for each of some ten Newton steps, 1.4 kB a site, and
+ * O(pixels) for the labels, with Measure Density 18 bytes a cell of the density. The labels are
+ * kept until the sites, the domain, the density, Shape or, with Shape Flow, the integration change.
+ * Fewer than 128 NumberOfSteps are doubled until there are that many, five times at most, where
+ * pixels flow to sites; Tolerance is in pixels there.
  *
  * @warning Without a domain the extent of Labels follows from the sites. The producer of the
  * domain, or else of the sites, is therefore updated in REQUEST_INFORMATION.
@@ -66,13 +86,12 @@
  * vtkImageData* labels = cells->GetLabels();
  * \endcode
  *
- * @sa vtkTransportMap vtkTransportSampler
+ * @sa vtkTransportAlgorithm vtkDensityAlgorithm vtkTransportMap vtkTransportSampler
  */
 #ifndef vtkEqualMassCells_h
 #define vtkEqualMassCells_h
 
-#include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the integration of the flow
+#include "vtkTransportAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -82,12 +101,34 @@ class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkEqualMassCells : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkEqualMassCells : public vtkTransportAlgorithm
 {
 public:
   static vtkEqualMassCells* New();
-  vtkTypeMacro(vtkEqualMassCells, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkEqualMassCells, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Measure may be.
+   */
+  enum MeasureType
+  {
+    UNIFORM = 0,
+    DENSITY = 1
+  };
+
+  ///@{
+  /**
+   * What every site gets an equal share of. Uniform (default): the length, area or volume of the
+   * domain. Density: the mass of the domain's density, input array 0 on port 1; Component,
+   * InvertDensity, NegativeValues and DensityResolution count then only.
+   */
+  vtkSetMacro(Measure, int);
+  vtkGetMacro(Measure, int);
+  void SetMeasureToUniform() { this->SetMeasure(UNIFORM); }
+  void SetMeasureToDensity() { this->SetMeasure(DENSITY); }
+  const char* GetMeasureAsString();
+  ///@}
 
   /**
    * What Shape may be.
@@ -101,8 +142,8 @@ public:
   ///@{
   /**
    * Flow (default): the cells of the rectified flow, in one to three dimensions and for any cost.
-   * Power: the cells of least cost, convex polygons of exactly equal area; for a domain of two
-   * dimensions, NormExponent 2 and CostExponent 2.
+   * Power: the cells of least cost, convex polygons of exactly equal area or mass; for a domain of
+   * two dimensions, NormExponent 2 and CostExponent 2.
    */
   vtkSetMacro(Shape, int);
   vtkGetMacro(Shape, int);
@@ -138,11 +179,6 @@ public:
   vtkGetMacro(CostExponent, double);
   ///@}
 
-  // Of Shape Flow. Fewer than 128 NumberOfSteps are doubled until there are that many, five times
-  // at most; Tolerance is in pixels.
-  vtkFlowPropertiesMacro();
-
-public:
   ///@{
   /**
    * Set the domain (input 1, optional), as the output of another filter or as a data object.
@@ -178,6 +214,7 @@ protected:
   double NormExponent;
   double CostExponent;
   int Shape;
+  int Measure;
 
 private:
   struct vtkInternals;

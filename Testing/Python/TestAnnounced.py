@@ -3,8 +3,11 @@
 images that are less than announced, and blocks of other types."""
 import unittest
 
+import numpy as np
 import rectifiedtransport as rt
-from rt_testing import Listener, chain, closed_surface, density_image, main, points_in
+from rt_testing import (Listener, chain, closed_surface, density_image, main, points_in,
+                        positions)
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -111,16 +114,27 @@ class Announced(unittest.TestCase):
             with self.subTest(filter=filter_.GetClassName()):
                 self.expect(filter_, "Input port %d" % port + text)
 
-    def test_domain_with_a_block_that_is_no_image(self):
+    def test_domain_of_blocks_that_are_no_images(self):
+        """The box that holds all of them."""
         blocks = vtkMultiBlockDataSet()
-        blocks.SetBlock(0, closed_surface())
+        surface = closed_surface()
+        moved = closed_surface()
+        moved.DeepCopy(surface)
+        points = positions(surface) + [0, 3, 0]
+        moved.GetPoints().SetData(numpy_to_vtk(points, deep=1))
+        blocks.SetBlock(0, surface)
+        blocks.SetBlock(1, moved)
         cells = rt.vtkEqualMassCells()
-        cells.SetInputData(points_in(density_image((4, 3))))
+        cells.SetInputData(points_in(surface, 9))
         cells.SetDomainData(blocks)
+        cells.SetResolution(40)
         reported = Listener(cells)
         cells.Update()
-        self.assertIn("The Domain has a block of type vtkPolyData; it must be a vtkImageData",
-                      reported.errors[0])
+        self.assertEqual(reported.errors + reported.warnings, [])
+        low, high = np.array(surface.GetBounds()).reshape(3, 2).T
+        np.testing.assert_allclose(
+            cells.GetLabels().GetBounds(), np.c_[low, high + [0, 3, 0]].ravel(), atol=1e-12)
+        self.assertEqual(cells.GetLabels().GetDimensions()[1], 41)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,9 @@
 import unittest
 
 import numpy as np
-from rt_testing import density_image, load_plugin, main, output_of, producer
+import rectifiedtransport as rt
+from rt_testing import (Listener, density_image, load_plugin, main, output_of, points_in,
+                        producer)
 from scipy.optimize import linear_sum_assignment
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -126,6 +128,274 @@ class Cells(unittest.TestCase):
                                        Scalars=["CELLS", "SiteId"], LowerThreshold=3,
                                        UpperThreshold=3)
         self.assertGreater(output_of(cell_bounds).GetNumberOfCells(), 10)
+
+
+class Mass(unittest.TestCase):
+    """Measure Density."""
+
+    def cells(self, image, count=60, **properties):
+        return simple.EqualMassCells(
+            Input=producer(simple, points_in(image, count)), Domain=producer(simple, image),
+            Measure="Density", **properties)
+
+    def statistics(self, cells):
+        cells.UpdatePipeline()
+        data = cells.GetClientSideObject().GetOutputDataObject(1).GetPointData()
+        return [vtk_to_numpy(data.GetArray(name))
+                for name in ("CellMass", "CellCentroid", "CellCost")]
+
+    def check_flow(self, shape, values, count):
+        """A pixel a cell of the density: sums over the labels are what the sites have, and no share
+        is off by more than the heaviest pixel."""
+        image = density_image(shape, values=values.ravel())
+        image.SetSpacing(1, 1, 1)
+        cells = self.cells(image, count, Resolution=max(shape))
+        labels = labels_of(cells)
+        self.assertEqual(len(labels), values.size)
+        sums = np.bincount(labels, values.ravel(), count)
+        self.assertLessEqual(np.abs(sums - values.sum() / count).max(), values.max())
+        masses, centroids, costs = self.statistics(cells)
+        np.testing.assert_allclose(masses, sums, rtol=1e-12)
+        axes = np.meshgrid(*(np.arange(n) + .5 for n in shape[::-1]), indexing="ij")
+        centres = np.zeros((values.size, 3))
+        for axis, coordinates in enumerate(axes[::-1]):
+            centres[:, axis] = coordinates.ravel()
+        sites = vtk_to_numpy(points_in(image, count).GetPoints().GetData())
+        squares = ((centres - sites[labels]) ** 2).sum(axis=1) * values.ravel() / values.sum()
+        np.testing.assert_allclose(costs, np.bincount(labels, squares, count), rtol=1e-9)
+        self.assertAlmostEqual(cost_of(cells), squares.sum())
+        for axis in range(3):
+            np.testing.assert_allclose(
+                centroids[:, axis],
+                np.bincount(labels, values.ravel() * centres[:, axis], count) / sums, atol=1e-9)
+
+    def test_flow_in_a_plane(self):
+        x, y = np.meshgrid(np.linspace(-1, 1, 90), np.linspace(-1, 1, 70))
+        self.check_flow((90, 70), np.exp(-8 * (x ** 2 + (y - .3) ** 2)) + .02, 80)
+        self.check_flow((90, 70), np.random.default_rng(6).random((70, 90)) ** 4, 150)
+        self.check_flow((90, 70), (x ** 2 + y ** 2 < .5) * 1., 50)
+
+    def test_flow_in_space(self):
+        z, y, x = np.meshgrid(*(np.linspace(-1, 1, n) for n in (20, 22, 26)), indexing="ij")
+        self.check_flow((26, 22, 20), np.exp(-4 * (x ** 2 + (y - .3) ** 2 + z ** 2)), 40)
+
+    def test_flow_on_a_line(self):
+        self.check_flow((300,), np.random.default_rng(6).random(300), 20)
+
+    def test_power(self):
+        """Exactly equal masses at a cost below that of the flow, by three figures: the field data,
+        the sum over the sites, and the sum over fine pixels."""
+        x, y = np.meshgrid(np.linspace(-1, 1, 60), np.linspace(-1, 1, 45))
+        values = np.exp(-6 * (x ** 2 + (y - .3) ** 2)) + .02
+        image = density_image((60, 45), values=values.ravel())
+        image.SetSpacing(1, 1, 1)
+        cells = self.cells(image, 70, Resolution=600, Shape="Power")
+        masses, _, costs = self.statistics(cells)
+        np.testing.assert_allclose(masses, values.sum() / 70, rtol=1e-6)
+        self.assertAlmostEqual(costs.sum(), cost_of(cells))
+        labels = labels_of(cells).reshape(450, 600)
+        fine = np.kron(values, np.ones((10, 10))) / values.sum() / 100
+        centres = np.stack(np.meshgrid((np.arange(600) + .5) / 10, (np.arange(450) + .5) / 10), -1)
+        sites = vtk_to_numpy(points_in(image, 70).GetPoints().GetData())[:, :2]
+        by_pixels = (((centres - sites[labels]) ** 2).sum(axis=-1) * fine).sum()
+        self.assertLess(abs(by_pixels / cost_of(cells) - 1), 2e-3)
+        least = cost_of(cells)
+        cells.Shape = "Flow"
+        cells.Resolution = 300
+        self.assertGreater(cost_of(cells), 1.01 * least)
+
+    def test_a_constant_density_is_uniform(self):
+        """Power: the same polygons to the accuracy of their masses. Flow: the same but for pixels
+        on borders, which are given away in another order, 3 % of all."""
+        image = density_image((40, 30), values=np.full(1200, 7.0))
+        for shape in ("Power", "Flow"):
+            cells = self.cells(image, 30, Resolution=200, Shape=shape)
+            by_mass, cost = labels_of(cells).copy(), cost_of(cells)
+            masses = self.statistics(cells)[0].copy()
+            cells.Measure = "Uniform"
+            np.testing.assert_allclose(masses, 7 * self.statistics(cells)[0],
+                                       rtol=1e-6 if shape == "Power" else 3e-3)
+            self.assertLess((by_mass != labels_of(cells)).mean(),
+                            1e-4 if shape == "Power" else .03)
+            self.assertLess(abs(cost_of(cells) / cost - 1), 1e-6 if shape == "Power" else 1e-2)
+
+    def test_properties_of_the_density(self):
+        """The array, a component and ink are those of the other filters."""
+        values = np.random.default_rng(1).integers(0, 200, (1200, 3)).astype(np.uint8)
+        image = density_image((40, 30), values=values)
+        image.SetSpacing(1, 1, 1)
+        other = numpy_to_vtk(np.arange(1200.), deep=1)
+        other.SetName("Other")
+        image.GetCellData().AddArray(other)
+        cells = self.cells(image, 20, Resolution=40)
+        luminance = values @ [.2126, .7152, .0722]
+        for properties, density in (
+                ({}, luminance), ({"InvertDensity": 1}, 255 - luminance),
+                ({"InvertDensity": 0, "Component": 2}, values[:, 2]),
+                ({"DensityArray": ["CELLS", "Other"], "Component": -1}, np.arange(1200.))):
+            for name, value in properties.items():
+                setattr(cells, name, value)
+            self.assertAlmostEqual(self.statistics(cells)[0].sum() / density.sum(), 1)
+            np.testing.assert_allclose(np.bincount(labels_of(cells), density, 20),
+                                       self.statistics(cells)[0], rtol=1e-9)
+
+    def test_values_on_points(self):
+        """Their cells reach half a spacing further, as in every density."""
+        image = density_image((40, 30), cells=False)
+        cells = self.cells(image, 20, Resolution=40)
+        self.assertEqual(output_of(cells).GetBounds(), (-.25, 19.75, -1, 59, 0, 0))
+
+    def test_a_mesh(self):
+        """A density of any other data: the mass is that of the mesh."""
+        wavelet = simple.Tetrahedralize(Input=simple.Wavelet())
+        mass = simple.IntegrateVariables(Input=wavelet)
+        mass = vtk_to_numpy(output_of(mass).GetPointData().GetArray("RTData"))[0]
+        sites = simple.UniformSeeds(Dimension=3, Bounds=[-10, 10] * 3, NumberOfPoints=20)
+        for source in (wavelet, sites):
+            source.UpdatePipeline()
+        cells = simple.EqualMassCells(Input=sites, Domain=wavelet, Measure="Density",
+                                      Resolution=24, DensityResolution=16)
+        masses = self.statistics(cells)[0]
+        self.assertLess(abs(masses.sum() / mass - 1), .005)
+        self.assertLess(np.ptp(masses) / masses.mean(), .03)
+
+    def test_labels_are_kept(self):
+        """Costs of another exponent need no flow; another density does, also one that is written
+        in place."""
+        for shape in (0, 1):
+            image = density_image((40, 30))
+            image.SetSpacing(1, 1, 1)
+            cells = rt.vtkEqualMassCells()
+            cells.SetInputData(points_in(image, 20))
+            cells.SetDomainData(image)
+            cells.SetMeasureToDensity()
+            cells.SetResolution(60)
+            cells.SetShape(shape)
+
+            def array():
+                cells.Update()
+                return cells.GetLabels().GetCellData().GetArray("SiteId")
+
+            first = array()
+            masses = vtk_to_numpy(cells.GetSites().GetPointData().GetArray("CellMass")).copy()
+            if shape == 0:
+                cells.SetCostExponent(1)
+                self.assertIs(array(), first)
+            cells.Modified()
+            self.assertIs(array(), first)
+            np.testing.assert_array_equal(
+                vtk_to_numpy(cells.GetSites().GetPointData().GetArray("CellMass")), masses)
+            cells.SetInvertDensity(1)
+            self.assertIsNot(array(), first)
+            cells.SetInvertDensity(0)
+            first = vtk_to_numpy(array()).copy()
+            vtk_to_numpy(image.GetCellData().GetScalars())[:600] *= 4
+            image.Modified()
+            self.assertGreater((vtk_to_numpy(array()) != first).mean(), .05)
+
+    def refused(self, text, image, count=9, sites=None, **properties):
+        """One error, all of whose words are in it, and empty outputs."""
+        cells = rt.vtkEqualMassCells()
+        cells.SetInputData(sites or points_in(image, count))
+        if image:
+            cells.SetDomainData(image)
+        cells.SetMeasureToDensity()
+        cells.SetResolution(24)
+        for name, value in properties.items():
+            getattr(cells, "Set" + name)(value)
+        reported = Listener(cells)
+        cells.Update()
+        self.assertEqual(len(reported.errors), 2)  # the executive's, too
+        for part in text if isinstance(text, tuple) else (text,):
+            self.assertIn(part, reported.errors[0])
+        for port in range(3):
+            self.assertEqual(cells.GetOutputDataObject(port).GetNumberOfPoints(), 0)
+
+    def test_errors(self):
+        good = density_image((8, 6))
+        self.refused("Measure is Density, but there is no Domain; connect data with a density",
+                     None, sites=points_in(good, 9))
+        self.refused("Measure is 2; it must be 0 (Uniform) or 1 (Density)", good, Measure=2)
+        for shape in (0, 1):
+            def wrong(text, values, **properties):
+                image = density_image((8, 6), values=values)
+                self.refused(text, image, Shape=shape, **properties)
+            negative = np.ones(48)
+            negative[[5, 7]] = -1
+            wrong(("'Density'", "2 negative", "5"), negative)
+            nan = np.ones(48)
+            nan[11] = np.nan
+            wrong(("'Density'", "1 value", "11"), nan)
+            wrong(("'Density'", "mass"), np.zeros(48))
+            wrong(("'Density'", "mass"), np.full(48, 1e308))
+            wrong("Component is 3", np.ones((48, 3)), Component=3)
+        bare = density_image((8, 6))
+        bare.GetCellData().SetScalars(None)
+        bare.GetCellData().RemoveArray("Density")
+        self.refused("no active scalars for a density", bare)
+        array = (0, 1, 0, 1, "Nothing")
+        cells = rt.vtkEqualMassCells()
+        cells.SetInputData(points_in(good, 9))
+        cells.SetDomainData(good)
+        cells.SetMeasureToDensity()
+        cells.SetInputArrayToProcess(*array)
+        reported = Listener(cells)
+        cells.Update()
+        self.assertIn("no density array 'Nothing'", reported.errors[0])
+        self.refused("Shape Power needs a domain of two dimensions; this one has 3",
+                     density_image((4, 4, 4)), Shape=1)
+        one = np.zeros(48)
+        one[20] = 1
+        one = density_image((8, 6), values=one)
+        one.SetSpacing(1, 1, 1)
+        self.refused(("9 sites", "has mass in 4 of 16 x 12 pixels", "raise Resolution"), one,
+                     Resolution=16)
+
+    def test_clamped_and_outside(self):
+        values = np.ones(48)
+        values[5] = -1
+        image = density_image((8, 6), values=values)
+        cells = self.cells(image, 4, NegativeValues="Clamp", Resolution=48)
+        self.assertAlmostEqual(self.statistics(cells)[0].sum(), 47)
+        sites = points_in(image, 9)
+        sites.GetPoints().SetPoint(3, -50, 1, 0)
+        for shape in (0, 1):
+            outside = rt.vtkEqualMassCells()
+            outside.SetInputData(sites)
+            outside.SetDomainData(density_image((8, 6)))
+            outside.SetMeasureToDensity()
+            outside.SetShape(shape)
+            outside.SetResolution(60)
+            reported = Listener(outside)
+            outside.Update()
+            self.assertEqual(reported.errors, [])
+            self.assertEqual(len(reported.warnings), 1)
+            self.assertIn("1 of 9 sites is outside the domain", reported.warnings[0])
+
+    def test_cells_without_mass_warn(self):
+        """One pixel has more than half of all: it cannot be divided."""
+        values = np.full(64, 1e-6)
+        values[27] = 1
+        image = density_image((8, 8), values=values)
+        image.SetSpacing(1, 1, 1)
+        cells = rt.vtkEqualMassCells()
+        cells.SetInputData(points_in(image, 20))
+        cells.SetDomainData(image)
+        cells.SetMeasureToDensity()
+        cells.SetResolution(8)
+        reported = Listener(cells)
+        cells.Update()
+        self.assertEqual(reported.errors, [])
+        masses = vtk_to_numpy(cells.GetSites().GetPointData().GetArray("CellMass"))
+        self.assertAlmostEqual(masses.sum(), values.sum())
+        without = np.count_nonzero(masses == 0)
+        self.assertGreater(without, 0)
+        self.assertEqual(len(reported.warnings), 1)
+        self.assertIn("%d of 20 sites have cells without mass" % without, reported.warnings[0])
+        # They are where they were, and cost nothing.
+        centroids = vtk_to_numpy(cells.GetSites().GetPointData().GetArray("CellCentroid"))
+        sites = vtk_to_numpy(points_in(image, 20).GetPoints().GetData())
+        np.testing.assert_allclose(centroids[masses == 0], sites[masses == 0], atol=1e-12)
 
 
 if __name__ == "__main__":

@@ -303,6 +303,7 @@ def other_runs():
     yield "cells of shared pixels", cells, [points_in(image(), 60)], dict(Resolution=12)
     yield "cells of least cost", cells, [points_in(image(), 60), image(direction=TURN)], dict(
         Resolution=90, Shape=1)
+    yield from mass_cells_runs()
     yield "solid", solid, [box_of_triangles()], dict(Resolution=24)
     yield "solid turned", solid, [box_of_triangles(True)], dict(Resolution=17, Supersampling=5,
                                                                 Association=1)
@@ -363,6 +364,23 @@ def relaxation_runs():
     space = image((23, 17, 19))
     yield "relaxation gaussian 3D", rt.vtkBlueNoiseRelaxation, [points_in(space), space], dict(
         MaximumIterations=4)
+
+
+def mass_cells_runs():
+    cells = rt.vtkEqualMassCells
+    lines = image((200,))
+    yield "cells of mass 1D", cells, [points_in(lines, 9), lines], dict(Measure=1, Resolution=100)
+    turned = image(direction=TURN)
+    for shape, name in enumerate(("Flow", "Power")):
+        yield f"cells of mass {name}", cells, [points_in(image(), 60), turned], dict(
+            Measure=1, Shape=shape, Resolution=90)
+    holes = image(array=np.maximum(values((61, 47), 0) - 11.0, 0.0))
+    for shape, name in enumerate(("Flow", "Power")):
+        yield f"cells of mass with holes {name}", cells, [points_in(image(), 40), holes], dict(
+            Measure=1, Shape=shape, Resolution=75)
+    space = image((23, 17, 19))
+    yield "cells of mass 3D", cells, [points_in(space, 20), space], dict(
+        Measure=1, Resolution=24, NormExponent=3.0, CostExponent=1.5, FlowMaps=1)
 
 
 def digests():

@@ -37,8 +37,8 @@ BRIDGE = {
     "Density": RUN | {"Image", "Points"},
     "Resampling": RUN | {"Image", "Points", "Density"},
     "Blend": WORKERS | {"Splat"},
-    **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "SiteCells", "Splat")},
-    "Flow": WORKERS | {"Resampling"},
+    **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "Splat")},
+    **{folder: WORKERS | {"Resampling"} for folder in ("Flow", "SiteCells")},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }

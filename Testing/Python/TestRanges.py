@@ -14,6 +14,9 @@ WITHOUT = {"Bounds"}
 # What takes 10 GB at its highest is not tried there.
 LARGE = {("Area-Preserving Parameterization", "Resolution"), ("Sample Surface", "Resolution")}
 
+# What counts for Equal-Mass Cells with Measure Density only.
+DENSITY = {"Component", "DensityResolution"}
+
 
 class Range(NamedTuple):
     """From a lowest to a highest number, either of which may itself be excluded."""
@@ -70,6 +73,8 @@ def run(proxy, prop, value):
         image = density_image((4, 3))
         filter_.SetInputData(points_in(image, 1))
         filter_.SetDomainData(image)
+        if prop.name in DENSITY:
+            filter_.SetMeasureToDensity()
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(100)
     reported = Listener(filter_)

@@ -3,8 +3,11 @@
 names and with the classes."""
 import unittest
 
+import numpy as np
 from rt_proxies import instance, proxies
 from rt_testing import connect_inputs, density_image, digest, main
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
 # The public names, which no version changes: class, inputs by port, outputs if there are several.
@@ -40,6 +43,7 @@ CHOICES = {  # the first is the default
     "Association": ["Points", "Cells"],
     "Method": ["GaussianBlueNoise", "OptimalTransport"],
     "Shape": ["Flow", "Power"],
+    "Measure": ["Uniform", "Density"],
 }
 ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
 INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"}
@@ -54,6 +58,15 @@ DEPENDENT = {
     "NumberOfTimeSteps": ({"PublishTime"}, (11, 5)),
     "Parameter": ({"PublishTime"}, (0.5, 0.25)),
     "Component": ({"DensityArray"}, (-1, 0)),
+}
+# Of a filter that has Measure: shown where it is Density. Two values of each, and the kind of domain
+# that they differ for.
+OF_MEASURE = {
+    "DensityArray": None,  # no value
+    "Component": ((-1, 0), "colours"),
+    "InvertDensity": ((0, 1), "colours"),
+    "NegativeValues": ((0, 1), "negative"),
+    "DensityResolution": ((256, 3), "mesh"),
 }
 ALWAYS_SHOWN = {("Relax Blue Noise", "Tolerance")}  # of another meaning than that of flows
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
@@ -90,7 +103,26 @@ def is_shown(decorator, value):
     return shown != (decorator.get("inverse") == "1")
 
 
-def result(proxy, values):
+def domain_of(kind, shape):
+    """Data with a density."""
+    if kind == "colours":
+        values = 0.1 + np.random.default_rng(2).random((int(np.prod(shape)), 3))
+        return density_image(shape, values=values)
+    image = density_image(shape)
+    if kind == "negative":
+        image.GetCellData().GetScalars().SetValue(3, -0.5)
+    if kind == "mesh":
+        grid = vtkRectilinearGrid()
+        grid.SetDimensions(image.GetDimensions())
+        x, y = (numpy_to_vtk(np.linspace(0, 5, n + 1) ** 2, deep=1) for n in shape)
+        grid.SetXCoordinates(x)
+        grid.SetYCoordinates(y)
+        grid.GetCellData().SetScalars(image.GetCellData().GetScalars())
+        return grid
+    return image
+
+
+def result(proxy, values, domain=None):
     """All that comes out with some properties set."""
     filter_ = instance(proxy)
     # Flow maps need grids that are not too small for their lattices.
@@ -105,6 +137,8 @@ def result(proxy, values):
         filter_.SetResolution(resolution)
     if hasattr(filter_, "SetTargetData"):
         filter_.SetTargetData(density_image(shape, seed=5))
+    if domain:
+        filter_.SetDomainData(domain_of(domain, shape))
     for name, value in values.items():
         getattr(filter_, proxy.properties[name].command)(value)
     filter_.UpdateInformation()
@@ -251,7 +285,14 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 found = decorators(prop)
-                if prop.name == "DensityResolution":  # by the type of the input
+                if "Measure" in proxy.properties:
+                    shown = [one for one in found if one.get("property") == "Measure"]
+                    self.assertEqual([dict(one.attrib) for one in shown],
+                                     [{"type": "GenericDecorator", "mode": "visibility",
+                                       "property": "Measure", "value": "1"}]
+                                     if prop.name in OF_MEASURE else [])
+                    found = [one for one in found if one not in shown]
+                elif prop.name == "DensityResolution":  # by the type of the input
                     self.assertEqual([(one.get("type"), one.get("name"), one.get("exclude"))
                                       for one in found],
                                      [("InputDataTypeDecorator", "vtkImageData", "1")])
@@ -274,14 +315,23 @@ class XML(unittest.TestCase):
         for case, proxy, prop in self.each_property():
             with case:
                 for decorator in decorators(prop):
-                    if prop.name == "DensityResolution":
-                        continue  # shown by the type of the input
+                    if decorator.get("property") in (None, "Measure"):
+                        continue  # shown by the type of the input, and see below
                     owner = proxy.properties[decorator.get("property")]
                     for value in owner.texts or (("0", "1") if owner.boolean else ()):
                         with self.subTest(**{owner.name: value}):
                             one, other = (result(proxy, {owner.name: int(value), prop.name: number})
                                           for number in DEPENDENT[prop.name][1])
                             self.assertEqual(one != other, is_shown(decorator, value))
+
+    def test_density_is_shown_where_it_is_the_measure(self):
+        proxy = next(proxy for proxy in proxies() if "Measure" in proxy.properties)
+        for name, case in OF_MEASURE.items():
+            for measure in (0, 1) if case else ():
+                with self.subTest(property=name, measure=measure):
+                    one, other = (result(proxy, {"Measure": measure, name: number}, case[1])
+                                  for number in case[0])
+                    self.assertEqual(one != other, measure == 1)
 
     def test_component_is_shown_for_arrays_of_several(self):
         for case, _, prop in self.each_property():

@@ -115,7 +115,7 @@ def digest(data):
     """A hash of the arrays of points, cells or rows, and of the points or the bounds of an image,
     to the last bit."""
     sha = hashlib.sha256()
-    if data.IsA("vtkPointSet"):
+    if data.IsA("vtkPointSet") and data.GetPoints():
         sha.update(positions(data).tobytes())
     elif data.IsA("vtkDataSet"):
         sha.update(np.array(data.GetBounds()).tobytes())

@@ -3,12 +3,12 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Reduction.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace RectifiedTransport
@@ -94,33 +93,6 @@ private:
   vtkSmartPointer<vtkDoubleArray> Points;
   LargeBuffer<double> Index;
 };
-
-// A physical mass that is no double is an error, also where no tables are built, which would find
-// it.
-template <int D>
-void requireMass(const DensityImage& density, Progress& progress)
-{
-  const DensitySource<D> source = density.Source<D>();
-  const auto sumOf = [&](std::int64_t first, std::int64_t last) {
-    std::vector<double> values(static_cast<std::size_t>(last - first));
-    source.Values.Read(first, last - first, values.data());
-    double sum = 0.0;
-    for (const double value : values)
-    {
-      sum += value;
-    }
-    return sum;
-  };
-  DensitySummary found;
-  const double sum =
-    reduceChunks(progress, density.Grid().NumberOfCells(), grain, 0.0, sumOf, std::plus<>());
-  found.Total = sum * density.Grid().CellMeasure();
-  // The core counts the values that are wrong where there is no sum.
-  if (sum > 0.0 && std::isfinite(sum) && (!(found.Total > 0.0) || std::isinf(found.Total)))
-  {
-    density.ThrowInvalid(found);
-  }
-}
 
 // The lengths of a cell's sides in the longest of them: squares of the lengths may be no doubles,
 // and only ratios matter.
@@ -199,7 +171,8 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityIm
   density.Prepare(progress);
   if (settings.ByTransport)
   {
-    requireMass<D>(density, progress);
+    // A physical mass that is no double is an error here, too.
+    massOf(density, progress);
   }
   progress.BeginStage(ends[2]);
   PlacedPoints<D> points(density.Grid(), counted, progress);

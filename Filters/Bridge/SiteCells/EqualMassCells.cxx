@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/EqualMassCells.h"
 
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/DensityMass.h"
+#include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/SiteCells/DensitySiteCells.h"
 #include "Core/SiteCells/PowerSiteCells.h"
 #include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCells.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
@@ -42,6 +49,14 @@ template <int D>
 double bytesOfLabelling(const ImageGrid& grid)
 {
   return RectifiedFlow<D>::MemoryFor(grid.Size<D>());
+}
+
+// With the places of the pixels in the uniform measure.
+template <int D>
+double bytesOfLabellingByMass(const ImageGrid& grid)
+{
+  return D == 1 ? 0.0
+                : bytesOfLabelling<D>(grid) + numberOfCells<D>(grid.Size<D>()) * D * sizeof(double);
 }
 
 // The input's points in double precision.
@@ -76,15 +91,13 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
     });
 }
 
-template <int D>
-vtkSmartPointer<SiteIdArray> makeLabels(
-  const SiteCells<D>& cells, const FlowOptions& options, Progress& progress)
+// label(labels) writes them.
+template <int D, class Label>
+vtkSmartPointer<SiteIdArray> makeLabels(const ImageGrid& grid, double bytes, const Label& label)
 {
-  const auto pixels = cells.Grid().NumberOfCells();
-  auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(pixels));
-  withMemory("labels of " + describeSize<D>(cells.Pixels().Size()) + " pixels",
-    bytesOfLabelling<D>(cells.Grid()),
-    [&]() { cells.Label(labels->GetPointer(0), options, progress.Stage()); });
+  auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes,
+    [&]() { label(labels->GetPointer(0)); });
   return labels;
 }
 
@@ -154,6 +167,17 @@ void writeOutlines(SiteCellOutlines<D> outlines, vtkPolyData* output)
   output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", outlines.SiteIds));
 }
 
+std::string sumsOf(vtkIdType count)
+{
+  return "the sums of the " + std::to_string(count) + " cells";
+}
+
+template <int D>
+double bytesOfSums(vtkIdType count)
+{
+  return static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double);
+}
+
 template <int D>
 std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const ImageGrid& grid,
   SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
@@ -165,18 +189,21 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
                           .Update(sites, { grid, false, cells.Flow }, progress,
                             [&]() -> SiteLabels::Division {
                               progress.BeginStage(0.95);
-                              return { makeLabels<D>(placed, cells.Flow, progress), nullptr };
+                              return { makeLabels<D>(grid, bytesOfLabelling<D>(grid),
+                                         [&](std::int64_t* values) {
+                                           placed.Label(values, cells.Flow, progress.Stage());
+                                         }),
+                                nullptr };
                             })
                           .Labels;
   outputs.Labels->GetCellData()->SetScalars(labels);
   progress.BeginStage(0.98);
   const auto count = static_cast<vtkIdType>(placed.NumberOfSites());
   const auto measure = [&](const SiteCellStatistics& statistics) {
-    return withMemory("the sums of the " + std::to_string(count) + " cells",
-      static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double), [&]() {
-        return measureSiteCells<D>(
-          placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
-      });
+    return withMemory(sumsOf(count), bytesOfSums<D>(count), [&]() {
+      return measureSiteCells<D>(
+        placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
+    });
   };
   addStatistics(count, measure, outputs);
   progress.BeginStage(1.0);
@@ -185,7 +212,72 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
   return placed.NumberOutside();
 }
 
-SiteLabels::Division makePowerCells(vtkPointSet* sites, const ImageGrid& grid, Progress& progress)
+// The sites' cells by the mass of a density.
+template <int D>
+EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* sites,
+  const ImageGrid& grid, DensityImage& density, FlowCache& cache, SiteLabels& kept,
+  Progress& progress, const EqualMassCells::Outputs& outputs)
+{
+  const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
+  progress.BeginStage(0.02);
+  const SharedFlow& flow = cache.Update(density, progress, 0.04);
+  progress.BeginStage(0.05);
+  density.Prepare(progress);
+  visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
+  const DoubleTuples points(sites->GetPoints()->GetData(), progress);
+  progress.BeginStage(0.06);
+  const double bytes = numberOfValues(grid) * sizeof(std::int64_t);
+  const auto placed = withMemory("the masses of " + describeValues(grid) + " pixels", bytes, [&]() {
+    try
+    {
+      return DensitySiteCells<D>({ points.data(), count }, grid, density.Source<D>(),
+        flow.Flow<D>().Total(), progress.Stage());
+    }
+    catch (const TooFewPixels& few)
+    {
+      throw Failure("The input has " + std::to_string(count) + " sites, and the " +
+        density.GetName() + " has mass in " + std::to_string(few.PixelsWithMass()) + " of " +
+        describeSize<D>(grid.Size<D>()) +
+        " pixels; raise Resolution until there is a pixel with mass for each");
+    }
+  });
+  progress.BeginStage(0.07);
+  const SiteLabels::Settings settings{ grid, false, cells.Flow, true,
+    kept.HashOf(density, progress) };
+  SiteIdArray* labels =
+    kept
+      .Update(sites, settings, progress,
+        [&]() -> SiteLabels::Division {
+          progress.BeginStage(0.95);
+          return { makeLabels<D>(grid, bytesOfLabellingByMass<D>(grid),
+                     [&](std::int64_t* values) {
+                       placed.Label(flow.Flow<D>(), values, cells.Flow, progress.Stage());
+                     }),
+            nullptr };
+        })
+      .Labels;
+  outputs.Labels->GetCellData()->SetScalars(labels);
+  progress.BeginStage(0.98);
+  EqualMassCells::Report report{ placed.NumberOutside(), 0 };
+  const auto measure = [&](const SiteCellStatistics& statistics) {
+    return withMemory(sumsOf(count), bytesOfSums<D>(count), [&]() {
+      const double cost = measureSiteCells<D>(
+        placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, progress.Stage());
+      report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
+      return cost;
+    });
+  };
+  addStatistics(count, measure, outputs);
+  progress.BeginStage(1.0);
+  writeOutlines<D>(
+    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
+  return report;
+}
+
+// make(points, context) returns the power cells of the sites.
+template <class Make>
+SiteLabels::Division makePowerCells(
+  vtkPointSet* sites, const ImageGrid& grid, double moreBytes, Progress& progress, const Make& make)
 {
   const std::int64_t count = sites->GetNumberOfPoints();
   progress.BeginStage(0.03);
@@ -195,10 +287,10 @@ SiteLabels::Division makePowerCells(vtkPointSet* sites, const ImageGrid& grid, P
   // The factors of the linear systems are the peak.
   constexpr double eachSite = 1500.0;
   withMemory("the power cells of " + std::to_string(count) + " sites",
-    static_cast<double>(count) * eachSite, [&]() {
+    static_cast<double>(count) * eachSite + moreBytes, [&]() {
       progress.BeginStage(0.9);
       division.Power = std::make_shared<PowerSiteCells>(
-        ConstPointSpan<3>(points.data(), count), grid, progress.Stage());
+        make(ConstPointSpan<3>(points.data(), count), progress.Stage()));
     });
   division.Labels =
     newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
@@ -208,12 +300,9 @@ SiteLabels::Division makePowerCells(vtkPointSet* sites, const ImageGrid& grid, P
   return division;
 }
 
-std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
-  Progress& progress, const EqualMassCells::Outputs& outputs)
+std::int64_t writePowerCells(
+  const SiteLabels::Division& division, Progress& progress, const EqualMassCells::Outputs& outputs)
 {
-  progress.BeginStage(0.02);
-  const SiteLabels::Division& division = kept.Update(
-    sites, { grid, true, {} }, progress, [&]() { return makePowerCells(sites, grid, progress); });
   const PowerSiteCells& power = *division.Power;
   outputs.Labels->GetCellData()->SetScalars(division.Labels);
   addStatistics(
@@ -227,12 +316,100 @@ std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels
   return power.NumberOutside();
 }
 
+std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels& kept,
+  Progress& progress, const EqualMassCells::Outputs& outputs)
+{
+  progress.BeginStage(0.02);
+  const auto make = [&](ConstPointSpan<3> points, const Context& context) {
+    return PowerSiteCells(points, grid, context);
+  };
+  return writePowerCells(kept.Update(sites, { grid, true, {} }, progress,
+                           [&]() { return makePowerCells(sites, grid, 0.0, progress, make); }),
+    progress, outputs);
+}
+
+std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, DensityImage& density,
+  SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
+{
+  constexpr double rowMoments = 18.0; // bytes a cell of the density
+  progress.BeginStage(0.01);
+  const SiteLabels::Settings settings{ grid, true, {}, true, kept.HashOf(density, progress) };
+  progress.BeginStage(0.02);
+  const auto make = [&](ConstPointSpan<3> points, const Context& context) {
+    Progress work(context);
+    work.BeginStage(0.02);
+    density.Prepare(work);
+    const double mass = massOf(density, work);
+    work.BeginStage(1.0);
+    try
+    {
+      return PowerSiteCells(points, grid, density.Source<2>(), mass, work.Stage());
+    }
+    catch (const InvalidDensity& invalid)
+    {
+      density.ThrowInvalid(invalid.Summary());
+    }
+  };
+  const double bytes = rowMoments * static_cast<double>(density.Grid().NumberOfCells());
+  return writePowerCells(kept.Update(sites, settings, progress,
+                           [&]() { return makePowerCells(sites, grid, bytes, progress, make); }),
+    progress, outputs);
+}
+
+void requirePlane(const ImageGrid& grid)
+{
+  if (grid.Dimension() != 2)
+  {
+    throw Failure("Shape Power needs a domain of two dimensions; this one has " +
+      std::to_string(grid.Dimension()));
+  }
+}
+
+void writeSites(vtkPointSet* sites, vtkPointSet* output)
+{
+  output->CopyStructure(sites);
+  output->SetPoints(doublePoints(sites->GetPoints()));
+  output->GetPointData()->PassData(sites->GetPointData());
+  output->GetCellData()->PassData(sites->GetCellData());
+}
+
+std::string describeLabels(const ImageGrid& grid)
+{
+  return "labels of " + describeValues(grid) + " pixels (see Resolution)";
+}
+
 } // namespace
 
-ImageGrid EqualMassCells::GridOn(vtkImageData* domain) const
+ImageGrid EqualMassCells::GridOn(vtkDataObject* domain) const
 {
-  const ImageGrid grid = gridOf(domain, false);
-  const ImageGrid box = hasPointValues(domain) ? grid.WithDualCells() : grid;
+  ImageGrid box;
+  if (auto* image = vtkImageData::SafeDownCast(domain))
+  {
+    const ImageGrid grid = gridOf(image, false);
+    box = !grid.IsEmpty() && hasPointValues(image) ? grid.WithDualCells() : grid;
+  }
+  else
+  {
+    vtkBoundingBox all;
+    for (const DensityBlock& block : densityBlocks(domain))
+    {
+      double bounds[6];
+      block.Data->GetBounds(bounds);
+      all.AddBounds(bounds);
+    }
+    if (all.IsValid())
+    {
+      double bounds[6];
+      all.GetBounds(bounds);
+      box = gridOfBox(bounds);
+    }
+  }
+  return box.IsEmpty() ? box : this->GridOn(box);
+}
+
+ImageGrid EqualMassCells::GridOn(const ImageGrid& density) const
+{
+  const ImageGrid box = density.IsOnPoints() ? density.WithDualCells() : density;
   if (box.Dimension() == 0)
   {
     throw Failure("The Domain has one point along every axis; it needs at least one axis of two "
@@ -261,8 +438,8 @@ ImageGrid EqualMassCells::GridAround(vtkPointSet* sites) const
   return gridWithResolution(box, this->Resolution, "Resolution");
 }
 
-std::int64_t EqualMassCells::Run(vtkPointSet* sites, vtkImageData* domain, SiteLabels& kept,
-  Progress& progress, const Outputs& outputs) const
+EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* domain,
+  SiteLabels& kept, Progress& progress, const Outputs& outputs) const
 {
   if (!domain)
   {
@@ -271,29 +448,51 @@ std::int64_t EqualMassCells::Run(vtkPointSet* sites, vtkImageData* domain, SiteL
   }
   const ImageGrid grid = domain ? this->GridOn(domain) : this->GridAround(sites);
   requireCells(grid);
-  if (this->IsPower && grid.Dimension() != 2)
+  if (this->IsPower)
   {
-    throw Failure("Shape Power needs a domain of two dimensions; this one has " +
-      std::to_string(grid.Dimension()));
+    requirePlane(grid);
   }
   if (!kept.IsFor(sites, { grid, this->IsPower, this->Flow }))
   {
     const auto bytes = dispatchDimension(
       grid.Dimension(), bytesOfLabelling<1>, bytesOfLabelling<2>, bytesOfLabelling<3>);
-    requireMemory("labels of " + describeValues(grid) + " pixels (see Resolution)",
+    requireMemory(describeLabels(grid),
       numberOfValues(grid) * sizeof(std::int64_t) + (this->IsPower ? 0.0 : bytes(grid)));
   }
   applyGrid(grid, outputs.Labels);
-  outputs.Sites->CopyStructure(sites);
-  outputs.Sites->SetPoints(doublePoints(sites->GetPoints()));
-  outputs.Sites->GetPointData()->PassData(sites->GetPointData());
-  outputs.Sites->GetCellData()->PassData(sites->GetCellData());
+  writeSites(sites, outputs.Sites);
   if (this->IsPower)
   {
-    return divideByPower(sites, grid, kept, progress, outputs);
+    return { divideByPower(sites, grid, kept, progress, outputs), 0 };
   }
-  return dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
-    *this, sites, grid, kept, progress, outputs);
+  return { dispatchDimension(grid.Dimension(), divide<1>, divide<2>, divide<3>)(
+             *this, sites, grid, kept, progress, outputs),
+    0 };
+}
+
+EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, DensityImage& density,
+  FlowCache& cache, SiteLabels& kept, Progress& progress, const Outputs& outputs) const
+{
+  const ImageGrid grid = this->GridOn(density.Grid());
+  requireCells(grid);
+  if (this->IsPower)
+  {
+    requirePlane(grid);
+  }
+  const auto bytes = dispatchDimension(grid.Dimension(), bytesOfLabellingByMass<1>,
+    bytesOfLabellingByMass<2>, bytesOfLabellingByMass<3>);
+  requireMemory(describeLabels(grid),
+    numberOfValues(grid) * sizeof(std::int64_t) * (this->IsPower ? 1.0 : 2.0) +
+      (this->IsPower ? 0.0 : bytes(grid)));
+  applyGrid(grid, outputs.Labels);
+  writeSites(sites, outputs.Sites);
+  if (this->IsPower)
+  {
+    cache.Release();
+    return { divideMassByPower(sites, grid, density, kept, progress, outputs), 0 };
+  }
+  return dispatchDimension(grid.Dimension(), divideMass<1>, divideMass<2>, divideMass<3>)(
+    *this, sites, grid, density, cache, kept, progress, outputs);
 }
 
 } // namespace RectifiedTransport

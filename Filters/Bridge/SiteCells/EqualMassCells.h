@@ -11,6 +11,7 @@
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
 class vtkImageData;
 class vtkPointSet;
 class vtkPolyData;
@@ -19,6 +20,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class DensityImage;
+class FlowCache;
 class ImageGrid;
 class Progress;
 
@@ -37,17 +40,28 @@ struct EqualMassCells
     vtkPolyData* Outlines;
   };
 
-  // The pixels in the box of a domain, which is that of a density, and in the bounds of sites, 10 %
-  // longer along each axis. Throw Failure.
-  ImageGrid GridOn(vtkImageData* domain) const;
+  // What warnings count.
+  struct Report
+  {
+    std::int64_t Outside = 0;     // sites outside of the domain
+    std::int64_t WithoutMass = 0; // sites whose cells have no mass
+  };
+
+  // The pixels in the box of a domain: that of an image, as of a density, or the bounds of other
+  // data; in that of a density; and in the bounds of sites, 10 % longer along each axis. A grid
+  // without points for a domain without points. Throw Failure.
+  ImageGrid GridOn(vtkDataObject* domain) const;
+  ImageGrid GridOn(const ImageGrid& density) const;
   ImageGrid GridAround(vtkPointSet* sites) const;
 
-  // Assigns the pixels in a domain, or where it is nullptr around the sites, to at least one site;
-  // reuses the labels that are kept where they are valid. Returns how many sites are outside of the
-  // domain. Throws Failure, std::invalid_argument, std::runtime_error, std::bad_alloc and
-  // Cancelled.
-  std::int64_t Run(vtkPointSet* sites, vtkImageData* domain, SiteLabels& kept, Progress& progress,
+  // Assigns the pixels of a domain with points, or where it is nullptr around the sites, to at
+  // least one site, equally many or with equal masses of a density that is not nullptr; reuses the
+  // labels that are kept where they are valid. Throws Failure, std::invalid_argument,
+  // std::runtime_error, std::bad_alloc and Cancelled.
+  Report Run(vtkPointSet* sites, vtkDataObject* domain, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;
+  Report Run(vtkPointSet* sites, DensityImage& density, FlowCache& cache, SiteLabels& kept,
+    Progress& progress, const Outputs& outputs) const;
 };
 
 } // namespace RectifiedTransport

@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
+#include "Bridge/Density/ContentHash.h"
 #include "Bridge/SiteCells/DataStamp.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -47,13 +48,23 @@ public:
     ImageGrid Grid;
     bool IsPower;
     FlowOptions Flow; // counts where not IsPower
+    bool IsOfDensity = false;
+    ContentHash Density{}; // counts where IsOfDensity
 
     bool operator==(const Settings& other) const
     {
       return this->Grid == other.Grid && this->IsPower == other.IsPower &&
-        (this->IsPower || this->Flow == other.Flow);
+        (this->IsPower || this->Flow == other.Flow) && this->IsOfDensity == other.IsOfDensity &&
+        (!this->IsOfDensity || this->Density == other.Density);
     }
   };
+
+  // Identifies a density; without reading its values where the division is of it by modification
+  // times. As the work of the current stage. Throws Cancelled.
+  ContentHash HashOf(DensityImage& density, Progress& progress) const
+  {
+    return this->Of.Density.IsOf(density) ? this->Of.Density : ContentHash(density, progress);
+  }
 
   // Whether the division is of these sites and settings by modification times alone. Where false,
   // Update compares the sites' coordinates.
