@@ -53,6 +53,19 @@ std::int64_t pixelAt(const double* point, const GridSize<Dimension>& size)
   return pixel;
 }
 
+// With fewer steps sites would catch too many pixels that are not theirs, as isolated ones; the way
+// from the uniform measure to the sites has as many.
+FlowOptions refined(FlowOptions options)
+{
+  constexpr int enough = 128;
+  constexpr int mostDoublings = 5;
+  for (int i = 0; i < mostDoublings && options.NumberOfSteps < enough; ++i)
+  {
+    options.NumberOfSteps *= 2;
+  }
+  return options;
+}
+
 // The means of the points of each group.
 template <int Dimension>
 std::vector<Point<Dimension>> meansOf(
@@ -177,7 +190,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
   std::vector<Point<Dimension>> even(this->Inside); // where the sites come to
   rescale<Dimension>(even, size, flow.Size(), progress);
   progress.BeginStage(0.05);
-  flow.Backward(even, even, options, progress.Stage());
+  flow.Backward(even, even, refined(options), progress.Stage());
   rescale<Dimension>(even, flow.Size(), size, progress);
   const SiteDensity<Dimension> sites(size, even);
   SiteGroups groups = sites.Groups();
@@ -190,7 +203,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
     LargeBuffer<double> memory(pixels * Dimension);
     const PointSpan<Dimension> positions(memory.data(), pixels);
     progress.BeginStage(0.2);
-    flow.BackwardLattice(size, positions, options, progress.Stage());
+    flow.BackwardLattice(size, positions, refined(options), progress.Stage());
     progress.BeginStage(0.21);
     rescale<Dimension>(positions, flow.Size(), size, progress);
     progress.BeginStage(0.23);
@@ -245,7 +258,7 @@ void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& fl
   }
   progress.BeginStage(0.6);
   rescale<Dimension>(points, size, flow.Size(), progress);
-  flow.Forward(points, points, options, progress.Stage());
+  flow.Forward(points, points, refined(options), progress.Stage());
   rescale<Dimension>(points, flow.Size(), size, progress);
   std::vector<std::int64_t> joined(mass.size());
   std::iota(joined.begin(), joined.end(), std::int64_t{ 0 });

@@ -62,7 +62,9 @@ public:
     this->Work.BeginStage(0.2, this->Rows);
     this->SumMasses();
     double least = 2.0 * static_cast<double>(this->Masses.Total());
-    for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds; ++round, ++idle)
+    int stuck = 0;
+    for (int round = 0, idle = 0; round < mostRounds && idle < mostIdleRounds && stuck < 3;
+         ++round, ++idle)
     {
       constexpr double gain = 0.99;
       constexpr std::int64_t rounding = 16; // of pixels of one mass
@@ -86,14 +88,14 @@ public:
         break;
       }
       this->Work.BeginStage(1.0 - 0.8 / (round + 2.0), 2 * this->Rows);
+      this->TakesLighter = isSettled;
       this->FindFaces();
       this->FindBorders();
       this->Borders.Plan(
         isSettled ? this->LargeExcess(round % 2 == 0) : this->Excess, this->Mass, this->Work);
-      if (!this->Move())
-      {
-        break;
-      }
+      // Without a move only the other kinds of rounds may still find one.
+      stuck = this->Move() ? 0 : stuck + 1;
+      idle = stuck > 0 ? std::max(idle, idleRounds) : idle;
     }
   }
 
@@ -313,10 +315,18 @@ private:
       this->Heap.pop_back();
       const std::int64_t mass = this->Masses[pixel];
       // A pixel with several faces is listed several times; a group keeps some of its mass.
-      if (this->Owners[pixel] != from || mass >= this->Mass[from] ||
-        (mass > 0 && this->Planned[from] - this->Planned[to] <= mass))
+      if (this->Owners[pixel] != from || mass >= this->Mass[from])
       {
         continue;
+      }
+      if (mass > 0 && this->Planned[from] - this->Planned[to] <= mass)
+      {
+        // Lighter ones behind it would leave it as an enclave: they move where nothing else does.
+        if (this->TakesLighter)
+        {
+          continue;
+        }
+        break;
       }
       this->Owners[pixel] = to;
       this->Shift(this->Mass, mass, from, to);
@@ -374,6 +384,7 @@ private:
   double Weight[Dimension];
   std::int64_t Stride[Dimension];
   std::int64_t Rows;
+  bool TakesLighter = false;
   std::int64_t MeanMass;               // of a pixel
   std::vector<std::int64_t> FirstFace; // of each row
   std::vector<Face> Faces;
