@@ -18,6 +18,7 @@ DATA = os.path.join(ROOT, "Testing", "Data")
 IMAGES = os.path.join(ROOT, "Documentation", "Images")
 PHOTOGRAPH = os.path.join(DATA, "raccoon.png")
 BRAIN = os.path.join(DATA, "brain-t1.vti")
+NIGHT = os.path.join(DATA, "night-europe.png")
 # Numbers that several examples take: what they say, and the least that they may be.
 NUMBERS = {"size": ("pixels along the sides of the images", 8),
            "particles": ("particles a pixel; the paper has 1", 1),

@@ -139,6 +139,11 @@ def main():
     draw_example(path("cells"), "Figure5Cells", "figure5-cells.png", "--sites", "256",
                  "--resolution", "512", "--pixels", "1020")
     draw_example(path("cells-shapes"), "PowerCells", "power-cells-random.png", "--sites", "150")
+    for name, shape in (("territories", "power"), ("territories-flow", "flow")):
+        draw_example(path(name), "Territories", "territories-night-europe-%s.png" % shape,
+                     "--pixels", "1026")
+    draw_example(path("colours"), "ColourStippling", "colours-raccoon.png", "--particles", "20000",
+                 "--pixels", "760")
     draw_patterns(path("patterns"), stipple)
     draw_flow(path("flow"), stipple)
     draw_example(path("flow-maps"), "FlowMaps", "flow-maps.png")
@@ -158,9 +163,9 @@ def main():
     draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
                  "--panel", "280")
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
-    print("density, particles, volume, cartogram, cells, patterns, flow, flow-maps, map, paths, "
-          "morph, morph-3d, barycenters, splats, solid, parameterization, surface-dots, print, "
-          "video: " + arguments.output)
+    print("density, particles, volume, cartogram, cells, territories, colours, patterns, flow, "
+          "flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
+          "surface-dots, print, video: " + arguments.output)
 
 
 if __name__ == "__main__":

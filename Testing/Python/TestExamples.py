@@ -24,6 +24,9 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "StipplePrint": ["--particles", "3000", "--panel", "160"],
          "VideoStippling": ["--size", "160", "--frames", "8", "--particles", "1000",
                             "--panel", "160"],
+         "ColourStippling": ["--particles", "3000", "--iterations", "10", "--pixels", "480"],
+         "Territories": ["--sites", "40", "--iterations", "10", "--resolution", "342", "--pixels",
+                         "480"],
          "Cartogram": ["--pixels", "480"],
          "StippleSurface": ["--dots", "3000", "--panel", "300"],
          "SampleVolume": ["--particles", "50000", "--pixels", "400"],
@@ -305,6 +308,27 @@ class Examples(ExampleTest):
             self.assertGreater(float(row[3]), 1)  # nothing costs less than Power
             self.assertLess(float(row[5]), 1e-6)
         self.check_picture("power-cells-random.png")
+
+    def test_territories(self):
+        printed = self.ran("Territories")
+        rows, = tables(printed)
+        self.assertEqual([row[0] for row in rows], ["Flow", "Power"])
+        self.assertLess(float(rows[0][1]), .1)  # a pixel of a city
+        self.assertLess(float(rows[1][1]), 1e-6)
+        self.check_falls([row[3] for row in rows])
+        for shape in ("flow", "power"):
+            self.check_picture("territories-night-europe-%s.png" % shape)
+
+    def test_colour_stippling(self):
+        """The picture's colours: on the average over blocks those of the photograph, but for the
+        paper between the dots."""
+        self.ran("ColourStippling")
+        self.check_picture("colours-raccoon.png")
+        drawn = read(os.path.join(OUTPUT, "colours-raccoon.png"))[0]
+        photograph = Image.open(os.path.join(DATA, "raccoon.png")).resize(drawn.shape[1::-1])
+        expected = .84 * np.asarray(photograph, float)[::-1] + .16 * 24
+        difference = blurred(drawn, 40) - blurred(expected, 40)
+        self.assertLess(np.abs(difference).mean(), 6)
 
     def test_figure_6(self):
         printed = self.ran("Figure6Map")
