@@ -143,13 +143,6 @@ class Examples(ExampleTest):
         self.ran("StippleImage")
         self.check_picture("stipple-raccoon.png")
 
-    def test_stipple_has_the_tone_of_the_photograph(self):
-        """The dots' discs overlap a little, so that the drawing is somewhat lighter."""
-        self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
-        drawn = 1 - read(os.path.join(OUTPUT, "stipple-ascent.png"))[0].mean() / 255
-        ink = 1 - read(os.path.join(DATA, "ascent.png"))[0].mean() / 255
-        self.assertLess(abs(drawn - ink), 0.1)
-
     def test_svg(self):
         self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
         with open(os.path.join(OUTPUT, "stipple-ascent.svg"), encoding="utf-8") as file:
@@ -318,17 +311,6 @@ class Examples(ExampleTest):
         self.check_falls([row[3] for row in rows])
         for shape in ("flow", "power"):
             self.check_picture("territories-night-europe-%s.png" % shape)
-
-    def test_colour_stippling(self):
-        """The picture's colours: on the average over blocks those of the photograph, but for the
-        paper between the dots."""
-        self.ran("ColourStippling")
-        self.check_picture("colours-raccoon.png")
-        drawn = read(os.path.join(OUTPUT, "colours-raccoon.png"))[0]
-        photograph = Image.open(os.path.join(DATA, "raccoon.png")).resize(drawn.shape[1::-1])
-        expected = .84 * np.asarray(photograph, float)[::-1] + .16 * 24
-        difference = blurred(drawn, 40) - blurred(expected, 40)
-        self.assertLess(np.abs(difference).mean(), 6)
 
     def test_figure_6(self):
         printed = self.ran("Figure6Map")

@@ -13,7 +13,7 @@ from base64 import a85decode
 
 import numpy as np
 from PIL import Image
-from TestExamples import DATA, ExampleTest, first, run, tables
+from TestExamples import DATA, ExampleTest, blurred, first, read, run, tables
 from rt_testing import OUTPUT, load_plugin, main, need_display, positions
 
 PHOTOGRAPH = os.path.join(DATA, "raccoon.png")
@@ -55,6 +55,26 @@ def pdf_dots(path):
     dots = re.findall(r"q (?:(\S+ \S+ \S+) rg )?%s 0 0 %s %s %s cm (?:q )?/\S+ Do Q"
                       % ((NUMBER,) * 4), " ".join(page.split()))
     return size, page, dots
+
+
+class Photographs(ExampleTest):
+    def test_stipple_has_the_tone_of_the_photograph(self):
+        """The dots' discs overlap a little, so that the drawing is somewhat lighter."""
+        self.ran("StippleImage", os.path.join(DATA, "ascent.png"))
+        drawn = 1 - read(os.path.join(OUTPUT, "stipple-ascent.png"))[0].mean() / 255
+        ink = 1 - read(os.path.join(DATA, "ascent.png"))[0].mean() / 255
+        self.assertLess(abs(drawn - ink), 0.1)
+
+    def test_colour_stippling(self):
+        """The picture's colours: on the average over blocks those of the photograph, but for the
+        paper between the dots."""
+        self.ran("ColourStippling")
+        self.check_picture("colours-raccoon.png")
+        drawn = read(os.path.join(OUTPUT, "colours-raccoon.png"))[0]
+        photograph = Image.open(os.path.join(DATA, "raccoon.png")).resize(drawn.shape[1::-1])
+        expected = .84 * np.asarray(photograph, float)[::-1] + .16 * 24
+        difference = blurred(drawn, 40) - blurred(expected, 40)
+        self.assertLess(np.abs(difference).mean(), 6)
 
 
 class Print(ExampleTest):
