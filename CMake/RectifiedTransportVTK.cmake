@@ -13,7 +13,7 @@ option(RectifiedTransport_BUILD_PARAVIEW_PLUGIN
 set(vtk_place)
 if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   # Without components ParaView's package requires all dependencies of its client, Qt included.
-  find_package(ParaView REQUIRED COMPONENTS RemotingCore)
+  find_package(ParaView REQUIRED COMPONENTS RemotingViews)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()
 

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Display/FirstDisplay.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMRepresentationProxy.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMTransferFunctionProxy.h"
+#include "vtkWeakPointer.h"
+
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr const char* qualitativeColours = "Brewer Qualitative Set3";
+
+// The number of axes along which the data have an extent.
+int dimensionOf(vtkPVDataInformation* data)
+{
+  const double* bounds = data->GetBounds();
+  int dimension = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    dimension += bounds[2 * axis] < bounds[2 * axis + 1] ? 1 : 0;
+  }
+  return dimension;
+}
+
+bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
+{
+  return element->GetScalarAttribute(attribute, &value) != 0;
+}
+
+bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
+{
+  int value = 0;
+  if (isGiven(element, "port", value) && value != port)
+  {
+    return false;
+  }
+  const char* property = element->GetAttribute("property");
+  if (property && isGiven(element, "value", value) &&
+    vtkSMPropertyHelper(producer, property).GetAsInt() != value)
+  {
+    return false;
+  }
+  return !isGiven(element, "dimension", value) ||
+    dimensionOf(producer->GetDataInformation(static_cast<unsigned int>(port))) == value;
+}
+
+std::vector<vtkPVXMLElement*> elementsOf(vtkSMSourceProxy* producer)
+{
+  std::vector<vtkPVXMLElement*> found;
+  vtkPVXMLElement* hints = producer->GetHints();
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* element = hints->GetNestedElement(i);
+    if (element->GetName() && std::string(element->GetName()) == "FirstDisplay")
+    {
+      found.push_back(element);
+    }
+  }
+  return found;
+}
+
+vtkPVXMLElement* elementFor(vtkSMSourceProxy* producer, int port)
+{
+  for (vtkPVXMLElement* element : elementsOf(producer))
+  {
+    if (applies(element, producer, port))
+    {
+      return element;
+    }
+  }
+  return nullptr;
+}
+
+bool followsProperties(vtkSMSourceProxy* producer, int port)
+{
+  for (vtkPVXMLElement* element : elementsOf(producer))
+  {
+    int value = port;
+    isGiven(element, "port", value);
+    if (value == port && element->GetAttribute("property"))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A colour for each whole number from 0 to the highest, which a table of few colours repeats.
+void colourByCategories(vtkSMProxy* representation, int highest)
+{
+  vtkSMProxy* table = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!table)
+  {
+    return;
+  }
+  vtkSMPropertyHelper(table, "IndexedLookup").Set(1);
+  vtkSMPropertyHelper annotations(table, "Annotations");
+  annotations.SetNumberOfElements(static_cast<unsigned int>(2 * (highest + 1)));
+  for (int i = 0; i <= highest; ++i)
+  {
+    const std::string text = std::to_string(i);
+    annotations.Set(static_cast<unsigned int>(2 * i), text.c_str());
+    annotations.Set(static_cast<unsigned int>(2 * i + 1), text.c_str());
+  }
+  vtkSMTransferFunctionProxy::ApplyPreset(table, qualitativeColours, false);
+  table->UpdateVTKObjects();
+}
+
+void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMProxy* representation)
+{
+  const char* array = element->GetAttribute("array");
+  if (!array)
+  {
+    return;
+  }
+  if (!*array)
+  {
+    vtkSMPVRepresentationProxy::SetScalarColoring(representation, nullptr, vtkDataObject::POINT);
+    return;
+  }
+  for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    if (vtkPVArrayInformation* information = data->GetArrayInformation(array, association))
+    {
+      vtkSMPVRepresentationProxy::SetScalarColoring(representation, array, association);
+      int categories = 0;
+      if (isGiven(element, "categories", categories) && categories != 0)
+      {
+        colourByCategories(representation, static_cast<int>(information->GetComponentRange(0)[1]));
+      }
+      else
+      {
+        vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(representation);
+      }
+      return;
+    }
+  }
+}
+
+void setProperty(vtkSMProxy* proxy, const char* name, const char* text)
+{
+  if (!name || !text || !proxy->GetProperty(name))
+  {
+    return;
+  }
+  std::istringstream words(text);
+  std::vector<double> values;
+  for (double value = 0.0; words >> value;)
+  {
+    values.push_back(value);
+  }
+  vtkSMPropertyHelper(proxy, name).Set(values.data(), static_cast<unsigned int>(values.size()));
+}
+
+void apply(
+  vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+{
+  if (const char* type = element->GetAttribute("type"))
+  {
+    vtkSMRepresentationProxy::SetRepresentationType(representation, type);
+  }
+  colourBy(element, producer->GetDataInformation(static_cast<unsigned int>(port)), representation);
+  for (unsigned int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* set = element->GetNestedElement(i);
+    setProperty(representation, set->GetAttribute("property"), set->GetAttribute("values"));
+  }
+  representation->UpdateVTKObjects();
+}
+
+std::string typeOf(vtkSMProxy* representation)
+{
+  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
+  return type ? type : "";
+}
+
+// Follows the producer's properties, which say what the next data will be. Colours take their range
+// from these data once they are there; a type cannot be changed while the view updates.
+class Follower : public vtkCommand
+{
+public:
+  vtkTypeMacro(Follower, vtkCommand);
+
+  static Follower* New() { return new Follower; }
+
+  void Follow(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+  {
+    this->Port = port;
+    this->Representation = representation;
+    this->Remember(elementFor(producer, port));
+    producer->AddObserver(vtkCommand::UpdateEvent, this);
+    producer->AddObserver(vtkCommand::UpdateDataEvent, this);
+  }
+
+  void Execute(vtkObject* caller, unsigned long event, void*) override
+  {
+    auto* producer = vtkSMSourceProxy::SafeDownCast(caller);
+    if (!producer || !this->Representation)
+    {
+      return;
+    }
+    if (event == vtkCommand::UpdateDataEvent)
+    {
+      if (std::exchange(this->IsColoured, false))
+      {
+        vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(this->Representation);
+      }
+      return;
+    }
+    vtkPVXMLElement* element = elementFor(producer, this->Port);
+    if (element && element != this->Applied && typeOf(this->Representation) == this->Type)
+    {
+      this->Change(element);
+      this->Remember(element);
+    }
+  }
+
+private:
+  void Change(vtkPVXMLElement* element)
+  {
+    vtkSMRepresentationProxy::SetRepresentationType(
+      this->Representation, element->GetAttribute("type"));
+    const char* array = element->GetAttribute("array");
+    this->IsColoured = array != nullptr;
+    if (array || this->Applied->GetAttribute("array"))
+    {
+      vtkSMPVRepresentationProxy::SetScalarColoring(
+        this->Representation, array, vtkDataObject::POINT);
+    }
+    this->Representation->UpdateVTKObjects();
+  }
+
+  void Remember(vtkPVXMLElement* element)
+  {
+    this->Applied = element;
+    this->Type = typeOf(this->Representation);
+  }
+
+  int Port = 0;
+  bool IsColoured = false; // by an array whose range is not known yet
+  vtkWeakPointer<vtkSMProxy> Representation;
+  vtkPVXMLElement* Applied = nullptr; // of the proxy's definition, which stays
+  std::string Type;
+};
+
+} // namespace
+
+void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+{
+  if (!vtkSMPVRepresentationProxy::SafeDownCast(representation))
+  {
+    return; // of a view that is not a render view
+  }
+  if (vtkPVXMLElement* element = elementFor(producer, port))
+  {
+    apply(element, producer, port, representation);
+  }
+  if (followsProperties(producer, port))
+  {
+    vtkNew<Follower> follower;
+    follower->Follow(producer, port, representation);
+  }
+}
+
+} // namespace RectifiedTransport

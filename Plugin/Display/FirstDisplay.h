@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How an output looks when it is shown for the first time, by elements among the hints of a
+// filter's proxy; the first one that applies holds:
+//   <FirstDisplay port="0" dimension="3" property="OutputPaths" value="1" type="Wireframe"
+//     array="Time" categories="1"> <Set property="LineWidth" values="2"/> </FirstDisplay>
+// port, dimension (of the data) and property with value say when it applies, each if given; type is
+// that of the representation; array colours, by categories if they are 1, an empty name by none.
+#ifndef RectifiedTransport_FirstDisplay_h
+#define RectifiedTransport_FirstDisplay_h
+
+class vtkSMProxy;
+class vtkSMSourceProxy;
+
+namespace RectifiedTransport
+{
+
+// Sets up a representation that has just been made. Where the elements depend on properties of the
+// producer, the representation follows these later, as long as nobody has chosen another type.
+void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation);
+
+} // namespace RectifiedTransport
+
+#endif

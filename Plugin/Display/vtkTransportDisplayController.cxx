@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Display/vtkTransportDisplayController.h"
+
+#include "Display/FirstDisplay.h"
+
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkSMRepresentationProxy.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
+#include "vtkVersion.h"
+
+vtkStandardNewMacro(vtkTransportDisplayController);
+
+vtkSMProxy* vtkTransportDisplayController::Show(
+  vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view, const char* representationType)
+{
+  // Without a view the superclass chooses one, and calls this function with it.
+  const bool isFirst = producer && view && !view->FindRepresentation(producer, outputPort);
+  vtkSMProxy* shown = vtkSMParaViewPipelineControllerWithRendering::Show(
+    producer, outputPort, view, representationType);
+  if (isFirst && shown)
+  {
+    RectifiedTransport::applyFirstDisplay(producer, outputPort, shown);
+  }
+  return shown;
+}
+
+namespace
+{
+
+VTK_CREATE_CREATE_FUNCTION(vtkTransportDisplayController);
+
+class DisplayFactory : public vtkObjectFactory
+{
+public:
+  static DisplayFactory* New();
+  vtkTypeMacro(DisplayFactory, vtkObjectFactory);
+  const char* GetVTKSourceVersion() override { return VTK_SOURCE_VERSION; }
+  const char* GetDescription() override
+  {
+    return "How Rectified Transport's outputs look at first";
+  }
+
+protected:
+  DisplayFactory()
+  {
+    this->RegisterOverride("vtkSMParaViewPipelineControllerWithRendering",
+      "vtkTransportDisplayController", "sets up representations", 1,
+      vtkObjectFactoryCreatevtkTransportDisplayController);
+  }
+};
+
+vtkStandardNewMacro(DisplayFactory);
+
+// When the plugin's library is loaded.
+const bool isRegistered = []() {
+  vtkNew<DisplayFactory> factory;
+  vtkObjectFactory::RegisterFactory(factory);
+  return true;
+}();
+
+} // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransportDisplayController
+ * @brief   ParaView's controller, which sets up what a filter's output looks like at first
+ *
+ * ParaView's own hints know one type of representation for an output, whatever the data, and no
+ * array to colour by but the active scalars. This one replaces ParaView's controller in the
+ * client's factory of objects, shows as that one does, and then follows the elements FirstDisplay
+ * among the hints of the filter's proxy. Proxies without these are shown as ever.
+ *
+ * @sa vtkSMParaViewPipelineControllerWithRendering
+ */
+#ifndef vtkTransportDisplayController_h
+#define vtkTransportDisplayController_h
+
+#include "vtkSMParaViewPipelineControllerWithRendering.h"
+
+class vtkTransportDisplayController : public vtkSMParaViewPipelineControllerWithRendering
+{
+public:
+  static vtkTransportDisplayController* New();
+
+  // No vtkTypeMacro: Python looks the class up by its name, and knows the superclass only.
+  using vtkSMParaViewPipelineControllerWithRendering::Show;
+  vtkSMProxy* Show(vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view,
+    const char* representationType) override;
+
+protected:
+  vtkTransportDisplayController() = default;
+  ~vtkTransportDisplayController() override = default;
+
+private:
+  vtkTransportDisplayController(const vtkTransportDisplayController&) = delete;
+  void operator=(const vtkTransportDisplayController&) = delete;
+};
+
+#endif
