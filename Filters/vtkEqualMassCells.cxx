@@ -10,6 +10,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
+#include "Bridge/SiteCells/SiteColorArray.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -221,6 +222,7 @@ int vtkEqualMassCells::RequestData(
     }
     report = cells.Run(input, domain, this->Internals->Labels, progress, outputs);
   }
+  addSiteColors(labels, input->GetNumberOfPoints(), progress);
   // Without a Domain the grid may not be known before the data.
   announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   if (report.Outside > 0)

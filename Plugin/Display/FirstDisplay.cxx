@@ -11,7 +11,10 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMRepresentationProxy.h"
 #include "vtkSMSourceProxy.h"
+#include "vtkSMTransferFunctionManager.h"
 #include "vtkSMTransferFunctionProxy.h"
+#include "vtkSMViewProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <sstream>
@@ -241,8 +244,20 @@ private:
     this->IsColoured = array != nullptr;
     if (array || this->Applied->GetAttribute("array"))
     {
+      vtkSMViewProxy* view = vtkSMViewProxy::FindView(this->Representation);
+      const bool hasBar =
+        vtkSMPVRepresentationProxy::IsScalarBarVisible(this->Representation, view);
+      vtkSmartPointer<vtkSMProxy> table =
+        vtkSMPropertyHelper(this->Representation, "LookupTable").GetAsProxy();
       vtkSMPVRepresentationProxy::SetScalarColoring(
         this->Representation, array, vtkDataObject::POINT);
+      if (hasBar)
+      {
+        vtkNew<vtkSMTransferFunctionManager> manager;
+        manager->HideScalarBarIfNotNeeded(table, view);
+        vtkSMPVRepresentationProxy::SetScalarBarVisibility(
+          this->Representation, view, this->IsColoured);
+      }
     }
     this->Representation->UpdateVTKObjects();
   }
