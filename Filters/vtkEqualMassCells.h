@@ -34,8 +34,9 @@
  * with SetInputArrayToProcess(0, 1, 0, ...), and pixels, of any number, are on its domain.
  *
  * Outputs:
- * - 0, `Labels`: a vtkImageData of the domain, with the cell array `SiteId` (active scalars): the
- *   index of each pixel's site;
+ * - 0, `Labels`: a vtkImageData of the domain, with the cell arrays `SiteId` (active scalars), the
+ *   index of each pixel's site, and `SiteColor` (unsigned char), a number that differs between
+ *   sites with pixels side by side (where there are more than 256 of them, 255 may not);
  * - 1, `Sites`: the data set of input 0 with the point arrays `CellMass`, `CellCentroid` (3
  *   components) and `CellCost` of the sites' cells (the cell's share of the cost: these add up to
  *   it);
