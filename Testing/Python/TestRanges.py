@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A property has one range: the panel's text, its domain and the page give the same, and the
-filter takes what is in it and refuses by name what is just outside."""
+"""A property has one range: the panel's text and the page give the same, its domain is that or, for
+the slider, a part of it from its lowest, and the filter takes what is in it and refuses by name what is
+just outside."""
 import math
 import re
 import unittest
@@ -11,6 +12,8 @@ from rt_testing import Listener, connect_inputs, density_image, main, points_in,
 
 # A text on bounds or on a choice of several numbers states no range of one number.
 WITHOUT = {"Bounds"}
+# A slider of 100 pixels has steps of a hundredth of this.
+LONGEST_SLIDER = 100000
 # What takes 10 GB at its highest is not tried there.
 LARGE = {("Area-Preserving Parameterization", "Resolution"), ("Sample Surface", "Resolution")}
 
@@ -103,9 +106,13 @@ class Ranges(unittest.TestCase):
                 shown = domain(prop)
                 self.assertIsNotNone(shown, "a domain")
                 self.assertEqual(shown.tag[:3], prop.element.tag[:3])
-                self.assertEqual((float(shown.get("min", -math.inf)),
-                                  float(shown.get("max", math.inf))),
-                                 (stated.lowest, stated.highest), prop.documentation)
+                self.assertEqual(float(shown.get("min", -math.inf)), stated.lowest)
+                end = float(shown.get("max", math.inf))
+                self.assertLessEqual(end, stated.highest, prop.documentation)
+                for value in map(float, prop.default.split()):
+                    self.assertLessEqual(value, end)
+                if stated.lowest > -math.inf and end < math.inf:  # there is a slider
+                    self.assertLessEqual(end, LONGEST_SLIDER)
 
     def test_panel_text_and_page(self):
         for case, proxy, prop in self.each_range():

@@ -72,15 +72,31 @@ ALWAYS_SHOWN = {("Relax Blue Noise", "Tolerance")}  # of another meaning than th
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
 SECOND_OUTPUT = [("View", {"type": "None", "port": "1"}),
                  ("RepresentationType", {**POINTS, "port": "1"})]
+VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
+FIRST_VOLUME = ("FirstDisplay", {"port": "0", **VOLUME[1]})
 SHOWN = {  # how an output is shown at first, where it is not as ParaView shows all
-    "Sample Density": [("RepresentationType", POINTS)],
+    "Sample Density": [("RepresentationType", POINTS),
+                       ("FirstDisplay", {"property": "OutputPaths", "value": "1",
+                                         "type": "Wireframe", "array": "Time"}),
+                       ("FirstDisplay", {"property": "OutputPaths", "value": "0",
+                                         "type": "Point Gaussian"})],
+    "Transport Map": [("FirstDisplay", {"dimension": "3", "type": "Surface",
+                                        "array": "Displacement"}),
+                      ("FirstDisplay", {"array": "Displacement"})],
+    "Splat Mass": [VOLUME],
+    "Solid Density": [VOLUME],
     "Sample Surface": [("RepresentationType", POINTS)],
     "Uniform Seeds": [("RepresentationType", POINTS)],
     "Relax Blue Noise": [("RepresentationType", POINTS)],
-    "Morph Densities": SECOND_OUTPUT,
-    "Density Barycenter": SECOND_OUTPUT,
+    "Morph Densities": [*SECOND_OUTPUT, FIRST_VOLUME],
+    "Density Barycenter": [*SECOND_OUTPUT, FIRST_VOLUME],
     "Equal-Mass Cells": [("RepresentationType",
-                          {"view": "RenderView", "type": "Surface", "port": "0"})],
+                          {"view": "RenderView", "type": "Surface", "port": "0"}),
+                         ("View", {"type": "None", "port": "1"}),
+                         ("FirstDisplay", {"port": "0", "array": "SiteColor", "categories": "1"}),
+                         ("FirstDisplay", {"port": "2", "dimension": "3",
+                                           "type": "Feature Edges", "array": ""}),
+                         ("FirstDisplay", {"port": "2", "array": ""})],
     "Transport Quality": [("View", {"type": "SpreadSheetView"})],
 }
 
@@ -217,6 +233,7 @@ class XML(unittest.TestCase):
                     optional = bool(information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()))
                     self.assertEqual(prop.element.find("Hints/Optional") is not None, optional)
                     self.assertEqual(prop.element.get("null_on_empty") == "1", optional)
+                    self.assertEqual(prop.element.get("panel_widget") == "input_selector", optional)
                     several = bool(information.Has(vtkAlgorithm.INPUT_IS_REPEATABLE()))
                     self.assertEqual(prop.element.get("multiple_input") == "1", several)
                     self.assertEqual(prop.element.get("clean_command") is not None, several)
@@ -280,6 +297,19 @@ class XML(unittest.TestCase):
                 hints = [(e.tag, dict(e.attrib)) for e in proxy.element.find("Hints")]
                 self.assertEqual(hints[0], ("ShowInMenu", {"category": "Transport"}))
                 self.assertEqual(hints[1:], SHOWN.get(proxy.label, []))
+
+    def test_what_an_error_names_is_not_advanced(self):
+        for case, _, prop in self.each_property():
+            with case:
+                if prop.name in {"Component", "NegativeValues", "InvertDensity"}:
+                    self.assertIsNone(prop.element.get("panel_visibility"))
+
+    def test_morph_begins_with_its_parameter(self):
+        """And has its arrays side by side."""
+        morph = next(proxy for _, proxy in self.each() if proxy.label == "Morph Densities")
+        groups = [[e.get("name") for e in group.findall("Property")] for group in morph.groups]
+        self.assertEqual(groups[0], ["Parameter", "PublishTime", "NumberOfTimeSteps"])
+        self.assertEqual(groups[1][:2], ["DensityArray", "TargetArray"])
 
     def test_decorators_name_what_there_is(self):
         for case, proxy, prop in self.each_property():
