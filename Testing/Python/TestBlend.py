@@ -273,6 +273,13 @@ class Morph(Blend):
         morph = simple.MorphDensities(Input=series, Target=self.sources[3], PublishTime=1)
         morph.UpdatePipelineInformation()
         self.assertEqual(len(morph.TimestepValues), 11)
+        # The scene has them in place of its input's, beside those of another series.
+        keeper = simple.GetTimeKeeper()
+        self.assertEqual(list(keeper.TimestepValues), list(morph.TimestepValues))
+        other = simple.XMLImageDataReader(FileName=paths)
+        other.UpdatePipelineInformation()
+        self.assertEqual(list(keeper.TimestepValues), [*morph.TimestepValues, 2])
+        simple.Delete(other)
         when = None
         for time in (0.0, 0.5, 1.0):
             morph.UpdatePipeline(time)
@@ -284,6 +291,7 @@ class Morph(Blend):
         morph.PublishTime = 0
         morph.UpdatePipelineInformation()
         self.assertEqual(list(morph.TimestepValues), [0, 1, 2])
+        self.assertEqual(list(keeper.TimestepValues), [0, 1, 2])
         morph.UpdatePipeline(2.0)
         found = density_of(morph.GetClientSideObject().GetDensity())
         np.testing.assert_array_equal(found, morph_of(self.images[2], self.images[3]))
