@@ -56,6 +56,7 @@ class Gui(unittest.TestCase):
                    os.path.join(OUTPUT, picture), ["--script=" + script])
         self.assertRegex(log, r"Success =\s+true")
         self.assertNotIn("ERR|", log)
+        self.assertNotIn("pqGenericPropertyWidgetDecorator", log)
         return ElementTree.parse(state).getroot()
 
     def test_first_stippling(self):
@@ -115,7 +116,7 @@ class Gui(unittest.TestCase):
         self.assertEqual(styles.count("Point Gaussian"), 2)
 
     def test_cells_of_seeds(self):
-        """The domain is optional: nothing is asked, and all three outputs are shown."""
+        """The domain is optional: nothing is asked. Cells and outlines are shown, not the sites."""
         saved = self.state_after("gui-cells.png", choose("Sources", "UniformSeedSource"), APPLY,
                                  choose("Filters", "EqualMassCells"), APPLY)
         found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
@@ -123,7 +124,31 @@ class Gui(unittest.TestCase):
         shown = {element.get("output_port") for prop in saved.iter("Property")
                  if prop.get("name") == "Input" for element in prop.findall("Proxy")
                  if element.get("value") == cells}
-        self.assertEqual(shown, {"0", "1", "2"})
+        self.assertEqual(shown, {"0", "2"})
+
+    def test_optional_inputs(self):
+        """They are chosen on the panel, and taken away there."""
+        domain = PANEL + "Domain/1QComboBox0"
+        steps = (choose("Sources", "UniformSeedSource"), APPLY, choose("Filters", "EqualMassCells"),
+                 (domain, "set_string", "Photograph"), APPLY)
+        for picture, more, count in (("gui-domain.png", (), 1),
+                                     ("gui-no-domain.png", ((domain, "set_string", "(none)"), APPLY),
+                                      0)):
+            saved = self.state_after(picture, *steps, *more)
+            cells = next(proxy for proxy in saved.iter("Proxy")
+                         if proxy.get("type") == "EqualMassCells")
+            given = next(prop for prop in cells.iter("Property") if prop.get("name") == "Domain")
+            self.assertEqual(len(given.findall("Proxy")), count)
+
+    def test_numbers_beyond_a_slider_are_typed(self):
+        number = PANEL + "NumberOfParticles/IntRangeWidget/LineEdit"
+        saved = self.state_after("gui-typed.png", choose("Filters", "TransportSampler"),
+                                 (number, "set_string", "150000"), APPLY)
+        sampler = next(proxy for proxy in saved.iter("Proxy")
+                       if proxy.get("type") == "TransportSampler")
+        values = [prop.find("Element").get("value") for prop in sampler.iter("Property")
+                  if prop.get("name") == "NumberOfParticles"]
+        self.assertEqual(values, ["150000"])
 
     def test_morph_plays(self):
         """With PublishTime the play button runs over the filter's steps, to the last one."""

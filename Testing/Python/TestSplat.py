@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Splat Mass in ParaView: mass by ParaView's own integral, arrays to choose, the reference."""
+import os
+import tempfile
 import unittest
 
 import numpy as np
-from rt_testing import Listener, density_image, load_plugin, main, output_of, points_in, producer
+from rt_testing import (OUTPUT, Listener, density_image, load_plugin, main, output_of, points_in,
+                        producer)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 simple = load_plugin()
@@ -56,6 +59,30 @@ class Splat(unittest.TestCase):
             reported = Listener(splat.GetClientSideObject())
             self.assertAlmostEqual(total(splat), 400, delta=1e-9)
             self.assertEqual(reported.errors, [])
+
+    def test_mass_is_chosen_by_itself(self):
+        image = producer(simple, density_image((6, 5, 4)))
+        dots = simple.SampleDensity(image, NumberOfParticles=100)
+        mass = output_of(dots).GetFieldData().GetArray("TotalMass").GetValue(0)
+        splat = simple.SplatMass(dots, Dimensions=[4, 4, 4])
+        self.assertEqual(list(splat.MassArray), ["POINTS", "Mass"])
+        self.assertAlmostEqual(total(splat) / mass, 1, delta=1e-12)
+
+    def test_a_choice_of_no_mass_is_kept(self):
+        """In a script, and in a state, as those of before the default have it."""
+        image = simple.Wavelet(WholeExtent=[0, 5, 0, 5, 0, 5])
+        dots = simple.SampleDensity(image, NegativeValues="Clamp", NumberOfParticles=100)
+        splat = simple.SplatMass(dots, Dimensions=[4, 4, 4], MassArray=["POINTS", "None"],
+                                 registrationName="Splat")
+        self.assertAlmostEqual(total(splat), 100, delta=1e-9)
+        with tempfile.TemporaryDirectory(dir=OUTPUT) as folder:
+            path = os.path.join(folder, "state.pvsm")
+            simple.SaveState(path)
+            simple.ResetSession()
+            simple.LoadState(path)
+        loaded = simple.FindSource("Splat")
+        self.assertEqual(loaded.MassArray[1], "None")
+        self.assertAlmostEqual(total(loaded), 100, delta=1e-9)
 
     def test_mass_arrays_to_choose_have_one_component(self):
         splat = simple.SplatMass(Input=producer(simple, cloud()))
