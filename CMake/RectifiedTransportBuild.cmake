@@ -8,6 +8,10 @@ if (RectifiedTransport_BUILD_TESTING)
   set(tests ON)
 endif ()
 
+if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
+  include("${PROJECT_SOURCE_DIR}/CMake/RectifiedTransportHelp.cmake")
+endif ()
+
 vtk_module_scan(
   MODULE_FILES "${PROJECT_SOURCE_DIR}/vtk.module"
   REQUEST_MODULES RectifiedTransport::vtkRectifiedTransport
@@ -50,6 +54,10 @@ if (RectifiedTransport_WRAP_PYTHON)
 endif ()
 
 if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
+  set(without_help ON)
+  if (RectifiedTransport_BUILD_HELP)
+    set(without_help OFF)
+  endif ()
   paraview_plugin_scan(
     PLUGIN_FILES "${PROJECT_SOURCE_DIR}/Plugin/paraview.plugin"
     PROVIDES_PLUGINS plugins
@@ -59,5 +67,5 @@ if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
     PLUGINS_FILE_NAME rectifiedtransport.plugins.xml
     AUTOLOAD ${plugins}
     LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
-    DISABLE_XML_DOCUMENTATION ON)
+    DISABLE_XML_DOCUMENTATION "${without_help}")
 endif ()

@@ -6,6 +6,7 @@ build="$root/build"
 apt_log="$build/apt.log"
 packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
   libopenmpi-dev libfreetype-dev libglew-dev libopengl-dev libx11-dev"
+packages_help="qhelpgenerator-qt5 python3-markdown python3-pil"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python3-reportlab python-matplotlib-data"
 packages_test="libgtest-dev libbenchmark-dev poppler-utils $packages_examples"
@@ -118,6 +119,13 @@ need_to_build()
   fi
 }
 
+# What makes the help in ParaView's window, which the build leaves out without it.
+need_for_help()
+{
+  # shellcheck disable=SC2086
+  need $packages_help || echo "The plugin is built without help in ParaView's window" >&2
+}
+
 # download PACKAGE...: into the current folder, which apt's own user must be able to write to.
 download()
 {
@@ -181,7 +189,9 @@ build_release()
   if [ "${CI:-}" = true ]; then
     warnings=ON
   fi
-  configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release \
+  need_for_help
+  # -U, for what the help needs may have come since the last time.
+  configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release -URectifiedTransport_BUILD_HELP \
     -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON -DRectifiedTransport_BUILD_EXAMPLES=ON \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
 }
