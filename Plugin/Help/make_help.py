@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the pages of ParaView's help, and the project file that qhelpgenerator compiles, of the pages
-in Documentation/.
+"""Makes pages for ParaView's help of those in Documentation/, and the project file that qhelpgenerator
+compiles.
 
 A filter's page gets the name that ParaView's ? asks for: the proxy's group and name. The pages are in
 the part of HTML that Qt's text browser knows.

@@ -7,7 +7,8 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 from rt_testing import OUTPUT, SOURCE, main, need_display
-from rt_window import APPLY, PANEL, choose, first_stippling, play, tick, write_settings
+from rt_window import (APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, play, tick,
+                       write_settings)
 
 OPEN = """
 from paraview.simple import *
@@ -80,6 +81,14 @@ class Gui(unittest.TestCase):
         styles = [element.get("value") for prop in saved.iter("Property")
                   if prop.get("name") == "Representation" for element in prop.iter("Element")]
         self.assertEqual(styles.count("Point Gaussian"), 2)
+
+    @unittest.skipUnless(os.environ.get("RT_HELP"), "the plugin is built without help")
+    def test_help(self):
+        """? opens the page of the filter that the panel shows."""
+        self.state_after("gui-help.png", choose("Filters", "TransportSampler"), HELP,
+                         (HELP_PAGE, "is documentTitle", "Sample Density"),
+                         choose("Sources", "UniformSeedSource"), HELP,
+                         (HELP_PAGE, "is documentTitle", "Uniform Seeds"))
 
     def test_two_inputs(self):
         saved = self.state_after("gui-two-inputs.png", choose("Filters", "TransportMap"), APPLY,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The help that is compiled for ParaView's window: a page for each filter under the name that ParaView's
-? asks for, with all of its properties; links and pictures that are there; and the plugin has it."""
+"""The help that is compiled for ParaView's window: a page for each filter under the name that its ?
+asks for, with all of its properties; links and pictures that are there; and the plugin has it."""
 import base64
 import os
 import re
@@ -22,7 +22,8 @@ def compiled():
     folder, = database.execute("select Name from FolderTable").fetchone()
     files = {name: zlib.decompress(data[4:])  # after the length that Qt writes
              for name, data in database.execute(
-                 "select Name, Data from FileNameTable join FileDataTable on FileId = Id where Data is not null")}
+                 "select Name, Data from FileNameTable join FileDataTable on FileId = Id "
+                 "where Data is not null")}
     database.close()
     return namespace, folder, files
 

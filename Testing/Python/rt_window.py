@@ -12,6 +12,9 @@ PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
          "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
 
+HELP = ("propertiesDock/propertiesPanel/Help", "activate", "")  # the ? of the panel
+HELP_PAGE = "pqHelpWindow/1QTextBrowser0"
+
 
 def choose(menu, name):
     return "menubar/menu%s/Transport" % menu, "activate", name
@@ -37,12 +40,15 @@ def first_stippling(photograph):
 
 
 def write_events(path, steps):
-    """A recording of (object, command, arguments); a name that begins with / is not in the window."""
+    """A recording of (object, command, arguments); a name that begins with / is not in the window.
+    The command "is PROPERTY" compares a property of the object with the arguments."""
     root = ElementTree.Element("pqevents")
     for target, command, arguments in steps:
-        ElementTree.SubElement(
-            root, "pqevent", command=command, arguments=arguments,
-            object=target[1:] if target.startswith("/") else WINDOW + target)
+        kind, what = "pqevent", {"command": command}
+        if command.startswith("is "):
+            kind, what = "pqcheck", {"property": command[3:]}
+        ElementTree.SubElement(root, kind, arguments=arguments, **what,
+                               object=target[1:] if target.startswith("/") else WINDOW + target)
     ElementTree.ElementTree(root).write(path)
 
 
