@@ -176,7 +176,7 @@ def lengths(vectors):
 
 def quality(particles, density, block):
     """The row of Transport Quality by column, for ink."""
-    measure = simple.TransportQuality(Input=particles, Density=density, InvertDensity=1,
+    measure = simple.TransportQuality(particles, Density=density, InvertDensity=1,
                                       BlockSize=block)
     row = example.fetch(measure)
     simple.Delete(measure)

@@ -21,13 +21,13 @@ def main():
         parser.error("%d shapes are given; it must be three" % len(arguments.shapes))
 
     example.load_plugin()
-    solids = [simple.SolidDensity(Input=example.producer(shapes.posed(name)),
+    solids = [simple.SolidDensity(example.producer(shapes.posed(name)),
                                   Resolution=arguments.resolution) for name in arguments.shapes]
     watch = shapes.Watch()
     for solid in solids:
         example.result(solid)
     voxels = watch.lap()
-    mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
+    mean = simple.DensityBarycenter(solids, Kernel="Gaussian")
     step, last = arguments.panel, arguments.rows - 1
     picture = np.full((arguments.rows * step, arguments.rows * step, 3), 255, np.uint8)
     times = []

@@ -92,7 +92,7 @@ def main():
     bounds = example.pixel_bounds(data)
     surface = simple.ExtractSurface(Input=image)
     parts = [surface, *map(example.producer, grid(bounds, arguments.columns, arguments.rows))]
-    warped = [simple.DensityEqualizingWarp(Input=part, Density=image, Blend=arguments.blend,
+    warped = [simple.DensityEqualizingWarp(part, Density=image, Blend=arguments.blend,
                                            InvertDensity=1) for part in parts]
     example.result(warped[0])
 

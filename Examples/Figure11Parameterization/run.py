@@ -62,7 +62,7 @@ def row(name, words, triangles, points, map_, seconds):
 def measure(name, mesh, resolution):
     """Rows of the table, the mesh with its maps, and the one of the flow alone."""
     source = example.producer(mesh)
-    maps = simple.AreaPreservingParameterization(Input=source, Resolution=resolution)
+    maps = simple.AreaPreservingParameterization(source, Resolution=resolution)
     clock = time.perf_counter()
     alone = example.result(maps, Polish=0)
     middle = time.perf_counter()

@@ -69,7 +69,7 @@ def main():
     square.SetDimensions(2, 2, 1)
     sets, masses, costs = [], [], []
     for name, sites in make_sites(arguments.sites, arguments.seed).items():
-        sets.append(simple.EqualMassCells(Input=example.producer(figures.polydata(sites)),
+        sets.append(simple.EqualMassCells(example.producer(figures.polydata(sites)),
                                           Domain=example.producer(square),
                                           Resolution=arguments.resolution, Threading="Serial"))
         mass, cost = measure(name, sets[-1], arguments.sites)

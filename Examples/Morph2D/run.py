@@ -24,7 +24,7 @@ def main():
     rows, pictures = [], []
     for pair in pairs:
         images = [example.producer(shapes.silhouette(name, arguments.size)) for name in pair]
-        morph = simple.MorphDensities(Input=images[0], Target=images[1],
+        morph = simple.MorphDensities(images[0], Target=images[1],
                                       ParticlesPerCell=arguments.particles, Parameter=0,
                                       **shapes.SMOOTH)
         watch, line, times = shapes.Watch(), [], []

@@ -22,13 +22,13 @@ def morph(names, options):
     for name in names:
         mesh = example.producer(shapes.posed(name))
         watch.lap()
-        solid = simple.SolidDensity(Input=mesh, Resolution=options.resolution)
+        solid = simple.SolidDensity(mesh, Resolution=options.resolution)
         density = example.result(solid)
         if options.cube:
             solid = example.producer(shapes.cubed(density, options.resolution))
         took("solid of " + name)
         solids.append(solid)
-    between = simple.MorphDensities(Input=solids[0], Target=solids[1], Kernel=options.kernel)
+    between = simple.MorphDensities(solids[0], Target=solids[1], Kernel=options.kernel)
     pictures = []
     for t in np.linspace(0, 1, options.frames):
         watch.lap()

@@ -60,7 +60,7 @@ def main():
     images = [shapes.silhouette(name, arguments.size) for name in arguments.shapes]
     for image in images:
         image.GetPointData().GetScalars().SetName("Density")
-    morph = simple.MorphDensities(Input=example.producer(images[0]),
+    morph = simple.MorphDensities(example.producer(images[0]),
                                   Target=example.producer(images[1]),
                                   ParticlesPerCell=arguments.particles, PublishTime=1,
                                   NumberOfTimeSteps=arguments.frames, **shapes.SMOOTH)

@@ -28,7 +28,7 @@ def divide(sites, shape, resolution):
     """The cells of sites in the unit square, and the time that they take."""
     square = vtkImageData()
     square.SetDimensions(2, 2, 1)
-    cells = simple.EqualMassCells(Input=example.producer(figures.polydata(sites)),
+    cells = simple.EqualMassCells(example.producer(figures.polydata(sites)),
                                   Domain=example.producer(square), Shape=shape,
                                   Resolution=resolution, Threading="Serial")
     return cells, figures.seconds(cells)

@@ -57,7 +57,7 @@ def draw_patterns(path, stipple):
 
 def draw_flow(path, stipple):
     photograph = example.open_image(example.PHOTOGRAPH)
-    draw_row(path, [simple.SampleDensity(Input=photograph, InvertDensity=1, NumberOfParticles=3000,
+    draw_row(path, [simple.SampleDensity(photograph, InvertDensity=1, NumberOfParticles=3000,
                                          FlowTime=time) for time in (0, 0.5, 0.8, 1)],
              [1024, 768], 6, 1200, stipple)
 
@@ -70,7 +70,7 @@ def flat_picture(path, view, centre, half_height):
 
 def draw_map(path):
     """A grid as the map bends it: its cells hold equal masses."""
-    transport = simple.TransportMap(Input=example.open_image(example.PHOTOGRAPH), InvertDensity=1,
+    transport = simple.TransportMap(example.open_image(example.PHOTOGRAPH), InvertDensity=1,
                                     SampleDimensions=[120, 90, 1])
     transport.UpdatePipeline()  # WarpByVector looks for its vectors when it is made
     view = example.picture_view(STRIP, [1, 1, 1])
@@ -83,7 +83,7 @@ def draw_map(path):
 
 
 def draw_paths(path):
-    paths = simple.SampleDensity(Input=example.open_image(example.PHOTOGRAPH), InvertDensity=1,
+    paths = simple.SampleDensity(example.open_image(example.PHOTOGRAPH), InvertDensity=1,
                                  NumberOfParticles=250, OutputPaths=1)
     view = example.picture_view(STRIP, [1, 1, 1])
     shown = simple.Show(paths, view, "GeometryRepresentation")
@@ -98,7 +98,7 @@ def draw_splats(path, stipple, cells=(80, 60), side=240):
     dots, radius = stipple.stipple(example.open_image(example.PHOTOGRAPH), 10000)
     row = [("particles", figures.drawn(stipple.write_png, dots, [-0.5, 1023.5, -0.5, 767.5],
                                        radius, side))]
-    splat = simple.SplatMass(Input=dots, Dimensions=[*cells, 1], MassArray=["POINTS", "Mass"])
+    splat = simple.SplatMass(dots, Dimensions=[*cells, 1], MassArray=["POINTS", "Mass"])
     for kernel in ("NearestCell", "CloudInCell", "TriangularShapedCloud", "Gaussian"):
         splat.Kernel = kernel
         ink = np.clip(figures.values_of(example.result(splat)), 0, 255)

@@ -45,7 +45,7 @@ def main():
 
     example.load_plugin()
     volume = example.open_image(arguments.volume)
-    cloud = simple.SampleDensity(Input=volume, NumberOfParticles=arguments.particles)
+    cloud = simple.SampleDensity(volume, NumberOfParticles=arguments.particles)
     data = example.result(cloud)
     bounds = data.GetBounds()
     room = math.prod(bounds[2 * i + 1] - bounds[2 * i] for i in range(3))

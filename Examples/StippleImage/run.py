@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 def stipple(image, number, **options):
     """The dots of an image and the radius that gives them the photograph's amount of ink."""
-    dots = simple.SampleDensity(Input=image, **options)
+    dots = simple.SampleDensity(image, **options)
     dots.InvertDensity = 1  # dark ink is mass
     dots.NumberOfParticles = number
     mass = example.result(dots).GetPointData().GetArray("Mass").GetValue(0)

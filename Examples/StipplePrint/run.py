@@ -21,7 +21,7 @@ def dots(colours, style, number, exponent):
     ink = (1 - light).clip(0)
     density = ink if style == "equal" else ink ** exponent
     source = example.producer(figures.image_of(density))
-    sampler = simple.SampleDensity(Input=source, NumberOfParticles=number)
+    sampler = simple.SampleDensity(source, NumberOfParticles=number)
     data = example.result(sampler)
     points = vtk_to_numpy(data.GetPoints().GetData())[:, :2].copy()
     share = data.GetPointData().GetArray("Mass").GetValue(0)

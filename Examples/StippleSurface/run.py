@@ -70,7 +70,7 @@ def main():
     mesh, pose = disks.read(arguments.surface)
     add_curvature(mesh)
     source = example.producer(mesh)
-    stipple = simple.SampleSurface(Input=source, NumberOfParticles=arguments.dots)
+    stipple = simple.SampleSurface(source, NumberOfParticles=arguments.dots)
     rows, pictures = [], []
     for words, array in ("by area", ["POINTS", "None"]), ("by curvature", ["POINTS", "Curvature"]):
         dots = example.result(stipple, DensityArray=array)

@@ -86,7 +86,7 @@ class Stippling:
         height, width = frames[0].shape
         self.size, self.number = (width, height), len(frames)
         self.series = video.write_series(folder, name, frames)
-        self.sampler = simple.SampleDensity(Input=self.series, InvertDensity=1,
+        self.sampler = simple.SampleDensity(self.series, InvertDensity=1,
                                             NumberOfParticles=number)
         example.result(self.sampler)
         self.view = example.picture_view([panel, round(panel * height / width)], [1, 1, 1])
