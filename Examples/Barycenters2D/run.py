@@ -23,7 +23,7 @@ def main():
     example.load_plugin()
     images = [example.producer(shapes.silhouette(name, arguments.size))
               for name in arguments.shapes]
-    mean = simple.DensityBarycenter(images, ParticlesPerCell=arguments.particles,
+    mean = simple.DensityBarycenter(Input=images, ParticlesPerCell=arguments.particles,
                                     **shapes.SMOOTH)
     watch, pictures, times = shapes.Watch(), [], []
     for down in np.linspace(0, 1, arguments.rows):

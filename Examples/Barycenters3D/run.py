@@ -27,7 +27,7 @@ def main():
     for solid in solids:
         example.result(solid)
     voxels = watch.lap()
-    mean = simple.DensityBarycenter(solids, Kernel="Gaussian")
+    mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian")
     step, last = arguments.panel, arguments.rows - 1
     picture = np.full((arguments.rows * step, arguments.rows * step, 3), 255, np.uint8)
     times = []
