@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Remakes the three tasks of Documentation/Tutorial.md: a picture of each, the film of the morph, and,
+with --states, the state files beside this script."""
+import math
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), os.pardir))
+import rectified_example as example
+import rectified_figures as figures
+from paraview import simple
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PLUME = [os.path.join(HERE, "plume-%d.vti" % i) for i in range(2)]
+BLUE, ORANGE = [0.13, 0.4, 0.67], [0.9, 0.45, 0.1]
+
+
+def new_view(size):
+    """An empty session with a white view, lit as ParaView lights it."""
+    simple.ResetSession()
+    view = simple.CreateRenderView(registrationName="View", ViewSize=size)
+    # Views that no layout has are not seen in the window that opens a state.
+    simple.AssignViewToLayout(view, simple.CreateLayout("Tutorial"))
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 0
+    return view
+
+
+def look(view, middle, away, up, height):
+    """Looks at a point without perspective."""
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = middle
+    view.CameraPosition = [m + a for m, a in zip(middle, away)]
+    view.CameraViewUp = up
+    view.CameraParallelScale = height / 2
+
+
+def figure(source, port, name):
+    """A number in the field data of an output."""
+    source.UpdatePipeline()
+    return simple.OutputPort(source, port).FieldData[name].GetRange()[0]
+
+
+def stipple_a_slice(pixels):
+    """Dots in a slice through smoke, as many in every part as its share of it."""
+    view = new_view([pixels, pixels])
+    plume = simple.XMLImageDataReader(registrationName="Plume", FileName=PLUME)
+    plume.UpdatePipeline(1)
+    cut = simple.Slice(registrationName="Slice", Input=plume)
+    cut.SliceType.Origin = [2, 2, 4]
+    cut.SliceType.Normal = [0.5, 1, 0]
+    dots = simple.SampleDensity(cut, registrationName="Dots", NumberOfParticles=20000)
+    dots.DensityArray = ["POINTS", "Smoke"]
+
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = 1
+    shown = simple.Show(dots, view)
+    shown.SetRepresentationType("Point Gaussian")
+    shown.ShaderPreset = "Plain circle"
+    shown.GaussianRadius = 0.005
+    example.paint(shown, [0, 0, 0])
+    edge = simple.Show(cut, view)
+    edge.SetRepresentationType("Outline")
+    example.paint(edge, [0.6, 0.6, 0.6])
+    look(view, [2, 2, 4.2], [-5, -10, 0], [0, 0, 1], 3)
+    simple.SetActiveSource(dots)
+    return view, "%d dots, %.4f m² of smoke" % (
+        example.result(dots).GetNumberOfPoints(), figure(dots, 0, "TotalMass") / 255)
+
+
+def morph_two_volumes(pixels, frames, resolution):
+    """A brain becomes a cow, in time steps that ParaView plays."""
+    view = new_view([pixels, pixels])
+    brain = simple.XMLImageDataReader(registrationName="Brain", FileName=[example.BRAIN])
+    cow = simple.XMLPolyDataReader(registrationName="Cow",
+                                   FileName=[os.path.join(example.DATA, "spot.vtp")])
+    place = simple.Transform(registrationName="Place", Input=cow, Transform="Transform")
+    place.Transform.Rotate = [90, 0, 0]
+    place.Transform.Scale = [100, 100, 100]
+    brain.UpdatePipeline()
+    box = brain.GetDataInformation().GetBounds()
+    place.Transform.Translate = [(box[2 * i] + box[2 * i + 1]) / 2 for i in range(3)]
+    solid = simple.SolidDensity(place, registrationName="Solid", Resolution=resolution)
+    morph = simple.MorphDensities(brain, registrationName="Morph", Target=solid,
+                                  Dimensions=[resolution] * 3, MassMode="Source", PublishTime=1,
+                                  NumberOfTimeSteps=frames, ParticlesPerCell=2, NumberOfSteps=48,
+                                  Kernel="TriangularShapedCloud")
+    data = example.result(morph)
+    surface = simple.Contour(registrationName="Surface", Input=morph)
+    surface.ContourBy = ["POINTS", "Density"]
+    surface.Isosurfaces = [40]
+
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.PlayMode = "Snap To TimeSteps"
+    shown = simple.Show(surface, view)
+    example.paint(shown, [0.93, 0.72, 0.65])
+    shown.Specular = 0.4
+    middle = [(a + b) / 2 for a, b in zip(data.GetBounds()[::2], data.GetBounds()[1::2])]
+    look(view, middle, [350, -300, 160], [0, 0, 1], 240)
+    simple.SetActiveSource(morph)
+    return view, morph
+
+
+def compare_two_fields(pixels):
+    """How far the smoke has come between two moments, and arrows for its ways."""
+    view = new_view([pixels, pixels])
+    moments = [simple.XMLImageDataReader(registrationName=name, FileName=[path])
+               for name, path in zip(("Earlier", "Later"), PLUME)]
+    morph = simple.MorphDensities(moments[0], registrationName="Between", Target=moments[1],
+                                  Parameter=0, NumberOfSteps=48)
+    particles = simple.OutputPort(morph, 1)
+    ways = simple.Calculator(registrationName="Ways", Input=particles, ResultArrayName="Way",
+                             Function="TargetPosition-SourcePosition")
+    arrows = simple.Glyph(registrationName="Arrows", Input=ways, GlyphType="Arrow")
+    arrows.OrientationArray = ["POINTS", "Way"]
+    arrows.ScaleArray = ["POINTS", "Way"]
+    arrows.ScaleFactor = 1
+    arrows.GlyphMode = "Every Nth Point"
+    arrows.Stride = 611
+    arrows.GlyphType.TipRadius = 0.04
+    arrows.GlyphType.TipLength = 0.12
+    arrows.GlyphType.ShaftRadius = 0.012
+
+    for source, colour in zip(moments, (BLUE, ORANGE)):
+        surface = simple.Contour(Input=source, ContourBy=["POINTS", "Smoke"], Isosurfaces=[64])
+        shown = simple.Show(surface, view)
+        example.paint(shown, colour)
+        shown.Opacity = 0.25
+    shown = simple.Show(arrows, view)
+    colours = example.colour_by(shown, view, ("POINTS", "Way", "Magnitude"), "Viridis")
+    legend = simple.GetScalarBar(colours, view)
+    legend.Title, legend.ComponentTitle = "way, m", ""
+    legend.TitleColor = legend.LabelColor = [0, 0, 0]
+    shown.SetScalarBarVisibility(view, True)
+    look(view, [2, 2, 3.4], [2, -10, 1], [0, 0, 1], 5.2)
+    simple.SetActiveSource(morph)
+    return view, math.sqrt(figure(morph, 0, "TransportCost"))
+
+
+def save_state(name):
+    """Writes the session to a state beside this script. Its paths of data are relative to it: ParaView
+    finds them from any clone, by "Search files under specified directory"."""
+    path = os.path.join(HERE, name + ".pvsm")
+    simple.SaveState(path)
+    with open(path, encoding="utf-8") as file:
+        state = file.read()
+    state = re.sub('"(%s/[^"]*)"' % re.escape(example.ROOT),
+                   lambda found: '"%s"' % os.path.relpath(found.group(1), HERE), state)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(state)
+
+
+def main():
+    parser = example.parser(
+        __doc__, pixels=example.number(900, "side of the pictures", 16),
+        frames=example.number(25, "pictures of the morph", 2),
+        resolution=example.number(96, "values along the sides of the morph", 8),
+        states=dict(action="store_true", help="write the state files too"))
+    arguments = parser.parse_args()
+    example.load_plugin()
+
+    def keep(name, view):
+        path = example.output(arguments, "tutorial-%s.png" % name)
+        example.save_picture(path, view)
+        if arguments.states:
+            save_state(name)
+        return path
+
+    view, words = stipple_a_slice(arguments.pixels)
+    print("%s: %s" % (keep("slice", view), words))
+
+    view, morph = morph_two_volumes(arguments.pixels, arguments.frames, arguments.resolution)
+    scene, moments = simple.GetAnimationScene(), []
+    for moment in (0, 0.25, 0.5, 0.75, 1):
+        scene.AnimationTime = moment
+        moments.append(("%g" % moment, figures.drawn(example.save_picture, view)))
+    path = example.output(arguments, "tutorial-morph.png")
+    figures.montage(path, [moments], arguments.pixels // 3)
+    film = example.output(arguments, "tutorial-morph.ogv")
+    simple.SaveAnimation(film, view, ImageResolution=[arguments.pixels] * 2, FrameRate=12)
+    if arguments.states:
+        scene.AnimationTime = 0.5
+        save_state("morph")
+    print("%s, %s: %d time steps" % (film, path, len(morph.TimestepValues)))
+
+    view, distance = compare_two_fields(arguments.pixels)
+    print("%s: %.3f m" % (keep("compare", view), distance))
+
+
+if __name__ == "__main__":
+    main()
