@@ -31,10 +31,16 @@ def draw_particles(path, stipple):
 
 def draw_example(path, name, picture, *arguments):
     """A picture of another example, which is drawn apart: its own may lie beside this one."""
+    draw_examples({path: picture}, name, *arguments)
+
+
+def draw_examples(pictures, name, *arguments):
+    """Pictures of another example, by the paths that they get."""
     with tempfile.TemporaryDirectory() as folder:
         sys.argv[1:] = [*arguments, "--output", folder]
         example.script(name).main()
-        shutil.move(os.path.join(folder, picture), path)
+        for path, picture in pictures.items():
+            shutil.move(os.path.join(folder, picture), path)
     # What is left of it would be drawn and updated with the pictures that follow.
     for proxy in [*simple.GetViews(), *simple.GetSources().values()]:
         simple.Delete(proxy)
@@ -163,9 +169,12 @@ def main():
     draw_example(path("print"), "StipplePrint", "print-raccoon.png", "--particles", "20000",
                  "--panel", "280")
     draw_example(path("video"), "VideoStippling", "video-stippling.png", "--panel", "220")
+    draw_examples({path("tutorial-" + name): "tutorial-%s.png" % name
+                   for name in ("slice", "morph", "compare")}, "Tutorial", "--pixels", "600")
     print("density, particles, volume, cartogram, cells, territories, colours, patterns, flow, "
           "flow-maps, map, paths, morph, morph-3d, barycenters, splats, solid, parameterization, "
-          "surface-dots, print, video: " + arguments.output)
+          "surface-dots, print, video, tutorial-slice, tutorial-morph, tutorial-compare: "
+          + arguments.output)
 
 
 if __name__ == "__main__":

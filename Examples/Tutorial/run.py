@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Remakes the three tasks of Documentation/Tutorial.md: a picture of each, the film of the morph, and,
-with --states, the state files beside this script."""
+"""Remakes the three tasks of Documentation/Tutorial.md: a picture of each, the film of the morph,
+and, with --states, the state files beside this script."""
 import math
 import os
 import re
@@ -142,8 +142,8 @@ def compare_two_fields(pixels):
 
 
 def save_state(name):
-    """Writes the session to a state beside this script. Its paths of data are relative to it: ParaView
-    finds them from any clone, by "Search files under specified directory"."""
+    """Writes the session to a state beside this script. Its paths of data are relative to it:
+    ParaView finds them from any clone, by "Search files under specified directory"."""
     path = os.path.join(HERE, name + ".pvsm")
     simple.SaveState(path)
     with open(path, encoding="utf-8") as file:

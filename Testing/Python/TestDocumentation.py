@@ -103,7 +103,8 @@ class Documentation(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(dir=OUTPUT)
         self.addCleanup(shutil.rmtree, self.folder)
-        os.symlink(os.path.join(SOURCE, "Testing"), os.path.join(self.folder, "Testing"))
+        for name in ("Examples", "Testing"):
+            os.symlink(os.path.join(SOURCE, name), os.path.join(self.folder, name))
         os.symlink(os.path.join(SOURCE, "Testing", "Data", "raccoon.png"),
                    os.path.join(self.folder, "photograph.png"))
 

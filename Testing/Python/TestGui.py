@@ -6,9 +6,10 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+from PIL import Image
 from rt_testing import OUTPUT, SOURCE, main, need_display
-from rt_window import (APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, play, tick,
-                       write_settings)
+from rt_window import (APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, open_state, play,
+                       tick, write_settings)
 
 OPEN = """
 from paraview.simple import *
@@ -71,6 +72,23 @@ class Gui(unittest.TestCase):
                     for prop in found["TransportSampler"].iter("Property")
                     if prop.get("name") == "InvertDensity"]
         self.assertEqual(inverted, ["1"])
+
+    def test_tutorial(self):
+        """Its states open in the window, with their data and their views."""
+        for name in ("slice", "morph", "compare"):
+            picture = "gui-tutorial-%s.png" % name
+            path = os.path.join(SOURCE, "Examples", "Tutorial", name + ".pvsm")
+            shutil.rmtree(self.home)
+            os.mkdir(self.home)
+            write_settings(self.home)
+            saved = self.state_after(picture, *open_state(path), script_text="# %s")
+            layouts = [proxy for proxy in saved.iter("Proxy") if proxy.get("group") == "misc"
+                       and proxy.get("type") == "ViewLayout"]
+            self.assertEqual(len(list(layouts[0].iter("Item"))), 1)
+            with Image.open(os.path.join(OUTPUT, picture)) as shown:
+                view = shown.convert("L").crop((350, 200, 1400, 950))
+            self.assertEqual(view.getextrema()[1], 255)  # its background is white
+            self.assertGreater(sum(view.histogram()[:200]), 0.02 * view.width * view.height)
 
     def test_menus(self):
         saved = self.state_after("gui.png", choose("Filters", "TransportSampler"), APPLY,

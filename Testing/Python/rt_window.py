@@ -24,6 +24,17 @@ def tick(name):
     return PANEL + name + "/CheckBox", "set_boolean", "true"
 
 
+def open_state(path):
+    """A state is opened, and its data found in the folder that ParaView proposes: the state's."""
+    dialog = "/LoadStateOptionsDialog/"
+    files = ("scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/LoadStateDataFileOptions/"
+             "ComboBox")
+    return (("menubar/menu_File", "activate", "actionFileLoadServerState"),
+            ("FileLoadServerStateDialog", "filesSelected", path),
+            (dialog + files, "set_string", "Search files under specified directory"),
+            (dialog + "widget/OKButton", "activate", ""))
+
+
 def first_stippling(photograph):
     """A photograph is opened, and the README's five clicks follow."""
     return (("menubar/menu_File", "activate", "actionFileOpen"),
