@@ -3,8 +3,11 @@
 import os
 import unittest
 
+import numpy as np
+from PIL import Image
 from rt_proxies import proxies
-from rt_testing import SOURCE, density_image, load_plugin, main, output_of, producer
+from rt_testing import OUTPUT, SOURCE, density_image, load_plugin, main, output_of, producer
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 simple = load_plugin()
@@ -215,6 +218,28 @@ class Plugin(unittest.TestCase):
         self.assertTrue(accepted.IsInDomains())
         accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
         self.assertFalse(accepted.IsInDomains())
+
+    @unittest.skipUnless(hasattr(simple, "GDALRasterReader"), "ParaView is built without GDAL")
+    def test_readers_of_photographs(self):
+        """What Documentation/Density.md says of them: which ones turn a photograph upside down."""
+        rows, columns = np.mgrid[0:24, 0:32]
+        photograph = np.stack([8 * rows, 6 * columns, 0 * rows + 99], axis=2).astype(np.uint8)
+        for ending, kind, upright in (("png", "PNGSeriesReader", True),
+                                      ("jpg", "JPEGSeriesReader", True),
+                                      ("tif", "TIFFSeriesReader", False),
+                                      ("png", "GDALRasterReader", False),
+                                      ("jpg", "GDALRasterReader", False),
+                                      ("tif", "GDALRasterReader", False)):
+            path = os.path.join(OUTPUT, "photograph." + ending)
+            Image.fromarray(photograph).save(path)
+            maps = kind == "GDALRasterReader"
+            reader = getattr(simple, kind)(**{"FileName": path} if maps else {"FileNames": [path]})
+            image = output_of(reader)
+            data = image.GetCellData() if maps else image.GetPointData()
+            read = vtk_to_numpy(data.GetArray("Elevation" if maps else 0)).reshape(24, 32, 3)
+            expected = photograph[::-1] if upright else photograph  # VTK's rows go up
+            with self.subTest(kind, ending=ending):
+                self.assertLess(np.abs(read.astype(int) - expected).max(), 16)
 
 
 if __name__ == "__main__":
