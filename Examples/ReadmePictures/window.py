@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the README's picture of ParaView's window after the README's five clicks."""
+"""Draws the README's pictures of ParaView's window on the way to its first stippling."""
 import os
+import shutil
 import sys
 import tempfile
 
@@ -18,23 +19,52 @@ STYLE = """
 """
 
 
+# Where is on the screen what no recording reaches: menus that stay open, and rows of a list.
+PLUGIN_ROW, AUTO_LOAD = (173, 173), (337, 276)
+FILTERS, TRANSPORT = (217, 10), (260, 435)
+DIALOG = 15  # seconds until one is there
+
+
+def draw(picture, part, home, steps, played=True, **options):
+    """Keeps a part of the screen, given as "widthxheight+left+top", after steps."""
+    style = os.path.join(home, "style.qss")
+    with open(style, "w", encoding="utf-8") as file:
+        file.write(STYLE)
+    rt_window.write_settings(home, SIZE)
+    said = rt_window.play(home, steps, options.pop("plugin"), "PNG8:" + picture,
+                          ["-stylesheet", style],
+                          ["-crop", part, "+repage", "+dither", "-colors", "64"], **options)
+    if played != ("Success =  true" in said):
+        sys.exit(said)
+
+
 def main():
     arguments = example.parser(__doc__, output=example.IMAGES).parse_args()
-    picture = example.output(arguments, "window.png")
     if not os.environ.get("DISPLAY"):
         sys.exit('Needs a display: xvfb-run -a -s "-screen 0 1600x1200x24 -noreset" pvpython ...')
-    steps = rt_window.first_stippling(example.PHOTOGRAPH)
-    with tempfile.TemporaryDirectory() as home:
-        style = os.path.join(home, "style.qss")
-        with open(style, "w", encoding="utf-8") as file:
-            file.write(STYLE)
-        rt_window.write_settings(home, SIZE)
-        said = rt_window.play(home, steps, example.plugin_path(), "PNG8:" + picture,
-                              ["-stylesheet", style],
-                              ["-crop", "%dx%d+0+0" % SIZE, "+repage", "+dither", "-colors", "256"])
-    if "Success =  true" not in said:
-        sys.exit(said)
-    print("window: " + arguments.output)
+    # The dialogs show the paths of the plugin and of the photograph.
+    place = os.path.join(tempfile.gettempdir(), "RectifiedTransport")
+    os.makedirs(place, exist_ok=True)
+    photograph = shutil.copy(example.PHOTOGRAPH, place)
+    plugin = os.path.join(place, "RectifiedTransport.so")
+    if os.path.lexists(plugin):
+        os.remove(plugin)
+    os.symlink(example.plugin_path(), plugin)
+
+    steps = rt_window.first_stippling(photograph)
+    whole = "%dx%d+0+0" % SIZE
+    for name, *rest, options in (
+            ("plugin", "640x330+140+66", (rt_window.MANAGE_PLUGINS,),
+             {"clicks": (PLUGIN_ROW, AUTO_LOAD), "played": False, "seconds": DIALOG}),
+            ("reader", "432x440+320+138", steps[:3], {"played": False, "seconds": DIALOG}),
+            ("menu", whole, steps[:5], {"clicks": (FILTERS, TRANSPORT)}),
+            ("", whole, steps, {})):
+        picture = example.output(arguments, "window-%s.png" % name if name else "window.png")
+        with tempfile.TemporaryDirectory() as home:
+            part, events = rest
+            draw(picture, part, home, events, plugin=plugin, **options)
+    shutil.rmtree(place)
+    print("window-plugin, window-reader, window-menu, window: " + arguments.output)
 
 
 if __name__ == "__main__":

@@ -62,7 +62,7 @@ class Gui(unittest.TestCase):
         return ElementTree.parse(state).getroot()
 
     def test_first_stippling(self):
-        """The README's five clicks, on a photograph that ParaView itself opens."""
+        """The README's six clicks, on a photograph that ParaView itself opens."""
         photograph = os.path.join(SOURCE, "Testing", "Data", "raccoon.png")
         saved = self.state_after("gui-first-stippling.png", *first_stippling(photograph),
                                  script_text="# %s")

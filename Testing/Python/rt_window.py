@@ -13,6 +13,7 @@ PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
 
 HELP = ("propertiesDock/propertiesPanel/Help", "activate", "")  # the ? of the panel
+MANAGE_PLUGINS = ("menubar/menuTools", "activate", "actionManage_Plugins")
 HELP_PAGE = "pqHelpWindow/1QTextBrowser0"
 
 
@@ -36,7 +37,7 @@ def open_state(path):
 
 
 def first_stippling(photograph):
-    """A photograph is opened, and the README's five clicks follow."""
+    """A photograph is opened, and the README's six clicks follow."""
     return (("menubar/menu_File", "activate", "actionFileOpen"),
             ("FileOpenDialog", "filesSelected", photograph),
             ("pqSelectReaderDialog/listWidget", "currentChanged", "/1|0"),  # PNG Series Reader
@@ -45,6 +46,7 @@ def first_stippling(photograph):
             choose("Filters", "TransportSampler"),
             tick("InvertDensity"),
             APPLY,
+            ("variableToolbar/displayColor/Variables", "set_string", "Solid Color"),
             ("MainControlsToolbar/1QToolButton12", "activate", ""),  # palettes
             ("/LoadPaletteMenu", "activate", "White Background"),
             ("cameraToolbar/1QToolButton3", "activate", ""))  # Zoom Closest To Data
@@ -74,10 +76,11 @@ def write_settings(home, size=None):
             file.write("[MainWindow]\nPosition=@Point(0 0)\nSize=@Size(%d %d)\n" % size)
 
 
-def play(home, steps, plugin, picture, options=(), import_options=()):
-    """Starts ParaView, plays the steps, keeps a picture of the screen and ends ParaView. Returns
-    its output: "Success = true" if it could play all. `plugin` is the plugin's file, or None if
-    ParaView finds it."""
+def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(), seconds=120):
+    """Starts ParaView, plays the steps, clicks at places of the screen, keeps a picture of it and
+    ends ParaView. Returns its output: "Success = true" if it could play all. `plugin` is the
+    plugin's file, or None if ParaView finds it. Steps that end in a dialog never end: they are
+    given so many seconds."""
     recording, log_path = (os.path.join(home, name) for name in ("play.xml", "log"))
     write_events(recording, steps)
     environment = {**os.environ, "HOME": home}
@@ -88,13 +91,16 @@ def play(home, steps, plugin, picture, options=(), import_options=()):
             ["paraview", *options, "--plugins=RectifiedTransport", "--test-script=" + recording,
              "--test-directory=" + home], env=environment, stdout=log, stderr=subprocess.STDOUT)
     try:
-        for _ in range(120):
+        for _ in range(seconds):
             time.sleep(1)
             with open(log_path, encoding="utf-8", errors="replace") as log:
                 text = log.read()
             if "is finished" in text or window.poll() is not None:
                 break
         time.sleep(2)  # the window draws what the last event changed
+        for place in clicks:
+            subprocess.run(["xdotool", "mousemove", *map(str, place), "click", "1"], check=True)
+            time.sleep(1)
         subprocess.run(["import", "-window", "root", *import_options, picture], check=True)
     finally:
         window.kill()
