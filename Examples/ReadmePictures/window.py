@@ -25,7 +25,7 @@ FILTERS, TRANSPORT = (217, 10), (260, 435)
 DIALOG = 15  # seconds until one is there
 
 
-def draw(picture, part, home, steps, played=True, **options):
+def draw(picture, part, home, steps, played=True, colours=64, **options):
     """Keeps a part of the screen, given as "widthxheight+left+top", after steps."""
     style = os.path.join(home, "style.qss")
     with open(style, "w", encoding="utf-8") as file:
@@ -33,7 +33,7 @@ def draw(picture, part, home, steps, played=True, **options):
     rt_window.write_settings(home, SIZE)
     said = rt_window.play(home, steps, options.pop("plugin"), "PNG8:" + picture,
                           ["-stylesheet", style],
-                          ["-crop", part, "+repage", "+dither", "-colors", "64"], **options)
+                          ["-crop", part, "+repage", "+dither", "-colors", str(colours)], **options)
     if played != ("Success =  true" in said):
         sys.exit(said)
 
@@ -58,7 +58,7 @@ def main():
              {"clicks": (PLUGIN_ROW, AUTO_LOAD), "played": False, "seconds": DIALOG}),
             ("reader", "432x440+320+138", steps[:3], {"played": False, "seconds": DIALOG}),
             ("menu", whole, steps[:5], {"clicks": (FILTERS, TRANSPORT)}),
-            ("", whole, steps, {})):
+            ("", whole, steps, {"colours": 32})):
         picture = example.output(arguments, "window-%s.png" % name if name else "window.png")
         with tempfile.TemporaryDirectory() as home:
             part, events = rest
