@@ -44,4 +44,4 @@ install(
 install(
   FILES LICENSE
   DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/RectifiedTransport"
-  COMPONENT runtime)
+  COMPONENT license)
