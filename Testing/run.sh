@@ -6,8 +6,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../CMake/setup.sh"
 usage()
 {
   cat << 'TEXT'
-usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk] [--all]
-                           [--suite SUITE]...
+usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk]
+                           [--package] [--all] [--suite SUITE]...
   Builds Release into build/ and runs its tests. Further legs:
   --long   also the tests that take minutes
   --gui    also the tests that drive ParaView's own window, on a virtual display
@@ -15,6 +15,8 @@ usage: bash Testing/run.sh [--long] [--gui] [--core] [--asan] [--tsan] [--vtk] [
   --asan   the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-asan/
   --tsan   the core's parallel tests under ThreadSanitizer, with Clang's OpenMP, in build-tsan/
   --vtk    the tests against the suite's own plain VTK, unpacked into build-vtk-prefix/
+  --package  makes a Debian package in build-package/, and installs, uses and removes it in a bare
+           system of this suite, made by debootstrap in build-suites/. Needs root or sudo, and 4 GB.
   --all    all of these
   --suite  runs Examples/run.sh, and this command with the other arguments, in another suite of
            Debian (trixie, sid) instead of here: a bare system made by debootstrap, which is kept
@@ -23,7 +25,7 @@ TEXT
 }
 
 arguments=() suites=()
-long=0 gui=0 core=0 asan=0 tsan=0 vtk=0
+long=0 gui=0 core=0 asan=0 tsan=0 vtk=0 package=0
 while [ $# -gt 0 ]; do
   case "$1" in
     --long) long=1 ;;
@@ -32,7 +34,8 @@ while [ $# -gt 0 ]; do
     --asan) asan=1 ;;
     --tsan) tsan=1 ;;
     --vtk) vtk=1 ;;
-    --all) long=1 gui=1 core=1 asan=1 tsan=1 vtk=1 ;;
+    --package) package=1 ;;
+    --all) long=1 gui=1 core=1 asan=1 tsan=1 vtk=1 package=1 ;;
     --suite)
       if ! [[ "${2:-}" =~ ^[a-z]+$ ]]; then
         echo "--suite needs the name of a suite of Debian: trixie or sid" >&2
@@ -153,6 +156,26 @@ run_vtk()
       run_tests "$folder" -LE '^(long|gui)$'
 }
 
+run_package()
+{
+  local folder="$root/build-package" suite
+  need debootstrap debian-archive-keyring dpkg-dev file || return 1
+  # shellcheck disable=SC1091
+  suite="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
+  if [ -z "$suite" ]; then
+    echo "--package needs VERSION_CODENAME in /etc/os-release, the suite that it tries the package in" >&2
+    return 1
+  fi
+  configure_and_build "$folder" --preset package || return 1
+  rm -f "$folder"/*.deb
+  (cd "$folder" && logged "$folder/cpack.log" cpack -G DEB) || return 1
+  mkdir -p "$root/build-suites"
+  as_root bash "$root/Testing/package.sh" "$suite" "$(echo "$folder"/*.deb)" || {
+    [ $? != 130 ] || exit 130 # interrupted
+    return 1
+  }
+}
+
 failed=""
 skipped=""
 if [ ${#suites[@]} -gt 0 ]; then
@@ -181,6 +204,9 @@ if [ $tsan = 1 ]; then
 fi
 if [ $vtk = 1 ]; then
   run_vtk || failed="$failed --vtk"
+fi
+if [ $package = 1 ]; then
+  run_package || failed="$failed --package"
 fi
 build_release -DRectifiedTransport_BUILD_TESTING=ON -DRectifiedTransport_BUILD_BENCHMARKS=ON
 if [ -n "$failed" ]; then
