@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash disable=SC2154
 # Bare systems of Debian's suites, made by debootstrap. Sourced by suite.sh and package.sh, which run
 # as root, after setup.sh. They set `suite`, `folder` and `log`, and for messages the `option` of
 # Testing/run.sh and the GB `needed`.
@@ -67,6 +68,14 @@ mount_all()
   mount --rbind --read-only /sys "$folder/sys"
   mount --rbind /dev "$folder/dev"
   mount -t tmpfs tmpfs "$folder/tmp"
+}
+
+unmount_all()
+{
+  local name
+  for name in proc sys dev tmp; do
+    umount --recursive --lazy "$folder/$name" 2> /dev/null || true
+  done
 }
 
 inside()

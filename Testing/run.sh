@@ -166,7 +166,8 @@ run_package()
     echo "--package needs VERSION_CODENAME in /etc/os-release, the suite that it tries the package in" >&2
     return 1
   fi
-  configure_and_build "$folder" --preset package || return 1
+  need_for_help
+  configure_and_build "$folder" --preset package -URectifiedTransport_BUILD_HELP || return 1
   rm -f "$folder"/*.deb
   (cd "$folder" && logged "$folder/cpack.log" cpack -G DEB) || return 1
   mkdir -p "$root/build-suites"
