@@ -111,7 +111,7 @@ class Content(unittest.TestCase):
         self.assertEqual(plugin.get("auto_load"), "1")
         name = plugin.get("name")
         self.assertGreater(len(self.files[os.path.join(folder, name, name + ".so")]), 10000)
-        if "usr/bin/paraview.conf" in self.files: # ParaView is Debian's
+        if "usr/bin/paraview.conf" in self.files:  # ParaView is Debian's
             self.assertEqual(self.text("usr/bin/paraview.conf"), "/" + plugins + "\n")
             readme = self.text(self.documents, "README.Debian")
             self.assertIn("/" + plugins, readme)
@@ -160,12 +160,14 @@ class Content(unittest.TestCase):
         self.assertEqual(unfolded[-len(words[holder:]):], words[holder:])
         with open(os.path.join(OPTIONS.source, "CHANGELOG.md"), "rb") as file:
             self.assertEqual(gzip.decompress(self.files[os.path.join(self.documents, "changelog.gz")]),
-                             file.read())
+                             file.read(), "configuring copies it: build first")
         debian = gzip.decompress(self.files[os.path.join(self.documents, "changelog.Debian.gz")]).decode()
         self.assertTrue(debian.startswith("%s (%s-1) " % (PACKAGE, OPTIONS.version)), debian)
 
     def test_control(self):
         fields = self.fields()
+        with open(os.path.join(OPTIONS.source, "CMake/Conda/recipe.yaml"), encoding="utf-8") as file:
+            self.assertIn('\n  version: "%s"\n' % OPTIONS.version, file.read())
         self.assertEqual(fields["Package"], PACKAGE)
         self.assertEqual(fields["Version"], OPTIONS.version + "-1")
         self.assertTrue(fields["Maintainer"])
