@@ -100,18 +100,33 @@ set(CPACK_DEBIAN_PACKAGE_NAME "${package}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
+  set(parts "A plugin for ParaView, a Python package and C++ libraries")
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libopenmpi-dev, make, paraview-dev")
+elseif (RectifiedTransport_BUILD_VTK)
+  set(parts "A Python package and C++ libraries")
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libvtk9-dev, make")
+else ()
+  set(parts "A C++ library of algorithms")
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, make")
+endif ()
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-  "A plugin for ParaView, a Python package and C++ libraries that move mass
-between densities: particles that are distributed like an image,
-displacement fields, cells of equal mass, morphs of images and solids.
+  "${parts} that move mass between
+densities: particles that are distributed like an image, displacement
+fields, cells of equal mass, morphs of images and solids.")
+if (scripts MATCHES "preinst")
+  string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "
 
 ParaView loads the plugin when it starts; its filters are in the menu
-Filters, Transport. C++ programs also need the packages that are suggested.")
+Filters, Transport.")
+endif ()
+string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION "
+
+C++ programs also need the packages that are suggested.")
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libopenmpi-dev, make, paraview-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 foreach (script IN LISTS scripts ITEMS triggers)
   list(APPEND CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${templates}/${script}")

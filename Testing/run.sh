@@ -160,10 +160,14 @@ run_package()
 {
   local folder="$root/build-package" suite
   need debootstrap debian-archive-keyring dpkg-dev file || return 1
+  # As apt has it, if it has lists: in sid VERSION_CODENAME is that of the next release.
+  suite="$(apt-get indextargets --format '$(ORIGIN) $(LABEL) $(CODENAME)' |
+    sed -nE 's/^Debian Debian ([a-z]+)$/\1/p' | head -n 1)"
   # shellcheck disable=SC1091
-  suite="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
+  suite="${suite:-$(. /etc/os-release && echo "${VERSION_CODENAME:-}")}"
   if [ -z "$suite" ]; then
-    echo "--package needs VERSION_CODENAME in /etc/os-release, the suite that it tries the package in" >&2
+    echo "--package needs a suite of Debian, in apt's sources or as VERSION_CODENAME in /etc/os-release:" \
+      "the package is tried in a bare one" >&2
     return 1
   fi
   need_for_help
