@@ -14,6 +14,7 @@ set(vtk_place)
 if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   # Without components ParaView's package requires all dependencies of its client, Qt included.
   find_package(ParaView REQUIRED COMPONENTS RemotingViews)
+  include(CMake/RectifiedTransportPanel.cmake)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()
 
