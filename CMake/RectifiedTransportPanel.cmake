@@ -30,4 +30,8 @@ if (RectifiedTransport_BUILD_PANEL)
     endforeach ()
   endforeach ()
   set(panel_libraries ParaView::pqComponents ParaView::pqCore ParaView::pqWidgets ParaView::qttesting)
+elseif (NOT has_panel)
+  message(STATUS "RectifiedTransport: no widgets of its own on ParaView's panel, for Qt ${qt_version}'s "
+    "Widgets (on Debian qtbase5-dev) are missing. -DRectifiedTransport_BUILD_PANEL=ON builds them "
+    "once they are installed.")
 endif ()

@@ -7,6 +7,7 @@ apt_log="$build/apt.log"
 packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
   libopenmpi-dev libfreetype-dev libglew-dev libopengl-dev libx11-dev"
 packages_help="qhelpgenerator-qt5 python3-markdown python3-pil"
+packages_panel="qtbase5-dev"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python3-reportlab python-matplotlib-data"
 packages_test="libgtest-dev libbenchmark-dev poppler-utils $packages_examples"
@@ -126,6 +127,13 @@ need_for_help()
   need $packages_help || echo "The plugin is built without help in ParaView's window" >&2
 }
 
+# What makes the plugin's own widgets on ParaView's panel, for which ParaView has plainer ones.
+need_for_panel()
+{
+  # shellcheck disable=SC2086
+  need $packages_panel || echo "The plugin is built without its own widgets on ParaView's panel" >&2
+}
+
 # download PACKAGE...: into the current folder, which apt's own user must be able to write to.
 download()
 {
@@ -190,8 +198,10 @@ build_release()
     warnings=ON
   fi
   need_for_help
-  # -U, for what the help needs may have come since the last time.
+  need_for_panel
+  # -U, for what the help and the widgets need may have come since the last time.
   configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release -URectifiedTransport_BUILD_HELP \
+    -URectifiedTransport_BUILD_PANEL \
     -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON -DRectifiedTransport_BUILD_EXAMPLES=ON \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
 }

@@ -67,12 +67,15 @@ void pqBoundsOfDataWidget::takeVisible()
       }
     }
   }
-  double bounds[6];
-  if (box.IsValid())
+  if (!box.IsValid())
   {
-    box.GetBounds(bounds);
-    this->resetToBounds(bounds);
+    qWarning("No bounds taken: the active view shows no data but the seeds' own. Show the data, or "
+             "choose them by the arrow beside the button.");
+    return;
   }
+  double bounds[6];
+  box.GetBounds(bounds);
+  this->resetToBounds(bounds);
 }
 
 void pqBoundsOfDataWidget::listOutputs()
@@ -101,5 +104,9 @@ void pqBoundsOfDataWidget::listOutputs()
         });
       }
     }
+  }
+  if (this->Outputs->isEmpty())
+  {
+    this->Outputs->addAction(tr("(no data)"))->setEnabled(false);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The six numbers of a box, with a button that takes them from what is shown in the active view, and a
-// menu that takes them from one output of the pipeline.
+// The six numbers of a box, with a button that takes them from what is shown in the active view,
+// and a menu that takes them from one output of the pipeline.
 #ifndef pqBoundsOfDataWidget_h
 #define pqBoundsOfDataWidget_h
 

@@ -18,6 +18,7 @@
 #include <QDoubleValidator>
 #include <QGridLayout>
 #include <QLabel>
+#include <QLocale>
 #include <QSignalBlocker>
 
 #include <algorithm>
@@ -74,6 +75,11 @@ QList<QString> namesOfInputs(vtkSMProxy* proxy)
   return names;
 }
 
+double weightOf(const pqLineEdit& edit)
+{
+  return edit.text().isEmpty() ? 1.0 : edit.text().toDouble();
+}
+
 } // namespace
 
 pqInputWeightsWidget::pqInputWeightsWidget(
@@ -92,6 +98,8 @@ pqInputWeightsWidget::pqInputWeightsWidget(
   }
   auto* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, SIGNAL(nameChanged(pqServerManagerModelItem*)), this, SLOT(updateRows()));
+  // Composite data have their blocks only once they are updated.
+  QObject::connect(model, SIGNAL(dataUpdated(pqPipelineSource*)), this, SLOT(updateRows()));
   this->updateRows();
   this->addPropertyLink(this, "weights", SIGNAL(weightsChanged()), property);
 }
@@ -102,57 +110,98 @@ void pqInputWeightsWidget::setWeights(const QList<QVariant>& weights)
   {
     this->Weights = weights;
     this->updateRows();
+    for (int i = 0; i < weights.size(); ++i)
+    {
+      const QSignalBlocker blocker(this->Edits[i]);
+      this->Edits[i]->setTextAndResetCursor(weights[i].toString()); // a given 1, too
+    }
     Q_EMIT this->weightsChanged();
+  }
+}
+
+void pqInputWeightsWidget::makeRows(int count)
+{
+  // Later, for one of them may be the sender of the signal that led here.
+  for (QWidget* row : this->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly))
+  {
+    row->setObjectName(QString());
+    row->hide();
+    row->deleteLater();
+  }
+  this->Labels.clear();
+  this->Edits.clear();
+  for (int i = 0; i < count; ++i)
+  {
+    auto* label = new QLabel(this);
+    label->setTextFormat(Qt::PlainText);
+    auto* edit = new pqLineEdit(this);
+    edit->setObjectName(QString("Weight%1").arg(i));
+    auto* validator = new QDoubleValidator(edit);
+    // Points, in any language, as in all of ParaView's numbers and as QString::toDouble() reads.
+    QLocale locale = QLocale::c();
+    locale.setNumberOptions(QLocale::RejectGroupSeparator);
+    validator->setLocale(locale);
+    edit->setValidator(validator);
+    this->Grid->addWidget(label, i, 0);
+    this->Grid->addWidget(edit, i, 1);
+    this->Labels.append(label);
+    this->Edits.append(edit);
+    QObject::connect(edit, SIGNAL(textEdited(const QString&)), this, SLOT(takeRows()));
+    QObject::connect(edit, SIGNAL(textChangedAndEditingFinished()), this, SLOT(takeRows()));
   }
 }
 
 void pqInputWeightsWidget::updateRows()
 {
-  this->Names = namesOfInputs(this->proxy());
-  const int count = std::max(this->Names.size(), this->Weights.size());
+  const QList<QString> names = namesOfInputs(this->proxy());
+  this->NumberOfInputs = names.size();
+  const int count = std::max(names.size(), this->Weights.size());
   if (this->Edits.size() != count)
   {
-    qDeleteAll(this->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
-    this->Edits.clear();
-    for (int i = 0; i < count; ++i)
-    {
-      auto* label = new QLabel(this);
-      label->setObjectName(QString("Name%1").arg(i));
-      auto* edit = new pqLineEdit(this);
-      edit->setObjectName(QString("Weight%1").arg(i));
-      edit->setValidator(new QDoubleValidator(edit));
-      this->Grid->addWidget(label, i, 0);
-      this->Grid->addWidget(edit, i, 1);
-      this->Edits.append(edit);
-      QObject::connect(edit, SIGNAL(textEdited(const QString&)), this, SLOT(takeRows()));
-      QObject::connect(edit, SIGNAL(textChangedAndEditingFinished()), this, SLOT(takeRows()));
-    }
+    this->makeRows(count);
   }
   for (int i = 0; i < count; ++i)
   {
-    const bool isInput = i < this->Names.size();
+    const QString name = i < names.size() ? names[i] : tr("(no input)");
+    this->Labels[i]->setText(name);
+    this->Labels[i]->setToolTip(name);
+    pqLineEdit* edit = this->Edits[i];
     const bool isGiven = i < this->Weights.size();
-    auto* label = this->findChild<QLabel*>(QString("Name%1").arg(i));
-    label->setText(isInput ? this->Names[i] : tr("(no input)"));
-    const QSignalBlocker blocker(this->Edits[i]);
-    const QString text = isGiven ? this->Weights[i].toString() : QString();
-    if (this->Edits[i]->text().toDouble() != text.toDouble() || !isGiven)
-    {
-      this->Edits[i]->setTextAndResetCursor(text);
-    }
     // Weights that are given are one for each input; without any all count the same.
-    this->Edits[i]->setPlaceholderText(this->Weights.isEmpty() ? "1" : tr("missing"));
+    edit->setPlaceholderText(isGiven || this->Weights.isEmpty() ? "1" : tr("missing"));
+    const QString text = isGiven ? this->Weights[i].toString() : QString();
+    // Who has emptied a row, or types 0.50, shall not find other text in it.
+    const bool isTyped = isGiven && weightOf(*edit) == text.toDouble();
+    if (!isTyped && edit->text() != text)
+    {
+      const QSignalBlocker blocker(edit);
+      edit->setTextAndResetCursor(text);
+    }
   }
 }
 
 void pqInputWeightsWidget::takeRows()
 {
+  // As many as there are inputs: rows beyond them are those of inputs that were taken away.
   QList<QVariant> weights;
   bool isGiven = false;
-  for (const pqLineEdit* edit : this->Edits)
+  for (const pqLineEdit* edit : this->Edits.mid(0, this->NumberOfInputs))
   {
+    if (!edit->text().isEmpty() && !edit->hasAcceptableInput())
+    {
+      return; // half a number, as "1e"
+    }
     isGiven |= !edit->text().isEmpty();
-    weights.append(edit->text().isEmpty() ? 1.0 : edit->text().toDouble());
+    weights.append(weightOf(*edit));
   }
-  this->setWeights(isGiven ? weights : QList<QVariant>());
+  if (!isGiven)
+  {
+    weights.clear();
+  }
+  if (weights != this->Weights)
+  {
+    this->Weights = weights;
+    this->updateRows();
+    Q_EMIT this->weightsChanged();
+  }
 }

@@ -7,10 +7,10 @@
 #include "pqPropertyWidget.h"
 
 #include <QList>
-#include <QString>
 #include <QVariant>
 
 class QGridLayout;
+class QLabel;
 class pqLineEdit;
 
 class pqInputWeightsWidget : public pqPropertyWidget
@@ -31,13 +31,17 @@ Q_SIGNALS:
 private Q_SLOTS:
   // One row for each input that there is now, and for each weight beyond.
   void updateRows();
+  // One weight for each input; none while all rows are empty.
   void takeRows();
 
 private:
   Q_DISABLE_COPY(pqInputWeightsWidget)
 
+  void makeRows(int count);
+
   QGridLayout* Grid;
-  QList<QString> Names;
+  int NumberOfInputs = 0;
+  QList<QLabel*> Labels;
   QList<pqLineEdit*> Edits;
   QList<QVariant> Weights;
 };

@@ -39,6 +39,26 @@ PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
 DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
            ("SelectInputDialog/pipelineView", "currentChanged", "/0/0|0"),
            ("SelectInputDialog/buttonBox/1QPushButton0", "activate", ""))
+PANEL_WIDGETS = os.environ.get("RT_PANEL")
+
+
+def weight(row, number):
+    row = PANEL + "Weights/Weight%d" % row
+    return (row, "set_string", str(number)), (row, "key", "16777220")
+
+
+def typed_by_name(*numbers):
+    return [step for i, number in enumerate(numbers) for step in weight(i, number)]
+
+
+def typed_in_list(*numbers):
+    """ParaView's own list, where the plugin's widgets are not built."""
+    weights = PANEL + "Weights/ScalarValueList/"
+    editor = weights + "Table/qt_scrollarea_viewport/1QExpandingLineEdit0"
+    return [step for i, number in enumerate(numbers)
+            for step in ((weights + "Add", "activate", ""),
+                         (weights + "Table", "edit", "%d.0" % i),
+                         (editor, "set_string", str(number)), (editor, "key", "16777220"))]
 
 
 class Gui(unittest.TestCase):
@@ -196,24 +216,40 @@ class Gui(unittest.TestCase):
         self.assertEqual(values("TimeKeeper", "TimestepValues"), [i / 10 for i in range(11)])
         self.assertEqual(values("TimeKeeper", "Time"), [1])
 
+    def values(self, saved, kind, name):
+        proxy = next(proxy for proxy in saved.iter("Proxy") if proxy.get("type") == kind)
+        prop = next(prop for prop in proxy.iter("Property") if prop.get("name") == name)
+        return [float(element.get("value")) for element in prop.findall("Element")]
+
     def test_barycenter_of_selected(self):
         """Images that are selected together are its inputs; weights are typed into the panel."""
-        weights = PANEL + "Weights/ScalarValueList/"
-        add = (weights + "Add", "activate", "")
-
-        def typed(row, number):
-            editor = weights + "Table/qt_scrollarea_viewport/1QExpandingLineEdit0"
-            return ((weights + "Table", "edit", "%d.0" % row),
-                    (editor, "set_string", str(number)), (editor, "key", "16777220"))
-
         saved = self.state_after(
             "gui-barycenter.png", choose("Filters", "TransportBarycenter"), APPLY,
-            add, *typed(0, 3), add, *typed(1, 1), APPLY, script_text=OPEN_BOTH)
-        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
-        given = {prop.get("name"): prop for prop in found["TransportBarycenter"].iter("Property")}
-        self.assertEqual(len(given["Input"].findall("Proxy")), 2)
-        self.assertEqual([element.get("value") for element in given["Weights"].findall("Element")],
-                         ["3", "1"])
+            *(typed_by_name if PANEL_WIDGETS else typed_in_list)(3, 1), APPLY,
+            script_text=OPEN_BOTH)
+        inputs = next(prop for proxy in saved.iter("Proxy")
+                      if proxy.get("type") == "TransportBarycenter"
+                      for prop in proxy.iter("Property") if prop.get("name") == "Input")
+        self.assertEqual(len(inputs.findall("Proxy")), 2)
+        self.assertEqual(self.values(saved, "TransportBarycenter", "Weights"), [3, 1])
+
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
+    def test_weights_by_name(self):
+        """One row of two is typed: the list has both. Undone, or emptied, it has none."""
+        begin = (choose("Filters", "TransportBarycenter"), APPLY, *weight(0, 3), APPLY)
+        undo = ("menubar/menu_Edit", "activate", "actionEditUndo")
+        for steps, expected in (((), [3, 1]), ((undo,), []),
+                                ((*weight(0, ""), *weight(1, ""), APPLY), [])):
+            saved = self.state_after("gui-weights.png", *begin, *steps, script_text=OPEN_BOTH)
+            self.assertEqual(self.values(saved, "TransportBarycenter", "Weights"), expected)
+
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
+    def test_bounds_of_data(self):
+        """Those of the photograph, not of the seeds that are shown, too."""
+        saved = self.state_after("gui-bounds.png", choose("Sources", "UniformSeedSource"), APPLY,
+                                 (PANEL + "Bounds/TakeBounds", "activate", ""), APPLY)
+        self.assertEqual(self.values(saved, "UniformSeedSource", "Bounds"),
+                         [0, 511, 0, 511, 0, 0])
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Inputs, outputs, choices, hints and the visibility of properties in the XML agree with the public
 names and with the classes."""
+import os
 import unittest
 
 import numpy as np
 from rt_proxies import instance, proxies
-from rt_testing import connect_inputs, density_image, digest, main
+from rt_testing import SOURCE, connect_inputs, density_image, digest, main
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
@@ -175,6 +176,17 @@ class XML(unittest.TestCase):
         for proxy in proxies():
             for name, prop in proxy.properties.items():
                 yield self.subTest(proxy=proxy.label, property=name), proxy, prop
+
+    def test_panel_widgets(self):
+        """Names that ParaView or this plugin knows: ParaView takes no notice of others."""
+        with open(os.path.join(SOURCE, "Plugin", "CMakeLists.txt"), encoding="utf-8") as file:
+            made = file.read()
+        for case, proxy in self.each():
+            with case:
+                for element in proxy.element.iter():
+                    name = element.get("panel_widget")
+                    if name not in (None, "input_selector"):
+                        self.assertIn('"%s pq' % name, made)
 
     def test_public_names(self):
         self.assertEqual({proxy.label: proxy.class_name for proxy in proxies()},
