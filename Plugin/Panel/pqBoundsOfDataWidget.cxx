@@ -12,8 +12,9 @@
 #include "vtkBoundingBox.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMProxy.h"
+#include "vtkSetGet.h"
 
-#include <QHBoxLayout>
+#include <QBoxLayout>
 #include <QMenu>
 #include <QToolButton>
 
@@ -49,7 +50,15 @@ pqBoundsOfDataWidget::pqBoundsOfDataWidget(
   button->setMenu(this->Outputs);
   QObject::connect(button, SIGNAL(clicked()), this, SLOT(takeVisible()));
   QObject::connect(this->Outputs, SIGNAL(aboutToShow()), this, SLOT(listOutputs()));
-  this->layout()->addWidget(button);
+  // First, for a narrow panel cuts off what stands at the right.
+  if (auto* row = qobject_cast<QBoxLayout*>(this->layout()))
+  {
+    row->insertWidget(0, button);
+  }
+  else
+  {
+    this->layout()->addWidget(button);
+  }
 }
 
 void pqBoundsOfDataWidget::takeVisible()
@@ -69,8 +78,9 @@ void pqBoundsOfDataWidget::takeVisible()
   }
   if (!box.IsValid())
   {
-    qWarning("No bounds taken: the active view shows no data but the seeds' own. Show the data, or "
-             "choose them by the arrow beside the button.");
+    // Without a colon: ParaView's list of messages leaves out what stands before one.
+    vtkGenericWarningMacro(<< "The active view shows no data but these seeds. Show the data, or "
+                              "choose them by the arrow beside the button");
     return;
   }
   double bounds[6];
