@@ -26,21 +26,37 @@
 namespace
 {
 
+// The names of the leaves below a node, in their order: pieces have the name of what they are part
+// of. A multiblock does not tell which of its blocks are missing: these have rows, and the filter's
+// error says how many inputs there are.
+void addLeaves(vtkDataAssembly* blocks, int parent, const QString& prefix, QList<QString>& names)
+{
+  for (int node : blocks->GetChildNodes(parent, false))
+  {
+    const QString name =
+      prefix + blocks->GetAttributeOrDefault(node, "label", blocks->GetNodeName(node));
+    if (blocks->GetNumberOfChildren(node) > 0)
+    {
+      addLeaves(blocks, node, name + "/", names);
+      continue;
+    }
+    const int partitions = blocks->GetAttributeOrDefault(node, "number_of_partitions", 1);
+    const int pieces = blocks->GetAttributeOrDefault(node, "vtk_num_pieces", partitions);
+    for (int piece = 0; piece < pieces; ++piece)
+    {
+      names.append(pieces == 1 ? name : QString("%1/%2").arg(name).arg(piece));
+    }
+  }
+}
+
 // The names of the blocks, where the data are composite.
 QList<QString> namesOfBlocks(vtkPVDataInformation* data)
 {
   QList<QString> names;
   vtkDataAssembly* blocks = data && data->IsCompositeDataSet() ? data->GetHierarchy() : nullptr;
-  if (!blocks)
+  if (blocks)
   {
-    return names;
-  }
-  for (int node : blocks->GetChildNodes(blocks->GetRootNode()))
-  {
-    if (blocks->GetNumberOfChildren(node) == 0)
-    {
-      names.append(blocks->GetAttributeOrDefault(node, "label", blocks->GetNodeName(node)));
-    }
+    addLeaves(blocks, blocks->GetRootNode(), QString(), names);
   }
   return names;
 }
