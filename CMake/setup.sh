@@ -120,19 +120,16 @@ need_to_build()
   fi
 }
 
-# What makes the help in ParaView's window, which the build leaves out without it.
-need_for_help()
+# What the plugin has in ParaView's window besides its filters; the build leaves out what it lacks.
+need_for_window()
 {
   # shellcheck disable=SC2086
   need $packages_help || echo "The plugin is built without help in ParaView's window" >&2
-}
-
-# What makes the plugin's own widgets on ParaView's panel, for which ParaView has plainer ones.
-need_for_panel()
-{
   # shellcheck disable=SC2086
   need $packages_panel || echo "The plugin is built without its own widgets on ParaView's panel" >&2
 }
+# For configure_and_build: what these need may have come since the last time.
+anew_for_window=(-URectifiedTransport_BUILD_HELP -URectifiedTransport_BUILD_PANEL)
 
 # download PACKAGE...: into the current folder, which apt's own user must be able to write to.
 download()
@@ -197,11 +194,8 @@ build_release()
   if [ "${CI:-}" = true ]; then
     warnings=ON
   fi
-  need_for_help
-  need_for_panel
-  # -U, for what the help and the widgets need may have come since the last time.
-  configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release -URectifiedTransport_BUILD_HELP \
-    -URectifiedTransport_BUILD_PANEL \
+  need_for_window
+  configure_and_build "$build" -DCMAKE_BUILD_TYPE=Release "${anew_for_window[@]}" \
     -DRectifiedTransport_BUILD_PARAVIEW_PLUGIN=ON -DRectifiedTransport_BUILD_EXAMPLES=ON \
     -DCMAKE_COMPILE_WARNING_AS_ERROR="$warnings" "$@"
 }

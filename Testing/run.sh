@@ -170,8 +170,8 @@ run_package()
       "the package is tried in a bare one" >&2
     return 1
   fi
-  need_for_help
-  configure_and_build "$folder" --preset package -URectifiedTransport_BUILD_HELP || return 1
+  need_for_window
+  configure_and_build "$folder" --preset package "${anew_for_window[@]}" || return 1
   rm -f "$folder"/*.deb
   (cd "$folder" && logged "$folder/cpack.log" cpack -G DEB) || return 1
   mkdir -p "$root/build-suites"
