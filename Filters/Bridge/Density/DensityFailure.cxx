@@ -75,9 +75,11 @@ void throwInvalidDensity(const std::string& name, const DensitySummary& summary,
   }
   else if (summary.Negative > 0)
   {
+    // The remedy first: ParaView's list of messages shows about 90 characters of a line.
     message << summary.Negative << (summary.Negative == 1 ? " negative value" : " negative values")
-            << ", the first at index " << summary.FirstNegative
-            << "; a density must not be negative (NegativeValues = Clamp takes them as 0)";
+            << "; NegativeValues = Clamp takes them as 0, for a density must not be negative (the "
+               "first at index "
+            << summary.FirstNegative << ")";
   }
   else if (std::isinf(summary.Total))
   {

@@ -221,8 +221,8 @@ void checkDensities(Checks& checks)
   };
   auto morph = makeMorph(good, bad(-1.0));
   BlendErrorTest test(checks, morph);
-  test.Expect("Target: The density array 'Density' has 1 negative value, the first at index 3; a "
-              "density must not be negative",
+  test.Expect("Target: The density array 'Density' has 1 negative value; NegativeValues = Clamp "
+              "takes them as 0, for a density must not be negative (the first at index 3)",
     __LINE__);
   morph->SetNegativeValuesToClamp();
   test.ExpectNone(30, __LINE__);

@@ -80,7 +80,7 @@ void checkInput(Checks& checks)
   vtkNew<vtkTransportMap> map;
   MapErrorTest test(checks, map);
   map->SetInputData(makeImage(6, 5, 1, true, [](vtkIdType i) { return i == 3 ? -1.0 : 1.0; }));
-  test.Expect("'Density' has 1 negative value, the first at index 3", __LINE__);
+  test.Expect("'Density' has 1 negative value; NegativeValues = Clamp takes them as 0", __LINE__);
   map->SetInputData(makeImage(6, 5, 1, true, [](vtkIdType) { return 0.0; }));
   test.Expect("'Density' has a total mass of zero", __LINE__);
   map->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Missing");
