@@ -150,6 +150,9 @@ def main():
     parser.add_argument("--only", type=int, nargs="+")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
+    # CMake and the compiler run in other folders.
+    options.source = os.path.abspath(options.source)
+    options.build = os.path.abspath(options.build)
     meshes = f"{options.source}/build-meshes"
 
     everything = list(enumerate(mutations.SURVIVED + mutations.OTHERS, 1))
