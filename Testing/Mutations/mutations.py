@@ -151,7 +151,7 @@ OTHERS = [
     E(CORE + "Geometry/ImageGrid.cxx", "grid.SetAxis(i, this->PointExtent[2 * i] + «0.5»", "0.0"),
     E(BRIDGE + "SiteCells/DataStamp.h", "«this->Bits != 0 && this->Bits == previous.Bits»",
       "this->Bits == previous.Bits"),
-    E(CORE + "SiteCells/SiteCellStatistics.cxx", "statistics.Cost[i] = sum.Cost / «pixels»", "sum.Pixels"),
+    E(CORE + "SiteCells/SiteCellStatistics.cxx", "statistics.Cost[i] = sum.Cost / «pixels»", "sum.Weight"),
     S(BRIDGE + "Points/ParticleSet.cxx", "id[p] = i;", "id[p] = p;"),
     E(CORE + "Quality/ParticleQuality.cxx", "BlockCounts[axis] + «cell / this->BlockSize»",
       "(cell + 1) / (this->BlockSize + 1)"),
