@@ -3,6 +3,8 @@
 
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/DensityInspection.h"
+#include "Core/Tables/NodeLayout.h"
+#include "Core/Tables/ScaledDensity.h"
 #include "Core/Tables/TableBuild.h"
 
 #include <algorithm>
@@ -21,41 +23,6 @@ constexpr std::int64_t narrowestBox = 16;
 // Tables past this size are prefetched.
 constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
 
-// The least stride, in cache lines, that is at least `lines` and maps the rows that a particle's
-// neighbourhood reads to different sets of the caches; those of a grid of 2^k cells would be in one
-// set. `rowStride` is that of the axis before, 0 for the first.
-std::int64_t spreadStride(std::int64_t lines, std::int64_t rowStride)
-{
-  constexpr std::int64_t sets = 64;
-  constexpr int reach = 10;
-  constexpr std::int64_t apart = 3;
-  const auto distance = [](std::int64_t offset) {
-    const std::int64_t set = ((offset % sets) + sets) % sets;
-    return std::min(set, sets - set);
-  };
-  for (std::int64_t stride = lines; stride < lines + sets; ++stride)
-  {
-    bool spread = true;
-    for (int step = 1; step <= reach && spread; ++step)
-    {
-      spread = distance(step * stride) >= apart;
-    }
-    const int across = rowStride > 0 ? 3 : 0;
-    for (int step = 1; step <= across && spread; ++step)
-    {
-      for (int row = -across; row <= across && spread; ++row)
-      {
-        spread = distance(step * stride + row * rowStride) >= 2;
-      }
-    }
-    if (spread)
-    {
-      return stride;
-    }
-  }
-  return lines;
-}
-
 // Keeps memory of the right size; other memory is freed before new is allocated.
 template <class T>
 void resize(LargeBuffer<T>& buffer, std::int64_t size)
@@ -66,29 +33,6 @@ void resize(LargeBuffer<T>& buffer, std::int64_t size)
     buffer = LargeBuffer<T>(size);
   }
 }
-
-// A density times a power of two.
-class ScaledDensity final : public DensityValues
-{
-public:
-  ScaledDensity(const DensityValues& density, double scale)
-    : Density(density)
-    , Scale(scale)
-  {
-  }
-  void Read(std::int64_t first, std::int64_t count, double* values) const override
-  {
-    this->Density.Read(first, count, values);
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      values[i] *= this->Scale;
-    }
-  }
-
-private:
-  const DensityValues& Density;
-  double Scale;
-};
 
 } // namespace
 
@@ -101,14 +45,10 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   this->Build(density.Values, progress);
   const DensitySummary found = this->Found;
   requireDensity(found);
-  // Moments of very large values overflow, those of very small ones lose bits: scaling by a power
-  // of two prevents both and does not round.
-  constexpr double extreme = 1e200;
   this->Tables.Largest = found.Maximum;
-  if (found.Maximum > extreme || found.Maximum < 1.0 / extreme)
+  if (const int exponent = scalingOf(found.Maximum))
   {
-    const int exponent = std::max(-1000, std::min(1000, -std::ilogb(found.Maximum)));
-    const ScaledDensity scaled(density.Values, std::ldexp(1.0, exponent));
+    const ScaledDensity scaled(density.Values, exponent);
     this->Build(scaled, progress);
     this->Found = found;
     this->Tables.Largest = std::ldexp(found.Maximum, exponent);
@@ -126,8 +66,7 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   {
     tables.Centroid[axis] = last[1 + axis] / last[0];
   }
-  constexpr double roundingShare = 2e-15;
-  tables.VoidMass = roundingShare * last[0];
+  tables.VoidMass = voidShare * last[0];
   bool full = true;
   for (std::int64_t word = 0; word < this->Memory.Occupied.size() && full; ++word)
   {
@@ -153,6 +92,8 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     tables.Cells[axis] = size[axis];
     tables.Size[axis] = static_cast<double>(size[axis]);
+    tables.Low[axis] = 0.0;
+    tables.High[axis] = tables.Size[axis];
     tables.EvenLevels[axis] = size[axis] % widest == 0;
     estimate *= tables.Size[axis] + 1.0;
     rows *= axis > 0 ? size[axis] : 1;
@@ -161,21 +102,17 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   {
     throw std::bad_alloc();
   }
-  constexpr std::int64_t line = 8;
   std::int64_t total = 0;
   std::int64_t offset[TableView<Dimension>::MaximumLevels];
   for (int level = 0; level < tables.LevelCount; ++level)
   {
     offset[level] = total;
-    auto& stride = tables.Levels[level].Stride;
-    const auto nodes = [&](int axis) { return ((size[axis] - 1) >> (level * levelShift)) + 2; };
-    stride[0] = TableView<Dimension>::Record;
-    for (int axis = 1; axis < Dimension; ++axis)
+    GridSize<Dimension> nodes;
+    for (int axis = 0; axis < Dimension; ++axis)
     {
-      const std::int64_t lines = (stride[axis - 1] * nodes(axis - 1) + line - 1) / line;
-      stride[axis] = spreadStride(lines, axis > 1 ? stride[axis - 1] / line : 0) * line;
+      nodes[axis] = ((size[axis] - 1) >> (level * levelShift)) + 2;
     }
-    total += (stride[Dimension - 1] * nodes(Dimension - 1) + line - 1) / line * line;
+    total += layOutNodes<Dimension>(nodes, tables.Levels[level].Stride);
   }
   tables.BeyondCaches = total * static_cast<std::int64_t>(sizeof(double)) > cacheBytes;
   resize(this->Memory.Nodes, total);

@@ -144,7 +144,7 @@ private:
       const RowInspection sums = inspectCells(cells + start, length, row * this->Columns + start,
         this->Build.Occupied + row * this->Build.Tables.WordsPerRow + start / 64, part);
       sum += sums.Sum;
-      moment += sums.Moment + sums.Sum * static_cast<double>(start);
+      moment += sums.Moment + sums.Sum * static_cast<double>(this->Build.Origin[0] + start);
     }
     part.Total = sum;
     this->Found[j] = part;
@@ -153,16 +153,17 @@ private:
   void AddStrip(std::int64_t strip)
   {
     const TableView<2>& tables = this->Build.Tables;
+    const std::int64_t start = strip * stripCells;
     TableRow2D row;
-    row.First = strip * stripCells;
-    row.Count = std::min(stripCells, this->Columns - row.First);
+    row.First = this->Build.Origin[0] + start;
+    row.Count = std::min(stripCells, this->Columns - start);
     for (std::int64_t j = 0; j < this->Count; ++j)
     {
       const std::int64_t node = this->Begin + j + 1;
-      row.Values = this->Values.data() + j * this->Columns + row.First;
+      row.Values = this->Values.data() + j * this->Columns + start;
       std::copy_n(this->Prefixes.data() + (j * this->Strips + strip) * 2, 2, row.Prefix);
-      row.Centre = static_cast<double>(this->Begin + j) + 0.5;
-      row.Nodes = this->Build.Nodes + node * tables.Levels[0].Stride[1] + (row.First + 1) * 4;
+      row.Centre = static_cast<double>(this->Build.Origin[1] + this->Begin + j) + 0.5;
+      row.Nodes = this->Build.Nodes + node * tables.Levels[0].Stride[1] + (start + 1) * 4;
       row.Below = row.Nodes - tables.Levels[0].Stride[1];
       this->AddRow(row);
       for (int level = 0; level < tables.LevelCount; ++level)
@@ -179,7 +180,7 @@ private:
         }
         if (level > 0)
         {
-          copyToLevel<4>(row.Nodes, row.First, row.Count, this->Columns, level, target);
+          copyToLevel<4>(row.Nodes, start, row.Count, this->Columns, level, target);
         }
       }
     }
@@ -282,7 +283,8 @@ private:
       const RowInspection sums = inspectCells(cells, this->Columns, row * this->Columns,
         this->Build.Occupied + row * this->Build.Tables.WordsPerRow, part);
       part.Total += sums.Sum;
-      this->AddColumns(cells, this->Columns, static_cast<double>(j) + 0.5, column, columnMoment);
+      this->AddColumns(cells, this->Columns, static_cast<double>(this->Build.Origin[1] + j) + 0.5,
+        column, columnMoment);
     }
     this->Found[task] = part;
   }
@@ -302,7 +304,7 @@ private:
       for (std::int64_t i = 0; i < this->Columns; ++i)
       {
         sum += column[i];
-        moment += column[i] * (static_cast<double>(i) + 0.5);
+        moment += column[i] * (static_cast<double>(this->Build.Origin[0] + i) + 0.5);
         momentAcross += column[this->Columns + i];
         next[4 * i] = previous[4 * i] + sum;
         next[4 * i + 1] = previous[4 * i + 1] + moment;
@@ -319,16 +321,17 @@ private:
     const std::int64_t firstRow = strip * stripRows;
     const std::int64_t lastRow = std::min(firstRow + stripRows, this->Rows);
     TableRow3D row;
+    row.First = this->Build.Origin[0];
     row.Count = this->Columns;
     for (std::int64_t k = 0; k < this->Count; ++k)
     {
       const std::int64_t plane = this->Begin + k + 1;
       row.Columns = this->Before.data() + (k * this->Strips + strip) * this->Columns * 4;
-      row.Centre[1] = static_cast<double>(this->Begin + k) + 0.5;
+      row.Centre[1] = static_cast<double>(this->Build.Origin[2] + this->Begin + k) + 0.5;
       for (std::int64_t j = firstRow; j < lastRow; ++j)
       {
         row.Values = this->Values.data() + (k * this->Rows + j) * this->Columns;
-        row.Centre[0] = static_cast<double>(j) + 0.5;
+        row.Centre[0] = static_cast<double>(this->Build.Origin[1] + j) + 0.5;
         row.Nodes = this->Build.Nodes + plane * stride[2] + (j + 1) * stride[1] + 4;
         row.Below = row.Nodes - stride[2];
         this->AddRow(row);

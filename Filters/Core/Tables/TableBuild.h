@@ -22,6 +22,7 @@ struct TableBuild
   double* Nodes; // of all levels
   std::uint64_t* Occupied;
   DensitySummary& Found;
+  GridSize<Dimension> Origin = {}; // moments are about the origin of the grid, whose cell this is
 
   double* Level(int level) const
   {

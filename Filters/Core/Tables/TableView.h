@@ -29,8 +29,23 @@ struct TableView
     std::int64_t Stride[Dimension]; // in doubles
   };
 
+  // Nodes of uneven spacing, in place of those of levels.
+  struct UnevenAxis
+  {
+    const std::int32_t* NodeBelow; // of each grid cell
+    const double* Places;          // of the nodes, at whole grid cells
+  };
+
   Level Levels[MaximumLevels];
   int LevelCount;
+  bool IsUneven = false; // the one table is Levels[1], and its nodes lie as Uneven says
+  UnevenAxis Uneven[Dimension] = {};
+  // The part of the domain that the nodes cover; it is also what they sum over. Only the finest
+  // level may cover a part. Pointers to nodes are those of node 0 of the domain, even if that is
+  // not in the part.
+  bool IsPart = false;
+  double Low[Dimension];
+  double High[Dimension];
   bool EvenLevels[Dimension]; // no level has a narrower last cell
   bool BeyondCaches;          // prefetching the finest level pays
   double Size[Dimension];

@@ -51,7 +51,13 @@ struct FlowJob
   const StepWeights* Weights; // of Multistep with `Steps` steps, else null
   double CoarseRatio;         // least width of a box in cells of the level that is used
   const FlowMapView<Dimension>* Map = nullptr; // of the same steps and direction; Multistep only
-  double* Output = nullptr;                    // interleaved coordinates
+  // Forwards, passes before 0 take particles from their states at the hand-over, which are given in
+  // place of their seeds: position and the last three velocities, 4 * Dimension numbers a particle.
+  bool FromStates = false;
+  // Backwards, particles stop at the finest level of the map: those that it gives no seed (none
+  // does without records) are unresolved, and their output is where they are at the hand-over.
+  bool StopsAtMap = false;
+  double* Output = nullptr;             // interleaved coordinates
   const double* Times = nullptr;        // dense output, ascending; null for the end point alone
   std::int64_t TimeCount = 1;           // 1 with the end point alone
   bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
@@ -87,6 +93,12 @@ template <int Dimension>
 using AdvanceNodes = std::int64_t (*)(const FlowJob<Dimension>& job,
   const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block);
 
+// Writes where the particles of at most BlockSize seeds are at the time of a level. Sets
+// deferred[i] where its lattice may not be interpolated: that position is not written.
+template <int Dimension>
+using ReadMap = void (*)(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
+  const double* seeds, int count, double* positions, bool* deferred);
+
 struct FlowKernels
 {
   AdvectBlock<1> Advect1D;
@@ -95,6 +107,9 @@ struct FlowKernels
   AdvanceNodes<1> AdvanceNodes1D;
   AdvanceNodes<2> AdvanceNodes2D;
   AdvanceNodes<3> AdvanceNodes3D;
+  ReadMap<1> ReadMap1D;
+  ReadMap<2> ReadMap2D;
+  ReadMap<3> ReadMap3D;
 
   template <int Dimension>
   AdvectBlock<Dimension> Advect() const
@@ -105,6 +120,11 @@ struct FlowKernels
   AdvanceNodes<Dimension> Advance() const
   {
     return choose<Dimension>(this->AdvanceNodes1D, this->AdvanceNodes2D, this->AdvanceNodes3D);
+  }
+  template <int Dimension>
+  ReadMap<Dimension> Read() const
+  {
+    return choose<Dimension>(this->ReadMap1D, this->ReadMap2D, this->ReadMap3D);
   }
 
 private:

@@ -60,7 +60,7 @@ std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
 const FlowKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
   static const FlowKernels kernels = { &advectBlock<1>, &advectBlock<2>, &advectBlock<3>,
-    &advanceNodes<1>, &advanceNodes<2>, &advanceNodes<3> };
+    &advanceNodes<1>, &advanceNodes<2>, &advanceNodes<3>, &readMap<1>, &readMap<2>, &readMap<3> };
   return kernels;
 }
 

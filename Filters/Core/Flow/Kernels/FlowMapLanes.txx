@@ -74,12 +74,13 @@ template <int N, int Dimension>
 class RecordInterpolation
 {
 public:
+  // Of records that are `record` floats apart.
   RecordInterpolation(const FlowMapLevel<Dimension>& level, const LaneVectors<Dimension>& positions,
-    const StencilLanes<Dimension>& stencils)
+    const StencilLanes<Dimension>& stencils, int record = N)
     : Level(level)
     , Stencils(stencils)
   {
-    std::int64_t stride = N;
+    std::int64_t stride = record;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->Strides[axis] = stride;
@@ -173,6 +174,49 @@ void loadFromMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& l
       continue;
     }
     const Vector<record, float> state = interpolate(i);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      lanes.Position[axis][i] = clampToDomain(state[axis], job.Tables.Size[axis]);
+      for (int k = 0; k < 3; ++k)
+      {
+        (*lanes.V[k])[axis][i] = state[(k + 1) * Dimension + axis];
+      }
+    }
+  }
+}
+
+template <int Dimension>
+void readMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
+  const double* seeds, int count, double* positions, bool* deferred)
+{
+  constexpr int record = FlowMapLevel<Dimension>::ForwardRecord;
+  alignas(64) LaneVectors<Dimension> x;
+  loadPositions<Dimension>(job, seeds, count, x);
+  StencilLanes<Dimension> stencils;
+  findStencils<Dimension>(level, x, stencils);
+  RecordInterpolation<4, Dimension> interpolate(level, x, stencils, record);
+  for (int i = 0; i < count; ++i)
+  {
+    deferred[i] = !isGood<Dimension>(level, stencils, i);
+    if (!deferred[i])
+    {
+      const Vector<4, float> state = interpolate(i);
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        positions[i * Dimension + axis] = clampToDomain(state[axis], job.Tables.Size[axis]);
+      }
+    }
+  }
+}
+
+// The states of particles that are given in place of their seeds.
+template <int Dimension>
+void loadStates(const FlowJob<Dimension>& job, const double* states, int count,
+  MultistepLanes<Dimension>& lanes)
+{
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    const double* state = states + (i < count ? i : count - 1) * 4 * Dimension;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       lanes.Position[axis][i] = clampToDomain(state[axis], job.Tables.Size[axis]);

@@ -89,7 +89,11 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   PathWriter<Dimension> writer(job, seeds, index, count);
   PlateauLanes<Dimension> plateau;
   alignas(64) Lanes start;
-  loadPositions<Dimension>(job, seeds, count, lanes.Position);
+  const bool fromStates = pass < 0 && job.FromStates;
+  if (!fromStates)
+  {
+    loadPositions<Dimension>(job, seeds, count, lanes.Position);
+  }
   const RunWeights<Dimension> run =
     pass < 0 ? RunWeights<Dimension>(*job.Map) : RunWeights<Dimension>(job, pass);
   const std::int64_t steps = run.Steps;
@@ -98,7 +102,14 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   if (pass < 0)
   {
     const FlowMapLevel<Dimension>& level = job.Map->Levels[-1 - pass];
-    loadFromMap<Dimension>(job, level, count, lanes, deferred);
+    if (fromStates)
+    {
+      loadStates<Dimension>(job, seeds, count, lanes);
+    }
+    else
+    {
+      loadFromMap<Dimension>(job, level, count, lanes, deferred);
+    }
     plateau.Exclude(deferred);
     step = steps - level.HandOver;
     const double handOver = commonStart + (1.0 - commonStart) * run[step - 1].Time;
@@ -145,8 +156,8 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double isVoid = plateau.Done[i] > 0.0 ? 0.0 : lanes.Field.Void[i];
-      lanes.Unresolved[i] = larger(lanes.Unresolved[i], isVoid);
+      const double isWrong = larger(lanes.Field.Void[i], lanes.Field.Outside[i]);
+      lanes.Unresolved[i] = larger(lanes.Unresolved[i], plateau.Done[i] > 0.0 ? 0.0 : isWrong);
     }
     const auto& v0 = *lanes.V[0];
     const auto& newest = *lanes.V[3];
@@ -360,8 +371,22 @@ std::int64_t multistepBackward(const FlowJob<Dimension>& job, const double* seed
     evaluations += time > 0.0 ? left : 0;
     if (level >= 0 && step + 1 == job.Map->Levels[level].HandOver)
     {
-      finishFromMap<Dimension>(job.Map->Levels[level], count, lanes.Position, active, left, write);
-      if (level == -1 - pass && 2 * left < count)
+      if (job.Map->Levels[level].Records)
+      {
+        finishFromMap<Dimension>(
+          job.Map->Levels[level], count, lanes.Position, active, left, write);
+      }
+      if (job.StopsAtMap)
+      {
+        for (int i = 0; i < count; ++i)
+        {
+          if (active[i])
+          {
+            write(i, [&](int axis) { return lanes.Position[axis][i]; });
+          }
+        }
+      }
+      if (job.StopsAtMap || (level == -1 - pass && 2 * left < count))
       {
         std::memcpy(unresolved, active, static_cast<std::size_t>(count) * sizeof(bool));
         return evaluations;

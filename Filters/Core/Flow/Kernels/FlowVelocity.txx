@@ -20,7 +20,8 @@ struct VelocityLanes
   alignas(64) Lanes InverseTime;
   alignas(64) Lanes InverseRest; // 1 / (1 - t)
   alignas(64) Lanes Narrowest;
-  alignas(64) Lanes Void; // 1 where the box has no mass, else 0
+  alignas(64) Lanes Void;    // 1 where the box has no mass, else 0
+  alignas(64) Lanes Outside; // 1 where the box leaves the part of the domain with nodes, else 0
 };
 
 RT_INLINE double smaller(double a, double b)
@@ -110,6 +111,58 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   }
 }
 
+// Where the tables cover a part of the domain, boxes are cut to it.
+template <int Dimension>
+RT_INLINE void cutBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double lowest = job.Tables.Low[axis];
+    const double highest = job.Tables.High[axis];
+    double* from = lanes.From[axis];
+    double* to = lanes.To[axis];
+#pragma omp simd
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      const double before = axis > 0 ? lanes.Outside[i] : 0.0;
+      lanes.Outside[i] = (from[i] < lowest) | (to[i] > highest) ? 1.0 : before;
+      from[i] = smaller(larger(from[i], lowest), highest);
+      to[i] = smaller(larger(to[i], lowest), highest);
+    }
+  }
+}
+
+// Nodes and weights along one axis of tables of uneven nodes.
+template <int Dimension>
+RT_INLINE void findUnevenNodes(
+  const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes, int axis)
+{
+  BoxLanes<Dimension>& boxes = lanes.Boxes;
+  const auto& nodes = job.Tables.Uneven[axis];
+  const double size = job.Tables.Size[axis];
+  for (int i = 0; i < BlockSize; ++i)
+  {
+    const double from = lanes.From[axis][i];
+    const double to = lanes.To[axis][i];
+    const std::int64_t low = from <= 0.0 ? onLowFace : insideBoth;
+    const std::int64_t high = (Dimension == 1 || axis > 0) && to >= size ? onHighFace : insideBoth;
+    const std::int64_t faces = (low | high) << facesShift(axis);
+    boxes.Faces[i] = axis > 0 ? boxes.Faces[i] | faces : faces;
+    for (int side = 0; side < 2; ++side)
+    {
+      const double plane = side == 0 ? from : to;
+      const std::int32_t node =
+        nodes.NodeBelow[static_cast<std::int64_t>(smaller(plane, size - 1.0))];
+      const double below = nodes.Places[node];
+      const double width = nodes.Places[node + 1] - below;
+      const double place = (plane - below) / width;
+      boxes.Place[axis][side][i] = place;
+      boxes.QuadraticWeight[axis][side][i] = (-0.5 * width) * (place * (1.0 - place));
+      boxes.Node[axis][side][i] = node;
+    }
+  }
+}
+
 // Nodes and weights along one axis. Where the widths of all levels divide the size (EvenLevels) no
 // last cell is narrower; the general form gives the same bits.
 template <int Dimension, bool Even>
@@ -117,13 +170,14 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
   int axis, const Lanes& width, const Lanes& inverseWidth)
 {
   BoxLanes<Dimension>& boxes = lanes.Boxes;
-  const double size = job.Tables.Size[axis];
+  const double lowest = job.Tables.Low[axis];
+  const double size = job.Tables.High[axis];
   const double* from = lanes.From[axis];
   const double* to = lanes.To[axis];
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    const std::int64_t low = from[i] <= 0.0 ? onLowFace : insideBoth;
+    const std::int64_t low = from[i] <= lowest ? onLowFace : insideBoth;
     const std::int64_t high =
       (Dimension == 1 || axis > 0) && to[i] >= size ? onHighFace : insideBoth;
     const std::int64_t faces = (low | high) << facesShift(axis);
@@ -167,6 +221,18 @@ template <int Dimension>
 RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
 {
   BoxLanes<Dimension>& boxes = lanes.Boxes;
+  if (job.Tables.IsUneven)
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      findUnevenNodes<Dimension>(job, lanes, axis);
+    }
+    for (int i = 0; i < BlockSize; ++i)
+    {
+      boxes.Level[i] = 1;
+    }
+    return;
+  }
   const double inverseRatio = 1.0 / job.CoarseRatio;
   const double widest =
     static_cast<double>(std::int64_t{ 1 } << ((job.Tables.LevelCount - 1) * levelShift));
@@ -206,6 +272,10 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
   const LaneVectors<Dimension>& held, LaneVectors<Dimension>& v, const bool* active = nullptr)
 {
   findBoxes<Dimension>(job, lanes, x, t);
+  if (job.Tables.IsPart)
+  {
+    cutBoxes<Dimension>(job, lanes);
+  }
   findNodes<Dimension>(job, lanes);
   BoxLanes<Dimension>& boxes = lanes.Boxes;
   if (active)

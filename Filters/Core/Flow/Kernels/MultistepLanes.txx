@@ -22,6 +22,7 @@ struct MultistepLanes
     }
     std::memset(this->Velocities, 0, sizeof(this->Velocities));
     std::memset(this->Unresolved, 0, sizeof(this->Unresolved));
+    std::memset(this->Field.Outside, 0, sizeof(this->Field.Outside));
     std::memset(this->Field.Boxes.Mass, 0, sizeof(this->Field.Boxes.Mass));
     std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
   }

@@ -45,6 +45,7 @@ using AddTableRow2D = void (*)(const TableRow2D& row);
 struct TableRow3D
 {
   const double* Values;
+  std::int64_t First;  // first cell of the row
   std::int64_t Count;  // cells in the row
   double Centre[2];    // along axes 1 and 2
   double* Columns;     // {f, f * centre 1} of each column of the slice so far, updated

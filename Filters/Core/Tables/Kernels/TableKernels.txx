@@ -117,7 +117,7 @@ void addTableRow3D(const TableRow3D& row)
 {
   double sum = 0.0;
   double moment = 0.0;
-  double centre = 0.5;
+  double centre = static_cast<double>(row.First) + 0.5;
   const NodeRecord lift = { 1.0, 1.0, 1.0, row.Centre[1] };
   for (std::int64_t i = 0; i < row.Count; ++i)
   {

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Tables/GradedTables.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Tables/DensityInspection.h"
+#include "Core/Tables/NodeLayout.h"
+#include "Core/Tables/ScaledDensity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int record = 4; // doubles, in 2D and 3D
+
+} // namespace
+
+std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t stride, double ratio)
+{
+  std::vector<std::int64_t> nodes = { 0 };
+  std::int64_t width = 1;
+  while (nodes.back() + width <= size / 2)
+  {
+    nodes.push_back(nodes.back() + width);
+    while (width < stride && static_cast<double>(nodes.back()) >= 2.0 * ratio * static_cast<double>(width))
+    {
+      width *= 2;
+    }
+  }
+  const std::int64_t gap = size - 2 * nodes.back();
+  const std::size_t below = nodes.size();
+  if (gap > width)
+  {
+    nodes.push_back(nodes.back() + gap / 2);
+  }
+  for (std::size_t i = below; i-- > 0;)
+  {
+    if (size - nodes[i] > nodes.back())
+    {
+      nodes.push_back(size - nodes[i]);
+    }
+  }
+  return nodes;
+}
+
+template <int Dimension>
+GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
+  const GridSize<Dimension>& strides, double ratio, Progress& progress)
+{
+  TableView<Dimension>& tables = this->Tables;
+  GridSize<Dimension> counts;
+  std::int64_t rows = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t size = density.Size[axis];
+    this->Nodes[axis] = gradedNodes(size, strides[axis], ratio);
+    const std::vector<std::int64_t>& nodes = this->Nodes[axis];
+    counts[axis] = static_cast<std::int64_t>(nodes.size());
+    this->Places[axis].assign(nodes.begin(), nodes.end());
+    this->NodeBelow[axis].reserve(static_cast<std::size_t>(size));
+    for (std::size_t node = 0; node + 1 < nodes.size(); ++node)
+    {
+      this->NodeBelow[axis].insert(this->NodeBelow[axis].end(),
+        static_cast<std::size_t>(nodes[node + 1] - nodes[node]), static_cast<std::int32_t>(node));
+    }
+    tables.Cells[axis] = size;
+    tables.Size[axis] = static_cast<double>(size);
+    tables.Low[axis] = 0.0;
+    tables.High[axis] = tables.Size[axis];
+    tables.EvenLevels[axis] = false;
+    tables.Uneven[axis] = { this->NodeBelow[axis].data(), this->Places[axis].data() };
+    rows *= axis > 0 ? size : 1;
+  }
+  tables.IsUneven = true;
+  tables.LevelCount = 2;
+  tables.BeyondCaches = false;
+  this->Records = LargeBuffer<double>(layOutNodes<Dimension>(counts, tables.Levels[1].Stride));
+  tables.Levels[1].Nodes = this->Records.data();
+  tables.Levels[0] = tables.Levels[1];
+  tables.WordsPerRow = (density.Size[0] + 63) / 64;
+  this->Occupied = LargeBuffer<std::uint64_t>(tables.WordsPerRow * rows);
+
+  this->Build(density.Values, progress);
+  const DensitySummary found = this->Found;
+  requireDensity(found);
+  tables.Largest = found.Maximum;
+  this->Exponent = scalingOf(found.Maximum);
+  if (this->Exponent != 0)
+  {
+    const ScaledDensity scaled(density.Values, this->Exponent);
+    this->Build(scaled, progress);
+    this->Found = found;
+    tables.Largest = std::ldexp(found.Maximum, this->Exponent);
+  }
+  std::int64_t last = 0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    last += (counts[axis] - 1) * tables.Levels[1].Stride[axis];
+  }
+  const double* sums = this->Records.data() + last;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    tables.Centroid[axis] = sums[1 + axis] / sums[0];
+  }
+  tables.VoidMass = voidShare * sums[0];
+  bool full = true;
+  for (std::int64_t word = 0; word < this->Occupied.size() && full; ++word)
+  {
+    full = this->Occupied.data()[word] == ~std::uint64_t{ 0 };
+  }
+  tables.Occupied = full ? nullptr : this->Occupied.data();
+}
+
+template <int Dimension>
+std::int64_t GradedTables<Dimension>::MemorySize() const
+{
+  std::int64_t bytes = this->Records.bytes() + this->Occupied.bytes();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    bytes += static_cast<std::int64_t>(this->NodeBelow[axis].size() * sizeof(std::int32_t) +
+      this->Nodes[axis].size() * (sizeof(std::int64_t) + sizeof(double)));
+  }
+  return bytes;
+}
+
+// Layers between nodes of the last axis: all that a layer writes are the records above it.
+template <int Dimension>
+void GradedTables<Dimension>::Build(const DensityValues& density, Progress& progress)
+{
+  const auto layers = static_cast<std::int64_t>(this->Nodes[Dimension - 1].size()) - 1;
+  std::vector<DensitySummary> found(static_cast<std::size_t>(layers));
+  constexpr double partOfReading = 0.9;
+  progress.BeginStage(partOfReading);
+  progress.For(
+    layers, 1,
+    [&](std::int64_t first, std::int64_t last) {
+      std::vector<double> row(static_cast<std::size_t>(this->Tables.Cells[0]));
+      std::vector<std::uint64_t> words(static_cast<std::size_t>(this->Tables.WordsPerRow));
+      for (std::int64_t layer = first; layer < last && !progress.ShouldStop(); ++layer)
+      {
+        this->AddLayer(density, layer, row.data(), words, found[static_cast<std::size_t>(layer)]);
+      }
+    },
+    2);
+  this->Found = {};
+  for (const DensitySummary& part : found)
+  {
+    merge(part, this->Found);
+  }
+  progress.BeginStage(1.0);
+  this->SumNodes(progress);
+}
+
+// The sums of the grid cells of one layer in the boxes between nodes, each at the node above its
+// box.
+template <int Dimension>
+void GradedTables<Dimension>::AddLayer(const DensityValues& density, std::int64_t layer,
+  double* row, std::vector<std::uint64_t>& words, DensitySummary& found)
+{
+  const auto& stride = this->Tables.Levels[1].Stride;
+  constexpr int last = Dimension - 1;
+  double* records = this->Records.data() + (layer + 1) * stride[last];
+  std::fill_n(records, stride[last], 0.0);
+  if (layer == 0)
+  {
+    std::fill_n(this->Records.data(), stride[last], 0.0);
+  }
+  const std::int64_t columns = this->Tables.Cells[0];
+  const std::int64_t rows = Dimension == 3 ? this->Tables.Cells[1] : 1;
+  const std::int64_t end = this->Nodes[last][static_cast<std::size_t>(layer) + 1];
+  for (std::int64_t slice = this->Nodes[last][static_cast<std::size_t>(layer)]; slice < end;
+       ++slice)
+  {
+    for (std::int64_t j = 0; j < rows; ++j)
+    {
+      const std::int64_t number = slice * rows + j;
+      density.Read(number * columns, columns, row);
+      found.Total += inspectCells(row, columns, number * columns, words.data(), found).Sum;
+      std::copy(
+        words.begin(), words.end(), this->Occupied.data() + number * this->Tables.WordsPerRow);
+      if constexpr (Dimension == 3)
+      {
+        const double centres[2] = { static_cast<double>(j) + 0.5,
+          static_cast<double>(slice) + 0.5 };
+        const std::int64_t node = this->NodeBelow[1][static_cast<std::size_t>(j)];
+        this->AddRow(row, records + (node + 1) * stride[1], centres);
+      }
+      else
+      {
+        const double centre = static_cast<double>(slice) + 0.5;
+        this->AddRow(row, records, &centre);
+      }
+    }
+  }
+}
+
+// `centres` are those of the row along the other axes.
+template <int Dimension>
+void GradedTables<Dimension>::AddRow(
+  const double* cells, double* records, const double* centres) const
+{
+  const std::vector<std::int64_t>& nodes = this->Nodes[0];
+  for (std::size_t node = 0; node + 1 < nodes.size(); ++node)
+  {
+    double sum = 0.0;
+    double moment = 0.0;
+    for (std::int64_t i = nodes[node]; i < nodes[node + 1]; ++i)
+    {
+      sum += cells[i];
+      moment += cells[i] * (static_cast<double>(i) + 0.5);
+    }
+    double* sums = records + (node + 1) * record;
+    sums[0] += sum;
+    sums[1] += moment;
+    sums[2] += sum * centres[0];
+    sums[3] += Dimension == 3 ? sum * centres[Dimension - 2] : sum;
+  }
+}
+
+template <int Dimension>
+void GradedTables<Dimension>::SumNodes(Progress& progress)
+{
+  const auto& stride = this->Tables.Levels[1].Stride;
+  double* records = this->Records.data();
+  const auto add = [](double* to, const double* from, std::int64_t doubles) {
+    for (std::int64_t i = 0; i < doubles; ++i)
+    {
+      to[i] += from[i];
+    }
+  };
+  constexpr int last = Dimension - 1;
+  const auto columns = static_cast<std::int64_t>(this->Nodes[0].size());
+  const auto planes = static_cast<std::int64_t>(this->Nodes[last].size());
+  const std::int64_t rows = Dimension == 3 ? static_cast<std::int64_t>(this->Nodes[1].size()) : 1;
+  const Executor& threads = progress.Threads();
+  threads.For(planes, 1, [&](std::int64_t first, std::int64_t end) {
+    for (std::int64_t plane = first; plane < end; ++plane)
+    {
+      for (std::int64_t j = 0; j < rows; ++j)
+      {
+        double* row = records + plane * stride[last] + (Dimension == 3 ? j * stride[1] : 0);
+        for (std::int64_t i = 1; i < columns; ++i)
+        {
+          add(row + i * record, row + (i - 1) * record, record);
+        }
+        if (j > 0)
+        {
+          add(row, row - stride[1], columns * record);
+        }
+      }
+    }
+  });
+  progress.Check();
+  threads.For(rows, 1, [&](std::int64_t first, std::int64_t end) {
+    for (std::int64_t plane = 1; plane < planes; ++plane)
+    {
+      for (std::int64_t j = first; j < end; ++j)
+      {
+        double* row = records + plane * stride[last] + (Dimension == 3 ? j * stride[1] : 0);
+        add(row, row - stride[last], columns * record);
+      }
+    }
+  });
+  progress.Check();
+}
+
+template class GradedTables<2>;
+template class GradedTables<3>;
+
+} // namespace RectifiedTransport

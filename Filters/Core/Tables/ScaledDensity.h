@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Moments of very large values overflow, those of very small ones lose bits: scaling by a power of
+// two prevents both and does not round.
+#ifndef RectifiedTransport_ScaledDensity_h
+#define RectifiedTransport_ScaledDensity_h
+
+#include "Core/Tables/Density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// The exponent of two to scale a density of this maximum by; 0 for usual ones.
+inline int scalingOf(double maximum)
+{
+  constexpr double extreme = 1e200;
+  return maximum > extreme || maximum < 1.0 / extreme
+    ? std::max(-1000, std::min(1000, -std::ilogb(maximum)))
+    : 0;
+}
+
+// A density times a power of two.
+class ScaledDensity final : public DensityValues
+{
+public:
+  ScaledDensity(const DensityValues& density, int exponent)
+    : Density(density)
+    , Scale(std::ldexp(1.0, exponent))
+  {
+  }
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
+  {
+    this->Density.Read(first, count, values);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      values[i] *= this->Scale;
+    }
+  }
+
+private:
+  const DensityValues& Density;
+  const double Scale;
+};
+
+} // namespace RectifiedTransport
+
+#endif

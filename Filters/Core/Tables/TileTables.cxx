@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Tables/TileTables.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Tables/NodeLayout.h"
+#include "Core/Tables/ScaledDensity.h"
+#include "Core/Tables/TableBuild.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Rows of a part, or pieces of rows.
+template <int Dimension>
+class PartOfDensity final : public DensityValues
+{
+public:
+  PartOfDensity(const DensitySource<Dimension>& whole, const GridSize<Dimension>& low,
+    const GridSize<Dimension>& cells)
+    : Whole(whole)
+    , Low(low)
+    , Cells(cells)
+  {
+  }
+
+  void Read(std::int64_t first, std::int64_t count, double* values) const override
+  {
+    std::int64_t rest = first / this->Cells[0];
+    std::int64_t start = this->Low[0] + first % this->Cells[0];
+    std::int64_t stride = this->Whole.Size[0];
+    for (int axis = 1; axis < Dimension; ++axis)
+    {
+      start += (this->Low[axis] + rest % this->Cells[axis]) * stride;
+      rest /= this->Cells[axis];
+      stride *= this->Whole.Size[axis];
+    }
+    this->Whole.Values.Read(start, count, values);
+  }
+
+private:
+  const DensitySource<Dimension>& Whole;
+  const GridSize<Dimension>& Low;
+  const GridSize<Dimension>& Cells;
+};
+
+} // namespace
+
+template <int Dimension>
+TileTables<Dimension>::TileTables(
+  const DensitySource<Dimension>& density, const TableView<Dimension>& whole, int scaling)
+  : Density(density)
+  , Scaling(scaling)
+  , Tables(whole)
+{
+  this->Tables.IsUneven = false;
+  this->Tables.IsPart = true;
+  this->Tables.LevelCount = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    this->Tables.EvenLevels[axis] = true; // of cells of width 1
+  }
+}
+
+template <int Dimension>
+void TileTables<Dimension>::Build(
+  const GridSize<Dimension>& low, const GridSize<Dimension>& high, Progress& progress)
+{
+  // As if the part were the domain; what is summed but for the nodes is not used.
+  TableView<Dimension> part = this->Tables;
+  GridSize<Dimension> nodes;
+  std::int64_t rows = 1;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    part.Cells[axis] = high[axis] - low[axis];
+    nodes[axis] = part.Cells[axis] + 1;
+    rows *= axis > 0 ? part.Cells[axis] : 1;
+  }
+  part.WordsPerRow = (part.Cells[0] + 63) / 64;
+  const std::int64_t doubles = layOutNodes<Dimension>(nodes, part.Levels[0].Stride);
+  const std::int64_t words = part.WordsPerRow * rows;
+  if (this->Nodes.size() < doubles || this->Occupied.size() < words)
+  {
+    this->Nodes = {};
+    this->Nodes = LargeBuffer<double>(doubles);
+    this->Occupied = LargeBuffer<std::uint64_t>(words);
+  }
+  part.Levels[0].Nodes = this->Nodes.data();
+  GridSize<Dimension> cells;
+  std::copy_n(part.Cells, Dimension, cells.begin());
+  const PartOfDensity<Dimension> values(this->Density, low, cells);
+  const ScaledDensity scaled(values, this->Scaling);
+  const DensityValues* read = &values;
+  if (this->Scaling != 0)
+  {
+    read = &scaled;
+  }
+  DensitySummary found;
+  buildTables(TableBuild<Dimension>{
+    *read, progress, part, this->Nodes.data(), this->Occupied.data(), found, low });
+
+  constexpr std::int64_t cacheBytes = std::int64_t{ 1 } << 24;
+  this->Tables.BeyondCaches = doubles * static_cast<std::int64_t>(sizeof(double)) > cacheBytes;
+  this->Tables.Levels[0] = part.Levels[0];
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    this->Tables.Low[axis] = static_cast<double>(low[axis]);
+    this->Tables.High[axis] = static_cast<double>(high[axis]);
+    this->Tables.Levels[0].Nodes -= low[axis] * this->Tables.Levels[0].Stride[axis];
+  }
+}
+
+template <int Dimension>
+double TileTables<Dimension>::MemoryFor(const GridSize<Dimension>& cells)
+{
+  GridSize<Dimension> nodes;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    nodes[axis] = cells[axis] + 1;
+  }
+  std::int64_t stride[Dimension];
+  return static_cast<double>(layOutNodes<Dimension>(nodes, stride)) * sizeof(double);
+}
+
+template class TileTables<2>;
+template class TileTables<3>;
+
+} // namespace RectifiedTransport
