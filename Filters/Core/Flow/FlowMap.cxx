@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/FlowMap.h"
 
+#include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace RectifiedTransport
@@ -69,14 +69,21 @@ public:
   // else from scratch. Returns the number of velocity evaluations.
   std::int64_t Advance()
   {
-    std::vector<std::int64_t> left(this->Marks.size());
-    std::iota(left.begin(), left.end(), std::int64_t{ 0 });
-    std::int64_t evaluations = 0;
-    for (int parent = this->Job.Map->LevelCount - 1; parent >= -1 && !left.empty(); --parent)
-    {
-      evaluations += this->AdvanceFrom(parent, left);
-    }
-    return evaluations;
+    const auto fill = [this](const std::int64_t* numbers, int count, double* places) {
+      for (int i = 0; i < count; ++i)
+      {
+        std::int64_t node = numbers[i];
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          const auto place = static_cast<std::size_t>(node % this->Nodes[axis]);
+          places[i * Dimension + axis] = this->Places[axis][place];
+          node /= this->Nodes[axis];
+        }
+      }
+    };
+    return NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
+      .Run(static_cast<std::int64_t>(this->Marks.size()), this->Job.Map->LevelCount,
+        this->Marks.data(), fill);
   }
 
   // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
@@ -109,71 +116,7 @@ public:
   }
 
 private:
-  static constexpr std::int64_t blocks = 4; // a range
   static constexpr std::int64_t nodeGrain = std::int64_t{ 1 } << 12;
-
-  std::int64_t AdvanceFrom(int parent, std::vector<std::int64_t>& left)
-  {
-    const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
-    std::vector<unsigned char> deferred(left.size());
-    const std::vector<StepWeights> weights = this->WeightsFrom(parent);
-    std::atomic<std::int64_t> evaluations{ 0 };
-    this->Work.For(
-      static_cast<std::int64_t>(left.size()), blocks * BlockSize,
-      [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t first = begin; first < end && !this->Work.ShouldStop();
-             first += BlockSize)
-        {
-          const auto count = static_cast<int>(std::min<std::int64_t>(BlockSize, end - first));
-          double places[BlockSize * Dimension];
-          for (int i = 0; i < count; ++i)
-          {
-            std::int64_t node = left[static_cast<std::size_t>(first + i)];
-            for (int axis = 0; axis < Dimension; ++axis)
-            {
-              const auto place = static_cast<std::size_t>(node % this->Nodes[axis]);
-              places[i * Dimension + axis] = this->Places[axis][place];
-              node /= this->Nodes[axis];
-            }
-          }
-          evaluations += advance(this->Job, this->Level, parent,
-            { places, left.data() + first, count, weights.data(), deferred.data() + first,
-              this->Marks.data() });
-        }
-      },
-      blocks * BlockSize);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < left.size(); ++i)
-    {
-      left[kept] = left[i];
-      kept += deferred[i];
-    }
-    left.resize(kept);
-    return evaluations;
-  }
-
-  std::vector<StepWeights> WeightsFrom(int parent) const
-  {
-    std::vector<StepWeights> weights;
-    const std::int64_t all = this->Job.Map->Steps;
-    const auto add = [&weights](std::int64_t count, std::int64_t steps) {
-      for (std::int64_t step = 0; step < count; ++step)
-      {
-        weights.push_back(stretchedWeights(step, count, steps));
-      }
-    };
-    if (this->Job.Backward)
-    {
-      const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
-      const std::int64_t count = nodeSteps(this->Level.HandOver, to);
-      add(count, 2 * count);
-    }
-    else if (parent < 0)
-    {
-      add(startSteps(all, this->Level.HandOver), latticeSteps * all);
-    }
-    return weights;
-  }
 
   // Calls function(node, its place along the axis) for all nodes.
   template <class Function>

@@ -141,7 +141,7 @@ public:
 
   bool IsAfterStart(int handOver) const
   {
-    return handOver + 2 < this->Steps && this->Rest(handOver + 2) <= mostRest(this->Direction);
+    return isAfterStart(this->Direction, handOver, this->Steps);
   }
 
   // The levels from the finest, whose hand-over is given, to the coarsest.
@@ -205,11 +205,7 @@ private:
   }
 
   // 1 - t at a hand-over.
-  double Rest(int handOver) const
-  {
-    const double graded = grading(handOver, this->Steps);
-    return this->Direction == FlowDirection::Forward ? (1.0 - commonStart) * graded : graded;
-  }
+  double Rest(int handOver) const { return timeLeft(this->Direction, handOver, this->Steps); }
 
   // Square roots alone: they have the same bits everywhere.
   double FindSpacing(int handOver) const
@@ -258,9 +254,20 @@ private:
 
 } // namespace
 
+double timeLeft(FlowDirection direction, int handOver, int steps)
+{
+  const double graded = grading(handOver, steps);
+  return direction == FlowDirection::Forward ? (1.0 - commonStart) * graded : graded;
+}
+
+bool isAfterStart(FlowDirection direction, int handOver, int steps)
+{
+  return handOver + 2 < steps && timeLeft(direction, handOver + 2, steps) <= mostRest(direction);
+}
+
 template <int Dimension>
-FlowMapShape<Dimension>::FlowMapShape(
-  const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction, int refinement)
+FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps,
+  FlowDirection direction, int refinement, int leastHandOver)
   : NumberOfSteps(numberOfSteps << refinement)
   , Steps(direction == FlowDirection::Backward
         ? numberOfSteps
@@ -277,7 +284,7 @@ FlowMapShape<Dimension>::FlowMapShape(
     }
     this->Deviation = chooser.Deviations();
     double least = std::numeric_limits<double>::infinity();
-    for (int handOver = 1; handOver < steps; ++handOver)
+    for (int handOver = leastHandOver; handOver < steps; ++handOver)
     {
       if (!chooser.MayBeFinest(handOver))
       {

@@ -13,12 +13,6 @@
 namespace RectifiedTransport
 {
 
-enum class FlowDirection
-{
-  Forward,
-  Backward
-};
-
 template <int Dimension>
 struct FlowMapShape
 {
@@ -34,9 +28,9 @@ struct FlowMapShape
   // Empty where lattices do not serve: in 1D, for few steps, for so many that records of float
   // precision are too coarse, and where there would be more than one node for four cells.
   // With a refinement particles take 2^refinement times as many steps on lattices of the same
-  // accuracy.
+  // accuracy. No lattice hands over later than `leastHandOver` steps before time 1.
   FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
-    int refinement = 0);
+    int refinement = 0, int leastHandOver = 1);
 
   double MemorySize() const; // bytes of the map
 
@@ -51,6 +45,11 @@ struct FlowMapShape
   Point<Dimension> Deviation{};
   double Cost = 0.0; // of all levels
 };
+
+// Forwards, 1 - t at the hand-over that leaves so many of the steps; backwards as well.
+double timeLeft(FlowDirection direction, int handOver, int steps);
+// Whether boxes are so wide at a hand-over that nothing may be handed over before it.
+bool isAfterStart(FlowDirection direction, int handOver, int steps);
 
 // Whether the method of the options can start from flow maps.
 inline bool takesFlowMaps(const FlowOptions& options)

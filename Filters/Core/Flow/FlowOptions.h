@@ -31,6 +31,12 @@ enum class FlowMaps
   Off
 };
 
+enum class FlowDirection
+{
+  Forward,
+  Backward
+};
+
 struct FlowOptions
 {
   static constexpr int MaximumNumberOfSteps = 10000;

@@ -2,9 +2,10 @@
 #include "Core/Flow/RectifiedFlow.h"
 
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/FlowMap.h"
+#include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/LatticeOrder.h"
-#include "Core/Flow/ParticleOrder.h"
+#include "Core/Flow/SortedPoints.h"
+#include "Core/Flow/TiledFlow.h"
 #include "Core/Geometry/CountText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/BoxShare.h"
@@ -14,7 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,8 +26,7 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int particlesPerTile = 8;
-constexpr std::int64_t chunkParticles = std::int64_t{ 1 } << 20;
+constexpr std::int64_t tiledChunk = std::int64_t{ 1 } << 25; // particles
 
 void check(const std::vector<double>& times)
 {
@@ -85,44 +85,6 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
   return LatticeOrder<Dimension>(lattice, size, place);
 }
 
-// Points of an array in chunks, each in ParticleOrder; the same interface as LatticeOrder.
-template <int Dimension>
-class SortedPoints
-{
-public:
-  explicit SortedPoints(ConstPointSpan<Dimension> points)
-    : Points(points)
-  {
-  }
-
-  std::int64_t Count() const { return this->Points.size(); }
-
-  std::int64_t Prepare(std::int64_t first)
-  {
-    const std::int64_t length = std::min(chunkParticles, this->Count() - first);
-    const std::int64_t wrong = this->Sort.Sort(this->Points, first, length, particlesPerTile);
-    if (wrong >= 0)
-    {
-      throw std::invalid_argument("point " + std::to_string(wrong) + " is not finite");
-    }
-    return length;
-  }
-
-  void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
-  {
-    const std::int64_t* order = this->Sort.Order();
-    for (int i = 0; i < count; ++i)
-    {
-      index[i] = order[first + i];
-      std::copy_n(this->Points[index[i]], Dimension, points + i * Dimension);
-    }
-  }
-
-private:
-  ConstPointSpan<Dimension> Points;
-  ParticleOrder<Dimension> Sort;
-};
-
 template <int Dimension>
 SummedAreaTables<Dimension> build(
   const DensitySource<Dimension>& density, const Context& context, TableMemory memory)
@@ -142,6 +104,55 @@ struct RectifiedFlow<Dimension>::Internals
     : Size(density.Size)
     , Tables(build(density, context, std::move(memory)))
   {
+  }
+
+  Internals(
+    const DensitySource<Dimension>& density, const Context& context, const TileLimits& limits)
+    : Size(density.Size)
+  {
+    check<Dimension>(density.Size, "a density");
+    Progress progress(context);
+    this->Tiles = std::make_unique<TiledFlow<Dimension>>(density, limits, progress);
+  }
+
+  // Without levels where there are tiles.
+  const TableView<Dimension>& View() const
+  {
+    return this->Tiles ? this->Tiles->View() : this->Tables->View();
+  }
+
+  const DensitySummary& Summary() const
+  {
+    return this->Tiles ? this->Tiles->Summary() : this->Tables->Summary();
+  }
+
+  const TableView<Dimension>& WholeTables(const char* what) const
+  {
+    if (this->Tiles)
+    {
+      throw std::invalid_argument(std::string(what) + " needs whole tables, the flow has tiles");
+    }
+    return this->Tables->View();
+  }
+
+  template <class Source>
+  FlowReport Advect(AdvectionKind kind, Source&& source, PointSpan<Dimension> positions,
+    const FlowOptions& options, const Context& context)
+  {
+    if (this->Tiles)
+    {
+      return this->Tiles->Advect(kind, source, positions, options, context);
+    }
+    AdvectionRun<Dimension> run(this->Tables->View(), kind, options, context);
+    this->Prepare(run, options, static_cast<double>(source.Count()));
+    return run.Advect(source, positions);
+  }
+
+  // In chunks, each of which goes through all tiles.
+  SortedPoints<Dimension> Sorted(ConstPointSpan<Dimension> points) const
+  {
+    return SortedPoints<Dimension>(
+      points, this->Tiles ? tiledChunk : SortedPoints<Dimension>::UsualChunk);
   }
 
   // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
@@ -164,66 +175,26 @@ struct RectifiedFlow<Dimension>::Internals
     {
       return;
     }
-    KeptMap& kept = this->Maps[job.Backward ? 1 : 0];
-    const Steps steps{ options.NumberOfSteps, shared.Refinement };
-    std::shared_ptr<const FlowMap<Dimension>> map = kept.Get(steps);
-    const bool isNew = !map;
-    if (isNew)
-    {
-      // Not locked: other runs make their own meanwhile, of the same bits.
-      const double particlesCost = particles * shape.Levels.back().HandOver;
-      kept.Set(steps, nullptr); // old and new maps side by side would double the peak
-      const Context context = run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost));
-      try
-      {
-        map = std::make_shared<const FlowMap<Dimension>>(shape, job, context);
-      }
-      catch (const std::bad_alloc&)
-      {
-        throw NoMemoryForFlowMap(shape.MemorySize());
-      }
-      kept.Set(steps, map);
-    }
+    const double particlesCost = particles * shape.Levels.back().HandOver;
+    KeptFlowMap<Dimension>& kept = this->Maps[job.Backward ? 1 : 0];
+    bool isNew = false;
+    auto map = kept.FindOrMake(
+      shape, shared.Refinement, job,
+      [&]() { return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)); }, isNew);
     run.UseMap(std::move(map), isNew);
   }
 
   std::int64_t MemorySize()
   {
-    return this->Tables.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
+    return this->Tiles
+      ? this->Tiles->MemorySize()
+      : this->Tables->MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
 
-  using Steps = std::pair<int, int>; // NumberOfSteps and its refinement
-
-  // The flow map of the last steps in one direction.
-  class KeptMap
-  {
-  public:
-    std::shared_ptr<const FlowMap<Dimension>> Get(const Steps& steps)
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      return steps == this->Of ? this->Map : nullptr;
-    }
-    void Set(const Steps& steps, std::shared_ptr<const FlowMap<Dimension>> map)
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Of = steps;
-      this->Map.swap(map);
-    }
-    std::int64_t MemorySize()
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      return this->Map ? this->Map->MemorySize() : 0;
-    }
-
-  private:
-    std::mutex Mutex;
-    Steps Of;
-    std::shared_ptr<const FlowMap<Dimension>> Map;
-  };
-
   GridSize<Dimension> Size;
-  SummedAreaTables<Dimension> Tables;
-  KeptMap Maps[2];
+  std::optional<SummedAreaTables<Dimension>> Tables;
+  std::unique_ptr<TiledFlow<Dimension>> Tiles; // in place of Tables
+  KeptFlowMap<Dimension> Maps[2];
 };
 
 template <int Dimension>
@@ -234,13 +205,21 @@ RectifiedFlow<Dimension>::RectifiedFlow(
 }
 
 template <int Dimension>
+RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
+  const Context& context, const TileLimits& limits)
+  : Data(tables == FlowTables::Tiled ? std::make_unique<Internals>(density, context, limits)
+                                     : std::make_unique<Internals>(density, context))
+{
+}
+
+template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
 {
   TableMemory memory;
   if (const std::unique_ptr<Internals> data = std::move(previous.Data))
   {
-    memory = data->Tables.ReleaseMemory();
+    memory = data->Tables ? data->Tables->ReleaseMemory() : TableMemory();
   }
   this->Data = std::make_unique<Internals>(density, context, std::move(memory));
 }
@@ -263,14 +242,14 @@ const GridSize<Dimension>& RectifiedFlow<Dimension>::Size() const
 template <int Dimension>
 double RectifiedFlow<Dimension>::Total() const
 {
-  return this->Data->Tables.Summary().Total;
+  return this->Data->Summary().Total;
 }
 
 template <int Dimension>
 Point<Dimension> RectifiedFlow<Dimension>::Centroid() const
 {
   Point<Dimension> centroid;
-  std::copy_n(this->Data->Tables.View().Centroid, Dimension, centroid.begin());
+  std::copy_n(this->Data->View().Centroid, Dimension, centroid.begin());
   return centroid;
 }
 
@@ -297,21 +276,23 @@ double RectifiedFlow<Dimension>::MemoryFor(const GridSize<Dimension>& size)
 template <int Dimension>
 bool RectifiedFlow<Dimension>::HasMass(const Point<Dimension>& point) const
 {
-  return hasMass<Dimension>(this->Data->Tables.View(), point);
+  return hasMass<Dimension>(this->Data->View(), point);
 }
 
 template <int Dimension>
 double RectifiedFlow<Dimension>::Share(
   const Point<Dimension>& low, const Point<Dimension>& high) const
 {
-  return boxShare<Dimension>(this->Data->Tables.View(), low, high);
+  return this->Data->Tiles ? this->Data->Tiles->Share(low, high)
+                           : boxShare<Dimension>(this->Data->View(), low, high);
 }
 
 template <int Dimension>
 double RectifiedFlow<Dimension>::MeasureOfShare(
   const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const
 {
-  return measureOfShare<Dimension>(this->Data->Tables.View(), centre, aspect, share);
+  return measureOfShare<Dimension>(
+    this->Data->WholeTables("MeasureOfShare"), centre, aspect, share);
 }
 
 template <int Dimension>
@@ -319,9 +300,8 @@ FlowReport RectifiedFlow<Dimension>::Forward(ConstPointSpan<Dimension> seeds,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
   checkCount(positions.size(), static_cast<double>(seeds.size()));
-  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
-  this->Data->Prepare(run, options, static_cast<double>(seeds.size()));
-  return run.Advect(SortedPoints<Dimension>(seeds), positions);
+  return this->Data->Advect(
+    AdvectionKind::Forward, this->Data->Sorted(seeds), positions, options, context);
 }
 
 template <int Dimension>
@@ -332,7 +312,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
   check(times);
   checkCount(
     positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
-  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
+  AdvectionRun<Dimension> run(
+    this->Data->WholeTables("a path"), AdvectionKind::Forward, options, context);
   this->Data->Prepare(run, options, static_cast<double>(seeds.size()), times.front());
   return run.Advect(SortedPoints<Dimension>(seeds), positions, times);
 }
@@ -342,9 +323,8 @@ FlowReport RectifiedFlow<Dimension>::Backward(ConstPointSpan<Dimension> points,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
   checkCount(positions.size(), static_cast<double>(points.size()));
-  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
-  this->Data->Prepare(run, options, static_cast<double>(points.size()));
-  return run.Advect(SortedPoints<Dimension>(points), positions);
+  return this->Data->Advect(
+    AdvectionKind::Backward, this->Data->Sorted(points), positions, options, context);
 }
 
 template <int Dimension>
@@ -360,9 +340,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Context& context) const
 {
   const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
-  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Forward, options, context);
-  this->Data->Prepare(run, options, static_cast<double>(positions.size()));
-  return run.Advect(order, positions);
+  return this->Data->Advect(AdvectionKind::Forward, order, positions, options, context);
 }
 
 template <int Dimension>
@@ -371,9 +349,7 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
 {
   const auto order =
     checkedOrder<Dimension>(lattice, cellCentre<Dimension>(), this->Size(), positions.size());
-  AdvectionRun<Dimension> run(this->Data->Tables.View(), AdvectionKind::Backward, options, context);
-  this->Data->Prepare(run, options, static_cast<double>(positions.size()));
-  return run.Advect(order, positions);
+  return this->Data->Advect(AdvectionKind::Backward, order, positions, options, context);
 }
 
 template <int Dimension>
@@ -383,7 +359,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardLatticeToCells(const GridSize<Dimens
   check<Dimension>(lattice, "a lattice");
   const LatticeOrder<Dimension> order(lattice, this->Data->Size);
   AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), AdvectionKind::ForwardToCells, options, context);
+    this->Data->WholeTables("a run to cells"), AdvectionKind::ForwardToCells, options, context);
   this->Data->Prepare(run, options, static_cast<double>(order.Count()));
   return run.AdvectToCells(order, cells);
 }
@@ -393,7 +369,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardToCells(ConstPointSpan<Dimension> se
   std::int64_t* cells, const FlowOptions& options, const Context& context) const
 {
   AdvectionRun<Dimension> run(
-    this->Data->Tables.View(), AdvectionKind::ForwardToCells, options, context);
+    this->Data->WholeTables("a run to cells"), AdvectionKind::ForwardToCells, options, context);
   this->Data->Prepare(run, options, static_cast<double>(seeds.size()));
   return run.AdvectToCells(SortedPoints<Dimension>(seeds), cells);
 }

@@ -17,6 +17,7 @@
 #define RectifiedTransport_RectifiedFlow_h
 
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Flow/FlowTables.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
@@ -40,6 +41,13 @@ class RectifiedFlow
 public:
   explicit RectifiedFlow(
     const DensitySource<Dimension>& density, const Context& context = Context());
+  // Tiled is for densities, in 2D and 3D, whose tables are too large for the memory: the values
+  // must outlive the flow, as every advection reads them again. It takes Multistep with
+  // Interpolated alone, in enough steps, without times before the end, and not to cells: else, and
+  // for MeasureOfShare, it throws std::invalid_argument. Results differ from those of whole tables
+  // by less than the error of either.
+  RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
+    const Context& context = Context(), const TileLimits& limits = {});
   // The same in the memory of `previous`, if its tables are as large: for a density that changes
   // with time. Takes about half the time that new memory takes, and never allocates both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,

@@ -27,7 +27,8 @@ std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t stride, do
   while (nodes.back() + width <= size / 2)
   {
     nodes.push_back(nodes.back() + width);
-    while (width < stride && static_cast<double>(nodes.back()) >= 2.0 * ratio * static_cast<double>(width))
+    while (width < stride &&
+      static_cast<double>(nodes.back()) >= 2.0 * ratio * static_cast<double>(width))
     {
       width *= 2;
     }

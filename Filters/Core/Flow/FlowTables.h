@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a flow keeps of its density: whole tables or tiles.
+#ifndef RectifiedTransport_FlowTables_h
+#define RectifiedTransport_FlowTables_h
+
+#include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/GridSize.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+enum class FlowTables
+{
+  Whole, // the tables of all levels
+  Tiled  // few nodes; those of tiles are made in each advection, one tile after another
+};
+
+// How large what tiles need may be. Results depend on it.
+struct TileLimits
+{
+  std::int64_t GradedNodes = std::int64_t{ 1 } << 23; // most of the graded tables
+  std::int64_t Cells = std::int64_t{ 1 } << 26;       // most of a tile's tables
+  std::int64_t Width = 0; // about that of a tile, in grid cells; 0: chosen by the boxes
+};
+
+// Whether tiles serve the options, which must be valid: Multistep with Interpolated and enough
+// steps, in 2D and 3D.
+template <int Dimension>
+bool servesTiles(const GridSize<Dimension>& size, const FlowOptions& options,
+  FlowDirection direction, const TileLimits& limits = {});
+// Throws std::invalid_argument where they do not.
+template <int Dimension>
+void requireTiles(const GridSize<Dimension>& size, const FlowOptions& options,
+  FlowDirection direction, const TileLimits& limits = {});
+
+} // namespace RectifiedTransport
+
+#endif

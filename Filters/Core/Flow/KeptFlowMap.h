@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The flow map of the last steps in one direction, for the runs that follow.
+#ifndef RectifiedTransport_KeptFlowMap_h
+#define RectifiedTransport_KeptFlowMap_h
+
+#include "Core/Flow/FlowMap.h"
+#include "Core/Flow/NoMemoryForFlowMap.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class KeptFlowMap
+{
+public:
+  // Returns the map of a shape if it is kept; else makes it, which begin() gives a context for, and
+  // keeps it. Called by several runs at once. Throws NoMemoryForFlowMap and Cancelled.
+  template <class Begin>
+  std::shared_ptr<const FlowMap<Dimension>> FindOrMake(const FlowMapShape<Dimension>& shape,
+    int refinement, const FlowJob<Dimension>& job, const Begin& begin, bool& isNew)
+  {
+    const Steps steps{ shape.NumberOfSteps, refinement };
+    std::shared_ptr<const FlowMap<Dimension>> map = this->Get(steps);
+    isNew = !map;
+    if (isNew)
+    {
+      // Not locked: other runs make their own meanwhile, of the same bits.
+      this->Set(steps, nullptr); // old and new maps side by side would double the peak
+      const Context context = begin();
+      try
+      {
+        map = std::make_shared<const FlowMap<Dimension>>(shape, job, context);
+      }
+      catch (const std::bad_alloc&)
+      {
+        throw NoMemoryForFlowMap(shape.MemorySize());
+      }
+      this->Set(steps, map);
+    }
+    return map;
+  }
+
+  std::int64_t MemorySize()
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Map ? this->Map->MemorySize() : 0;
+  }
+
+private:
+  using Steps = std::pair<int, int>; // NumberOfSteps and its refinement
+
+  std::shared_ptr<const FlowMap<Dimension>> Get(const Steps& steps)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return steps == this->Of ? this->Map : nullptr;
+  }
+  void Set(const Steps& steps, std::shared_ptr<const FlowMap<Dimension>> map)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Of = steps;
+    this->Map.swap(map);
+  }
+
+  std::mutex Mutex;
+  Steps Of;
+  std::shared_ptr<const FlowMap<Dimension>> Map;
+};
+
+} // namespace RectifiedTransport
+
+#endif

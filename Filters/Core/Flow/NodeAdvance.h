@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nodes taken from their places to the time of a level of a flow map: those of its lattice, and
+// particles that no lattice serves.
+#ifndef RectifiedTransport_NodeAdvance_h
+#define RectifiedTransport_NodeAdvance_h
+
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class NodeAdvance
+{
+public:
+  // The level's records are those of the nodes, by their number.
+  NodeAdvance(
+    const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level, Progress& progress)
+    : Job(job)
+    , Level(level)
+    , Work(progress)
+  {
+  }
+
+  // Makes `count` records, each from the finest of the first `parents` levels of the job's map that
+  // may be interpolated there, else from scratch. fill(numbers, count, places) gives the places of
+  // at most BlockSize nodes. Sets the marks, one a node, of those that met an empty box to 1, those
+  // of the others to 0. Returns the number of velocity evaluations. Throws Cancelled.
+  template <class Fill>
+  std::int64_t Run(std::int64_t count, int parents, unsigned char* marks, const Fill& fill)
+  {
+    std::vector<std::int64_t> left(static_cast<std::size_t>(count));
+    std::iota(left.begin(), left.end(), std::int64_t{ 0 });
+    std::int64_t evaluations = 0;
+    for (int parent = parents - 1; parent >= -1 && !left.empty(); --parent)
+    {
+      evaluations += this->RunFrom(parent, left, marks, fill);
+    }
+    return evaluations;
+  }
+
+private:
+  static constexpr std::int64_t blocks = 4; // a range
+
+  template <class Fill>
+  std::int64_t RunFrom(
+    int parent, std::vector<std::int64_t>& left, unsigned char* marks, const Fill& fill)
+  {
+    const AdvanceNodes<Dimension> advance = flowKernels().Advance<Dimension>();
+    std::vector<unsigned char> deferred(left.size());
+    const std::vector<StepWeights> weights = this->WeightsFrom(parent);
+    std::atomic<std::int64_t> evaluations{ 0 };
+    this->Work.For(
+      static_cast<std::int64_t>(left.size()), blocks * BlockSize,
+      [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t first = begin; first < end && !this->Work.ShouldStop();
+             first += BlockSize)
+        {
+          const auto count = static_cast<int>(std::min<std::int64_t>(BlockSize, end - first));
+          double places[BlockSize * Dimension];
+          fill(left.data() + first, count, places);
+          evaluations += advance(this->Job, this->Level, parent,
+            { places, left.data() + first, count, weights.data(), deferred.data() + first, marks });
+        }
+      },
+      blocks * BlockSize);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < left.size(); ++i)
+    {
+      left[kept] = left[i];
+      kept += deferred[i];
+    }
+    left.resize(kept);
+    return evaluations;
+  }
+
+  std::vector<StepWeights> WeightsFrom(int parent) const
+  {
+    std::vector<StepWeights> weights;
+    const std::int64_t all = this->Job.Map->Steps;
+    const auto add = [&weights](std::int64_t count, std::int64_t steps) {
+      for (std::int64_t step = 0; step < count; ++step)
+      {
+        weights.push_back(stretchedWeights(step, count, steps));
+      }
+    };
+    if (this->Job.Backward)
+    {
+      const std::int64_t to = parent < 0 ? all : this->Job.Map->Levels[parent].HandOver;
+      const std::int64_t count = nodeSteps(this->Level.HandOver, to);
+      add(count, 2 * count);
+    }
+    else if (parent < 0)
+    {
+      add(startSteps(all, this->Level.HandOver), latticeSteps * all);
+    }
+    return weights;
+  }
+
+  const FlowJob<Dimension>& Job;
+  const FlowMapLevel<Dimension>& Level;
+  Progress& Work;
+};
+
+} // namespace RectifiedTransport
+
+#endif

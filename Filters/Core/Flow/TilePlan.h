@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a flow of a large density is cut in tiles. Particles are taken to one time, the hand-over, on
+// graded tables (GradedTables.h), and from there on, forwards, by the tables of the tile that holds
+// the centre of their box: boxes shrink, and each lies in the one before. Backwards the tiles come
+// first. All follows from the grid, the number of steps, the direction and the maps.
+#ifndef RectifiedTransport_TilePlan_h
+#define RectifiedTransport_TilePlan_h
+
+#include "Core/Flow/FlowMapShape.h"
+#include "Core/Flow/FlowTables.h"
+#include "Core/Geometry/GridSize.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The graded tables of a grid: the widest boxes, in cells, over their strides.
+constexpr double gradedRatio = 12.0;
+
+// The strides of the graded tables of a grid, in proportion to its sizes; powers of two.
+template <int Dimension>
+GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLimits& limits = {});
+
+template <int Dimension>
+struct TilePlan
+{
+  // Without a hand-over if steps are too few. With maps the finest lattice ends at the hand-over,
+  // if there is any.
+  TilePlan(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
+    bool hasMaps, const TileLimits& limits = {});
+
+  bool IsPossible() const { return this->HandOver > 0; }
+  std::int64_t Count() const;
+  // The tile of a particle: by its place at the hand-over forwards, at time 1 backwards.
+  std::int64_t TileOf(const double* position) const;
+  // The grid cells of a tile's tables.
+  void FindCells(std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const;
+  GridSize<Dimension> MostCells() const; // of the tables of any tile
+
+  GridSize<Dimension> Size;
+  FlowMapShape<Dimension> Shape;
+  int HandOver = 0; // steps between it and time 1
+  double TimeLeft = 0.0;
+  GridSize<Dimension> Counts; // of tiles
+  GridSize<Dimension> Halo;   // cells around a tile that boxes reach
+
+private:
+  void ChooseTiles(const TileLimits& limits);
+
+  double InverseTime = 1.0;                       // of box centres
+  std::vector<std::int32_t> TileBelow[Dimension]; // of each grid cell
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An advection through tiles that are worked through one after another (TilePlan.h).
+#ifndef RectifiedTransport_TiledAdvection_h
+#define RectifiedTransport_TiledAdvection_h
+
+#include "Core/Flow/AdvectionRun.h"
+#include "Core/Flow/NodeAdvance.h"
+#include "Core/Flow/TileEntries.h"
+#include "Core/Flow/TilePlan.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Tables/GradedTables.h"
+#include "Core/Tables/TileTables.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class TiledAdvection
+{
+public:
+  // The map may be null; it is of the plan's shape.
+  TiledAdvection(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
+    const TilePlan<Dimension>& plan, const AdvectionJob<Dimension>& shared,
+    const FlowMap<Dimension>* map, Counters& counters, Progress& progress)
+    : Plan(plan)
+    , Wide(shared.Job)
+    , Count(counters)
+    , Work(progress)
+    , Tile(density, graded.View(), graded.Scaling())
+    , Advect(flowKernels().Advect<Dimension>())
+    , Read(flowKernels().Read<Dimension>())
+    , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
+  {
+    this->Wide.Tables = graded.View();
+    this->Wide.ShouldStop = [](void* clientData) {
+      return static_cast<Progress*>(clientData)->ShouldStop();
+    };
+    this->Wide.ClientData = &progress;
+    this->Wide.Sparse = true;
+    for (std::int64_t step = 0; step < plan.Shape.Steps; ++step)
+    {
+      this->Weights.push_back(multistepWeights(step, plan.Shape.Steps));
+    }
+    if (map)
+    {
+      this->Map = map->View();
+    }
+    this->Map.Steps = plan.Shape.Steps;
+    this->Map.Weights = this->Weights.data();
+  }
+
+  // As AdvectionRun::Advect, without times.
+  template <class Source>
+  void Run(Source&& source, PointSpan<Dimension> positions)
+  {
+    const std::int64_t all = source.Count();
+    const double begin = this->Work.StageEnd();
+    for (std::int64_t first = 0; first < all;)
+    {
+      const std::int64_t length = source.Prepare(first);
+      const auto stageAt = [&](std::int64_t done) {
+        return begin + (1.0 - begin) * static_cast<double>(done) / static_cast<double>(all);
+      };
+      this->RunChunk(source, length, positions, stageAt(first), stageAt(first + length));
+      first += length;
+    }
+  }
+
+private:
+  static constexpr int stateSize = 4 * Dimension;
+  static constexpr std::int64_t grain = 32; // entries or blocks a range
+
+  // Particles of one block that are in one tile.
+  struct Entry
+  {
+    std::int64_t Block;
+    std::uint64_t Particles;
+    std::int64_t Tile;
+  };
+
+  // Particles gathered to be advected together.
+  struct Lanes
+  {
+    int Count = 0;
+    double Seeds[BlockSize * stateSize];
+    std::int64_t Index[BlockSize]; // in the output
+    std::int64_t Particle[BlockSize];
+  };
+
+  bool HandsOverFromMap() const
+  {
+    return this->Map.LevelCount > 0 &&
+      this->Map.Levels[this->Map.LevelCount - 1].HandOver == this->Plan.HandOver;
+  }
+
+  // One of a chunk's stages, as shares of it.
+  void BeginStage(double begin, double end, double share, std::int64_t units = 1)
+  {
+    this->Work.BeginStage(begin + (end - begin) * share, units);
+  }
+
+  template <class Source>
+  void RunChunk(const Source& source, std::int64_t length, PointSpan<Dimension> positions,
+    double begin, double end)
+  {
+    constexpr double partOfMap = 0.1;
+    constexpr double partOfTiles = 0.9;
+    ParticleMask left(length);
+    if (this->Wide.Backward || this->HandsOverFromMap())
+    {
+      this->BeginStage(begin, end, partOfMap);
+      const ByTile<Entry> entries = this->FindTiles(source, length, left);
+      this->RunTiles(entries, begin + partOfMap * (end - begin),
+        begin + partOfTiles * (end - begin), [&](std::int64_t first, std::int64_t last) {
+          this->AdvectEntries(source, entries, first, last, positions, left);
+        });
+    }
+    else
+    {
+      for (std::int64_t block = 0; block < left.Blocks(); ++block)
+      {
+        left.AddToBlock(block, blockMask(length - block * BlockSize));
+      }
+    }
+    const double done = this->Work.StageEnd();
+    for (int pass = 0; pass <= this->LastPass; ++pass)
+    {
+      const std::int64_t count = left.Count();
+      const double passEnd = pass < this->LastPass ? 0.5 * (this->Work.StageEnd() + end) : end;
+      ParticleMask next(length);
+      this->RunPass(source, pass, left, count, positions, next, done, passEnd);
+      std::swap(left, next);
+      this->Count.Redone += pass == 0 && !this->Wide.Backward ? left.Count() : 0;
+    }
+    if (!this->Wide.Backward)
+    {
+      this->MoveToMass(source, left, positions);
+    }
+  }
+
+  static std::uint64_t blockMask(std::int64_t particles)
+  {
+    return particles >= BlockSize ? ~std::uint64_t{ 0 } : (std::uint64_t{ 1 } << particles) - 1;
+  }
+
+  template <class Source>
+  static int fillBlock(const Source& source, std::int64_t length, std::int64_t block,
+    std::int64_t* index, double* seeds)
+  {
+    const auto count =
+      static_cast<int>(std::min<std::int64_t>(BlockSize, length - block * BlockSize));
+    source.Fill(block * BlockSize, count, index, seeds);
+    return count;
+  }
+
+  // The entries of all particles, but those that the map does not serve: these are `left`.
+  template <class Source>
+  ByTile<Entry> FindTiles(const Source& source, std::int64_t length, ParticleMask& left)
+  {
+    const std::int64_t blocks = left.Blocks();
+    std::vector<std::vector<Entry>> found(static_cast<std::size_t>((blocks + grain - 1) / grain));
+    const auto find = [&](std::int64_t block, std::vector<Entry>& entries) {
+      std::int64_t index[BlockSize];
+      double places[BlockSize * Dimension];
+      bool deferred[BlockSize] = {};
+      const int count = fillBlock(source, length, block, index, places);
+      if (!this->Wide.Backward)
+      {
+        double seeds[BlockSize * Dimension];
+        std::copy_n(places, count * Dimension, seeds);
+        this->Read(
+          this->Wide, this->Map.Levels[this->Map.LevelCount - 1], seeds, count, places, deferred);
+      }
+      const std::size_t before = entries.size();
+      for (int i = 0; i < count; ++i)
+      {
+        if (deferred[i])
+        {
+          left.Add(block * BlockSize + i);
+          continue;
+        }
+        const std::int64_t tile = this->Plan.TileOf(places + i * Dimension);
+        auto entry = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(before),
+          entries.end(), [tile](const Entry& other) { return other.Tile == tile; });
+        if (entry == entries.end())
+        {
+          entries.push_back({ block, 0, tile });
+          entry = entries.end() - 1;
+        }
+        entry->Particles |= std::uint64_t{ 1 } << i;
+      }
+    };
+    this->Work.For(
+      blocks, grain,
+      [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t block = begin; block < end && !this->Work.ShouldStop(); ++block)
+        {
+          find(block, found[static_cast<std::size_t>(block / grain)]);
+        }
+      },
+      grain);
+    return ByTile<Entry>(found, this->Plan.Count(), [](const Entry& entry) { return entry.Tile; });
+  }
+
+  // Makes the tables of each tile with items, and runs advect(first, last) over them.
+  template <class Items, class AdvectItems>
+  void RunTiles(const Items& items, double begin, double end, const AdvectItems& advect)
+  {
+    constexpr double partOfTables = 0.1;
+    for (std::int64_t tile = 0; tile < this->Plan.Count(); ++tile)
+    {
+      const std::int64_t first = items.Start(tile);
+      const std::int64_t count = items.Start(tile + 1) - first;
+      if (count == 0)
+      {
+        continue;
+      }
+      const double all = static_cast<double>(items.Count());
+      const double from = begin + (end - begin) * static_cast<double>(first) / all;
+      const double to = begin + (end - begin) * static_cast<double>(first + count) / all;
+      GridSize<Dimension> low;
+      GridSize<Dimension> high;
+      this->Plan.FindCells(tile, low, high);
+      this->BeginStage(from, to, partOfTables, high[Dimension - 1] - low[Dimension - 1]);
+      this->Tile.Build(low, high, this->Work);
+      this->BeginStage(from, to, 1.0);
+      this->Work.For(
+        count, grain, [&](std::int64_t b, std::int64_t e) { advect(first + b, first + e); }, grain);
+    }
+  }
+
+  template <class Source>
+  void AdvectEntries(const Source& source, const ByTile<Entry>& entries, std::int64_t first,
+    std::int64_t last, PointSpan<Dimension> positions, ParticleMask& left)
+  {
+    const bool isKept = this->Wide.Backward; // where those are that the map gives no seed
+    FlowMapView<Dimension> map = this->Map;
+    if (isKept && !this->HandsOverFromMap())
+    {
+      map.LevelCount = 1;
+      map.Levels[0].HandOver = this->Plan.HandOver;
+      map.Levels[0].Records = nullptr;
+    }
+    FlowJob<Dimension> job = this->TileJob(map);
+    job.StopsAtMap = this->Wide.Backward;
+    Lanes lanes;
+    std::int64_t index[BlockSize];
+    double seeds[BlockSize * Dimension];
+    for (std::int64_t item = first; item < last && !this->Work.ShouldStop(); ++item)
+    {
+      const Entry& entry = entries[item];
+      // The block ends with the chunk; what is after its last particle in this tile is not used.
+      const int count = BlockSize - __builtin_clzll(entry.Particles);
+      source.Fill(entry.Block * BlockSize, count, index, seeds);
+      for (int i = 0; i < count; ++i)
+      {
+        if ((entry.Particles >> i & 1) == 0)
+        {
+          continue;
+        }
+        std::copy_n(seeds + i * Dimension, Dimension, lanes.Seeds + lanes.Count * Dimension);
+        lanes.Index[lanes.Count] = index[i];
+        lanes.Particle[lanes.Count] = entry.Block * BlockSize + i;
+        if (++lanes.Count == BlockSize)
+        {
+          this->AdvectLanes(job, -map.LevelCount, isKept, lanes, positions, left);
+        }
+      }
+    }
+    this->AdvectLanes(job, -map.LevelCount, isKept, lanes, positions, left);
+  }
+
+  FlowJob<Dimension> TileJob(const FlowMapView<Dimension>& map) const
+  {
+    FlowJob<Dimension> job = this->Wide;
+    job.Tables = this->Tile.View();
+    job.Sparse = false;
+    job.Map = &map;
+    return job;
+  }
+
+  // Advects the lanes; those that are resolved, or all, are written to the positions, the others
+  // are `left`.
+  void AdvectLanes(FlowJob<Dimension>& job, int pass, bool isKept, Lanes& lanes,
+    PointSpan<Dimension> positions, ParticleMask& left)
+  {
+    if (lanes.Count == 0)
+    {
+      return;
+    }
+    double ends[BlockSize * Dimension];
+    std::int64_t numbers[BlockSize];
+    std::iota(numbers, numbers + BlockSize, std::int64_t{ 0 });
+    bool unresolved[BlockSize] = {};
+    job.Output = ends;
+    this->Count.Evaluations +=
+      this->Advect(job, lanes.Seeds, numbers, lanes.Count, pass, unresolved);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      if (!unresolved[i] || isKept)
+      {
+        std::copy_n(ends + i * Dimension, Dimension, positions[lanes.Index[i]]);
+      }
+      if (unresolved[i])
+      {
+        left.Add(lanes.Particle[i]);
+      }
+    }
+    lanes.Count = 0;
+  }
+
+  // Particles of a pass that are taken to the hand-over by themselves.
+  struct Extra
+  {
+    std::vector<std::int64_t> Particle;
+    LargeBuffer<float> Records;
+    std::vector<unsigned char> Troubled;
+  };
+
+  // Takes all that is in `given` from the seeds, with 2^pass times as many steps; what is still
+  // unresolved is in `left` then.
+  template <class Source>
+  void RunPass(const Source& source, int pass, const ParticleMask& given, std::int64_t count,
+    PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
+  {
+    const std::int64_t most = this->MostExtra();
+    std::int64_t block = 0;
+    for (std::int64_t done = 0; done < count;)
+    {
+      Extra extra;
+      for (; block < given.Blocks(); ++block)
+      {
+        std::uint64_t word = given.Block(block);
+        if (static_cast<std::int64_t>(extra.Particle.size()) + __builtin_popcountll(word) > most)
+        {
+          break;
+        }
+        for (; word != 0; word &= word - 1)
+        {
+          extra.Particle.push_back(block * BlockSize + __builtin_ctzll(word));
+        }
+      }
+      const auto share = [&](std::int64_t particles) {
+        return begin + (end - begin) * static_cast<double>(particles) / static_cast<double>(count);
+      };
+      const auto length = static_cast<std::int64_t>(extra.Particle.size());
+      this->RunExtra(source, pass, extra, positions, left, share(done), share(done + length));
+      done += length;
+    }
+  }
+
+  std::int64_t MostExtra() const
+  {
+    return std::max(std::int64_t{ 1 } << 18,
+      static_cast<std::int64_t>(numberOfCells<Dimension>(this->Plan.Size)) / 64);
+  }
+
+  template <class Source>
+  void RunExtra(const Source& source, int pass, Extra& extra, PointSpan<Dimension> positions,
+    ParticleMask& left, double begin, double end)
+  {
+    constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
+    constexpr int backward = FlowMapLevel<Dimension>::BackwardRecord;
+    const bool isBackward = this->Wide.Backward;
+    const int record = isBackward ? backward : forward;
+    const auto count = static_cast<std::int64_t>(extra.Particle.size());
+    extra.Records = LargeBuffer<float>(count * record);
+    extra.Troubled.resize(static_cast<std::size_t>(count));
+
+    FlowMapView<Dimension> map = this->Map;
+    int parents = map.LevelCount - (this->HandsOverFromMap() ? 1 : 0);
+    if (pass > 0)
+    {
+      parents = 0;
+      map.Steps <<= pass;
+      map.Weights = nullptr;
+    }
+    FlowMapLevel<Dimension> level{};
+    level.HandOver = this->Plan.HandOver << pass;
+    level.TimeLeft = static_cast<float>(this->Plan.TimeLeft);
+    level.Records = extra.Records.data();
+    FlowJob<Dimension> job = this->Wide;
+    job.Map = &map;
+    const double middle = isBackward ? end : begin + 0.5 * (end - begin);
+    this->Work.BeginStage(middle);
+    const auto particle = [&extra](std::int64_t number) {
+      return extra.Particle[static_cast<std::size_t>(number)];
+    };
+    this->Count.Evaluations += NodeAdvance<Dimension>(job, level, this->Work)
+                                 .Run(count, parents, extra.Troubled.data(),
+                                   [&](const std::int64_t* numbers, int length, double* places) {
+                                     for (int i = 0; i < length; ++i)
+                                     {
+                                       std::int64_t index = 0;
+                                       double* place = places + i * Dimension;
+                                       source.Fill(particle(numbers[i]), 1, &index, place);
+                                       if (isBackward)
+                                       {
+                                         std::copy_n(positions[index], Dimension, place);
+                                       }
+                                     }
+                                   });
+    if (isBackward)
+    {
+      this->WriteSeeds(source, extra, positions);
+      return;
+    }
+    // Those that met an empty box are redone, in the last pass from where they are all the same.
+    map.Levels[0] = level;
+    map.LevelCount = 1;
+    std::vector<std::vector<std::int64_t>> numbers(1);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      if (extra.Troubled[static_cast<std::size_t>(i)] && pass < this->LastPass)
+      {
+        left.Add(particle(i));
+      }
+      else
+      {
+        numbers[0].push_back(i);
+      }
+    }
+    const ByTile<std::int64_t> byTile(numbers, this->Plan.Count(), [&](std::int64_t number) {
+      double place[Dimension];
+      std::copy_n(level.Records + number * record, Dimension, place);
+      return this->Plan.TileOf(place);
+    });
+    const bool isLast = pass == this->LastPass;
+    this->RunTiles(byTile, middle, end, [&](std::int64_t first, std::int64_t last) {
+      FlowJob<Dimension> tileJob = this->TileJob(map);
+      tileJob.FromStates = true;
+      Lanes lanes;
+      for (std::int64_t item = first; item < last && !this->Work.ShouldStop(); ++item)
+      {
+        const std::int64_t number = byTile[item];
+        double seed[Dimension];
+        source.Fill(particle(number), 1, lanes.Index + lanes.Count, seed);
+        std::copy_n(
+          level.Records + number * record, stateSize, lanes.Seeds + lanes.Count * stateSize);
+        lanes.Particle[lanes.Count] = particle(number);
+        if (++lanes.Count == BlockSize)
+        {
+          this->AdvectLanes(tileJob, -1, isLast, lanes, positions, left);
+        }
+      }
+      this->AdvectLanes(tileJob, -1, isLast, lanes, positions, left);
+    });
+  }
+
+  template <class Source>
+  void WriteSeeds(const Source& source, const Extra& extra, PointSpan<Dimension> positions)
+  {
+    constexpr int record = FlowMapLevel<Dimension>::BackwardRecord;
+    constexpr std::int64_t seedGrain = 4096;
+    this->Work.Threads().For(static_cast<std::int64_t>(extra.Particle.size()), seedGrain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          std::int64_t index = 0;
+          double point[Dimension];
+          source.Fill(extra.Particle[static_cast<std::size_t>(i)], 1, &index, point);
+          for (int axis = 0; axis < Dimension; ++axis)
+          {
+            const auto size = static_cast<double>(this->Plan.Size[axis]);
+            const double seed = extra.Records.data()[i * record + axis];
+            positions[index][axis] = std::min(std::max(seed, 0.0), size);
+          }
+        }
+      });
+    this->Work.Check();
+  }
+
+  template <class Source>
+  void MoveToMass(const Source& source, const ParticleMask& left, PointSpan<Dimension> positions)
+  {
+    FlowJob<Dimension> job = this->Wide;
+    job.Output = positions.data();
+    this->Work.Threads().For(left.Blocks(), 1, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t block = first; block < last && !this->Work.ShouldStop(); ++block)
+      {
+        for (std::uint64_t word = left.Block(block); word != 0; word &= word - 1)
+        {
+          std::int64_t index = 0;
+          double seed[Dimension];
+          source.Fill(block * BlockSize + __builtin_ctzll(word), 1, &index, seed);
+          moveToMass<Dimension>(job, index, this->Count);
+        }
+      }
+    });
+    this->Work.Check();
+  }
+
+  const TilePlan<Dimension>& Plan;
+  FlowJob<Dimension> Wide; // on the graded tables
+  Counters& Count;
+  Progress& Work;
+  TileTables<Dimension> Tile;
+  const AdvectBlock<Dimension> Advect;
+  const ReadMap<Dimension> Read;
+  const int LastPass;
+  std::vector<StepWeights> Weights;
+  FlowMapView<Dimension> Map;
+};
+
+} // namespace RectifiedTransport
+
+#endif

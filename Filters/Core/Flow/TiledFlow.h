@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The flow of a large density, whose tables of tiles are made anew in every advection.
+#ifndef RectifiedTransport_TiledFlow_h
+#define RectifiedTransport_TiledFlow_h
+
+#include "Core/Flow/KeptFlowMap.h"
+#include "Core/Flow/TiledAdvection.h"
+#include "Core/Tables/DensityShare.h"
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class TiledFlow
+{
+public:
+  TiledFlow(const DensitySource<Dimension>& density, const TileLimits& limits, Progress& progress)
+    : Density(density)
+    , Limits(limits)
+    , Graded(density, gradedStrides<Dimension>(density.Size, limits), gradedRatio, progress)
+  {
+  }
+
+  // Without levels.
+  const TableView<Dimension>& View() const { return this->Graded.View(); }
+  const DensitySummary& Summary() const { return this->Graded.Summary(); }
+  std::int64_t MemorySize()
+  {
+    return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
+  }
+  double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
+  {
+    return densityIn<Dimension>(this->Density, low, high) / this->Summary().Total;
+  }
+
+  // Throws std::invalid_argument where tiles do not serve the options, NoMemoryForFlowMap,
+  // std::bad_alloc and Cancelled.
+  template <class Source>
+  FlowReport Advect(AdvectionKind kind, Source&& source, PointSpan<Dimension> positions,
+    const FlowOptions& options, const Context& context)
+  {
+    const AdvectionJob<Dimension> shared(this->View(), kind, options);
+    const bool isBackward = kind == AdvectionKind::Backward;
+    const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
+    requireTiles<Dimension>(this->Density.Size, options, direction, this->Limits);
+    const auto particles = static_cast<double>(source.Count());
+    const TilePlan<Dimension> withMaps(
+      this->Density.Size, options.NumberOfSteps, direction, true, this->Limits);
+    const bool hasMaps = particles > 0.0 && options.Maps != FlowMaps::Off &&
+      !withMaps.Shape.Levels.empty() &&
+      (options.Maps == FlowMaps::On || withMaps.Shape.PaysFor(particles));
+    const TilePlan<Dimension> plan = hasMaps
+      ? withMaps
+      : TilePlan<Dimension>(
+          this->Density.Size, options.NumberOfSteps, direction, false, this->Limits);
+
+    Counters counters;
+    Progress progress(context);
+    std::shared_ptr<const FlowMap<Dimension>> map;
+    if (hasMaps)
+    {
+      bool isNew = false;
+      map = this->Maps[isBackward ? 1 : 0].FindOrMake(
+        plan.Shape, 0, shared.Job,
+        [&]() {
+          progress.BeginStage(plan.Shape.Cost / (plan.Shape.Cost + particles * plan.HandOver));
+          return progress.Stage();
+        },
+        isNew);
+      counters.Evaluations += isNew ? map->Evaluations() : 0;
+    }
+    TiledAdvection<Dimension>(
+      this->Density, this->Graded, plan, shared, map.get(), counters, progress)
+      .Run(source, positions);
+    FlowReport report;
+    report.Redone = counters.Redone;
+    report.MovedToMass = counters.MovedToMass;
+    report.Evaluations = counters.Evaluations;
+    return report;
+  }
+
+private:
+  const DensitySource<Dimension> Density;
+  const TileLimits Limits;
+  const GradedTables<Dimension> Graded;
+  KeptFlowMap<Dimension> Maps[2];
+};
+
+// Densities of one axis are not cut in tiles.
+template <>
+class TiledFlow<1>
+{
+public:
+  TiledFlow(const DensitySource<1>&, const TileLimits&, Progress&)
+  {
+    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
+  }
+  const TableView<1>& View() const { return this->Tables; }
+  const DensitySummary& Summary() const { return this->Found; }
+  std::int64_t MemorySize() { return 0; }
+  double Share(const Point<1>&, const Point<1>&) const { return 0.0; }
+  template <class Source>
+  FlowReport Advect(AdvectionKind, Source&&, PointSpan<1>, const FlowOptions&, const Context&)
+  {
+    return {};
+  }
+
+private:
+  TableView<1> Tables{};
+  DensitySummary Found;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Tables/DensityShare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The grid cells that a side of a box covers, the outer ones in part.
+struct CoveredCells
+{
+  CoveredCells(double low, double high, std::int64_t size)
+    : Low(std::clamp(low, 0.0, static_cast<double>(size)))
+    , High(std::clamp(high, 0.0, static_cast<double>(size)))
+    , First(std::min(static_cast<std::int64_t>(this->Low), size - 1))
+    , End(std::max(this->First + 1, static_cast<std::int64_t>(std::ceil(this->High))))
+  {
+  }
+  double PartOf(std::int64_t cell) const
+  {
+    const auto from = static_cast<double>(cell);
+    return std::max(0.0, std::min(this->High, from + 1.0) - std::max(this->Low, from));
+  }
+
+  const double Low;
+  const double High;
+  const std::int64_t First;
+  const std::int64_t End;
+};
+
+} // namespace
+
+template <int Dimension>
+double densityIn(const DensitySource<Dimension>& density, const Point<Dimension>& low,
+  const Point<Dimension>& high)
+{
+  constexpr std::int64_t most = 256; // cells read at once
+  const auto covered = [&](int axis) {
+    return axis < Dimension ? CoveredCells(low[axis], high[axis], density.Size[axis])
+                            : CoveredCells(0.0, 1.0, 1);
+  };
+  const CoveredCells x = covered(0);
+  const CoveredCells y = covered(1);
+  const CoveredCells z = covered(2);
+  const std::int64_t rows = Dimension > 1 ? density.Size[Dimension > 1 ? 1 : 0] : 1;
+  double sum = 0.0;
+  for (std::int64_t k = z.First; k < z.End; ++k)
+  {
+    for (std::int64_t j = y.First; j < y.End; ++j)
+    {
+      const double part = y.PartOf(j) * z.PartOf(k);
+      const std::int64_t row = (k * rows + j) * density.Size[0];
+      for (std::int64_t i = x.First; i < x.End; i += most)
+      {
+        double values[most];
+        const std::int64_t count = std::min(most, x.End - i);
+        density.Values.Read(row + i, count, values);
+        for (std::int64_t cell = 0; cell < count; ++cell)
+        {
+          sum += values[cell] * (x.PartOf(i + cell) * part);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+template double densityIn<2>(const DensitySource<2>&, const Point<2>&, const Point<2>&);
+template double densityIn<3>(const DensitySource<3>&, const Point<3>&, const Point<3>&);
+
+} // namespace RectifiedTransport

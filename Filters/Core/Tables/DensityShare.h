@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over boxes from a density itself, where there are no tables of it.
+#ifndef RectifiedTransport_DensityShare_h
+#define RectifiedTransport_DensityShare_h
+
+#include "Core/Tables/Density.h"
+
+namespace RectifiedTransport
+{
+
+// The sum of the density over a box, clipped to the domain; reads all its cells.
+template <int Dimension>
+double densityIn(const DensitySource<Dimension>& density, const Point<Dimension>& low,
+  const Point<Dimension>& high);
+
+} // namespace RectifiedTransport
+
+#endif
