@@ -16,8 +16,9 @@
 namespace RectifiedTransport
 {
 
-// The graded tables of a grid: the widest boxes, in cells, over their strides.
-constexpr double gradedRatio = 12.0;
+// The least width of a box on the graded tables over their strides. Measured at 256^3: the mean
+// error of the finest lattice is 8 % larger than on exact tables, with 8 it is 35 % larger.
+constexpr double gradedRatio = 11.5;
 
 // The strides of the graded tables of a grid, in proportion to its sizes; powers of two.
 template <int Dimension>
