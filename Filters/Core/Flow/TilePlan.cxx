@@ -15,11 +15,12 @@ namespace RectifiedTransport
 namespace
 {
 
-// The largest power of two up to a value, at least 1.
-std::int64_t powerOfTwoUpTo(double value)
+// The power of two that is nearest in ratio, at least 1.
+std::int64_t nearestPowerOfTwo(double value)
 {
+  constexpr double half = 1.4142135623730951;
   std::int64_t power = 1;
-  while (2.0 * static_cast<double>(power) <= value)
+  while (half * static_cast<double>(power) < value)
   {
     power *= 2;
   }
@@ -51,8 +52,8 @@ GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLim
     bool isCoarser = false;
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      strides[axis] = powerOfTwoUpTo(static_cast<double>(stride) * static_cast<double>(size[axis]) /
-        static_cast<double>(longest));
+      strides[axis] = nearestPowerOfTwo(static_cast<double>(stride) *
+        static_cast<double>(size[axis]) / static_cast<double>(longest));
       nodes *= static_cast<double>(gradedNodes(size[axis], strides[axis], gradedRatio).size());
       isCoarser = isCoarser || strides[axis] < size[axis];
     }
@@ -121,7 +122,12 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   {
     ++handOver;
   }
-  if (!isAfterStart(direction, handOver, steps))
+  // Backwards nodes that no lattice serves may go any way.
+  constexpr double half = 0.5;
+  const bool isUsual = isAfterStart(direction, handOver, steps);
+  const bool isLate = direction == FlowDirection::Backward && handOver + 2 < steps &&
+    timeLeft(direction, handOver, steps) <= half;
+  if (!isUsual && !isLate)
   {
     this->Shape.Levels.clear();
     return;

@@ -71,6 +71,8 @@ public:
       this->RunChunk(source, length, positions, stageAt(first), stageAt(first + length));
       first += length;
     }
+    this->Work.BeginStage(1.0);
+    this->Work.EndSlice(1);
   }
 
 private:
