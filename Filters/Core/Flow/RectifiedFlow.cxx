@@ -26,8 +26,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t tiledChunk = std::int64_t{ 1 } << 25; // particles
-
 void check(const std::vector<double>& times)
 {
   if (times.empty())
@@ -151,8 +149,8 @@ struct RectifiedFlow<Dimension>::Internals
   // In chunks, each of which goes through all tiles.
   SortedPoints<Dimension> Sorted(ConstPointSpan<Dimension> points) const
   {
-    return SortedPoints<Dimension>(
-      points, this->Tiles ? tiledChunk : SortedPoints<Dimension>::UsualChunk);
+    return SortedPoints<Dimension>(points,
+      this->Tiles ? TilePlan<Dimension>::SortedParticles : SortedPoints<Dimension>::UsualChunk);
   }
 
   // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
@@ -271,6 +269,23 @@ double RectifiedFlow<Dimension>::MemoryFor(const GridSize<Dimension>& size)
   }
   constexpr double levels = 1.0 / (1.0 - 1.0 / (1 << (Dimension * levelShift)));
   return nodes * levels * TableView<Dimension>::Record * sizeof(double);
+}
+
+template <int Dimension>
+double RectifiedFlow<Dimension>::TiledMemoryFor(const GridSize<Dimension>& size,
+  const FlowOptions& options, FlowDirection direction, double particles, bool isLattice,
+  const TileLimits& limits)
+{
+  return TiledFlow<Dimension>::MemoryFor(size, options, direction, particles, isLattice, limits);
+}
+
+template <int Dimension>
+void RectifiedFlow<Dimension>::SetDensity(const DensityValues& values)
+{
+  if (this->Data->Tiles)
+  {
+    this->Data->Tiles->SetDensity(values);
+  }
 }
 
 template <int Dimension>

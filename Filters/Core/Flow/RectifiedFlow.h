@@ -63,6 +63,12 @@ public:
   // About the bytes of the tables of a density, before they are made. Flow maps are at most half as
   // large in each direction.
   static double MemoryFor(const GridSize<Dimension>& size);
+  // The most bytes that a flow with tiles takes, while it advects so many particles, samples of a
+  // lattice or an array of points, besides the positions; options for which tiles serve.
+  static double TiledMemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
+    FlowDirection direction, double particles, bool isLattice, const TileLimits& limits = {});
+  // For flows with tiles: the values are now at another place in memory.
+  void SetDensity(const DensityValues& values);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
   // The share of the mass in a box.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Flow/TilePlan.h"
 
+#include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Tables/GradedTables.h"
+#include "Core/Tables/TileTables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,8 +102,9 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   FlowDirection direction, bool hasMaps, const TileLimits& limits)
   : Size(size)
   , Shape(size, numberOfSteps, direction)
+  , Strides(gradedStrides<Dimension>(size, limits))
 {
-  const GridSize<Dimension> strides = gradedStrides<Dimension>(size, limits);
+  const GridSize<Dimension>& strides = this->Strides;
   double coarsest = 0.0; // stride over the axis
   for (int axis = 0; axis < Dimension; ++axis)
   {
@@ -252,6 +255,59 @@ GridSize<Dimension> TilePlan<Dimension>::MostCells() const
     }
   }
   return most;
+}
+
+template <int Dimension>
+std::int64_t TilePlan<Dimension>::ExtraParticles() const
+{
+  constexpr double share = 1.0 / 64.0;
+  return std::max(std::int64_t{ 1 } << 18,
+    static_cast<std::int64_t>(share * numberOfCells<Dimension>(this->Size)));
+}
+
+template <int Dimension>
+double TilePlan<Dimension>::MemorySize(double particles, bool isLattice) const
+{
+  constexpr double bits = 1.0 / 8.0;
+  constexpr double sorted = 20.0;      // bytes a particle of an array
+  constexpr double entries = 2 * 48.0; // a block: most are in one or two tiles, listed twice
+  // Of a particle that no map serves: its number and record, and three lists.
+  constexpr double noted = 40.0;
+  constexpr double node = 16.0; // of a map that is made, besides its record
+  const bool isForward = this->Shape.Direction == FlowDirection::Forward;
+  using Level = FlowMapLevel<Dimension>;
+  const double record =
+    static_cast<double>(sizeof(float) * (isForward ? Level::ForwardRecord : Level::BackwardRecord));
+  const double chunk =
+    isLattice ? particles : std::min(particles, static_cast<double>(SortedParticles));
+  const double extra = std::min(chunk, static_cast<double>(this->ExtraParticles()));
+  double nodes = 0.0;
+  if (!this->Shape.Levels.empty())
+  {
+    nodes = 1.0;
+    for (const std::int64_t cells : this->Shape.Levels.back().Cells)
+    {
+      nodes *= static_cast<double>(cells + 1);
+    }
+  }
+  return this->GradedMemory() + this->Shape.MemorySize() + node * nodes +
+    TileTables<Dimension>::MemoryFor(this->MostCells()) + 2.0 * bits * chunk +
+    (isLattice ? 0.0 : sorted * chunk) +
+    std::max(entries * chunk / BlockSize, (record + noted) * extra);
+}
+
+template <int Dimension>
+double TilePlan<Dimension>::GradedMemory() const
+{
+  double nodes = 1.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    nodes *=
+      static_cast<double>(gradedNodes(this->Size[axis], this->Strides[axis], gradedRatio).size());
+  }
+  constexpr double bits = 1.0 / 8.0;
+  return nodes * TableView<Dimension>::Record * sizeof(double) +
+    bits * numberOfCells<Dimension>(this->Size);
 }
 
 template GridSize<2> gradedStrides<2>(const GridSize<2>&, const TileLimits&);

@@ -39,6 +39,13 @@ struct TilePlan
   // The grid cells of a tile's tables.
   void FindCells(std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const;
   GridSize<Dimension> MostCells() const; // of the tables of any tile
+  // The most bytes that an advection of so many particles, samples of a lattice or points in any
+  // order, takes besides positions: tables, maps and what is noted of particles.
+  double MemorySize(double particles, bool isLattice) const;
+  // How many particles of an array go through the tiles together, and how many of those that no map
+  // serves.
+  static constexpr std::int64_t SortedParticles = std::int64_t{ 1 } << 25;
+  std::int64_t ExtraParticles() const;
 
   GridSize<Dimension> Size;
   FlowMapShape<Dimension> Shape;
@@ -48,8 +55,10 @@ struct TilePlan
   GridSize<Dimension> Halo;   // cells around a tile that boxes reach
 
 private:
+  double GradedMemory() const;
   void ChooseTiles(const TileLimits& limits);
 
+  GridSize<Dimension> Strides;                    // of the graded tables
   double InverseTime = 1.0;                       // of box centres
   std::vector<std::int32_t> TileBelow[Dimension]; // of each grid cell
 };

@@ -332,11 +332,12 @@ private:
   void RunPass(const Source& source, int pass, const ParticleMask& given, std::int64_t count,
     PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
   {
-    const std::int64_t most = this->MostExtra();
+    const std::int64_t most = this->Plan.ExtraParticles();
     std::int64_t block = 0;
     for (std::int64_t done = 0; done < count;)
     {
       Extra extra;
+      extra.Particle.reserve(static_cast<std::size_t>(std::min(most, count - done)));
       for (; block < given.Blocks(); ++block)
       {
         std::uint64_t word = given.Block(block);
@@ -356,12 +357,6 @@ private:
       this->RunExtra(source, pass, extra, positions, left, share(done), share(done + length));
       done += length;
     }
-  }
-
-  std::int64_t MostExtra() const
-  {
-    return std::max(std::int64_t{ 1 } << 18,
-      static_cast<std::int64_t>(numberOfCells<Dimension>(this->Plan.Size)) / 64);
   }
 
   template <class Source>
@@ -418,6 +413,7 @@ private:
     map.Levels[0] = level;
     map.LevelCount = 1;
     std::vector<std::vector<std::int64_t>> numbers(1);
+    numbers[0].reserve(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i)
     {
       if (extra.Troubled[static_cast<std::size_t>(i)] && pass < this->LastPass)

@@ -19,7 +19,8 @@ class TiledFlow
 {
 public:
   TiledFlow(const DensitySource<Dimension>& density, const TileLimits& limits, Progress& progress)
-    : Density(density)
+    : Size(density.Size)
+    , Values(&density.Values)
     , Limits(limits)
     , Graded(density, gradedStrides<Dimension>(density.Size, limits), gradedRatio, progress)
   {
@@ -32,9 +33,16 @@ public:
   {
     return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
+  void SetDensity(const DensityValues& values) { this->Values = &values; }
+  static double MemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
+    FlowDirection direction, double particles, bool isLattice, const TileLimits& limits)
+  {
+    requireTiles<Dimension>(size, options, direction, limits);
+    return PlanFor(size, options, direction, particles, limits).MemorySize(particles, isLattice);
+  }
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
   {
-    return densityIn<Dimension>(this->Density, low, high) / this->Summary().Total;
+    return densityIn<Dimension>(this->Density(), low, high) / this->Summary().Total;
   }
 
   // Throws std::invalid_argument where tiles do not serve the options, NoMemoryForFlowMap,
@@ -46,22 +54,14 @@ public:
     const AdvectionJob<Dimension> shared(this->View(), kind, options);
     const bool isBackward = kind == AdvectionKind::Backward;
     const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
-    requireTiles<Dimension>(this->Density.Size, options, direction, this->Limits);
+    requireTiles<Dimension>(this->Size, options, direction, this->Limits);
     const auto particles = static_cast<double>(source.Count());
-    const TilePlan<Dimension> withMaps(
-      this->Density.Size, options.NumberOfSteps, direction, true, this->Limits);
-    const bool hasMaps = particles > 0.0 && options.Maps != FlowMaps::Off &&
-      !withMaps.Shape.Levels.empty() &&
-      (options.Maps == FlowMaps::On || withMaps.Shape.PaysFor(particles));
-    const TilePlan<Dimension> plan = hasMaps
-      ? withMaps
-      : TilePlan<Dimension>(
-          this->Density.Size, options.NumberOfSteps, direction, false, this->Limits);
-
+    const TilePlan<Dimension> plan =
+      PlanFor(this->Size, options, direction, particles, this->Limits);
     Counters counters;
     Progress progress(context);
     std::shared_ptr<const FlowMap<Dimension>> map;
-    if (hasMaps)
+    if (!plan.Shape.Levels.empty())
     {
       bool isNew = false;
       map = this->Maps[isBackward ? 1 : 0].FindOrMake(
@@ -74,7 +74,7 @@ public:
       counters.Evaluations += isNew ? map->Evaluations() : 0;
     }
     TiledAdvection<Dimension>(
-      this->Density, this->Graded, plan, shared, map.get(), counters, progress)
+      this->Density(), this->Graded, plan, shared, map.get(), counters, progress)
       .Run(source, positions);
     FlowReport report;
     report.Redone = counters.Redone;
@@ -84,7 +84,20 @@ public:
   }
 
 private:
-  const DensitySource<Dimension> Density;
+  DensitySource<Dimension> Density() const { return { this->Size, *this->Values }; }
+
+  static TilePlan<Dimension> PlanFor(const GridSize<Dimension>& size, const FlowOptions& options,
+    FlowDirection direction, double particles, const TileLimits& limits)
+  {
+    TilePlan<Dimension> plan(size, options.NumberOfSteps, direction, true, limits);
+    const bool hasMaps = particles > 0.0 && options.Maps != FlowMaps::Off &&
+      (options.Maps == FlowMaps::On || plan.Shape.PaysFor(particles));
+    return hasMaps ? plan
+                   : TilePlan<Dimension>(size, options.NumberOfSteps, direction, false, limits);
+  }
+
+  const GridSize<Dimension> Size;
+  const DensityValues* Values;
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
   KeptFlowMap<Dimension> Maps[2];
@@ -102,6 +115,12 @@ public:
   const TableView<1>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
   std::int64_t MemorySize() { return 0; }
+  void SetDensity(const DensityValues&) {}
+  static double MemoryFor(
+    const GridSize<1>&, const FlowOptions&, FlowDirection, double, bool, const TileLimits&)
+  {
+    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
+  }
   double Share(const Point<1>&, const Point<1>&) const { return 0.0; }
   template <class Source>
   FlowReport Advect(AdvectionKind, Source&&, PointSpan<1>, const FlowOptions&, const Context&)

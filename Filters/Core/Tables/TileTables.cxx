@@ -122,7 +122,9 @@ double TileTables<Dimension>::MemoryFor(const GridSize<Dimension>& cells)
     nodes[axis] = cells[axis] + 1;
   }
   std::int64_t stride[Dimension];
-  return static_cast<double>(layOutNodes<Dimension>(nodes, stride)) * sizeof(double);
+  constexpr double bits = 1.0 / 8.0;
+  return static_cast<double>(layOutNodes<Dimension>(nodes, stride)) * sizeof(double) +
+    bits * numberOfCells<Dimension>(cells);
 }
 
 template class TileTables<2>;

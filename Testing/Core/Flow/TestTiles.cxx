@@ -4,6 +4,7 @@
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Flow/TilePlan.h"
 
+#include "../../MemoryLimit.h"
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "TestFlow.h"
@@ -397,6 +398,50 @@ TYPED_TEST(Tiles, ReportAndStop)
     }
   }
 }
+
+#ifdef HAS_MEMORY_LIMIT
+// The formula is enough, and not much more than that. Particles that no map serves take the most.
+TYPED_TEST(Tiles, TakeTheMemoryForetold)
+{
+  constexpr int D = TypeParam::value;
+  const GridSize<D> size = sizeFor<D>({ 100 }, { 2500, 2000 }, { 128, 120, 110 });
+  const TestDensity<D> density = discWithHole<D>(size);
+  TileLimits limits;
+  limits.GradedNodes = D == 3 ? 800000 : 1500000;
+  limits.Width = D == 3 ? 60 : 300;
+  const SerialExecutor serial;
+  const Context context(serial);
+  Points<D> positions = randomPoints<D>(size, 400000);
+  const GridSize<D> lattice = sizeFor<D>({ 1 }, { 800, 500 }, { 80, 100, 50 });
+  for (const FlowMaps maps : OffAndOn)
+  {
+    for (const bool isLattice : { true, false })
+    {
+      for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
+      {
+        const bool isForward = direction == FlowDirection::Forward;
+        SCOPED_TRACE(nameOf(maps) + (isLattice ? ", lattice" : ", points") +
+          (isForward ? ", forward" : ", backward"));
+        const FlowOptions options = with(maps, steps(16));
+        const auto run = [&](double bytes) {
+          const MemoryLimit limit(static_cast<std::int64_t>(bytes));
+          const TiledRun<D> tiled(density, context, limits);
+          const RectifiedFlow<D>& flow = tiled.Flow;
+          isLattice&& isForward ? flow.ForwardLattice(lattice, positions, options, context)
+            : isLattice         ? flow.BackwardLattice(lattice, positions, options, context)
+            : isForward         ? flow.Forward(positions, positions, options, context)
+                                : flow.Backward(positions, positions, options, context);
+        };
+        const double bytes = RectifiedFlow<D>::TiledMemoryFor(
+          size, options, direction, static_cast<double>(positions.size()), isLattice, limits);
+        constexpr double small = 16e6; // the program's own, and what lies between blocks
+        EXPECT_NO_THROW(run(bytes + small)) << bytes;
+        EXPECT_THROW(run(0.5 * bytes - small), std::bad_alloc) << bytes;
+      }
+    }
+  }
+}
+#endif
 
 TEST(TilesOfALine, Refuse)
 {
