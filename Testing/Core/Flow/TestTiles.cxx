@@ -434,7 +434,7 @@ TYPED_TEST(Tiles, TakeTheMemoryForetold)
         };
         const double bytes = RectifiedFlow<D>::TiledMemoryFor(
           size, options, direction, static_cast<double>(positions.size()), isLattice, limits);
-        constexpr double small = 16e6; // the program's own, and what lies between blocks
+        constexpr double small = 24e6; // the program's own, and what lies between blocks
         EXPECT_NO_THROW(run(bytes + small)) << bytes;
         EXPECT_THROW(run(0.5 * bytes - small), std::bad_alloc) << bytes;
       }
