@@ -7,6 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -19,6 +20,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkDensityEqualizingWarp);
+vtkImplementTablesPropertiesMacro(vtkDensityEqualizingWarp);
 
 using namespace RectifiedTransport;
 
@@ -85,7 +87,9 @@ int vtkDensityEqualizingWarp::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
-  const DensityEqualizingWarp warp{ this->GetFlowSettings().Options(), this->Blend };
+  this->GetTableSettings().Check();
+  const DensityEqualizingWarp warp{ this->GetFlowSettings().Options(), this->GetTableSettings(),
+    this->Blend };
   AlgorithmProgress progress(this, this->Threading);
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
@@ -110,6 +114,7 @@ int vtkDensityEqualizingWarp::RequestData(
 void vtkDensityEqualizingWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->GetTableSettings().Print(os, indent);
   os << indent << "Blend: " << this->Blend << "\n";
 }
 VTK_ABI_NAMESPACE_END

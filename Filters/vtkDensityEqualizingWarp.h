@@ -78,6 +78,8 @@ public:
    */
   vtkPointSet* GetOutput();
 
+  vtkTablesPropertiesMacro();
+
 protected:
   vtkDensityEqualizingWarp();
   ~vtkDensityEqualizingWarp() override;

@@ -10,6 +10,7 @@
 #include "Bridge/Run/SeparateInputs.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -26,6 +27,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkImplementSplatPropertiesMacro(vtkTransportBlend);
+vtkImplementTablesPropertiesMacro(vtkTransportBlend);
 
 namespace
 {
@@ -119,10 +121,12 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
   requireThat(
     this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
+  this->GetTableSettings().Check();
   requireChoice("MassMode", this->MassMode, MassModeTexts);
   return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
     this->ParticlesPerCell, static_cast<RectifiedTransport::MassMode>(this->MassMode),
-    this->GetFlowSettings().Options(), this->GetSplatSettings().Options() };
+    this->GetFlowSettings().Options(), this->GetTableSettings(),
+    this->GetSplatSettings().Options() };
 }
 
 //------------------------------------------------------------------------------
@@ -216,6 +220,7 @@ void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
 void vtkTransportBlend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->GetTableSettings().Print(os, indent);
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";

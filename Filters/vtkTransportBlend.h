@@ -25,7 +25,7 @@
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
  * weights costs O(particles + cells). Memory: 24 bytes a particle for each input and 48 for the
  * output, 8 bytes a cell, and while a map is made the tables of one density (see
- * vtkTransportAlgorithm).
+ * Tables).
  *
  * The outputs are in one piece: where several are requested, piece 0 holds all data.
  *
@@ -106,6 +106,8 @@ public:
   ///@}
 
   vtkSplatPropertiesMacro();
+
+  vtkTablesPropertiesMacro();
 
 public:
   /**

@@ -7,6 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -17,6 +18,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportMap);
+vtkImplementTablesPropertiesMacro(vtkTransportMap);
 
 namespace
 {
@@ -100,7 +102,9 @@ int vtkTransportMap::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
-  const TransportMap map{ this->GetFlowSettings().Options(), this->Direction == DENSITY_TO_UNIFORM,
+  this->GetTableSettings().Check();
+  const TransportMap map{ this->GetFlowSettings().Options(), this->GetTableSettings(),
+    this->Direction == DENSITY_TO_UNIFORM,
     { this->SampleDimensions[0], this->SampleDimensions[1], this->SampleDimensions[2] } };
   AlgorithmProgress progress(this, this->Threading);
 
@@ -131,6 +135,7 @@ int vtkTransportMap::RequestData(
 void vtkTransportMap::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->GetTableSettings().Print(os, indent);
   os << indent << "Direction: " << this->GetDirectionAsString() << "\n";
   os << indent << "SampleDimensions: " << this->SampleDimensions[0] << " "
      << this->SampleDimensions[1] << " " << this->SampleDimensions[2] << "\n";

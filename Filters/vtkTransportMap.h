@@ -97,6 +97,8 @@ public:
    */
   vtkImageData* GetOutput();
 
+  vtkTablesPropertiesMacro();
+
 protected:
   vtkTransportMap();
   ~vtkTransportMap() override;

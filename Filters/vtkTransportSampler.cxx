@@ -8,6 +8,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -20,6 +21,7 @@
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSampler);
 vtkImplementSeedPropertiesMacro(vtkTransportSampler);
+vtkImplementTablesPropertiesMacro(vtkTransportSampler);
 
 using namespace RectifiedTransport;
 
@@ -82,8 +84,9 @@ int vtkTransportSampler::RequestData(
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
   const RectifiedTransport::SeedPattern pattern = this->GetSeedSettings().Pattern();
-  const TransportSampler sampler{ this->GetFlowSettings().Options(), pattern,
-    this->NumberOfParticles, this->RandomSeed, this->SamplesPerCell, this->FlowTime,
+  this->GetTableSettings().Check();
+  const TransportSampler sampler{ this->GetFlowSettings().Options(), this->GetTableSettings(),
+    pattern, this->NumberOfParticles, this->RandomSeed, this->SamplesPerCell, this->FlowTime,
     this->OutputPaths != 0, this->SampleArrays != 0 };
   requireThat(
     this->SamplesPerCell >= 0, "SamplesPerCell", this->SamplesPerCell, "0 (not used) or greater");
@@ -124,6 +127,7 @@ int vtkTransportSampler::RequestData(
 void vtkTransportSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->GetTableSettings().Print(os, indent);
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
   this->GetSeedSettings().Print(os, indent);
   os << indent << "SamplesPerCell: " << this->SamplesPerCell << "\n";

@@ -75,6 +75,8 @@ public:
   // Not used where seeds are given.
   vtkSeedPropertiesMacro();
 
+  vtkTablesPropertiesMacro();
+
 public:
   ///@{
   /**

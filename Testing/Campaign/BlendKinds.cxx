@@ -31,6 +31,7 @@ void drawBlend(Settings& settings)
   settings.Draw<Blend, double>("Radius", &Blend::SetRadius, { 1e-300, 0.3, 1.0, 2.5 },
     { 0.0, -1.0, 10001.0, NaN, Infinity }, 0.3);
   drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawTables<Blend>(settings);
   drawDensitySettings(settings);
 }
 

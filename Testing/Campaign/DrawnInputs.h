@@ -34,6 +34,12 @@ void drawFlowSettings(Settings& settings)
   drawThreading<T>(settings);
 }
 
+template <class T>
+void drawTables(Settings& settings)
+{
+  settings.Draw<T, int>("Tables", &T::SetTables, { 0, 1, 2 }, { -1, 3 }, 0.5);
+}
+
 void drawDensitySettings(Settings& settings);
 
 // Large cases have enough cells for the work to be cut in parts.

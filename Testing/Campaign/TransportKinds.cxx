@@ -51,6 +51,7 @@ void drawSampler(Settings& settings)
     "OutputPaths", &Sampler::SetOutputPaths, { 0, 1 }, {}, settings.IsLarge() ? 0.0 : 0.15);
   settings.Draw<Sampler, vtkTypeBool>("SampleArrays", &Sampler::SetSampleArrays, { 0, 1 }, {});
   drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawTables<Sampler>(settings);
   drawDensitySettings(settings);
 }
 
@@ -180,6 +181,7 @@ void drawMap(Settings& settings)
       [=](vtkAlgorithm* filter) { static_cast<Map*>(filter)->SetSampleDimensions(x, y, z); });
   }
   drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawTables<Map>(settings);
   drawDensitySettings(settings);
 }
 
@@ -250,6 +252,7 @@ void drawWarp(Settings& settings)
 {
   settings.Draw<Warp, double>("Blend", &Warp::SetBlend, { 0.0, 0.3, 1.0 }, { -0.1, 1.5, NaN });
   drawFlowSettings<vtkTransportAlgorithm>(settings);
+  drawTables<Warp>(settings);
   drawDensitySettings(settings);
 }
 

@@ -34,7 +34,7 @@ BRIDGE = {
     "Points": RUN,
     "Settings": RUN,
     "Surface": RUN | {"Points"},
-    "Density": RUN | {"Image", "Points"},
+    "Density": RUN | {"Image", "Points", "Settings"},
     "Resampling": RUN | {"Image", "Points", "Density"},
     "Blend": WORKERS | {"Splat"},
     **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "Splat")},

@@ -51,7 +51,8 @@ class Plugin(unittest.TestCase):
 
     def test_integration_is_advanced(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
-        for name in ("Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"):
+        for name in ("Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Tables",
+                     "Threading"):
             self.assertEqual(sampler.GetProperty(name).GetPanelVisibility(), "advanced")
 
     def test_array_is_chosen_from_points_and_cells(self):

@@ -36,6 +36,7 @@ CHOICES = {  # the first is the default
     "Integrator": ["Multistep", "RungeKutta4", "Euler", "Adaptive"],
     "TableLookup": ["Interpolated", "Nearest"],
     "FlowMaps": ["Auto", "On", "Off"],
+    "Tables": ["Auto", "Whole", "Tiled"],
     "Threading": ["Auto", "VTK", "OpenMP", "Serial"],
     "Direction": ["UniformToDensity", "DensityToUniform"],
     "MassMode": ["Linear", "Geometric", "Source", "Normalize"],
@@ -47,7 +48,8 @@ CHOICES = {  # the first is the default
     "Measure": ["Uniform", "Density"],
 }
 ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
-INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Threading"}
+INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Tables",
+               "Threading"}
 # The property that decides whether another one is shown (or enabled), and two values that differ.
 DEPENDENT = {
     "NumberOfSteps": ({"Integrator"}, (32, 1)),

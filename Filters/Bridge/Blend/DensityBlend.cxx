@@ -104,7 +104,8 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   requireCells(geometry);
   applyGrid(geometry, output.Density);
   announceGrid(geometry, output.Announced); // the association may not be known before the data
-  const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow };
+  const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
+    settings.Tables };
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
   if (newMaps > 0)

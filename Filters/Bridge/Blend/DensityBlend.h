@@ -5,6 +5,7 @@
 #define RectifiedTransport_DensityBlend_h
 
 #include "Bridge/Blend/LinearizedMap.h"
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Splat/Splat.h"
@@ -50,6 +51,7 @@ struct BlendSettings
   int ParticlesPerCell;
   MassMode Mode;
   FlowOptions Flow;
+  TableSettings Tables;
   SplatOptions Splat;
   bool AddCost = false; // of two inputs: TransportCost
 };

@@ -2,6 +2,7 @@
 #include "Bridge/Blend/LinearizedMap.h"
 
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Flow/PivotLattice.h"
@@ -54,27 +55,31 @@ bool LinearizedMap::IsOf(
 std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSettings& settings,
   FlowCache& tables, Progress& progress, double end)
 {
-  constexpr double partOfTables = 0.04;
   this->Settings = settings;
   this->Geometry = density.Grid();
-  const SharedFlow& flow = tables.Update(
-    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()));
-  this->Mass = flow.TotalMass();
   const auto move = dispatchDimension(this->Geometry.Dimension(), &LinearizedMap::Move<1>,
     &LinearizedMap::Move<2>, &LinearizedMap::Move<3>);
-  const std::int64_t moved = (this->*move)(flow, progress, end);
+  const std::int64_t moved = (this->*move)(density, tables, progress, end);
   this->Content = ContentHash(density, progress);
   return moved;
 }
 
 template <int D>
-std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, double end)
+std::int64_t LinearizedMap::Move(
+  DensityImage& density, FlowCache& tables, Progress& progress, double end)
 {
+  constexpr double partOfTables = 0.04;
   constexpr double partOfConversion = 0.02;
   GridSize<D> grid;
   std::copy_n(this->Settings.Grid.begin(), D, grid.begin());
   const PivotLattice<D> pivot = pivotLattice<D>(grid, this->Settings.PerCell);
   const std::int64_t particles = pivot.NumberOfParticles();
+  const FlowOptions& options = this->Settings.Options;
+  const FlowTables kind = chooseTables<D>(this->Settings.Tables, density.Grid().Size<D>(),
+    { options, FlowDirection::Forward, static_cast<double>(particles), true, "" });
+  const SharedFlow& flow = tables.Update(
+    density, progress, progress.StageEnd() + partOfTables * (end - progress.StageEnd()), kind);
+  this->Mass = flow.TotalMass();
   auto physical = newArray<vtkDoubleArray>("Positions", 3, particles);
   LargeBuffer<double> buffer;
   double* positions = physical->GetPointer(0);
@@ -88,11 +93,11 @@ std::int64_t LinearizedMap::Move(const SharedFlow& flow, Progress& progress, dou
 
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
-  const FlowReport report = transportPivot<D>(
-    flow.Flow<D>(), pivot, { positions, particles }, this->Settings.Options, progress.Stage());
+  const FlowReport report =
+    transportPivot<D>(flow.Flow<D>(), pivot, { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
-  toPhysical<D>(this->Geometry, { positions, particles }, progress,
-    { physical->GetPointer(0), particles });
+  toPhysical<D>(
+    this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });
   this->Kept = physical;
   return report.MovedToMass;
 }

@@ -5,6 +5,7 @@
 #define RectifiedTransport_LinearizedMap_h
 
 #include "Bridge/Density/ContentHash.h"
+#include "Bridge/Settings/TableSettings.h"
 #include "Core/Flow/FlowOptions.h"
 
 #include "vtkDoubleArray.h"
@@ -17,7 +18,6 @@ namespace RectifiedTransport
 {
 
 class FlowCache;
-class SharedFlow;
 
 // What maps to several densities must have in common for their particles to correspond.
 struct LinearizedMapSettings
@@ -25,11 +25,12 @@ struct LinearizedMapSettings
   std::array<std::int64_t, 3> Grid; // cells along the axes of index space, 1 beyond its dimension
   std::int64_t PerCell;
   FlowOptions Options;
+  TableSettings Tables;
 
   bool operator==(const LinearizedMapSettings& other) const
   {
     return this->Grid == other.Grid && this->PerCell == other.PerCell &&
-      this->Options == other.Options;
+      this->Options == other.Options && this->Tables.Tables == other.Tables.Tables;
   }
 };
 
@@ -56,7 +57,7 @@ public:
 
 private:
   template <int D>
-  std::int64_t Move(const SharedFlow& flow, Progress& progress, double end);
+  std::int64_t Move(DensityImage& density, FlowCache& tables, Progress& progress, double end);
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions

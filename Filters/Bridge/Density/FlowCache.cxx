@@ -9,10 +9,16 @@
 namespace RectifiedTransport
 {
 
-const SharedFlow& FlowCache::Update(DensityImage& density, Progress& progress, double end)
+const SharedFlow& FlowCache::Update(
+  DensityImage& density, Progress& progress, double end, FlowTables tables)
 {
+  if (this->Kept && this->Kept->Tables() != tables)
+  {
+    this->Kept.reset();
+  }
   if (!this->IsOutdated(density))
   {
+    this->Kept->Attach(density, progress);
     return *this->Kept;
   }
   constexpr double partOfHash = 0.05;
@@ -21,8 +27,13 @@ const SharedFlow& FlowCache::Update(DensityImage& density, Progress& progress, d
   if (!this->Kept || !(this->Hash == hash))
   {
     this->Hash = ContentHash(); // invalid until the tables are built
-    this->Kept = SharedFlow::FindOrBuild(density, hash, std::move(this->Kept), progress, end);
+    this->Kept =
+      SharedFlow::FindOrBuild(density, hash, tables, std::move(this->Kept), progress, end);
     this->Time = std::max(this->Time, this->Kept->BuildTime());
+  }
+  else
+  {
+    this->Kept->Attach(density, progress);
   }
   this->Hash = hash;
   return *this->Kept;

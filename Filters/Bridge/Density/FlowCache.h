@@ -22,8 +22,10 @@ public:
 
   // The flow of a density, as the work of the stages up to the progress `end`. Tables are built if
   // the content of the density differs from that of the last update and no other filter has them.
-  // Throws Failure and Cancelled; the next update then builds.
-  const SharedFlow& Update(DensityImage& density, Progress& progress, double end);
+  // With tiles it is to be used as long as the density lives. Throws Failure and Cancelled; the
+  // next update then builds.
+  const SharedFlow& Update(
+    DensityImage& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
 
   // Releases this filter's reference to the tables.
   void Release() { this->Kept.reset(); }
@@ -32,7 +34,7 @@ public:
   vtkMTimeType BuildTime() const { return this->Time; }
 
 private:
-  std::shared_ptr<const SharedFlow> Kept;
+  std::shared_ptr<SharedFlow> Kept;
   ContentHash Hash;
   vtkMTimeType Time = 0;
 };

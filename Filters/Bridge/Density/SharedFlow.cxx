@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace RectifiedTransport
@@ -37,14 +38,14 @@ public:
     return registry;
   }
 
-  std::shared_ptr<const SharedFlow> Find(const ContentHash& content)
+  std::shared_ptr<SharedFlow> Find(const ContentHash& content)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     const auto found = this->Entries.find(content);
     return found == this->Entries.end() ? nullptr : found->second.lock();
   }
 
-  void Insert(const ContentHash& content, const std::shared_ptr<const SharedFlow>& flow)
+  void Insert(const ContentHash& content, const std::shared_ptr<SharedFlow>& flow)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     for (auto entry = this->Entries.begin(); entry != this->Entries.end();)
@@ -56,7 +57,7 @@ public:
 
   // Erases a flow that has no other owner, so that Find cannot return it. Returns whether it has
   // none.
-  bool EraseIfUnique(const std::shared_ptr<const SharedFlow>& flow)
+  bool EraseIfUnique(const std::shared_ptr<SharedFlow>& flow)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     if (flow.use_count() != 1)
@@ -76,25 +77,25 @@ public:
 
 private:
   std::mutex Mutex;
-  std::map<ContentHash, std::weak_ptr<const SharedFlow>> Entries;
+  std::map<ContentHash, std::weak_ptr<SharedFlow>> Entries;
 };
 
 } // namespace
 
-std::shared_ptr<const SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
-  const ContentHash& content, std::shared_ptr<const SharedFlow> previous, Progress& progress,
-  double end)
+std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
+  const ContentHash& content, FlowTables tables, std::shared_ptr<SharedFlow> previous,
+  Progress& progress, double end)
 {
   FlowRegistry& registry = FlowRegistry::Get();
-  if (auto shared = content.IsComplete() ? registry.Find(content) : nullptr)
+  const bool isShared = content.IsComplete() && tables == FlowTables::Whole;
+  if (auto shared = isShared ? registry.Find(content) : nullptr)
   {
     return shared;
   }
   AnyFlow old;
   if (previous && registry.EraseIfUnique(previous))
   {
-    // Not const itself: it was made below.
-    old = std::move(const_cast<SharedFlow&>(*previous).Kept);
+    old = std::move(previous->Kept);
   }
   previous.reset();
 
@@ -103,14 +104,32 @@ std::shared_ptr<const SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
   density.Prepare(progress);
   progress.BeginStage(end);
   const auto made = std::make_shared<SharedFlow>();
+  made->Kind = tables;
   const auto build = dispatchDimension(density.Grid().Dimension(), &SharedFlow::Build<1>,
     &SharedFlow::Build<2>, &SharedFlow::Build<3>);
   ((*made).*build)(density, std::move(old), progress);
-  if (content.IsComplete())
+  if (isShared)
   {
     registry.Insert(content, made);
   }
   return made;
+}
+
+void SharedFlow::Attach(DensityImage& density, Progress& progress)
+{
+  if (this->Kind == FlowTables::Tiled)
+  {
+    density.Prepare(progress);
+    const auto set = [&](auto dimension) {
+      constexpr int D = decltype(dimension)::value;
+      if (auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept))
+      {
+        flow->SetDensity(density.Source<D>().Values);
+      }
+    };
+    set(std::integral_constant<int, 2>());
+    set(std::integral_constant<int, 3>());
+  }
 }
 
 // Old and new tables side by side would double the peak.
@@ -122,7 +141,12 @@ void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progre
   withMemory(describeTables<D>(size), RectifiedFlow<D>::MemoryFor(size), [&]() {
     try
     {
-      if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))
+      if (this->Kind == FlowTables::Tiled)
+      {
+        previous = std::monostate();
+        this->Kept = RectifiedFlow<D>(source, FlowTables::Tiled, progress.Stage());
+      }
+      else if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))
       {
         this->Kept = RectifiedFlow<D>(source, std::move(*memory), progress.Stage());
       }

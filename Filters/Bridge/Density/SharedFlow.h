@@ -26,14 +26,18 @@ public:
   }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
+  FlowTables Tables() const { return this->Kind; }
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
   // Returns the flow of a density of this content that another filter owns, else builds one, to be
-  // shared in turn; progress then reaches `end`. Resets `previous` first, and reuses its memory
+  // shared in turn; progress then reaches `end`. Flows with tiles are not shared, as they read the
+  // density of one filter's run. Resets `previous` first, and reuses its memory
   // where it has no other owner. Throws Failure and Cancelled.
-  static std::shared_ptr<const SharedFlow> FindOrBuild(DensityImage& density,
-    const ContentHash& content, std::shared_ptr<const SharedFlow> previous, Progress& progress,
-    double end);
+  static std::shared_ptr<SharedFlow> FindOrBuild(DensityImage& density, const ContentHash& content,
+    FlowTables tables, std::shared_ptr<SharedFlow> previous, Progress& progress, double end);
+
+  // For a flow with tiles: the density of the run, of the same content.
+  void Attach(DensityImage& density, Progress& progress);
 
 private:
   using AnyFlow =
@@ -43,6 +47,7 @@ private:
   void Build(DensityImage& density, AnyFlow previous, Progress& progress);
 
   AnyFlow Kept;
+  FlowTables Kind = FlowTables::Whole;
   double Mass = 0.0;
   vtkTimeStamp Built;
 };

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
@@ -137,7 +138,9 @@ std::int64_t warp(const DensityEqualizingWarp& settings, DensityImage& density, 
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
     settings.Blend == 0.0 ? 0.0 : Cost::flow(settings.Flow, D) * count, Cost::Seed * count });
   WarpedPoints<D> points(density.Grid(), input, progress);
-  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  const FlowTables tables = chooseTables<D>(settings.Tables, density.Grid().Size<D>(),
+    { settings.Flow, FlowDirection::Backward, count, false, "" });
+  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   progress.BeginStage(ends[1]);
   const std::int64_t outside = points.Read();
   if (settings.Blend > 0.0)

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DensityEqualizingWarp_h
 #define RectifiedTransport_DensityEqualizingWarp_h
 
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 
@@ -23,6 +24,7 @@ class Progress;
 struct DensityEqualizingWarp
 {
   FlowOptions Flow;
+  TableSettings Tables;
   double Blend;
 
   // Sets the points and `Displacement` of an output that has the rest of the input already. Returns

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
@@ -32,7 +33,9 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)");
   applyGrid(samples, output);
 
-  const SharedFlow& shared = cache.Update(density, progress, ends[0]);
+  const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
+    { map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true, "" });
+  const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
   const FlowReport report = map.Backward

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_TransportMap_h
 #define RectifiedTransport_TransportMap_h
 
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 
@@ -24,6 +25,7 @@ class Progress;
 struct TransportMap
 {
   FlowOptions Flow;
+  TableSettings Tables;
   bool Backward;
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Points/SeedInput.h"
@@ -127,7 +128,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
 
-  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  const std::string wholeFor = times.size() > 1 ? "OutputPaths"
+    : times.back() < 1.0                        ? "a FlowTime other than 1"
+                                                : "";
+  const FlowTables tables = chooseTables<D>(sampler.Tables, grid.Size<D>(),
+    { sampler.Flow, FlowDirection::Forward, count, false, wholeFor });
+  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   TransportSampler::Report report;
   if (given)
   {

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_TransportSampler_h
 #define RectifiedTransport_TransportSampler_h
 
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Seeds/Seeds.h"
@@ -27,6 +28,7 @@ class Progress;
 struct TransportSampler
 {
   FlowOptions Flow;
+  TableSettings Tables;
   SeedPattern Pattern;
   std::int64_t NumberOfParticles;
   int RandomSeed;

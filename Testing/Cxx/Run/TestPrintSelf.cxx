@@ -41,7 +41,7 @@ int TestPrintSelf(int, char*[])
     { "Component: -1", "InvertDensity: Off", "NegativeValues: Error", "Integrator: Multistep",
       "NumberOfSteps: 32", "Tolerance: 0.01", "TableLookup: Interpolated", "FlowMaps: Auto",
       "Threading: Auto", "TableBuildTime: 0", "NumberOfParticles: 8192", "SeedPattern: BlueNoise",
-      "RandomSeed: 1", "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off",
+      "RandomSeed: 1", "SamplesPerCell: 0", "FlowTime: 1", "OutputPaths: Off", "Tables: Auto",
       "SampleArrays: On" });
   sampler->SetComponent(2);
   sampler->InvertDensityOn();
@@ -51,6 +51,7 @@ int TestPrintSelf(int, char*[])
   sampler->SetTolerance(0.5);
   sampler->SetTableLookupToNearest();
   sampler->SetFlowMapsToOff();
+  sampler->SetTablesToWhole();
   sampler->SetThreadingToOpenMP();
   sampler->SetNumberOfParticles(12345678901);
   sampler->SetSeedPatternToLowDiscrepancy();
@@ -63,7 +64,7 @@ int TestPrintSelf(int, char*[])
     { "Component: 2", "InvertDensity: On", "NegativeValues: Clamp", "Integrator: RungeKutta4",
       "NumberOfSteps: 7", "Tolerance: 0.5", "TableLookup: Nearest", "FlowMaps: Off",
       "Threading: OpenMP", "NumberOfParticles: 12345678901", "SeedPattern: LowDiscrepancy",
-      "RandomSeed: -4", "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On",
+      "RandomSeed: -4", "SamplesPerCell: 3", "FlowTime: 0.25", "OutputPaths: On", "Tables: Whole",
       "SampleArrays: Off" });
 
   const char* const integrators[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Density/TableChoice.h"
+
+#include "Bridge/Image/GridText.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Flow/FlowMapShape.h"
+#include "Core/Flow/RectifiedFlow.h"
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the property.
+constexpr int automatic = 0;
+constexpr int tiled = 2;
+
+// Why tiles do not serve; empty if they do.
+template <int D>
+std::string refusal(const GridSize<D>& size, const TableUse& use)
+{
+  if (D == 1)
+  {
+    return "takes densities of two or three axes";
+  }
+  if (!takesFlowMaps(use.Options))
+  {
+    return "takes Integrator Multistep with TableLookup Interpolated alone";
+  }
+  if (!use.WholeFor.empty())
+  {
+    return "does not give " + use.WholeFor;
+  }
+  return servesTiles<D>(size, use.Options, use.Direction)
+    ? ""
+    : "takes more than the NumberOfSteps " + std::to_string(use.Options.NumberOfSteps) +
+      " for a density of " + describeSize<D>(size) + " cells";
+}
+
+} // namespace
+
+template <int D>
+FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, const TableUse& use)
+{
+  constexpr double large = 1 << 26; // grid cells: 2.1 GB of whole tables in 3D
+  const bool isAsked = settings.Tables == tiled;
+  if (!isAsked && (settings.Tables != automatic || numberOfCells<D>(size) <= large))
+  {
+    return FlowTables::Whole;
+  }
+  const std::string reason = refusal<D>(size, use);
+  if (!reason.empty())
+  {
+    if (isAsked)
+    {
+      throw Failure("Tables is Tiled, which " + reason + "; Tables = Whole does, or Auto");
+    }
+    return FlowTables::Whole;
+  }
+  requireMemory("the tiles of a density of " + describeSize<D>(size) + " cells",
+    RectifiedFlow<D>::TiledMemoryFor(
+      size, use.Options, use.Direction, use.Particles, use.IsLattice));
+  return FlowTables::Tiled;
+}
+
+template FlowTables chooseTables<1>(const TableSettings&, const GridSize<1>&, const TableUse&);
+template FlowTables chooseTables<2>(const TableSettings&, const GridSize<2>&, const TableUse&);
+template FlowTables chooseTables<3>(const TableSettings&, const GridSize<3>&, const TableUse&);
+
+} // namespace RectifiedTransport

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which tables the flow of a density has, by the property Tables and what it is for.
+#ifndef RectifiedTransport_TableChoice_h
+#define RectifiedTransport_TableChoice_h
+
+#include "Bridge/Settings/TableSettings.h"
+#include "Core/Flow/FlowTables.h"
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+// An advection, as far as the choice of its tables depends on it.
+struct TableUse
+{
+  FlowOptions Options;
+  FlowDirection Direction;
+  double Particles;
+  bool IsLattice;
+  std::string WholeFor; // what only whole tables give; empty for nothing
+};
+
+// The tables of a density of this size, for a value in range: Auto means tiles above 2^26 grid
+// cells where they serve. Throws Failure where Tiled is set and they do not, or do not find memory.
+template <int D>
+FlowTables chooseTables(
+  const TableSettings& settings, const GridSize<D>& size, const TableUse& use);
+
+} // namespace RectifiedTransport
+
+#endif
