@@ -285,7 +285,8 @@ private:
   void Judge(const Outcome& outcome, Findings& findings)
   {
     const std::vector<std::string> wrong = this->Properties.OutOfRange();
-    const State ofInputs = this->Expect();
+    const State ofInputs =
+      worse(this->Expect(), this->Properties.IsOdd() ? State::Odd : State::Sound);
     const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {

@@ -68,6 +68,17 @@ public:
     }
   }
 
+  // Whether a property has a value in range that others may not go with.
+  bool IsOdd() const
+  {
+    bool odd = false;
+    for (const Setting& setting : this->All)
+    {
+      odd = setting.Name == "Tables" ? setting.Text == "2" : odd; // Tiled
+    }
+    return odd;
+  }
+
   // The properties whose last value is out of range.
   std::vector<std::string> OutOfRange() const
   {
