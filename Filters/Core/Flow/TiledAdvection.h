@@ -6,6 +6,7 @@
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Flow/TileEntries.h"
+#include "Core/Flow/TileLanes.h"
 #include "Core/Flow/TilePlan.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/GradedTables.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -34,7 +34,6 @@ public:
     , Count(counters)
     , Work(progress)
     , Tile(density, graded.View(), graded.Scaling())
-    , Advect(flowKernels().Advect<Dimension>())
     , Read(flowKernels().Read<Dimension>())
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
   {
@@ -76,7 +75,6 @@ public:
   }
 
 private:
-  static constexpr int stateSize = 4 * Dimension;
   static constexpr std::int64_t grain = 32; // entries or blocks a range
 
   // Particles of one block that are in one tile.
@@ -85,15 +83,6 @@ private:
     std::int64_t Block;
     std::uint64_t Particles;
     std::int64_t Tile;
-  };
-
-  // Particles gathered to be advected together.
-  struct Lanes
-  {
-    int Count = 0;
-    double Seeds[BlockSize * stateSize];
-    std::int64_t Index[BlockSize]; // in the output
-    std::int64_t Particle[BlockSize];
   };
 
   bool HandsOverFromMap() const
@@ -252,31 +241,26 @@ private:
     }
     FlowJob<Dimension> job = this->TileJob(map);
     job.StopsAtMap = this->Wide.Backward;
-    Lanes lanes;
+    TileLanes<Dimension> lanes(
+      job, -map.LevelCount, isKept, positions, left, this->Count.Evaluations);
     std::int64_t index[BlockSize];
     double seeds[BlockSize * Dimension];
     for (std::int64_t item = first; item < last && !this->Work.ShouldStop(); ++item)
     {
       const Entry& entry = entries[item];
-      // The block ends with the chunk; what is after its last particle in this tile is not used.
+      // What is after its last particle in this tile is not used.
       const int count = BlockSize - __builtin_clzll(entry.Particles);
       source.Fill(entry.Block * BlockSize, count, index, seeds);
       for (int i = 0; i < count; ++i)
       {
-        if ((entry.Particles >> i & 1) == 0)
+        if ((entry.Particles >> i & 1) != 0)
         {
-          continue;
-        }
-        std::copy_n(seeds + i * Dimension, Dimension, lanes.Seeds + lanes.Count * Dimension);
-        lanes.Index[lanes.Count] = index[i];
-        lanes.Particle[lanes.Count] = entry.Block * BlockSize + i;
-        if (++lanes.Count == BlockSize)
-        {
-          this->AdvectLanes(job, -map.LevelCount, isKept, lanes, positions, left);
+          std::copy_n(seeds + i * Dimension, Dimension, lanes.Next());
+          lanes.Add(index[i], entry.Block * BlockSize + i);
         }
       }
     }
-    this->AdvectLanes(job, -map.LevelCount, isKept, lanes, positions, left);
+    lanes.Advance();
   }
 
   FlowJob<Dimension> TileJob(const FlowMapView<Dimension>& map) const
@@ -286,36 +270,6 @@ private:
     job.Sparse = false;
     job.Map = &map;
     return job;
-  }
-
-  // Advects the lanes; those that are resolved, or all, are written to the positions, the others
-  // are `left`.
-  void AdvectLanes(FlowJob<Dimension>& job, int pass, bool isKept, Lanes& lanes,
-    PointSpan<Dimension> positions, ParticleMask& left)
-  {
-    if (lanes.Count == 0)
-    {
-      return;
-    }
-    double ends[BlockSize * Dimension];
-    std::int64_t numbers[BlockSize];
-    std::iota(numbers, numbers + BlockSize, std::int64_t{ 0 });
-    bool unresolved[BlockSize] = {};
-    job.Output = ends;
-    this->Count.Evaluations +=
-      this->Advect(job, lanes.Seeds, numbers, lanes.Count, pass, unresolved);
-    for (int i = 0; i < lanes.Count; ++i)
-    {
-      if (!unresolved[i] || isKept)
-      {
-        std::copy_n(ends + i * Dimension, Dimension, positions[lanes.Index[i]]);
-      }
-      if (unresolved[i])
-      {
-        left.Add(lanes.Particle[i]);
-      }
-    }
-    lanes.Count = 0;
   }
 
   // Particles of a pass that are taken to the hand-over by themselves.
@@ -434,21 +388,17 @@ private:
     this->RunTiles(byTile, middle, end, [&](std::int64_t first, std::int64_t last) {
       FlowJob<Dimension> tileJob = this->TileJob(map);
       tileJob.FromStates = true;
-      Lanes lanes;
+      TileLanes<Dimension> lanes(tileJob, -1, isLast, positions, left, this->Count.Evaluations);
       for (std::int64_t item = first; item < last && !this->Work.ShouldStop(); ++item)
       {
         const std::int64_t number = byTile[item];
+        std::int64_t index = 0;
         double seed[Dimension];
-        source.Fill(particle(number), 1, lanes.Index + lanes.Count, seed);
-        std::copy_n(
-          level.Records + number * record, stateSize, lanes.Seeds + lanes.Count * stateSize);
-        lanes.Particle[lanes.Count] = particle(number);
-        if (++lanes.Count == BlockSize)
-        {
-          this->AdvectLanes(tileJob, -1, isLast, lanes, positions, left);
-        }
+        source.Fill(particle(number), 1, &index, seed);
+        std::copy_n(level.Records + number * record, TileLanes<Dimension>::StateSize, lanes.Next());
+        lanes.Add(index, particle(number));
       }
-      this->AdvectLanes(tileJob, -1, isLast, lanes, positions, left);
+      lanes.Advance();
     });
   }
 
@@ -500,7 +450,6 @@ private:
   Counters& Count;
   Progress& Work;
   TileTables<Dimension> Tile;
-  const AdvectBlock<Dimension> Advect;
   const ReadMap<Dimension> Read;
   const int LastPass;
   std::vector<StepWeights> Weights;

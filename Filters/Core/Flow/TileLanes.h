@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles of one tile, gathered from several blocks to be advected together.
+#ifndef RectifiedTransport_TileLanes_h
+#define RectifiedTransport_TileLanes_h
+
+#include "Core/Flow/Kernels/FlowKernels.h"
+#include "Core/Flow/TileEntries.h"
+#include "Core/Geometry/Points.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <numeric>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class TileLanes
+{
+public:
+  static constexpr int StateSize = 4 * Dimension;
+
+  // Of the resolved particles, or of all if these are kept, the positions are written; the others
+  // are added to those that are left. The job is on the tile's tables.
+  TileLanes(const FlowJob<Dimension>& job, int pass, bool isKept, PointSpan<Dimension> positions,
+    ParticleMask& left, std::atomic<std::int64_t>& evaluations)
+    : Job(job)
+    , Pass(pass)
+    , IsKept(isKept)
+    , Positions(positions)
+    , Left(left)
+    , Evaluations(evaluations)
+    , Advect(flowKernels().Advect<Dimension>())
+    , Size(job.FromStates ? StateSize : Dimension)
+  {
+    this->Job.Output = this->Ends;
+    std::iota(this->Numbers, this->Numbers + BlockSize, std::int64_t{ 0 });
+  }
+
+  // Where the seed, or the state, of the next particle goes.
+  double* Next() { return this->Seeds + this->Count * this->Size; }
+
+  // Takes it, for a place in the positions, and advances all if there are no more lanes.
+  void Add(std::int64_t index, std::int64_t particle)
+  {
+    this->Index[this->Count] = index;
+    this->Particle[this->Count] = particle;
+    if (++this->Count == BlockSize)
+    {
+      this->Advance();
+    }
+  }
+
+  void Advance()
+  {
+    if (this->Count == 0)
+    {
+      return;
+    }
+    bool unresolved[BlockSize] = {};
+    this->Evaluations +=
+      this->Advect(this->Job, this->Seeds, this->Numbers, this->Count, this->Pass, unresolved);
+    for (int i = 0; i < this->Count; ++i)
+    {
+      if (!unresolved[i] || this->IsKept)
+      {
+        std::copy_n(this->Ends + i * Dimension, Dimension, this->Positions[this->Index[i]]);
+      }
+      if (unresolved[i])
+      {
+        this->Left.Add(this->Particle[i]);
+      }
+    }
+    this->Count = 0;
+  }
+
+private:
+  FlowJob<Dimension> Job;
+  const int Pass;
+  const bool IsKept;
+  const PointSpan<Dimension> Positions;
+  ParticleMask& Left;
+  std::atomic<std::int64_t>& Evaluations;
+  const AdvectBlock<Dimension> Advect;
+  const int Size; // doubles a particle
+  int Count = 0;
+  double Seeds[BlockSize * StateSize];
+  double Ends[BlockSize * Dimension];
+  std::int64_t Index[BlockSize];
+  std::int64_t Particle[BlockSize];
+  std::int64_t Numbers[BlockSize];
+};
+
+} // namespace RectifiedTransport
+
+#endif
