@@ -140,6 +140,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
 
   const bool hasPlateaus = job.Tables.Occupied && !job.Nearest;
+  constexpr double leastPart = 1e-6; // of the largest value that others may have
   std::int64_t evaluations = 0;
   for (; step + 1 < steps && plateau.Left > 0; ++step)
   {
@@ -156,7 +157,15 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
-      const double isWrong = larger(lanes.Field.Void[i], lanes.Field.Outside[i]);
+      // A box so small that it may count as empty though it is not is no sign of a void; where it
+      // is in one, the particle ends in an empty cell.
+      double mostMass = leastPart * job.Tables.Largest;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        mostMass *= lanes.Field.To[axis][i] - lanes.Field.From[axis][i];
+      }
+      const double isVoid = mostMass > job.Tables.VoidMass ? lanes.Field.Void[i] : 0.0;
+      const double isWrong = larger(isVoid, lanes.Field.Outside[i]);
       lanes.Unresolved[i] = larger(lanes.Unresolved[i], plateau.Done[i] > 0.0 ? 0.0 : isWrong);
     }
     const auto& v0 = *lanes.V[0];
