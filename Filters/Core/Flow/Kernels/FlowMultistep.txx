@@ -140,7 +140,7 @@ std::int64_t multistepForward(const FlowJob<Dimension>& job, const double* seeds
   }
 
   const bool hasPlateaus = job.Tables.Occupied && !job.Nearest;
-  constexpr double leastPart = 1e-6; // of the largest value that others may have
+  constexpr double leastPart = 1e-3; // of the largest value that others may have
   std::int64_t evaluations = 0;
   for (; step + 1 < steps && plateau.Left > 0; ++step)
   {
