@@ -29,13 +29,6 @@ std::int64_t nearestPowerOfTwo(double value)
   return power;
 }
 
-// With more steps, the error of coarse tables is the larger part of what is left.
-double ratioFor(int numberOfSteps)
-{
-  constexpr int usual = 48;
-  return numberOfSteps >= usual ? 2.0 * gradedRatio : gradedRatio;
-}
-
 std::int64_t tileStart(std::int64_t tile, std::int64_t count, std::int64_t size)
 {
   return tile * (size / count) + std::min(tile, size % count);
@@ -114,7 +107,7 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
         std::max(coarsest, static_cast<double>(strides[axis]) / static_cast<double>(size[axis]));
     }
   }
-  const double least = ratioFor(numberOfSteps) * coarsest;
+  const double least = gradedRatio * coarsest;
   const int steps = this->Shape.Steps;
   int handOver = 1;
   const auto isWide = [&]() {
