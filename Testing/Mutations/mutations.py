@@ -223,7 +223,7 @@ OTHERS = [
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
     E(CORE + "Flow/FlowMapShape.cxx", "return particles * share * saved > «this->Cost»", "0.0"),
     E(CORE + "Flow/PivotLattice.cxx", "positions.Part(place * each, each), «same», progress", "options"),
-    E(CORE + "Flow/RectifiedFlow.cxx", "return «steps == this->Of» ?", "true"),
+    E(CORE + "Flow/KeptFlowMap.h", "return «steps == this->Of» ?", "true"),
     E(CORE + "Flow/RectifiedFlow.cxx", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
     # relaxation and power cells
     E(CORE + "Relaxation/RelaxationDescent.cxx", "const double rest = «isAimed» ? 0.0", "false"),
@@ -271,7 +271,21 @@ OTHERS = [
     # cells of the mass of a density
     E(CORE + "SiteCells/PixelMasses.cxx",
       "std::min((cell + 1) * this->Pixels, «(pixel + 1) * this->Cells»)", "(cell + 1) * this->Pixels"),
-    E(CORE + "SiteCells/EqualizeSiteMasses.cxx", "|| «mass >= this->Mass[from]»", "false"),
-    E(CORE + "SiteCells/DensitySiteCells.cxx", "if («mass[group] == 0»)", "false"),
+    E(CORE + "SiteCells/EqualizeSiteMasses.cxx",
+      "if («mass > 0 && this->Planned[from] - this->Planned[to] <= mass»)", "false"),
+    E(CORE + "SiteCells/EqualizeSiteMasses.cxx",
+      "this->Planned[to] -= «std::abs(border.Flow)»", "0"),
     E(CORE + "SiteCells/SiteColors.cxx", "neighbours.Join(first[i], «next[i]»)", "first[i]"),
+    # tiles
+    E(BRIDGE + "Resampling/PlacesInMeshes.cxx", "found[i].Cell = «-1»", "0"),
+    E(CORE + "Flow/TilePlan.cxx", "isForward ? «0.5 * box + 2.0»", "0.2 * box"),
+    E(CORE + "Flow/TiledAdvection.h", "level.HandOver = «this->Plan.HandOver << pass»",
+      "this->Plan.HandOver"),
+    E(CORE + "Flow/TiledAdvection.h", "«extra.Troubled[static_cast<std::size_t>(i)]» &&", "false"),
+    S(CORE + "Flow/TiledAdvection.h", "job.StopsAtMap = this->Wide.Backward;", ""),
+    E(CORE + "Tables/GradedTables.cxx", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
+    E(CORE + "Tables/DensityShare.cxx", "sum += values[cell] * («x.PartOf(i + cell)» * part)", "1.0"),
+    E(BRIDGE + "Density/SharedFlow.cxx",
+      "if («this->Kind == FlowTables::Tiled»)\n  {\n    density.Prepare", "false"),
+    E(BRIDGE + "Density/SharedFlow.cxx", "content.IsComplete() && «tables == FlowTables::Whole»", "true"),
 ]

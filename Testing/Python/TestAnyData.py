@@ -7,8 +7,10 @@ import numpy as np
 from rt_testing import (Listener, SOURCE, density_image, digest, load_plugin, main, output_of,
                         positions, producer)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid,
-                                           vtkTable)
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (VTK_TETRA, vtkDataSetAttributes, vtkMultiBlockDataSet,
+                                           vtkPolyData, vtkRectilinearGrid, vtkTable,
+                                           vtkUnstructuredGrid)
 
 simple = load_plugin()
 DATA = os.path.join(SOURCE, "Testing", "Data")
@@ -200,6 +202,76 @@ class AnyData(unittest.TestCase):
             group = simple.GroupDatasets(Input=tiles)
             self.assertEqual(digest(self.sample(group, array)), digest(expected))
 
+    def dimensions(self, source, array, **properties):
+        """Of the image that the density is put on."""
+        return output_of(simple.TransportMap(source, DensityArray=list(array),
+                                             **properties)).GetDimensions()
+
+    def shifted(self, offset, seed=3):
+        image = density_image((6, 5, 4), seed=seed)
+        image.SetSpacing(1, 1, 1)
+        image.SetOrigin(6 + offset, 0, 0)
+        return image
+
+    def test_images_off_the_lattice_are_put_on_one(self):
+        array = ("CELLS", "Density")
+        first = self.shifted(-6)
+        joined = producer(simple, blocks_of(first, self.shifted(2)))
+        self.assertEqual(self.dimensions(joined, array, DensityResolution=28), (15, 6, 5))
+        apart = producer(simple, blocks_of(first, self.shifted(1.5)))
+        self.assertEqual(self.dimensions(apart, array, DensityResolution=27)[0], 28)
+
+    def test_gaps_between_tiles_have_no_mass(self):
+        first, second = self.shifted(-6), self.shifted(2, seed=4)
+        values = np.concatenate([vtk_to_numpy(image.GetCellData().GetScalars())
+                                 for image in (first, second)])
+        particles = self.sample(producer(simple, blocks_of(first, second)), ("CELLS", "Density"),
+                                InvertDensity=1, NumberOfParticles=500)
+        mass = particles.GetFieldData().GetArray("TotalMass").GetValue(0)
+        self.assertAlmostEqual(mass / (values.max() - values).sum(), 1, 9)
+        x = positions(particles)[:, 0]
+        self.assertFalse(((x > 6.01) & (x < 7.99)).any())
+
+    def test_tiles_that_differ_where_they_meet_are_blocks(self):
+        images = [density_image((6, 5, 4), cells=False, seed=seed) for seed in (3, 4)]
+        images[1].SetOrigin(images[0].GetBounds()[1], 0, 0)
+        source = producer(simple, blocks_of(*images))
+        array = ("POINTS", "Density")
+        mass = self.sample(source, array).GetFieldData().GetArray("TotalMass").GetValue(0)
+        self.assertLess(abs(mass / self.mass(source, array) - 1), 5e-3)
+
+    def test_cells_with_hidden_points_have_no_mass(self):
+        mesh = as_unstructured(uneven_grid((4, 3, 2)))
+        flags = np.zeros(mesh.GetNumberOfPoints(), np.uint8)
+        flags[0] = vtkDataSetAttributes.HIDDENPOINT
+        ghosts = numpy_to_vtk(flags, deep=True)
+        ghosts.SetName(vtkDataSetAttributes.GhostArrayName())
+        mesh.GetPointData().AddArray(ghosts)
+        values = vtk_to_numpy(mesh.GetCellData().GetArray("c"))
+        volumes = np.array([np.prod(np.diff(np.array(mesh.GetCell(i).GetBounds()).reshape(3, 2)))
+                            for i in range(mesh.GetNumberOfCells())])
+        holds = [mesh.GetCell(i).GetPointIds().IsId(0) < 0 for i in range(mesh.GetNumberOfCells())]
+        self.assertEqual(holds.count(False), 1)
+        result = self.sample(producer(simple, mesh), ("CELLS", "c"))
+        mass = result.GetFieldData().GetArray("TotalMass").GetValue(0)
+        self.assertAlmostEqual(mass / (values * volumes)[holds].sum(), 1, 6)
+
+    def test_mass_in_cells_smaller_than_those_of_the_image(self):
+        """Of a mesh that is wide for the most, but has most of its mass in one small cell."""
+        wide = output_of(simple.Tetrahedralize(producer(simple, uneven_grid((3, 3, 3)))))
+        small = vtkUnstructuredGrid()
+        points = vtkPoints()
+        centre = np.array(wide.GetCenter()) + 0.123
+        for corner in ((0, 0, 0), (1e-3, 0, 0), (0, 1e-3, 0), (0, 0, 1e-3)):
+            points.InsertNextPoint(centre + corner)
+        small.SetPoints(points)
+        small.InsertNextCell(VTK_TETRA, 4, [0, 1, 2, 3])
+        array = numpy_to_vtk(np.array([1e12]), deep=True)
+        array.SetName("c")
+        small.GetCellData().AddArray(array)
+        blocks = producer(simple, blocks_of(wide, small))
+        self.check_mass(blocks, ("CELLS", "c"), 5e-3, DensityResolution=64)
+
     def test_blocks_are_one_domain(self):
         """Blocks of different kinds; each has its share of the particles."""
         left, right = uneven_grid(), as_unstructured(uneven_grid((9, 8, 7)))
@@ -210,6 +282,33 @@ class AnyData(unittest.TestCase):
         share = self.mass(producer(simple, left), ("CELLS", "c")) / self.mass(blocks, ("CELLS", "c"))
         self.assertAlmostEqual(np.mean(positions(result)[:, 0] < 45), share, 2)
         self.assertEqual(result.GetPointData().HasArray("c"), 1)
+
+    def test_values_far_from_all_cells(self):
+        left = uneven_grid((5, 4, 3))
+        right = vtkRectilinearGrid()
+        right.DeepCopy(left)
+        coordinates = vtk_to_numpy(right.GetXCoordinates())
+        coordinates += 40
+        blocks = producer(simple, blocks_of(left, right))
+        seeds = self.sample(blocks, ("CELLS", "c"), FlowTime=0.0, NumberOfParticles=400)
+        x = positions(seeds)[:, 0]
+        between = (x > left.GetBounds()[1] + 5) & (x < right.GetBounds()[0] - 5)
+        values = vtk_to_numpy(seeds.GetPointData().GetArray("c"))
+        self.assertGreater(between.sum(), 50)
+        self.assertTrue(np.isnan(values[between]).all())
+        self.assertFalse(np.isnan(values[x < left.GetBounds()[1]]).any())
+
+    def test_values_changed_in_place(self):
+        mesh = as_unstructured(uneven_grid((5, 4, 3)))
+        sampler = simple.SampleDensity(producer(simple, mesh), DensityArray=["CELLS", "c"])
+        mass = output_of(sampler).GetFieldData().GetArray("TotalMass").GetValue(0)
+        values = mesh.GetCellData().GetArray("c")
+        vtk_to_numpy(values)[:] *= 2
+        values.Modified()
+        filter_ = sampler.GetClientSideObject()
+        filter_.Update()
+        changed = filter_.GetOutput().GetFieldData().GetArray("TotalMass").GetValue(0)
+        self.assertAlmostEqual(changed / mass, 2, 12)
 
     def test_resolution_and_threads(self):
         mesh = simple.Tetrahedralize(wavelet())

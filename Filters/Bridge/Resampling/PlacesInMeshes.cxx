@@ -146,7 +146,9 @@ public:
     {
       Point<D>& x = index[static_cast<std::size_t>(i)];
       grid.ToIndex<D>(places[i], x.data());
+      found[i] = {};
       found[i].Distance = std::numeric_limits<double>::infinity();
+      found[i].Cell = -1; // until there is one within reach
       numbers[static_cast<std::size_t>(slabs.At(x[D - 1]))].push_back(i);
     }
     std::vector<CellsOfSlabs> cells;
