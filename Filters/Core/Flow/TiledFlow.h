@@ -90,8 +90,10 @@ private:
     FlowDirection direction, double particles, const TileLimits& limits)
   {
     TilePlan<Dimension> plan(size, options.NumberOfSteps, direction, true, limits);
+    // Without maps particles go to the hand-over like nodes: in twice the steps, far apart.
+    constexpr double costWithout = 3.0;
     const bool hasMaps = particles > 0.0 && options.Maps != FlowMaps::Off &&
-      (options.Maps == FlowMaps::On || plan.Shape.PaysFor(particles));
+      (options.Maps == FlowMaps::On || plan.Shape.PaysFor(costWithout * particles));
     return hasMaps ? plan
                    : TilePlan<Dimension>(size, options.NumberOfSteps, direction, false, limits);
   }
