@@ -2,11 +2,11 @@
 // What the core holds beyond its input and the particles; and how fast the machine moves memory, on
 // one thread and on two, which bounds what a second thread can gain in the tables and the splat.
 #include "BenchmarkInputs.h"
+#include "PeakMemory.h"
 
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 
@@ -14,31 +14,6 @@ namespace RectifiedTransport
 {
 namespace
 {
-
-// The largest resident size since the last reset, in bytes; 0 where the system does not tell.
-double peakMemory()
-{
-  double kilobytes = 0.0;
-  if (std::FILE* status = std::fopen("/proc/self/status", "r"))
-  {
-    char line[256];
-    while (std::fgets(line, sizeof(line), status))
-    {
-      std::sscanf(line, "VmHWM: %lf", &kilobytes);
-    }
-    std::fclose(status);
-  }
-  return 1024.0 * kilobytes;
-}
-
-void resetPeakMemory()
-{
-  if (std::FILE* references = std::fopen("/proc/self/clear_refs", "w"))
-  {
-    std::fputs("5", references);
-    std::fclose(references);
-  }
-}
 
 // The flow maps are made for one particle. Then a step of all is enough, as it has none of its own.
 void memory(benchmark::State& state, FlowMaps maps)

@@ -319,6 +319,28 @@ def relaxation(r):
         for method in ("transport", "repulsion")) + ".\n")
 
 
+TILED = [  # cells, particles, direction, steps, tables
+    ("256³", "one a cell", "forward", "32", "whole", "forward/whole/32/256"),
+    ("256³", "one a cell", "forward", "32", "tiled", "forward/tiled/32/256"),
+    ("512³", "one a cell", "forward", "32", "tiled", "forward/tiled/32/512"),
+    ("512³", "one a cell", "forward", "48", "tiled", "forward/tiled/48/512"),
+    ("256³", "one a cell", "backward", "32", "whole", "backward/whole/32/256"),
+    ("256³", "one a cell", "backward", "32", "tiled", "backward/tiled/32/256"),
+    ("512³", "one a cell", "backward", "32", "tiled", "backward/tiled/32/512"),
+    ("1024³", "10,000,000", "forward", "64", "tiled", "points/tiled/64/1024"),
+]
+
+
+def tiles(r):
+    rows = []
+    for *text, name in TILED:
+        name = f"Tiles/{name}"
+        peak, foretold = (r.median(name, f"{what}_bytes") / 1e6 for what in ("peak", "foretold"))
+        rows.append(text + [f"{r.median(name, 'real_time'):.1f} s", f"{peak:.0f} MB", f"{foretold:.0f} MB"])
+    print_table(["cells", "particles", "direction", "steps", "tables", "two threads",
+                 "memory beyond input and output", "foretold"], rows)
+
+
 def run(arguments, names):
     """What the program reports of the benchmarks whose names match."""
     with tempfile.TemporaryDirectory() as folder:
@@ -343,8 +365,12 @@ def main():
     parser.add_argument("--morphs", action="store_true", help="only morphs, barycenters and splats")
     parser.add_argument("--parameterization", action="store_true", help="only maps of disks")
     parser.add_argument("--relaxation", action="store_true", help="only blue noise")
+    parser.add_argument("--tiles", action="store_true",
+                        help="only large grids: 7 GB of memory, 8 minutes a repetition")
     arguments = parser.parse_args()
 
+    if arguments.tiles:
+        return tiles(Results(run(arguments, "Tiles")))
     if arguments.relaxation:
         return relaxation(Results(run(arguments, "Relaxation")))
     if arguments.parameterization:
@@ -354,7 +380,7 @@ def main():
     if arguments.morphs:
         return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Quality|_fresh|Parameterization|Relaxation"))
+    results = Results(run(arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation"))
     results.add(run(arguments, "_reused"))
 
     print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
