@@ -29,8 +29,8 @@ struct TableSettings;
  *
  * - Tables. Whole: summed-area tables of the whole grid, 32 bytes a cell, until the density changes.
  *   Tiled: tables of few nodes, and those of tiles, which are made in each run and worked through
- *   one after another: less than a tenth of the memory for large grids, in about the same time, as
- *   exact but of other bits. It takes Multistep with Interpolated in 2D and 3D, NumberOfSteps of
+ *   one after another: an eighth of the memory at 512^3 cells, in about the same time, as exact but
+ *   of other bits. It takes Multistep with Interpolated in 2D and 3D, NumberOfSteps of
  *   about 8 or more, and gives positions at the end of the flow alone; else it is an error. Auto
  *   (default): Tiled for densities of more than 2^26 cells where it serves, else Whole.
  */
