@@ -16,6 +16,7 @@ namespace RectifiedTransport
 template <int Dimension>
 using Dim = std::integral_constant<int, Dimension>;
 using Dimensions = testing::Types<Dim<1>, Dim<2>, Dim<3>>;
+using PlaneAndSpace = testing::Types<Dim<2>, Dim<3>>;
 
 // A typed test of its own name is an alias of it.
 template <class T>

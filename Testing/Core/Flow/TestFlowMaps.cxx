@@ -134,7 +134,6 @@ FlowOptions usual(FlowMaps maps)
   return with(maps, steps(Dimension == 3 ? 16 : 32));
 }
 
-using PlaneAndSpace = testing::Types<Dim<2>, Dim<3>>;
 template <class T>
 using FlowMapRun = DimensionTest<T>;
 TYPED_TEST_SUITE(FlowMapRun, PlaneAndSpace);

@@ -60,7 +60,6 @@ public:
   const RectifiedFlow<Dimension> Flow;
 };
 
-using PlaneAndSpace = testing::Types<Dim<2>, Dim<3>>;
 template <class T>
 using Tiles = DimensionTest<T>;
 TYPED_TEST_SUITE(Tiles, PlaneAndSpace);

@@ -82,7 +82,6 @@ void expectSums(const double* record, const std::vector<double>& sums, double al
   }
 }
 
-using PlaneAndSpace = testing::Types<Dim<2>, Dim<3>>;
 template <class T>
 using PartTables = DimensionTest<T>;
 TYPED_TEST_SUITE(PartTables, PlaneAndSpace);
