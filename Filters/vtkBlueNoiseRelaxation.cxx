@@ -104,7 +104,7 @@ int vtkBlueNoiseRelaxation::RequestData(
     "at least 0 and less than 1");
   AlgorithmProgress progress(this, this->Threading);
   // All points are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -6,6 +6,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Resampling/ResampledDensity.h"
 #include "Bridge/Run/AlgorithmProgress.h"
@@ -25,6 +26,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -107,7 +109,8 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   auto* image = vtkImageData::SafeDownCast(input);
-  if (!input || (image && image->GetNumberOfPoints() == 0))
+  const bool isDistributed = image && this->GetRanks();
+  if (!input || (image && image->GetNumberOfPoints() == 0 && !isDistributed))
   {
     return nullptr;
   }
@@ -121,10 +124,66 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
     return this->ReadResampled(input, progress, arrayIndex, number);
   }
   this->Internals->Resampled.erase(number);
+  if (isDistributed)
+  {
+    return this->ReadPieces(image, arrayIndex);
+  }
   int found = 0;
   vtkDataArray* array = this->RequireDensityArray(image, arrayIndex, "input image", found);
   return std::make_unique<DensityImage>(
     image, array, found == vtkDataObject::FIELD_ASSOCIATION_POINTS, this->GetDensityRules());
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* image, int arrayIndex)
+{
+  const Ranks& ranks = *this->GetRanks();
+  auto pieces = std::make_unique<const ImagePieces>(image, ranks);
+  if (isEmpty(pieces->Whole()))
+  {
+    return nullptr;
+  }
+  // The array, as its association and its name; empty on ranks without points.
+  std::string chosen;
+  if (image->GetNumberOfPoints() > 0)
+  {
+    int association = 0;
+    vtkDataArray* array = this->RequireDensityArray(image, arrayIndex, "input image", association);
+    const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    requireTuples(array, image, onPoints, "input image");
+    if (!array->GetName())
+    {
+      throw Failure("The density array has no name; on several ranks it must have one");
+    }
+    chosen = (onPoints ? "point array " : "cell array ") + std::string(array->GetName());
+  }
+  std::string common;
+  std::size_t first = 0;
+  const std::vector<Bytes> all = ranks.Gather(Bytes(chosen.begin(), chosen.end()));
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    const std::string there(all[rank].begin(), all[rank].end());
+    first = common.empty() ? rank : first;
+    common = common.empty() ? there : common;
+    if (!there.empty() && there != common)
+    {
+      throw Failure("The density is the " + common + " on rank " + std::to_string(first) +
+        ", but the " + there + " on rank " + std::to_string(rank) +
+        "; it must be the same array on all");
+    }
+  }
+  const bool onPoints = common.front() == 'p';
+  const std::string name = common.substr(common.find("array ") + 6);
+  const auto whole = pieces->Gather(pieces->Whole(), { name });
+  vtkDataArray* array = whole->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
+                          ->GetArray(name.c_str());
+  if (!array)
+  {
+    throw Failure("The density array '" + name +
+      "' has not the same type and number of components on all ranks; it must have");
+  }
+  return std::make_unique<DensityImage>(
+    whole, array, onPoints, this->GetDensityRules(), std::move(pieces));
 }
 
 //------------------------------------------------------------------------------

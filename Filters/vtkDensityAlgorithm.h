@@ -63,6 +63,7 @@ class vtkAbstractArray;
 class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
+class vtkImageData;
 
 class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkGuardedAlgorithm
 {
@@ -157,8 +158,9 @@ protected:
     vtkDataObject* data, int arrayIndex = 0, int number = 0);
 
   /**
-   * The density of a data object, input array `arrayIndex`; nullptr if it has no points. Throws
-   * what RequestData may throw.
+   * The density of a data object, input array `arrayIndex`; nullptr if it has no points. Of an
+   * image that lies on several ranks it is the density of the whole one, and all of them call this.
+   * Throws what RequestData may throw.
    */
   std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkDataObject* input,
     RectifiedTransport::Progress& progress, int arrayIndex = 0, int number = 0);
@@ -191,6 +193,8 @@ private:
     vtkDataSet* data, int arrayIndex, const std::string& what, int& association);
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex);
   RectifiedTransport::DensityRules GetDensityRules();
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadPieces(
+    vtkImageData* image, int arrayIndex);
   std::unique_ptr<RectifiedTransport::DensityImage> ReadResampled(
     vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
 

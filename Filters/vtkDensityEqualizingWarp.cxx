@@ -8,6 +8,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -32,6 +33,7 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->PassPieces(0); // each point is moved independently of the others
+  this->ShareAmongRanks(1, false);
 }
 
 //------------------------------------------------------------------------------
@@ -90,10 +92,12 @@ int vtkDensityEqualizingWarp::RequestData(
   this->GetTableSettings().Check();
   const DensityEqualizingWarp warp{ this->GetFlowSettings().Options(), this->GetTableSettings(),
     this->Blend };
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  if (!density || !input || input->GetNumberOfPoints() == 0)
+  // A rank without points takes part in what all ranks do together.
+  if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks))
   {
     return 1;
   }
@@ -101,10 +105,12 @@ int vtkDensityEqualizingWarp::RequestData(
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());
   output->GetCellData()->PassData(input->GetCellData());
-  const std::int64_t outside = warp.Run(*density, input, this->GetFlowCache(), progress, output);
-  if (outside > 0)
+  const std::int64_t outside =
+    sumOverRanks(ranks, warp.Run(*density, input, this->GetFlowCache(), progress, output));
+  const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());
+  if (outside > 0 && (!ranks || ranks->Own() == 0))
   {
-    vtkWarningMacro(<< outside << " of " << input->GetNumberOfPoints()
+    vtkWarningMacro(<< outside << " of " << points
                     << " points outside the domain of the density moved as its border does");
   }
   return 1;

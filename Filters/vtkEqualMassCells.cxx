@@ -188,7 +188,7 @@ int vtkEqualMassCells::RequestData(
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }

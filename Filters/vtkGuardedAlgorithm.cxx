@@ -2,6 +2,7 @@
 #include "vtkGuardedAlgorithm.h"
 
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/SMPExecutor.h"
@@ -143,15 +144,22 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
       clearImages(outputVector);
-      this->Whole->Require(this, inputVector);
+      this->Run = this->Whole->BeginRun(this, inputVector);
+      this->Whole->Require(this, inputVector, this->Run.get());
       const int result = this->RequestData(request, inputVector, outputVector);
+      if (this->Run)
+      {
+        this->Run->End();
+        this->Run = nullptr;
+      }
       return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
     }
     return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
   catch (...)
   {
-    return RectifiedTransport::handleException(this, outputVector);
+    const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run);
+    return RectifiedTransport::handleException(this, outputVector, run.get());
   }
 }
 
@@ -272,6 +280,7 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
     if (this->Whole->IsNeeded(port))
     {
       vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
+      this->Whole->RequestShared(port, inputVector[port]);
     }
   }
   return 1;
@@ -284,8 +293,25 @@ void vtkGuardedAlgorithm::PassPieces(int port)
 }
 
 //------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector)
+void vtkGuardedAlgorithm::ShareAmongRanks(int port, bool takesPoints)
 {
+  this->Whole->Share(port, takesPoints);
+}
+
+//------------------------------------------------------------------------------
+const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanks() const
+{
+  return this->Run.get();
+}
+
+//------------------------------------------------------------------------------
+bool vtkGuardedAlgorithm::IsLaterPiece(
+  vtkInformation* request, vtkInformationVector* outputVector) const
+{
+  if (this->Run)
+  {
+    return false;
+  }
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int port = std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT()));
   return outputVector->GetInformationObject(port)->Get(Pipeline::UPDATE_PIECE_NUMBER()) > 0;

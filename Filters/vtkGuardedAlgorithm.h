@@ -25,8 +25,10 @@
 
 namespace RectifiedTransport
 {
+class RankRun;
+class Ranks;
 class WholeInputs;
-}
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
@@ -118,6 +120,20 @@ protected:
   void PassPieces(int port);
 
   /**
+   * For a constructor: where there are several ranks, all of them run the filter together. It
+   * requests of each rank its own piece of the images on this port, and of points where
+   * `takesPoints`, and gives each rank its piece of the output. Ports of other data are needed
+   * whole.
+   */
+  void ShareAmongRanks(int port, bool takesPoints);
+
+  /**
+   * The ranks that run RequestData together; nullptr where this process runs it alone. Without a
+   * failure all of them come to the same exchanges.
+   */
+  const RectifiedTransport::Ranks* GetRanks() const;
+
+  /**
    * Choose the time to request from the inputs. By default it is the one that is requested
    * downstream.
    */
@@ -125,8 +141,9 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Request the whole extent, or piece 0 of 1, but on the ports of PassPieces. Inputs that are
-   * partial nevertheless, as data distributed over ranks, are an error before RequestData.
+   * Request the whole extent, or piece 0 of 1, but on the ports of PassPieces and, of what is
+   * distributed, of ShareAmongRanks. Inputs that are partial nevertheless, as other data
+   * distributed over ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
@@ -137,10 +154,10 @@ protected:
   static void RequestWhole(vtkInformationVector* port);
 
   /**
-   * Whether a piece other than 0 is requested: piece 0 holds all data. The executive sets the piece
-   * that is requested of one output port on all of them.
+   * Whether a piece other than 0 is requested, and not shared among ranks: piece 0 holds all data.
+   * The executive sets the piece that is requested of one output port on all of them.
    */
-  static bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
+  bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector) const;
 
   /**
    * Fill the outputs. An exception becomes one error and empty outputs, an abort empty outputs.
@@ -156,6 +173,7 @@ private:
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
+  std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData
 
   // What UpdateInputBeforeData updated last.
   struct vtkUpdated

@@ -163,7 +163,7 @@ int vtkMassSplatter::RequestData(
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -96,7 +96,7 @@ int vtkSurfaceSampler::RequestData(
   AlgorithmProgress progress(this, this->Threading);
 
   // All particles are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -176,7 +176,7 @@ int vtkTransportInterpolator::RequestData(
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.
-  if (!vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (!this->IsLaterPiece(request, outputVector))
   {
     static const char* const names[] = { "Source", "Target" };
     std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);

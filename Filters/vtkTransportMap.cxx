@@ -8,6 +8,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -34,6 +35,7 @@ vtkTransportMap::vtkTransportMap()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
+  this->ShareAmongRanks(0, false);
 }
 
 //------------------------------------------------------------------------------
@@ -75,6 +77,7 @@ int vtkTransportMap::RequestInformation(
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
   }
+  announceSubExtents(outputInformation);
   const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation);
   announceGrid(inputGrid, outputInformation);
   if (inputGrid.IsEmpty())
@@ -106,10 +109,11 @@ int vtkTransportMap::RequestData(
   const TransportMap map{ this->GetFlowSettings().Options(), this->GetTableSettings(),
     this->Direction == DENSITY_TO_UNIFORM,
     { this->SampleDimensions[0], this->SampleDimensions[1], this->SampleDimensions[2] } };
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // All samples are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  // On one rank all samples are in piece 0, whatever pieces are requested.
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }
@@ -119,12 +123,14 @@ int vtkTransportMap::RequestData(
     return 1;
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const TransportMap::Report result = map.Run(*density, this->GetFlowCache(), progress, output);
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  const TransportMap::Report result =
+    map.Run(*density, requestedExtent(outputInformation), this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
-  announceGrid(gridOf(output, density->Grid().IsOnPoints()), outputVector->GetInformationObject(0));
-  if (result.MovedToMass > 0)
+  announceGrid(result.Grid, outputInformation);
+  if (result.MovedToMass > 0 && (!ranks || ranks->Own() == 0))
   {
-    vtkWarningMacro(<< result.MovedToMass << " of " << result.Samples
+    vtkWarningMacro(<< result.MovedToMass << " of " << static_cast<std::int64_t>(result.Samples)
                     << " samples in empty cells moved to the nearest cell with mass (more "
                        "NumberOfSteps may spare them that)");
   }

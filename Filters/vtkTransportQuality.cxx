@@ -93,7 +93,7 @@ int vtkTransportQuality::RequestData(
     "at least 1, or 0 for blocks of about 64 particles");
   AlgorithmProgress progress(this, this->Threading);
   // The row is in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }

@@ -9,6 +9,7 @@
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -35,6 +36,8 @@ vtkTransportSampler::vtkTransportSampler()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
+  this->ShareAmongRanks(0, false);
+  this->ShareAmongRanks(1, true);
 }
 
 //------------------------------------------------------------------------------
@@ -94,29 +97,31 @@ int vtkTransportSampler::RequestData(
     this->NumberOfParticles, "at least 1");
   requireThat(
     this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // All particles are in piece 0, whatever pieces are requested.
-  if (vtkGuardedAlgorithm::IsLaterPiece(request, outputVector))
+  // On one rank all particles are in piece 0, whatever pieces are requested.
+  if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  if (!density || (seeds && seeds->GetNumberOfPoints() == 0))
+  if (!density || (seeds && seeds->GetNumberOfPoints() == 0 && !ranks))
   {
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
     sampler.Run(*density, this->GetMeshes(), seeds, this->GetFlowCache(), progress, output);
-  if (report.SeedsMoved > 0)
+  const bool isFirst = !ranks || ranks->Own() == 0;
+  if (report.SeedsMoved > 0 && isFirst)
   {
-    vtkWarningMacro(<< report.SeedsMoved << " of " << seeds->GetNumberOfPoints()
+    vtkWarningMacro(<< report.SeedsMoved << " of " << report.Particles
                     << " seeds outside the domain of the density moved to its border");
   }
-  if (report.ParticlesMoved > 0)
+  if (report.ParticlesMoved > 0 && isFirst)
   {
-    vtkWarningMacro(<< report.ParticlesMoved << " of " << output->GetNumberOfCells()
+    vtkWarningMacro(<< report.ParticlesMoved << " of " << report.Particles
                     << " particles in empty cells moved to the nearest cell with mass (more "
                        "NumberOfSteps may spare them that)");
   }

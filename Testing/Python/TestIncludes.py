@@ -27,14 +27,15 @@ CORE = {
                         "Parameterization"},
 }
 RUN = {"Run"}
-WORKERS = RUN | {"Image", "Points", "Settings", "Density"}
+WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
 BRIDGE = {
     "Run": set(),
     "Image": RUN,
     "Points": RUN,
+    "Ranks": RUN | {"Points"},
     "Settings": RUN,
     "Surface": RUN | {"Points"},
-    "Density": RUN | {"Image", "Points", "Settings"},
+    "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
     "Resampling": RUN | {"Image", "Points", "Density"},
     "Blend": WORKERS | {"Splat"},
     **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "Splat")},

@@ -12,8 +12,8 @@
 #include "Bridge/Splat/MassSplat.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -27,7 +27,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -247,18 +246,14 @@ double DensityBlend::CostBetweenEnds(const ImageGrid& geometry, Progress& progre
   const ConstPointSpan<3> to(ends[1]->GetPointer(0), count);
   const LengthScale scale(geometry);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  const double squares = reduceChunks(
-    progress, count, grain, 0.0,
-    [&](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
+  const auto squares = sumExactly<ExactSum>(
+    progress, count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        sum += scale.SquaredDistanceInUnits(to[i], from[i]);
+        sum.Add(scale.SquaredDistanceInUnits(to[i], from[i]));
       }
-      return sum;
-    },
-    std::plus<>());
-  this->EndsCost = scale.CostFromUnits(squares / static_cast<double>(count));
+    });
+  this->EndsCost = scale.CostFromUnits(squares.Value() / static_cast<double>(count));
   this->Ends = { ends[0], ends[1] };
   return this->EndsCost;
 }

@@ -5,6 +5,7 @@
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Parallel/Progress.h"
@@ -21,6 +22,7 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -32,10 +34,11 @@ constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
 } // namespace
 
-DensityImage::DensityImage(
-  vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
+DensityImage::DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints,
+  const DensityRules& rules, std::unique_ptr<const ImagePieces> pieces)
   : Input(image)
   , Array(array)
+  , Distribution(std::move(pieces))
   , Rules(rules)
   , Name(describeArray(array))
 {

@@ -23,6 +23,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class ImagePieces;
 class Progress;
 
 class DensityImage
@@ -34,15 +35,18 @@ public:
   // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
   using Content = std::array<std::uint64_t, 12>;
 
-  // `array` is point or cell data of `image`. Throws Failure for errors that do not depend on its
-  // values.
-  DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
+  // `array` is point or cell data of `image`, which is gathered from `pieces`, if there are any.
+  // Throws Failure for errors that do not depend on its values.
+  DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules,
+    std::unique_ptr<const ImagePieces> pieces = nullptr);
   ~DensityImage();
   DensityImage(const DensityImage&) = delete;
   DensityImage& operator=(const DensityImage&) = delete;
 
   const ImageGrid& Grid() const { return this->Geometry; }
   vtkImageData* Image() const;
+  // Where the image lies on several ranks; else nullptr.
+  const ImagePieces* Pieces() const { return this->Distribution.get(); }
   // What messages call it.
   const std::string& GetName() const { return this->Name; }
   const Times& GetTimes() const { return this->Changed; }
@@ -70,6 +74,7 @@ private:
   ImageGrid Geometry;
   vtkSmartPointer<vtkImageData> Input;
   vtkSmartPointer<vtkDataArray> Array;
+  const std::unique_ptr<const ImagePieces> Distribution;
   const DensityRules Rules;
   const std::string Name;
   std::unique_ptr<DensityReader> Reader;

@@ -7,13 +7,16 @@
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 
 namespace RectifiedTransport
 {
@@ -23,15 +26,24 @@ namespace
 
 template <int D>
 TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
-  const ImageGrid& samples, FlowCache& cache, Progress& progress, vtkImageData* output)
+  const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
+  vtkImageData* output)
 {
+  const Ranks* ranks = progress.Group();
   const GridSize<D> lattice = samples.Size<D>();
-  const double count = numberOfCells<D>(lattice);
+  const double all = numberOfCells<D>(lattice);
+  const double count = all / (ranks ? ranks->Count() : 1);
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
     (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
-  MapField<D> field(density.Grid(), lattice,
-    "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)");
+  MapField<D> field(density.Grid(), samples,
+    "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks);
   applyGrid(samples, output);
+  const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  if (ranks)
+  {
+    Extent extent = wanted; // VTK takes no constant one
+    output->SetExtent(extent.data());
+  }
 
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
     { map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true, "" });
@@ -39,29 +51,35 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
   const FlowReport report = map.Backward
-    ? flow.BackwardLattice(lattice, field.Positions(), map.Flow, progress.Stage())
-    : flow.ForwardLattice(lattice, field.Positions(), map.Flow, progress.Stage());
-  const double cost = field.Write(map.Backward ? &flow : nullptr, progress, 1.0,
-    output->GetAttributes(samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL));
+    ? flow.BackwardLattice(lattice, field.Part(), field.Positions(), map.Flow, progress.Stage())
+    : flow.ForwardLattice(
+        lattice, field.Part(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
+  const double cost = field.Write(map.Backward ? &flow : nullptr,
+    tuplesOf(wanted, owner, samples.Extent()), progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", cost);
-  return { field.Count(), report.MovedToMass };
+  return { samples, all, sumOverRanks(ranks, report.MovedToMass) };
 }
 
 } // namespace
 
-TransportMap::Report TransportMap::Run(
-  DensityImage& density, FlowCache& cache, Progress& progress, vtkImageData* output) const
+TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& wanted,
+  FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples =
     gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
   if (samples.Extent() == density.Grid().Extent())
   {
-    output->GetPointData()->PassData(density.Image()->GetPointData());
-    output->GetCellData()->PassData(density.Image()->GetCellData());
+    vtkSmartPointer<vtkImageData> image = density.Image();
+    if (density.Pieces())
+    {
+      image = density.Pieces()->Gather(wanted);
+    }
+    output->GetPointData()->PassData(image->GetPointData());
+    output->GetCellData()->PassData(image->GetCellData());
   }
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
-    *this, density, samples, cache, progress, output);
+    *this, density, samples, wanted, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

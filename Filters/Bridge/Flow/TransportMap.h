@@ -6,6 +6,7 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Geometry/ImageGrid.h"
 
 #include <array>
 #include <cstdint>
@@ -31,15 +32,17 @@ struct TransportMap
 
   struct Report
   {
-    std::int64_t Samples;
+    ImageGrid Grid; // of all samples
+    double Samples;
     std::int64_t MovedToMass; // from empty cells of the density
   };
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
-  // this grid; where it is that of the density, the image gets the arrays of the input, too. Throws
-  // Failure and Cancelled.
-  Report Run(
-    DensityImage& density, FlowCache& cache, Progress& progress, vtkImageData* output) const;
+  // this grid; where it is that of the density, the image gets the arrays of the input, too. On
+  // ranks, which call this together, the image is the part of the grid in the extent that each
+  // wants. Throws Failure and Cancelled.
+  Report Run(DensityImage& density, const std::array<int, 6>& wanted, FlowCache& cache,
+    Progress& progress, vtkImageData* output) const;
 };
 
 } // namespace RectifiedTransport

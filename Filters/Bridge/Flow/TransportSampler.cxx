@@ -7,17 +7,24 @@
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Points/SeedInput.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/ParticleExchange.h"
+#include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Resampling/PlacesInMeshes.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Ranks.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <string>
@@ -30,6 +37,7 @@ namespace
 {
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+constexpr double maximumCount = 9e18; // of particles, as integers
 
 // The times of the output positions: FlowTime, or those of a path's points.
 std::vector<double> timesOf(const TransportSampler& sampler)
@@ -69,14 +77,15 @@ std::string describeParticles(double count, bool paths)
     " particles (see NumberOfParticles, SamplesPerCell and Seeds)";
 }
 
+// Those from number `firstSeed` on.
 template <int D>
 void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::string& purpose,
-  Progress& progress, double end, PointSpan<D> seeds)
+  std::int64_t firstSeed, Progress& progress, double end, PointSpan<D> seeds)
 {
   constexpr double partOfPattern = 0.8;
   progress.BeginStage(progress.StageEnd() + partOfPattern * (end - progress.StageEnd()));
   withMemory(purpose, pattern.Count() * D * sizeof(double),
-    [&]() { pattern.Generate(seeds, progress.Stage()); });
+    [&]() { pattern.GenerateFrom(firstSeed, seeds, progress.Stage()); });
   progress.BeginStage(end);
   progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
@@ -89,11 +98,35 @@ void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::
   });
 }
 
+// What values at this rank's places depend on: between its points and the next ones.
+Extent extentAround(const ImagePieces& pieces, const ImageGrid& grid)
+{
+  const auto own = static_cast<std::size_t>(pieces.Group().Own());
+  Extent extent = grid.IsOnPoints() ? pieces.Points()[own] : pieces.Cells()[own];
+  if (!isEmpty(extent) && grid.IsOnPoints())
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extent[2 * axis] -= 1;
+      extent[2 * axis + 1] += 1;
+    }
+  }
+  return intersectionOf(extent, pieces.Whole());
+}
+
 // The arrays of the data that the density was read from.
 template <int D>
 void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>* meshes,
   ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
 {
+  if (const ImagePieces* pieces = density.Pieces())
+  {
+    const Extent part = extentAround(*pieces, density.Grid());
+    const vtkSmartPointer<vtkImageData> image = pieces->Gather(part);
+    sampleArrays({ { image }, "input image", false },
+      PlacesInImage<D>(density.Grid(), part, particles), progress, 1.0, output);
+    return;
+  }
   if (!meshes)
   {
     sampleArrays({ { density.Image() }, "input image", false },
@@ -111,6 +144,39 @@ void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>*
   sampleArrays(source, places, progress, 1.0, output);
 }
 
+// The particles of this rank among those of all.
+struct Share
+{
+  std::int64_t First;
+  double Count;
+  std::int64_t All;
+};
+
+// Where `ranks` is nullptr there may be more than every integer.
+Share shareOf(const Ranks* ranks, vtkPointSet* given, double pattern)
+{
+  if (!ranks)
+  {
+    const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern;
+    return { 0, count, static_cast<std::int64_t>(std::min(count, maximumCount)) };
+  }
+  if (!given)
+  {
+    const auto all = static_cast<std::int64_t>(std::min(pattern, maximumCount));
+    const RankShare share(all, ranks);
+    return { share.First, static_cast<double>(share.Count), all };
+  }
+  Share share{ 0, static_cast<double>(given->GetNumberOfPoints()), 0 };
+  const std::vector<std::int64_t> counts =
+    gatherValues<std::int64_t>(*ranks, given->GetNumberOfPoints());
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    share.First += rank < static_cast<std::size_t>(ranks->Own()) ? counts[rank] : 0;
+    share.All += counts[rank];
+  }
+  return share;
+}
+
 template <int D>
 TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& density,
   const std::vector<BlockValues>* meshes, vtkPointSet* given, FlowCache& cache, Progress& progress,
@@ -118,7 +184,13 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 {
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
-  const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern.Count();
+  const Ranks* ranks = progress.Group();
+  const Share share = shareOf(ranks, given, pattern.Count());
+  if (given && share.All == 0)
+  {
+    return {};
+  }
+  const double count = share.Count;
   const std::vector<double> times = timesOf(sampler);
   const bool addsArrays = sampler.SampleArrays && !sampler.OutputPaths;
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::Seed * count,
@@ -127,6 +199,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const std::string purpose = describeParticles(count, sampler.OutputPaths);
   ParticleSet<D> particles(
     grid, purpose, count, static_cast<std::int64_t>(times.size()), given != nullptr);
+  particles.SetShare(share.First, share.All);
 
   const std::string wholeFor = times.size() > 1 ? "OutputPaths"
     : times.back() < 1.0                        ? "a FlowTime other than 1"
@@ -143,7 +216,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   }
   else
   {
-    makeSeeds<D>(pattern, grid.Size<D>(), purpose, progress, ends[1], particles.Seeds());
+    makeSeeds<D>(
+      pattern, grid.Size<D>(), purpose, share.First, progress, ends[1], particles.Seeds());
   }
   progress.BeginStage(ends[2]);
   const ConstPointSpan<D> seeds = particles.Seeds();
@@ -181,10 +255,21 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
+  ConstPointSpan<3> places = particles.PhysicalPoints();
+  vtkSmartPointer<vtkDoubleArray> moved;
+  if (ranks)
+  {
+    const PlaceOwners owners(grid, density.Pieces(), *ranks);
+    moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, *ranks, progress);
+    moved = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
+    places = { moved->GetPointer(0), moved->GetNumberOfTuples() };
+    report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
+    report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
+  }
+  report.Particles = share.All;
   if (addsArrays)
   {
-    sampleArraysOf<D>(
-      density, meshes, particles.PhysicalPoints(), progress, output->GetPointData());
+    sampleArraysOf<D>(density, meshes, places, progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

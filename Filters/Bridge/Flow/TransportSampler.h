@@ -37,9 +37,10 @@ struct TransportSampler
   bool OutputPaths;
   bool SampleArrays;
 
-  // Numbers for warnings.
+  // Numbers for warnings, of all ranks.
   struct Report
   {
+    std::int64_t Particles = 0;
     std::int64_t SeedsMoved = 0;     // to the domain's border
     std::int64_t ParticlesMoved = 0; // from empty cells of the density to the nearest mass
   };

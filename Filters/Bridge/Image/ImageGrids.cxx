@@ -4,7 +4,9 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/RankAgreement.h"
 
+#include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -123,6 +125,24 @@ void announceGrid(const ImageGrid& grid, vtkInformation* information)
   information->Set(vtkDataObject::ORIGIN(), grid.Origin().data(), 3);
   information->Set(vtkDataObject::SPACING(), grid.Spacing().data(), 3);
   information->Set(vtkDataObject::DIRECTION(), grid.Direction().data(), 9);
+}
+
+void announceSubExtents(vtkInformation* information)
+{
+  if (haveSeveralRanks())
+  {
+    information->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  }
+}
+
+std::array<int, 6> requestedExtent(vtkInformation* information)
+{
+  std::array<int, 6> extent{ 0, -1, 0, -1, 0, -1 };
+  if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()))
+  {
+    information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+  }
+  return extent;
 }
 
 void announceDensity(const ImageGrid& grid, vtkInformation* information)

@@ -6,6 +6,7 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 
+#include <array>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -34,6 +35,11 @@ void requireCells(const ImageGrid& grid);
 void applyGrid(const ImageGrid& grid, vtkImageData* image);
 // Sets the same in the pipeline information.
 void announceGrid(const ImageGrid& grid, vtkInformation* information);
+// Announces that each of several ranks gives the extent that is requested of it; one alone gives
+// all.
+void announceSubExtents(vtkInformation* information);
+// What is requested of an image output; empty for nothing.
+std::array<int, 6> requestedExtent(vtkInformation* information);
 // Also announces the active scalars, the array Density of doubles.
 void announceDensity(const ImageGrid& grid, vtkInformation* information);
 

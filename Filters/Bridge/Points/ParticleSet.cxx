@@ -4,8 +4,9 @@
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Reduction.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -16,7 +17,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace RectifiedTransport
 {
@@ -47,6 +47,7 @@ ParticleSet<D>::ParticleSet(const ImageGrid& geometry, const std::string& purpos
   requireMemory(purpose, count * (written + scratch));
 
   this->NumberOfParticles = static_cast<std::int64_t>(count);
+  this->AllParticles = this->NumberOfParticles;
   this->Points = newArray<vtkDoubleArray>("Points", 3, this->NumberOfParticles * times);
   if (!paths || seedsGiven)
   {
@@ -97,18 +98,14 @@ double ParticleSet<D>::MeanOverParticles(Progress& progress, const Particle& par
 {
   const std::int64_t count = this->NumberOfParticles;
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
-  const double total = reduceChunks(
-    progress, count, chunk, 0.0,
-    [&particle](std::int64_t first, std::int64_t last) {
-      double sum = 0.0;
+  const auto total = sumExactly<ExactSum>(
+    progress, count, chunk, [&particle](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        sum += particle(i);
+        sum.Add(particle(i));
       }
-      return sum;
-    },
-    std::plus<>());
-  return total / static_cast<double>(count);
+    });
+  return sumOverRanks(progress.Group(), total).Value() / static_cast<double>(this->AllParticles);
 }
 
 template <int D>
@@ -159,7 +156,7 @@ double ParticleSet<D>::WriteParticles(
   double* physicalSeeds = this->SeedPosition->GetPointer(0);
   const double* seeds = this->Seeds().data();
   const double* positions = this->Positions().data();
-  const double share = totalMass / static_cast<double>(count);
+  const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
   progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
@@ -174,7 +171,7 @@ double ParticleSet<D>::WriteParticles(
     {
       displacement[i * 3 + r] = x[r] - seed[r];
     }
-    id[i] = i;
+    id[i] = this->FirstId + i;
     mass[i] = share;
     return scale.SquaredDistanceInUnits(x, seed);
   });
@@ -206,7 +203,7 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   double* points = this->Points->GetPointer(0);
   const double* seeds = this->Seeds().data();
   const double* positions = this->Positions().data();
-  const double share = totalMass / static_cast<double>(count);
+  const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
   progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
@@ -217,7 +214,7 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
     for (std::int64_t p = i * each; p < (i + 1) * each; ++p)
     {
       this->ToPhysical(positions + p * D, index, seed, points + p * 3);
-      id[p] = i;
+      id[p] = this->FirstId + i;
       time[p] = times[static_cast<std::size_t>(p - i * each)];
       mass[p] = share;
     }

@@ -36,6 +36,12 @@ public:
     std::int64_t times, bool seedsGiven);
 
   std::int64_t Count() const { return this->NumberOfParticles; }
+  // They are `Count` of `all` particles of several ranks: those from `first` on.
+  void SetShare(std::int64_t first, std::int64_t all)
+  {
+    this->FirstId = first;
+    this->AllParticles = all;
+  }
 
   // In index space; the positions of a particle are consecutive.
   PointSpan<D> Seeds();
@@ -45,8 +51,8 @@ public:
   ConstPointSpan<3> PhysicalPoints() const;
 
   // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass; positions are
-  // undefined afterwards. Returns the mean squared displacement. Progress reaches `end`. Throws
-  // Failure and Cancelled.
+  // undefined afterwards. Returns the mean squared displacement of the particles of all ranks,
+  // which call this together. Progress reaches `end`. Throws Failure and Cancelled.
   double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.
@@ -63,6 +69,8 @@ private:
 
   const ImageGrid& Geometry;
   std::int64_t NumberOfParticles;
+  std::int64_t FirstId = 0;
+  std::int64_t AllParticles;
   std::int64_t Times;
   bool SeedsGiven;
   vtkSmartPointer<vtkDoubleArray> SeedPosition;

@@ -102,6 +102,10 @@ template <class Visit>
 void visitPoints(
   vtkPointSet* points, const std::string& what, Progress& progress, const Visit& visit)
 {
+  if (points->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
   PointPass<Visit> pass(visit);
   vtkDataArray* coordinates = points->GetPoints()->GetData();
   using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;

@@ -14,9 +14,9 @@ namespace RectifiedTransport
 namespace
 {
 
-Context contextOf(vtkAlgorithm* algorithm, const Executor& threads)
+Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks* group)
 {
-  return Context(
+  Context context(
     threads, [algorithm](double fraction) { algorithm->UpdateProgress(fraction); },
     [algorithm, thread = std::this_thread::get_id()]() {
       (void)thread;
@@ -29,17 +29,20 @@ Context contextOf(vtkAlgorithm* algorithm, const Executor& threads)
 #endif
       return algorithm->GetAbortExecute() != 0;
     });
+  context.Group = group;
+  return context;
 }
 
 } // namespace
 
-AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading)
-  : AlgorithmProgress(algorithm, makeExecutor(threading))
+AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks* group)
+  : AlgorithmProgress(algorithm, makeExecutor(threading), group)
 {
 }
 
-AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads)
-  : Progress(contextOf(algorithm, *threads))
+AlgorithmProgress::AlgorithmProgress(
+  vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks* group)
+  : Progress(contextOf(algorithm, *threads, group))
   , OwnThreads(std::move(threads))
 {
 }

@@ -21,10 +21,11 @@ class AlgorithmProgress final : public Progress
 {
 public:
   // `threading` is a value of vtkGuardedAlgorithm::ThreadingType. Throws Failure for another one.
-  AlgorithmProgress(vtkAlgorithm* algorithm, int threading);
+  // `group` are the ranks that share the execution, nullptr for this one alone.
+  AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks* group = nullptr);
 
 private:
-  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads);
+  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks* group);
 
   const std::unique_ptr<Executor> OwnThreads;
 };

@@ -2,6 +2,7 @@
 #include "Bridge/Run/ExceptionBarrier.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/RankRun.h"
 #include "Core/Parallel/Context.h"
 
 #include "vtkAlgorithm.h"
@@ -149,7 +150,7 @@ bool clearUnmetRequests(vtkInformationVector* outputs)
   return isComplete;
 }
 
-int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
+int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, RankRun* run)
 {
   std::string error;
   try
@@ -158,7 +159,15 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
   }
   catch (const Cancelled&)
   {
+    if (run)
+    {
+      run->Cancel();
+    }
     return emptyOutputs(outputs) ? 1 : 0;
+  }
+  catch (const FailedElsewhere&)
+  {
+    // Reported by the first rank.
   }
   catch (const NoMemoryForFlowMap& map)
   {
@@ -173,7 +182,11 @@ int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs)
     error = exception.what();
   }
   emptyOutputs(outputs);
-  vtkErrorWithObjectMacro(algorithm, << error);
+  error = run ? run->Fail(error) : error;
+  if (!error.empty())
+  {
+    vtkErrorWithObjectMacro(algorithm, << error);
+  }
   return 0;
 }
 

@@ -15,10 +15,12 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class RankRun;
+
 // To be called within catch (...) around the processing of a request: empties the outputs and
-// announces empty extents; any exception but Cancelled becomes one error of the algorithm. Returns
-// the return value of ProcessRequest.
-int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs);
+// announces empty extents; any exception but Cancelled becomes one error of the algorithm, of all
+// ranks of its run, if there is one, together. Returns the return value of ProcessRequest.
+int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, RankRun* run = nullptr);
 
 // Sets empty whole and update extents on structured outputs, and on those of the filters
 // downstream, which would otherwise read the extent announced before. Returns false where not all

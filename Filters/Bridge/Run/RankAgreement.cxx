@@ -90,6 +90,13 @@ private:
 
 } // namespace
 
+bool haveSeveralRanks()
+{
+  auto* controller =
+    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
 bool sharesWithRanks(int piece, int pieces)
 {
   auto* controller =
@@ -136,6 +143,11 @@ RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint
 }
 
 #else
+
+bool haveSeveralRanks()
+{
+  return false;
+}
 
 bool sharesWithRanks(int, int)
 {

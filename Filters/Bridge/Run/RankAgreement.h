@@ -18,6 +18,8 @@ enum class RankAgreement
   NoAnswer, // within ten seconds: not all ranks execute the filter
 };
 
+bool haveSeveralRanks();
+
 // Whether there are several ranks and the requested piece is this rank's, of as many pieces as
 // there are ranks.
 bool sharesWithRanks(int piece, int pieces);

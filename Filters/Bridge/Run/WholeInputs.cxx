@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/RankAgreement.h"
+#include "Bridge/Run/RankRun.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataIterator.h"
@@ -13,6 +14,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -160,6 +162,14 @@ void requireWholeExtent(vtkInformation* input, const std::string& what)
   }
 }
 
+std::string describeDifference(const std::string& input, const char* here, int rank)
+{
+  return "The data on " + input + " are not the same " + here + " and on rank " +
+    std::to_string(rank) +
+    "; what lies on several ranks must be gathered on the first one, or be whole on each "
+    "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
+}
+
 // A hash of the numbers of points and cells, the bounds, and samples of the coordinates and array
 // values of data sets and of the leaves of composite ones; 0 where none has points.
 std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data)
@@ -228,7 +238,47 @@ bool WholeInputs::IsIteratingOverBlocks(
 }
 
 //------------------------------------------------------------------------------
-void WholeInputs::Require(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+bool WholeInputs::IsShared(int port, vtkInformation* input) const
+{
+  const auto shared = this->Shared.find(port);
+  if (shared == this->Shared.end() || !sharesWithRanks(this->Piece, this->NumberOfPieces))
+  {
+    return false;
+  }
+  vtkDataObject* data = vtkDataObject::GetData(input);
+  return vtkImageData::SafeDownCast(data) || (shared->second && vtkPointSet::SafeDownCast(data));
+}
+
+//------------------------------------------------------------------------------
+// After a request of all: the executive divides the extent.
+void WholeInputs::RequestShared(int port, vtkInformationVector* inputs) const
+{
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* input = inputs->GetInformationObject(i);
+    if (!this->IsShared(port, input))
+    {
+      continue;
+    }
+    input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Piece);
+    input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->NumberOfPieces);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RankRun> WholeInputs::BeginRun(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector) const
+{
+  if (this->Shared.empty() || this->IsIteratingOverBlocks(filter, inputVector))
+  {
+    return nullptr;
+  }
+  return RankRun::Begin(filter->GetClassName(), this->Piece, this->NumberOfPieces);
+}
+
+//------------------------------------------------------------------------------
+void WholeInputs::Require(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run)
 {
   Inputs inputs(static_cast<std::size_t>(filter->GetNumberOfInputPorts()));
   vtkMTimeType newest = 0;
@@ -239,6 +289,10 @@ void WholeInputs::Require(vtkAlgorithm* filter, vtkInformationVector** inputVect
     for (int i = 0; i < connections; ++i)
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      if (run && this->IsShared(port, input))
+      {
+        continue;
+      }
       requireWholeExtent(input, "Input port " + std::to_string(port));
       vtkDataObject* whole = this->CompositeAt(port, i);
       if (vtkDataObject* data = whole ? whole : vtkDataObject::GetData(input))
@@ -247,6 +301,11 @@ void WholeInputs::Require(vtkAlgorithm* filter, vtkInformationVector** inputVect
         inputs[static_cast<std::size_t>(port)].push_back(data);
       }
     }
+  }
+  if (run)
+  {
+    requireSame(*run, inputs);
+    return;
   }
   if (newest != this->ComparedTime)
   {
@@ -260,6 +319,31 @@ void WholeInputs::Require(vtkAlgorithm* filter, vtkInformationVector** inputVect
   if (!this->Disagreement.empty())
   {
     throw Failure(this->Disagreement);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Every rank has the data, or only the first has any.
+void WholeInputs::requireSame(const RankRun& run, const Inputs& inputs)
+{
+  std::vector<std::uint64_t> own;
+  for (const std::vector<vtkDataObject*>& port : inputs)
+  {
+    own.push_back(fingerprintOf(port));
+  }
+  const std::vector<Bytes> gathered = run.Gather(toBytes(own));
+  const auto first = fromBytes<std::uint64_t>(gathered.front());
+  for (std::size_t rank = 1; rank < gathered.size(); ++rank)
+  {
+    const auto other = fromBytes<std::uint64_t>(gathered[rank]);
+    for (std::size_t port = 0; port < first.size(); ++port)
+    {
+      if (other[port] != first[port])
+      {
+        throw Failure(describeDifference(
+          "input port " + std::to_string(port), "on rank 0", static_cast<int>(rank)));
+      }
+    }
   }
 }
 
@@ -286,10 +370,7 @@ bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
     this->EqualFingerprints[port] = agreement == RankAgreement::Same ? fingerprint : 0;
     if (agreement == RankAgreement::Differs)
     {
-      this->Disagreement = "The data on " + name + " are not the same here and on rank " +
-        std::to_string(rank) +
-        "; what lies on several ranks must be gathered on the first one, or be whole on each "
-        "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
+      this->Disagreement = describeDifference(name, "here", rank);
       return true;
     }
     if (agreement == RankAgreement::NoAnswer)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rejects inputs that are distributed over ranks, which the filters do not support: their results
-// would be wrong.
+// What a filter requests of its inputs: all, or of images and points that are distributed over
+// ranks the rank's own piece. Rejects other inputs that are distributed: results would be wrong.
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
 
@@ -10,6 +10,8 @@
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,6 +27,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class RankRun;
+
 // Of one filter. Remembers the last comparison with other ranks, so that it is made once for data
 // that do not change.
 class WholeInputs
@@ -33,6 +37,8 @@ public:
   // Excepts a port; all others are needed whole.
   void Except(int port) { this->Excepted.insert(port); }
   bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
+  // Takes pieces of the images on a port, and of points, where the filter runs on all ranks.
+  void Share(int port, bool takesPoints) { this->Shared[port] = takesPoints; }
 
   // Records the requested piece and the composite inputs, in REQUEST_UPDATE_EXTENT: while the
   // executive iterates over blocks it replaces the input by one block at a time, and requests piece
@@ -40,18 +46,28 @@ public:
   void Record(vtkAlgorithm* filter, vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
+  // Requests the rank's own piece of what is shared.
+  void RequestShared(int port, vtkInformationVector* inputs) const;
+
+  // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
+  // RankRun::Begin.
+  std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
+
   // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
   // not the same on all ranks; warns where other ranks do not answer. Of the needed ports.
-  void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector);
+  void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run);
 
 private:
   using Inputs = std::vector<std::vector<vtkDataObject*>>; // of each port
 
   vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
+  bool IsShared(int port, vtkInformation* input) const;
   bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
+  static void requireSame(const RankRun& run, const Inputs& inputs);
 
   std::set<int> Excepted;
+  std::map<int, bool> Shared; // whether points, too
   int Piece = 0;
   int NumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port

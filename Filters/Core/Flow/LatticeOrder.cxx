@@ -13,45 +13,23 @@ namespace
 constexpr std::int64_t blockSides[] = { 64, 8, 4 };
 constexpr std::int64_t tileSides[] = { 4096, 64, 16 };
 
+// A part of a lattice is divided into cubes, those at the upper border smaller, and counted cube by
+// cube, axis 0 fastest: narrows the part to the cube that holds cell `number`, which becomes a
+// number in the cube.
 template <int Dimension>
-struct Region
+void narrow(LatticePart<Dimension>& part, std::int64_t side, std::int64_t& number)
 {
-  GridSize<Dimension> Low;
-  GridSize<Dimension> Cells;
-
-  std::int64_t Count() const
+  for (int axis = Dimension; axis-- > 0;)
   {
-    std::int64_t count = 1;
-    for (const std::int64_t cells : this->Cells)
-    {
-      count *= cells;
-    }
-    return count;
+    const std::int64_t layer = part.Count() / part.Cells[axis];
+    const std::int64_t cube = number / (side * layer);
+    number -= cube * side * layer;
+    part.Low[axis] += cube * side;
+    part.Cells[axis] = std::min(side, part.Cells[axis] - cube * side);
   }
-
-  // Divided into cubes, those at the upper border smaller, and counted cube by cube, axis 0
-  // fastest: narrows the region to the cube that holds cell `number`, which becomes a number in the
-  // cube.
-  void Narrow(std::int64_t side, std::int64_t& number)
-  {
-    for (int axis = Dimension; axis-- > 0;)
-    {
-      const std::int64_t layer = this->Count() / this->Cells[axis];
-      const std::int64_t cube = number / (side * layer);
-      number -= cube * side * layer;
-      this->Low[axis] += cube * side;
-      this->Cells[axis] = std::min(side, this->Cells[axis] - cube * side);
-    }
-  }
-};
+}
 
 } // namespace
-
-template <int Dimension>
-std::int64_t LatticeOrder<Dimension>::Count() const
-{
-  return Region<Dimension>{ {}, this->Lattice }.Count();
-}
 
 template <int Dimension>
 void LatticeOrder<Dimension>::Fill(
@@ -60,9 +38,9 @@ void LatticeOrder<Dimension>::Fill(
   while (count > 0)
   {
     std::int64_t number = first;
-    Region<Dimension> block{ {}, this->Lattice };
-    block.Narrow(tileSides[Dimension - 1], number);
-    block.Narrow(blockSides[Dimension - 1], number);
+    LatticePart<Dimension> block = this->Part;
+    narrow(block, tileSides[Dimension - 1], number);
+    narrow(block, blockSides[Dimension - 1], number);
     const int taken = static_cast<int>(std::min<std::int64_t>(count, block.Count() - number));
     first += taken;
     count -= taken;
@@ -79,7 +57,7 @@ void LatticeOrder<Dimension>::Fill(
       for (int axis = Dimension; axis-- > 0;)
       {
         const std::int64_t cell = block.Low[axis] + place[axis];
-        *index = *index * this->Lattice[axis] + cell;
+        *index = *index * this->Part.Cells[axis] + (cell - this->Part.Low[axis]);
         points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
       }
       ++index;

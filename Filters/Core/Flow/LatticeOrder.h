@@ -6,11 +6,14 @@
 #define RectifiedTransport_LatticeOrder_h
 
 #include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/LatticePart.h"
 
 #include <cstdint>
 
 namespace RectifiedTransport
 {
+
+class Ranks;
 
 template <int Dimension>
 class LatticeOrder
@@ -19,23 +22,36 @@ public:
   // `lattice` cells an axis on the box [0, size]; `place` is the point in its cell, in [0, 1].
   LatticeOrder(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size,
     const Point<Dimension>& place = cellCentre<Dimension>())
+    : LatticeOrder(lattice, LatticePart<Dimension>::WholeOf(lattice), size, place)
+  {
+  }
+  // Of a part of the lattice.
+  LatticeOrder(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
+    const GridSize<Dimension>& size, const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
+    , Part(part)
     , Size(size)
     , Place(place)
   {
   }
 
-  std::int64_t Count() const;
+  std::int64_t Count() const { return this->Part.Count(); }
+  // The number of samples of all parts.
+  double CountOfAll(const Ranks* /*ranks*/) const
+  {
+    return numberOfCells<Dimension>(this->Lattice);
+  }
 
   // The number of samples from `first` on: needs no preparation.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: their numbers in the lattice, axis 0 fastest, and
+  // Samples [first, first + count) of this order: their numbers in the part, axis 0 fastest, and
   // their coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
 private:
   GridSize<Dimension> Lattice;
+  LatticePart<Dimension> Part;
   GridSize<Dimension> Size;
   Point<Dimension> Place;
 };

@@ -13,19 +13,19 @@ void MapDerivatives<Dimension>::Write(
 {
   using Vector = Eigen::Map<const Eigen::Matrix<double, 1, Dimension>>;
   GridSize<Dimension> stride;
-  GridSize<Dimension> cell;
   std::int64_t cells = 1;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     stride[axis] = cells;
-    cell[axis] = first / cells % this->Lattice[axis];
-    cells *= this->Lattice[axis];
+    cells *= this->Around.Cells[axis];
   }
+  GridSize<Dimension> cell = this->Part.CellOf(first);
   for (std::int64_t i = first; i < last; ++i)
   {
     // Row a is the derivative along axis a.
     Eigen::Matrix<double, Dimension, Dimension> jacobian;
     jacobian.setIdentity();
+    const std::int64_t at = this->Around.NumberOf(cell);
     double divergence = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -33,8 +33,8 @@ void MapDerivatives<Dimension>::Write(
       const bool above = cell[axis] + 1 < this->Lattice[axis];
       if (below || above)
       {
-        const Vector low(this->Positions[below ? i - stride[axis] : i]);
-        const Vector high(this->Positions[above ? i + stride[axis] : i]);
+        const Vector low(this->Positions[below ? at - stride[axis] : at]);
+        const Vector high(this->Positions[above ? at + stride[axis] : at]);
         const double width = below && above ? 2.0 * this->Step[axis] : this->Step[axis];
         jacobian.row(axis) = (high - low) / width;
       }
@@ -42,9 +42,10 @@ void MapDerivatives<Dimension>::Write(
     }
     divergences[i] = divergence;
     determinants[i] = jacobian.determinant();
-    for (int axis = 0; axis < Dimension && ++cell[axis] == this->Lattice[axis]; ++axis)
+    for (int axis = 0;
+         axis < Dimension && ++cell[axis] == this->Part.Low[axis] + this->Part.Cells[axis]; ++axis)
     {
-      cell[axis] = 0;
+      cell[axis] = this->Part.Low[axis];
     }
   }
 }

@@ -5,6 +5,7 @@
 #define RectifiedTransport_MapDerivatives_h
 
 #include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/LatticePart.h"
 
 #include <cstdint>
 
@@ -23,17 +24,27 @@ public:
   // lattice cell in the same units.
   MapDerivatives(const GridSize<Dimension>& lattice, const Point<Dimension>& step,
     ConstPointSpan<Dimension> positions)
+    : MapDerivatives(lattice, LatticePart<Dimension>::WholeOf(lattice), step, positions)
+  {
+  }
+  // Of a part of the lattice: `positions` are those of the part with the cells around it.
+  MapDerivatives(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
+    const Point<Dimension>& step, ConstPointSpan<Dimension> positions)
     : Lattice(lattice)
+    , Part(part)
+    , Around(part.Around(lattice))
     , Step(step)
     , Positions(positions)
   {
   }
 
-  // A range kernel: writes divergence[i] and determinant[i] for the samples [first, last).
+  // A range kernel: writes divergence[i] and determinant[i] for the part's samples [first, last).
   void Write(std::int64_t first, std::int64_t last, double* divergence, double* determinant) const;
 
 private:
   GridSize<Dimension> Lattice;
+  LatticePart<Dimension> Part;
+  LatticePart<Dimension> Around;
   Point<Dimension> Step;
   ConstPointSpan<Dimension> Positions;
 };

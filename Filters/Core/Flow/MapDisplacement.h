@@ -5,6 +5,7 @@
 #define RectifiedTransport_MapDisplacement_h
 
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Context.h"
 
 namespace RectifiedTransport
@@ -23,6 +24,14 @@ template <int Dimension>
 double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& lattice,
   ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density,
   PointSpan<3> displacements, const Context& context = Context());
+// The same of a part of the lattice: `positions` are those of the part with the cells around it,
+// and not in the memory of the displacements. The mean is that over the parts of all ranks of the
+// context, which call this together with parts that do not overlap.
+template <int Dimension>
+double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& lattice,
+  const LatticePart<Dimension>& part, ConstPointSpan<Dimension> positions,
+  const RectifiedFlow<Dimension>* density, PointSpan<3> displacements,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -8,6 +8,7 @@
 #include "Core/Flow/TiledFlow.h"
 #include "Core/Geometry/CountText.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 #include "Core/Tables/BoxShare.h"
 #include "Core/Tables/NearestMass.h"
 #include "Core/Tables/SummedAreaTables.h"
@@ -68,10 +69,22 @@ void check(const GridSize<Dimension>& size, const char* what)
 
 template <int Dimension>
 LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const Point<Dimension>& place, const GridSize<Dimension>& size, std::int64_t positions)
+  const LatticePart<Dimension>& part, const Point<Dimension>& place,
+  const GridSize<Dimension>& size, std::int64_t positions)
 {
   check<Dimension>(lattice, "a lattice");
-  checkCount(positions, numberOfCells<Dimension>(lattice));
+  checkCount(positions, numberOfCells<Dimension>(part.Cells));
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    if (part.Low[axis] < 0 || part.Cells[axis] < 0 ||
+      part.Cells[axis] > lattice[axis] - part.Low[axis])
+    {
+      throw std::invalid_argument("a part of a lattice has the cells from " +
+        std::to_string(part.Low[axis]) + " to " +
+        std::to_string(part.Low[axis] + part.Cells[axis] - 1) + " along an axis, there are " +
+        std::to_string(lattice[axis]));
+    }
+  }
   for (const double coordinate : place)
   {
     if (!(coordinate >= 0.0 && coordinate <= 1.0))
@@ -80,7 +93,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(coordinate) + ", it must be from 0 to 1");
     }
   }
-  return LatticeOrder<Dimension>(lattice, size, place);
+  return LatticeOrder<Dimension>(lattice, part, size, place);
 }
 
 template <int Dimension>
@@ -142,7 +155,7 @@ struct RectifiedFlow<Dimension>::Internals
       return this->Tiles->Advect(kind, source, positions, options, context);
     }
     AdvectionRun<Dimension> run(this->Tables->View(), kind, options, context);
-    this->Prepare(run, options, static_cast<double>(source.Count()));
+    this->Prepare(run, options, source.CountOfAll(context.Group));
     return run.Advect(source, positions);
   }
 
@@ -329,7 +342,8 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
     positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
   AdvectionRun<Dimension> run(
     this->Data->WholeTables("a path"), AdvectionKind::Forward, options, context);
-  this->Data->Prepare(run, options, static_cast<double>(seeds.size()), times.front());
+  const SortedPoints<Dimension> source(seeds);
+  this->Data->Prepare(run, options, source.CountOfAll(context.Group), times.front());
   return run.Advect(SortedPoints<Dimension>(seeds), positions, times);
 }
 
@@ -354,7 +368,16 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context) const
 {
-  const auto order = checkedOrder<Dimension>(lattice, place, this->Size(), positions.size());
+  return this->ForwardLattice(
+    lattice, LatticePart<Dimension>::WholeOf(lattice), place, positions, options, context);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
+  const LatticePart<Dimension>& part, const Point<Dimension>& place, PointSpan<Dimension> positions,
+  const FlowOptions& options, const Context& context) const
+{
+  const auto order = checkedOrder<Dimension>(lattice, part, place, this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Forward, order, positions, options, context);
 }
 
@@ -362,8 +385,17 @@ template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
+  return this->BackwardLattice(
+    lattice, LatticePart<Dimension>::WholeOf(lattice), positions, options, context);
+}
+
+template <int Dimension>
+FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
+  const LatticePart<Dimension>& part, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context) const
+{
   const auto order =
-    checkedOrder<Dimension>(lattice, cellCentre<Dimension>(), this->Size(), positions.size());
+    checkedOrder<Dimension>(lattice, part, cellCentre<Dimension>(), this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Backward, order, positions, options, context);
 }
 

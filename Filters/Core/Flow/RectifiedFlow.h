@@ -19,6 +19,7 @@
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/FlowTables.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
 
@@ -33,8 +34,10 @@ namespace RectifiedTransport
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
 // Every particle's result depends on its seed, the density and the options alone, to the last bit;
 // with FlowMaps::Auto also on how many particles there are, and with times on the first of them.
-// Throws InvalidDensity, std::invalid_argument (options, sizes), std::bad_alloc (NoMemoryForFlowMap
-// where FlowMaps::Off may do) and Cancelled.
+// Where a context has ranks, the particles are those of all ranks, each of which has the density
+// and gives its own part of the particles; all of them call the advection. Throws InvalidDensity,
+// std::invalid_argument (options, sizes), std::bad_alloc (NoMemoryForFlowMap where FlowMaps::Off
+// may do) and Cancelled.
 template <int Dimension>
 class RectifiedFlow
 {
@@ -104,6 +107,13 @@ public:
     const Context& context = Context()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
+  // The same for a part of a lattice: each position as if for all of it.
+  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
+    const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options = {},
+    const Context& context = Context()) const;
+  FlowReport BackwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
+    PointSpan<Dimension> positions, const FlowOptions& options = {},
+    const Context& context = Context()) const;
 
   // Forwards, but writes of each sample only the number, axis 0 fastest, of the density's cell with
   // mass that it ends in. For densities of isolated cells, which most particles miss at first:

@@ -4,6 +4,7 @@
 #define RectifiedTransport_SortedPoints_h
 
 #include "Core/Flow/ParticleOrder.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -27,6 +28,11 @@ public:
   }
 
   std::int64_t Count() const { return this->Points.size(); }
+  // The number of points of all ranks, which call this together.
+  double CountOfAll(const Ranks* ranks) const
+  {
+    return static_cast<double>(sumOverRanks(ranks, this->Count()));
+  }
 
   std::int64_t Prepare(std::int64_t first)
   {

@@ -55,7 +55,7 @@ public:
     const bool isBackward = kind == AdvectionKind::Backward;
     const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
     requireTiles<Dimension>(this->Size, options, direction, this->Limits);
-    const auto particles = static_cast<double>(source.Count());
+    const double particles = source.CountOfAll(context.Group);
     const TilePlan<Dimension> plan =
       PlanFor(this->Size, options, direction, particles, this->Limits);
     Counters counters;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The executor of a computation, and callbacks for its progress and cancellation.
+// The executor of a computation, the processes that share it, and callbacks for its progress and
+// cancellation.
 #ifndef RectifiedTransport_Context_h
 #define RectifiedTransport_Context_h
 
@@ -9,6 +10,8 @@
 
 namespace RectifiedTransport
 {
+
+class Ranks;
 
 // Thrown by a computation that was cancelled; its results are then undefined. Not an error, hence
 // no std::exception.
@@ -29,6 +32,8 @@ struct Context
     std::function<bool()> isCancelled = {});
 
   const Executor* Threads;
+  // The processes that run the computation together; nullptr for this one alone.
+  const Ranks* Group = nullptr;
   // Called with the progress, in [0,1], on the thread that called the library only.
   std::function<void(double)> Report;
   // Returns whether to stop. Called on any thread, by one at a time.

@@ -25,9 +25,11 @@ void Progress::BeginStage(double end, std::int64_t units)
 
 Context Progress::Stage()
 {
-  return Context(
+  Context stage(
     *this->Parent.Threads, [this](double fraction) { this->Report(fraction); },
     this->Parent.IsCancelled);
+  stage.Group = this->Parent.Group;
+  return stage;
 }
 
 void Progress::For(std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units)

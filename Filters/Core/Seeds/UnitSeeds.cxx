@@ -2,7 +2,9 @@
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "Core/Geometry/CountText.h"
+#include "Core/Parallel/LargeBuffer.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -61,6 +63,26 @@ void UnitSeeds<Dimension>::Generate(PointSpan<Dimension> unitPoints, const Conte
   {
     generateJitteredLattice<Dimension>(this->Grid, this->RandomSeed, unitPoints, context);
   }
+}
+
+template <int Dimension>
+void UnitSeeds<Dimension>::GenerateFrom(
+  std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context) const
+{
+  if (static_cast<double>(unitPoints.size()) == this->Number)
+  {
+    this->Generate(unitPoints, context);
+    return;
+  }
+  const auto all = static_cast<std::int64_t>(this->Number);
+  if (first < 0 || unitPoints.size() > all - first)
+  {
+    throw std::invalid_argument("there are " + describeCount(this->Number) + " seeds, not " +
+      std::to_string(unitPoints.size()) + " from number " + std::to_string(first) + " on");
+  }
+  LargeBuffer<double> points(all * Dimension);
+  this->Generate({ points.data(), all }, context);
+  std::copy_n(points.data() + first * Dimension, unitPoints.size() * Dimension, unitPoints.data());
 }
 
 template class UnitSeeds<1>;

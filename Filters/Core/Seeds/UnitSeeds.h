@@ -25,6 +25,9 @@ public:
   double Count() const { return this->Number; }
   // Makes Count() points. Throws std::bad_alloc and Cancelled.
   void Generate(PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
+  // Makes the points from number `first` on, in memory for all of them.
+  void GenerateFrom(
+    std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
 
 private:
   SeedPattern Pattern;

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/ImagePieces.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The tuples that are no duplicates, in a box.
+TupleBox ownTuples(vtkImageData* image, int owner, const TupleBox& all, unsigned char mask)
+{
+  vtkUnsignedCharArray* ghosts = image->GetAttributes(owner)->GetGhostArray();
+  if (!ghosts || ghosts->GetNumberOfTuples() < all.Count())
+  {
+    return all;
+  }
+  TupleBox own{ all.High, all.Low };
+  const unsigned char* flags = ghosts->GetPointer(0);
+  for (int k = all.Low[2]; k < all.High[2]; ++k)
+  {
+    for (int j = all.Low[1]; j < all.High[1]; ++j)
+    {
+      for (int i = all.Low[0]; i < all.High[0]; ++i)
+      {
+        if ((*flags++ & mask) == 0)
+        {
+          const std::array<int, 3> at = { i, j, k };
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            own.Low[axis] = std::min(own.Low[axis], at[axis]);
+            own.High[axis] = std::max(own.High[axis], at[axis] + 1);
+          }
+        }
+      }
+    }
+  }
+  return own;
+}
+
+std::string describe(const double* numbers, std::size_t count)
+{
+  std::ostringstream os;
+  os.precision(17);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    os << (i == 0 ? "" : " ") << numbers[i];
+  }
+  return os.str();
+}
+
+} // namespace
+
+struct ImagePieces::Piece
+{
+  Extent Points{ 0, -1, 0, -1, 0, -1 };
+  Extent Cells{ 0, -1, 0, -1, 0, -1 };
+  std::array<double, 15> Geometry{};
+};
+
+ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
+  : Processes(ranks)
+  , Own(own)
+{
+  Piece piece;
+  if (own && own->GetNumberOfPoints() > 0)
+  {
+    Extent extent;
+    std::copy_n(own->GetExtent(), 6, extent.begin());
+    const TupleBox points = ownTuples(own, vtkDataObject::POINT,
+      tuplesOf(extent, vtkDataObject::POINT, extent), vtkDataSetAttributes::DUPLICATEPOINT);
+    const TupleBox cells = ownTuples(own, vtkDataObject::CELL,
+      tuplesOf(extent, vtkDataObject::CELL, extent), vtkDataSetAttributes::DUPLICATECELL);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const bool hasCells = extent[2 * axis] < extent[2 * axis + 1];
+      piece.Points[2 * axis] = points.Low[axis];
+      piece.Points[2 * axis + 1] = points.High[axis] - 1;
+      piece.Cells[2 * axis] = cells.Low[axis];
+      piece.Cells[2 * axis + 1] = cells.High[axis] - (hasCells ? 0 : 1);
+    }
+    if (!own->GetPointGhostArray() && !isEmpty(piece.Cells))
+    {
+      piece.Points = piece.Cells; // where only cells are marked
+    }
+    std::copy_n(own->GetOrigin(), 3, piece.Geometry.begin());
+    std::copy_n(own->GetSpacing(), 3, piece.Geometry.begin() + 3);
+    std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
+  }
+  this->TakePieces(gatherValues(ranks, piece));
+  this->Arrays = sharedArrays(own, ranks);
+}
+
+void ImagePieces::TakePieces(const std::vector<Piece>& pieces)
+{
+  int first = -1; // rank with points
+  for (std::size_t rank = 0; rank < pieces.size(); ++rank)
+  {
+    const Piece& piece = pieces[rank];
+    this->PointExtents.push_back(piece.Points);
+    this->CellExtents.push_back(piece.Cells);
+    if (isEmpty(piece.Points))
+    {
+      continue;
+    }
+    if (first < 0)
+    {
+      first = static_cast<int>(rank);
+      this->WholeExtent = piece.Points;
+      this->Geometry = piece.Geometry;
+    }
+    constexpr std::array<const char*, 3> names = { "origin", "spacing", "direction matrix" };
+    constexpr std::array<std::size_t, 4> starts = { 0, 3, 6, 15 };
+    for (std::size_t part = 0; part < names.size(); ++part)
+    {
+      const std::size_t start = starts[part];
+      const std::size_t count = starts[part + 1] - start;
+      const double* here = piece.Geometry.data() + start;
+      const double* there = this->Geometry.data() + start;
+      if (!std::equal(here, here + count, there))
+      {
+        throw Failure("The images of the ranks are not parts of one: the " +
+          std::string(names[part]) + " is " + describe(there, count) + " on rank " +
+          std::to_string(first) + ", but " + describe(here, count) + " on rank " +
+          std::to_string(rank));
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      this->WholeExtent[2 * axis] = std::min(this->WholeExtent[2 * axis], piece.Points[2 * axis]);
+      this->WholeExtent[2 * axis + 1] =
+        std::max(this->WholeExtent[2 * axis + 1], piece.Points[2 * axis + 1]);
+    }
+  }
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    const auto& extents = owner == vtkDataObject::POINT ? this->PointExtents : this->CellExtents;
+    std::vector<TupleBox> missing = { tuplesOf(this->WholeExtent, owner, this->WholeExtent) };
+    for (const Extent& extent : extents)
+    {
+      if (!isEmpty(extent))
+      {
+        subtract(tuplesOf(extent, owner, this->WholeExtent), missing);
+      }
+    }
+    if (first >= 0 && !missing.empty() && !missing.front().IsEmpty())
+    {
+      throw Failure("The images of the ranks do not fill their common extent: none has the " +
+        std::string(owner == vtkDataObject::POINT ? "points " : "cells ") +
+        describe(missing.front()));
+    }
+  }
+}
+
+vtkSmartPointer<vtkImageData> ImagePieces::Gather(
+  const Extent& wanted, const std::vector<std::string>& names) const
+{
+  std::vector<ArrayKind> kinds;
+  std::copy_if(this->Arrays.begin(), this->Arrays.end(), std::back_inserter(kinds),
+    [&](const ArrayKind& kind) {
+      return names.empty() || kind.IsGhosts() ||
+        std::find(names.begin(), names.end(), kind.Name) != names.end();
+    });
+  const auto exchangeOf = [&](int owner) {
+    std::vector<TupleBox> held;
+    for (const Extent& extent :
+      owner == vtkDataObject::POINT ? this->PointExtents : this->CellExtents)
+    {
+      held.push_back(tuplesOf(extent, owner, this->WholeExtent));
+    }
+    return BoxExchange(
+      std::move(held), tuplesOf(wanted, owner, this->WholeExtent), this->Processes);
+  };
+  const BoxExchange points = exchangeOf(vtkDataObject::POINT);
+  const BoxExchange cells = exchangeOf(vtkDataObject::CELL);
+  const auto boxes = [&](const ArrayKind& kind) -> const BoxExchange& {
+    return kind.Owner == vtkDataObject::POINT ? points : cells;
+  };
+
+  Extent own{ 0, -1, 0, -1, 0, -1 };
+  if (this->Own && this->Own->GetNumberOfPoints() > 0)
+  {
+    std::copy_n(this->Own->GetExtent(), 6, own.begin());
+  }
+  std::vector<Bytes> parts(this->PointExtents.size());
+  for (const ArrayKind& kind : kinds)
+  {
+    boxes(kind).Append(kind.Find(this->Own), tuplesOf(own, kind.Owner, this->WholeExtent), parts);
+  }
+  std::vector<Bytes> received = this->Processes.Exchange(std::move(parts));
+
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetOrigin(this->Geometry[0], this->Geometry[1], this->Geometry[2]);
+  image->SetSpacing(this->Geometry[3], this->Geometry[4], this->Geometry[5]);
+  image->GetDirectionMatrix()->DeepCopy(this->Geometry.data() + 6);
+  Extent extent = wanted; // VTK takes no constant one
+  image->SetExtent(extent.data());
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+  made.reserve(kinds.size());
+  for (const ArrayKind& kind : kinds)
+  {
+    made.push_back(kind.Make(image, tuplesOf(wanted, kind.Owner, this->WholeExtent).Count()));
+  }
+  for (std::size_t rank = received.size(); rank-- > 0;)
+  {
+    const char* bytes = received[rank].data();
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+    {
+      bytes = boxes(kinds[i]).Take(bytes, rank, made[i]);
+    }
+    received[rank] = Bytes();
+  }
+  return image;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An image that is distributed over ranks.
+#ifndef RectifiedTransport_ImagePieces_h
+#define RectifiedTransport_ImagePieces_h
+
+#include "Bridge/Ranks/SharedArrays.h"
+#include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Which part of one whole image each rank has. Points and cells that ghost arrays mark as
+// duplicates are those of another rank; what several have is that of the lowest one.
+class ImagePieces
+{
+public:
+  // Called by all ranks; `own` may be without points. Throws Failure for images that are no parts
+  // of one, or do not fill it.
+  ImagePieces(vtkImageData* own, const Ranks& ranks);
+
+  // Empty where no rank has points.
+  const Extent& Whole() const { return this->WholeExtent; }
+  // Of the points of each rank, without duplicates.
+  const std::vector<Extent>& Points() const { return this->PointExtents; }
+  // Of the corners of each rank's cells, without duplicates.
+  const std::vector<Extent>& Cells() const { return this->CellExtents; }
+  const Ranks& Group() const { return this->Processes; }
+
+  // The part of the whole image in an extent, which may be empty, and each rank may want another
+  // one: of the arrays that all ranks with data have, those of these names, or all, and the ghost
+  // arrays. Called by all ranks. Throws std::bad_alloc.
+  vtkSmartPointer<vtkImageData> Gather(
+    const Extent& wanted, const std::vector<std::string>& names = {}) const;
+
+private:
+  struct Piece;
+  void TakePieces(const std::vector<Piece>& pieces);
+
+  const Ranks& Processes;
+  vtkImageData* const Own;
+  std::vector<ArrayKind> Arrays;
+  std::vector<Extent> PointExtents;
+  std::vector<Extent> CellExtents;
+  Extent WholeExtent{ 0, -1, 0, -1, 0, -1 };
+  std::array<double, 15> Geometry{}; // origin, spacing, direction
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/PlaceOwners.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks)
+  : Grid(grid)
+{
+  std::vector<Extent> extents;
+  if (pieces)
+  {
+    extents = grid.IsOnPoints() ? pieces->Points() : pieces->Cells();
+    const auto withData = std::count_if(
+      extents.begin(), extents.end(), [](const Extent& extent) { return !isEmpty(extent); });
+    if (withData > 1 && std::find(extents.begin(), extents.end(), grid.Extent()) != extents.end())
+    {
+      extents.clear();
+    }
+  }
+  if (extents.empty())
+  {
+    extents = dividedExtent(grid.Extent(), ranks.Count());
+  }
+  const bool onPoints = grid.IsOnPoints();
+  for (const Extent& extent : extents)
+  {
+    Box box{ { 0, 0, 0 }, { 1, 1, 1 } };
+    std::size_t axis = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      if (grid.IsAxis(a))
+      {
+        const std::int64_t start = grid.Extent()[2 * a];
+        box.Low[axis] = extent[2 * a] - start;
+        box.High[axis] = extent[2 * a + 1] - start + (onPoints ? 1 : 0);
+        ++axis;
+      }
+    }
+    this->Boxes.push_back(isEmpty(extent) ? Box{ { 0, 0, 0 }, { 0, 0, 0 } } : box);
+  }
+  // A table of the owners of all parts, unless pieces are so irregular that there are too many.
+  std::size_t parts = 1;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    std::vector<std::int64_t>& cut = this->Cut[a];
+    for (const Box& box : this->Boxes)
+    {
+      cut.push_back(box.Low[a]);
+      cut.push_back(box.High[a]);
+    }
+    std::sort(cut.begin(), cut.end());
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
+    parts *= cut.size();
+  }
+  constexpr std::size_t mostParts = std::size_t{ 1 } << 20;
+  if (parts > mostParts)
+  {
+    return;
+  }
+  this->Owners.assign(parts, 0);
+  for (std::size_t rank = this->Boxes.size(); rank-- > 0;)
+  {
+    const Box& box = this->Boxes[rank];
+    for (std::size_t part = 0; part < parts; ++part)
+    {
+      std::size_t rest = part;
+      bool isInside = true;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        const std::int64_t place = this->Cut[a][rest % this->Cut[a].size()];
+        rest /= this->Cut[a].size();
+        isInside = isInside && place >= box.Low[a] && place < box.High[a];
+      }
+      if (isInside)
+      {
+        this->Owners[part] = static_cast<int>(rank);
+      }
+    }
+  }
+}
+
+template <int D>
+int PlaceOwners::Find(const double* place) const
+{
+  double index[3] = { 0.0, 0.0, 0.0 };
+  this->Grid.ToIndex<D>(place, index);
+  const GridSize<D> size = this->Grid.Size<D>();
+  std::array<std::int64_t, 3> cell{ 0, 0, 0 };
+  for (int a = 0; a < D; ++a)
+  {
+    const double inside = std::clamp(index[a], 0.0, static_cast<double>(size[a] - 1));
+    cell[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(inside);
+  }
+  if (this->Owners.empty())
+  {
+    for (std::size_t rank = 0; rank < this->Boxes.size(); ++rank)
+    {
+      const Box& box = this->Boxes[rank];
+      bool isInside = true;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        isInside = isInside && cell[a] >= box.Low[a] && cell[a] < box.High[a];
+      }
+      if (isInside)
+      {
+        return static_cast<int>(rank);
+      }
+    }
+    return 0;
+  }
+  std::size_t part = 0;
+  for (std::size_t a = 3; a-- > 0;)
+  {
+    const std::vector<std::int64_t>& cut = this->Cut[a];
+    const auto above = std::upper_bound(cut.begin(), cut.end(), cell[a]);
+    const auto below =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - cut.begin() - 1));
+    part = part * cut.size() + below;
+  }
+  return this->Owners[part];
+}
+
+int PlaceOwners::OwnerOf(const double* place) const
+{
+  switch (this->Grid.Dimension())
+  {
+    case 1:
+      return this->Find<1>(place);
+    case 2:
+      return this->Find<2>(place);
+    default:
+      return this->Find<3>(place);
+  }
+}
+
+} // namespace RectifiedTransport

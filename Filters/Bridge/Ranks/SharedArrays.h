@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays that data sets on several ranks have in common, and their tuples as bytes.
+#ifndef RectifiedTransport_SharedArrays_h
+#define RectifiedTransport_SharedArrays_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkDataSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Of numbers; of points or cells.
+struct ArrayKind
+{
+  int Owner = 0; // vtkDataObject::POINT or CELL
+  int Type = 0;
+  int Components = 1;
+  int Attribute = -1; // for which it is the active one
+  std::string Name;
+  std::vector<std::string> ComponentNames; // or none
+
+  bool IsLike(const ArrayKind& other) const
+  {
+    return this->Owner == other.Owner && this->Type == other.Type &&
+      this->Components == other.Components && this->Name == other.Name;
+  }
+  bool IsGhosts() const;
+  // Of a data set; nullptr if it has none of this kind. Contiguous: a copy where the array is not.
+  vtkSmartPointer<vtkDataArray> Find(vtkDataSet* data) const;
+  // Adds an array of so many tuples to a data set.
+  vtkSmartPointer<vtkDataArray> Make(vtkDataSet* data, vtkIdType tuples) const;
+};
+
+// The arrays that the data sets of all ranks have that have points, in the order of the first of
+// these, and ghost arrays that any has. Called by all ranks; `data` may be nullptr.
+std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks);
+
+// Tuples that follow one another.
+struct TupleRun
+{
+  vtkIdType First;
+  vtkIdType Count;
+};
+
+// Appends the tuples of a contiguous array; zeros of one byte for nullptr.
+void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to);
+// Takes them from bytes on; returns where the next ones begin.
+const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to);
+
+} // namespace RectifiedTransport
+
+#endif

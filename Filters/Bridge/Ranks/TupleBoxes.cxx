@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/TupleBoxes.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkExtentTranslator.h"
+#include "vtkNew.h"
+
+#include <sstream>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// The rows of a box among the tuples of another one, that of an image.
+std::vector<TupleRun> runsOf(const TupleBox& box, const TupleBox& image)
+{
+  std::vector<TupleRun> runs;
+  if (box.IsEmpty())
+  {
+    return runs;
+  }
+  const vtkIdType row = image.High[0] - image.Low[0];
+  const vtkIdType rows = image.High[1] - image.Low[1];
+  for (int k = box.Low[2]; k < box.High[2]; ++k)
+  {
+    for (int j = box.Low[1]; j < box.High[1]; ++j)
+    {
+      runs.push_back(
+        { (static_cast<vtkIdType>(k - image.Low[2]) * rows + (j - image.Low[1])) * row +
+            (box.Low[0] - image.Low[0]),
+          box.High[0] - box.Low[0] });
+    }
+  }
+  return runs;
+}
+
+} // namespace
+
+Extent intersectionOf(const Extent& a, const Extent& b)
+{
+  Extent both = a;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    both[2 * axis] = std::max(a[2 * axis], b[2 * axis]);
+    both[2 * axis + 1] = std::min(a[2 * axis + 1], b[2 * axis + 1]);
+  }
+  return both;
+}
+
+std::vector<Extent> dividedExtent(const Extent& whole, int ranks)
+{
+  std::vector<Extent> extents(static_cast<std::size_t>(ranks));
+  vtkNew<vtkExtentTranslator> translator;
+  for (int rank = 0; rank < ranks; ++rank)
+  {
+    Extent given = whole;
+    translator->PieceToExtentThreadSafe(rank, ranks, 0, given.data(),
+      extents[static_cast<std::size_t>(rank)].data(), vtkExtentTranslator::BLOCK_MODE, 0);
+  }
+  return extents;
+}
+
+TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole)
+{
+  TupleBox box{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const bool hasCells = owner == vtkDataObject::CELL && whole[2 * axis] < whole[2 * axis + 1];
+    box.Low[axis] = extent[2 * axis];
+    box.High[axis] = extent[2 * axis + 1] + (hasCells ? 0 : 1);
+  }
+  return box;
+}
+
+void subtract(const TupleBox& box, std::vector<TupleBox>& from)
+{
+  std::vector<TupleBox> left;
+  for (TupleBox rest : from)
+  {
+    if (rest.And(box).IsEmpty())
+    {
+      left.push_back(rest);
+      continue;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      TupleBox below = rest;
+      below.High[axis] = std::min(rest.High[axis], box.Low[axis]);
+      TupleBox above = rest;
+      above.Low[axis] = std::max(rest.Low[axis], box.High[axis]);
+      for (const TupleBox& side : { below, above })
+      {
+        if (!side.IsEmpty())
+        {
+          left.push_back(side);
+        }
+      }
+      rest.Low[axis] = std::max(rest.Low[axis], box.Low[axis]);
+      rest.High[axis] = std::min(rest.High[axis], box.High[axis]);
+    }
+  }
+  from = std::move(left);
+}
+
+std::string describe(const TupleBox& box)
+{
+  std::ostringstream os;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    os << (axis == 0 ? "" : " x ") << "[" << box.Low[axis] << ", " << box.High[axis] - 1 << "]";
+  }
+  return os.str();
+}
+
+BoxExchange::BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks)
+  : Held(std::move(held))
+  , Wanted(gatherValues(ranks, wanted))
+  , Own(static_cast<std::size_t>(ranks.Own()))
+{
+}
+
+// Of a rank's tuples: nothing that a lower rank sends, too, as where each has all.
+TupleBox BoxExchange::PartOf(std::size_t rank, const TupleBox& wanted) const
+{
+  TupleBox part = this->Held[rank].And(wanted);
+  for (std::size_t lower = 0; lower < rank && !part.IsEmpty(); ++lower)
+  {
+    if (this->Held[lower].Contains(part))
+    {
+      part.High = part.Low;
+    }
+  }
+  return part;
+}
+
+void BoxExchange::Append(vtkDataArray* from, const TupleBox& all, std::vector<Bytes>& parts) const
+{
+  for (std::size_t rank = 0; rank < this->Wanted.size(); ++rank)
+  {
+    appendTuples(from, runsOf(this->PartOf(this->Own, this->Wanted[rank]), all), parts[rank]);
+  }
+}
+
+const char* BoxExchange::Take(const char* from, std::size_t rank, vtkDataArray* to) const
+{
+  const TupleBox& wanted = this->Wanted[this->Own];
+  return takeTuples(from, runsOf(this->PartOf(rank, wanted), wanted), to);
+}
+
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  const std::vector<vtkDataArray*>& from, const std::vector<vtkDataArray*>& to)
+{
+  const BoxExchange boxes(held, wanted, ranks);
+  std::vector<Bytes> parts(held.size());
+  for (vtkDataArray* array : from)
+  {
+    boxes.Append(array, held[static_cast<std::size_t>(ranks.Own())], parts);
+  }
+  const std::vector<Bytes> received = ranks.Exchange(std::move(parts));
+  for (std::size_t rank = received.size(); rank-- > 0;)
+  {
+    const char* bytes = received[rank].data();
+    for (vtkDataArray* array : to)
+    {
+      bytes = boxes.Take(bytes, rank, array);
+    }
+  }
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes of the tuples of an image's arrays, and their exchange between ranks.
+#ifndef RectifiedTransport_TupleBoxes_h
+#define RectifiedTransport_TupleBoxes_h
+
+#include "Bridge/Ranks/SharedArrays.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// The points of an image along its axes, as of vtkImageData; {0, -1, ...} for none.
+using Extent = std::array<int, 6>;
+
+inline bool isEmpty(const Extent& extent)
+{
+  return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
+}
+Extent intersectionOf(const Extent& a, const Extent& b);
+// The pieces into which VTK divides an extent; points at their faces are in both.
+std::vector<Extent> dividedExtent(const Extent& whole, int ranks);
+
+// Tuples of an image: [Low, High) along each axis.
+struct TupleBox
+{
+  std::array<int, 3> Low;
+  std::array<int, 3> High;
+
+  bool IsEmpty() const
+  {
+    return this->Low[0] >= this->High[0] || this->Low[1] >= this->High[1] ||
+      this->Low[2] >= this->High[2];
+  }
+  std::int64_t Count() const
+  {
+    std::int64_t count = this->IsEmpty() ? 0 : 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      count *= this->High[axis] - this->Low[axis];
+    }
+    return count;
+  }
+  TupleBox And(const TupleBox& other) const
+  {
+    TupleBox both = *this;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      both.Low[axis] = std::max(both.Low[axis], other.Low[axis]);
+      both.High[axis] = std::min(both.High[axis], other.High[axis]);
+    }
+    return both;
+  }
+  bool Contains(const TupleBox& other) const
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (other.Low[axis] < this->Low[axis] || other.High[axis] > this->High[axis])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+// The tuples of the points or cells, by `owner`, of an extent in a whole one. Along an axis without
+// cells in the whole image there is one layer of them.
+TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole);
+// Removes a box from those that boxes cover.
+void subtract(const TupleBox& box, std::vector<TupleBox>& from);
+// "[0, 4] x [2, 2] x [0, 9]".
+std::string describe(const TupleBox& box);
+
+// The tuples that each rank has, and those that each wants. What several have comes from the lowest
+// one; what none has is left as it is.
+class BoxExchange
+{
+public:
+  // `held` are those of all ranks, `wanted` those that this rank wants. Called by all ranks.
+  BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks);
+
+  // Appends to the parts for the ranks what they want of a contiguous array, whose tuples are those
+  // of the box `all`; nullptr for zeros of one byte.
+  void Append(vtkDataArray* from, const TupleBox& all, std::vector<Bytes>& parts) const;
+  // Takes what a rank sent from bytes on; returns where the next array begins. The ranks in
+  // descending order.
+  const char* Take(const char* from, std::size_t rank, vtkDataArray* to) const;
+
+private:
+  TupleBox PartOf(std::size_t rank, const TupleBox& wanted) const;
+
+  const std::vector<TupleBox> Held;
+  const std::vector<TupleBox> Wanted;
+  const std::size_t Own;
+};
+
+// Of arrays alone: the tuples of the wanted boxes, as the arrays `to`.
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  const std::vector<vtkDataArray*>& from, const std::vector<vtkDataArray*>& to);
+
+} // namespace RectifiedTransport
+
+#endif

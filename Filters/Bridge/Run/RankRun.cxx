@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/RankRun.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/RankAgreement.h"
+#include "Core/Parallel/Context.h"
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "vtkMPIController.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <list>
+#include <map>
+#include <thread>
+#include <utility>
+#include <vector>
+#endif
+
+namespace RectifiedTransport
+{
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+// Of no other messages in ParaView or VTK.
+constexpr int meetingTag = 52718;
+constexpr int exchangeTag = 52719;
+
+vtkMPIController* mpiController()
+{
+  return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+}
+
+std::chrono::duration<double> longestWait()
+{
+  constexpr double usual = 120.0;
+  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
+  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
+  return std::chrono::duration<double>(seconds > 0.0 ? seconds : usual);
+}
+
+// How ranks learn that all of them execute a filter. The first rank collects: a rank that fails
+// before its data are complete never comes, and the others must not wait for it in an exchange.
+class Meeting
+{
+public:
+  explicit Meeting(vtkMPIController* controller)
+    : Controller(controller)
+  {
+  }
+
+  void Wait(std::uint64_t subject)
+  {
+    this->Sends.remove_if([](Send& send) { return send.Request.Test() != 0; });
+    if (this->Controller->GetLocalProcessId() == 0)
+    {
+      this->Collect(subject);
+    }
+    else
+    {
+      this->Come(subject);
+    }
+  }
+
+private:
+  enum Kind : std::uint64_t
+  {
+    Comes,
+    Leaves,
+    AllCame,
+    SomeMissing
+  };
+  // The subject; the number of the call on the rank that comes; the kind; a rank that is missing.
+  using Message = std::array<unsigned long, 4>;
+  struct Send
+  {
+    Message Content;
+    vtkMPICommunicator::Request Request;
+  };
+
+  void SendTo(int rank, const Message& message)
+  {
+    this->Sends.push_back({ message, {} });
+    Send& send = this->Sends.back();
+    this->Controller->NoBlockSend(
+      send.Content.data(), static_cast<int>(message.size()), rank, meetingTag, send.Request);
+  }
+
+  // Returns whether there was a message of a rank.
+  bool Receive(int rank, Message& message)
+  {
+    int has = 0;
+    int source = 0;
+    if (!this->Controller->Iprobe(rank, meetingTag, &has, &source) || !has)
+    {
+      return false;
+    }
+    this->Controller->Receive(
+      message.data(), static_cast<vtkIdType>(message.size()), rank, meetingTag);
+    return true;
+  }
+
+  // Returns whether ready() in time.
+  template <class Ready>
+  static bool waitFor(std::chrono::duration<double> longest, const Ready& ready)
+  {
+    const auto start = Clock::now();
+    while (!ready())
+    {
+      if (Clock::now() - start > longest)
+      {
+        return false;
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    return true;
+  }
+
+  [[noreturn]] static void throwMissing(int rank)
+  {
+    throw Failure("Rank " + std::to_string(rank) + " has not run this filter within " +
+      std::to_string(static_cast<int>(longestWait().count())) +
+      " seconds of this one, perhaps as a filter before it failed there; all ranks must run it "
+      "(RECTIFIEDTRANSPORT_RANK_TIMEOUT sets how long they wait for one another)");
+  }
+
+  void Collect(std::uint64_t subject)
+  {
+    const int ranks = this->Controller->GetNumberOfProcesses();
+    int missing = 0;
+    const bool haveAll = waitFor(longestWait(), [&]() {
+      missing = 0;
+      for (int rank = 1; rank < ranks; ++rank)
+      {
+        for (Message message; this->Receive(rank, message);)
+        {
+          std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
+          if (message[2] == Comes)
+          {
+            waiting[message[1]] = message[0];
+          }
+          else
+          {
+            waiting.erase(message[1]);
+          }
+        }
+        missing = missing == 0 && !this->IsWaiting(rank, subject) ? rank : missing;
+      }
+      return missing == 0;
+    });
+    for (int rank = 1; rank < ranks; ++rank)
+    {
+      std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
+      const auto call = std::find_if(
+        waiting.begin(), waiting.end(), [&](const auto& entry) { return entry.second == subject; });
+      if (call != waiting.end())
+      {
+        this->SendTo(rank,
+          { subject, call->first, haveAll ? AllCame : SomeMissing,
+            static_cast<unsigned long>(missing) });
+        waiting.erase(call);
+      }
+    }
+    if (!haveAll)
+    {
+      throwMissing(missing);
+    }
+  }
+
+  bool IsWaiting(int rank, std::uint64_t subject)
+  {
+    const std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
+    return std::any_of(
+      waiting.begin(), waiting.end(), [&](const auto& entry) { return entry.second == subject; });
+  }
+
+  void Come(std::uint64_t subject)
+  {
+    const unsigned long call = ++this->Calls;
+    this->SendTo(0, { subject, call, Comes, 0 });
+    Message answer{};
+    // Twice as long, as the first rank may come late and then waits itself.
+    if (!waitFor(
+          2.0 * longestWait(), [&]() { return this->Receive(0, answer) && answer[1] == call; }))
+    {
+      this->SendTo(0, { subject, call, Leaves, 0 });
+      throwMissing(0);
+    }
+    if (answer[2] == SomeMissing)
+    {
+      throw FailedElsewhere(); // the first rank reports it
+    }
+  }
+
+  vtkMPIController* Controller;
+  std::list<Send> Sends;
+  unsigned long Calls = 0;
+  // On the first rank, of each other one: the subjects of the calls that wait.
+  std::map<int, std::map<unsigned long, unsigned long>> Waiting;
+};
+
+class MpiRun final : public RankRun
+{
+public:
+  explicit MpiRun(vtkMPIController* controller)
+    : Controller(controller)
+  {
+  }
+  int Count() const override { return this->Controller->GetNumberOfProcesses(); }
+  int Own() const override { return this->Controller->GetLocalProcessId(); }
+  std::vector<Bytes> Gather(const Bytes& own) const override;
+  std::vector<Bytes> Exchange(std::vector<Bytes> parts) const override;
+  std::string Fail(const std::string& message) override
+  {
+    this->Leave(State::Failed, message);
+    return this->Own() == 0 ? this->Report : "";
+  }
+  void Cancel() override { this->Leave(State::Cancelled, ""); }
+  void End() override { this->Announce(State::Runs, "", {}); }
+
+private:
+  enum class State : long long
+  {
+    Runs,
+    Cancelled,
+    Failed
+  };
+
+  void Leave(State state, const std::string& message)
+  {
+    if (!this->HasEnded)
+    {
+      this->Announce(state, message, {});
+    }
+  }
+  std::vector<long long> Announce(
+    State state, const std::string& message, const std::vector<Bytes>& parts) const;
+  void CollectReports(const std::string& message) const;
+
+  vtkMPIController* Controller;
+  mutable bool HasEnded = false;
+  mutable std::string Report;
+};
+
+// Precedes every exchange: how each rank fares, and what it will send. Returns the sizes of what
+// arrives here, and throws where others have failed, unless this rank has, too.
+std::vector<long long> MpiRun::Announce(
+  State state, const std::string& message, const std::vector<Bytes>& parts) const
+{
+  const auto ranks = static_cast<std::size_t>(this->Count());
+  std::vector<long long> own(ranks + 1);
+  own[0] = static_cast<long long>(state);
+  for (std::size_t rank = 0; rank < parts.size(); ++rank)
+  {
+    own[rank + 1] = static_cast<long long>(parts[rank].size());
+  }
+  std::vector<long long> all(ranks * own.size());
+  this->Controller->AllGather(own.data(), all.data(), static_cast<vtkIdType>(own.size()));
+  State worst = State::Runs;
+  std::vector<long long> arriving(ranks);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    worst = std::max(worst, static_cast<State>(all[rank * own.size()]));
+    arriving[rank] = all[rank * own.size() + 1 + static_cast<std::size_t>(this->Own())];
+  }
+  if (worst == State::Runs)
+  {
+    return arriving;
+  }
+  this->HasEnded = true;
+  if (worst == State::Failed)
+  {
+    this->CollectReports(state == State::Failed ? message : "");
+  }
+  if (state == State::Runs)
+  {
+    if (worst == State::Cancelled)
+    {
+      throw Cancelled();
+    }
+    throw FailedElsewhere();
+  }
+  return arriving;
+}
+
+void MpiRun::CollectReports(const std::string& message) const
+{
+  const int ranks = this->Count();
+  const auto length = static_cast<vtkIdType>(message.size());
+  std::vector<vtkIdType> lengths(static_cast<std::size_t>(ranks));
+  std::vector<vtkIdType> offsets(lengths.size());
+  this->Controller->AllGather(&length, lengths.data(), 1);
+  vtkIdType all = 0;
+  for (std::size_t rank = 0; rank < lengths.size(); ++rank)
+  {
+    offsets[rank] = all;
+    all += lengths[rank];
+  }
+  std::string text(static_cast<std::size_t>(std::max<vtkIdType>(1, all)), '\0');
+  this->Controller->AllGatherV(message.data(), &text[0], length, lengths.data(), offsets.data());
+  for (std::size_t rank = 0; rank < lengths.size() && this->Report.empty(); ++rank)
+  {
+    if (lengths[rank] > 0)
+    {
+      this->Report = (rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") +
+        text.substr(
+          static_cast<std::size_t>(offsets[rank]), static_cast<std::size_t>(lengths[rank]));
+    }
+  }
+}
+
+std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
+{
+  return this->Exchange(std::vector<Bytes>(static_cast<std::size_t>(this->Count()), own));
+}
+
+std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
+{
+  const std::vector<long long> sizes = this->Announce(State::Runs, "", parts);
+  const auto own = static_cast<std::size_t>(this->Own());
+  std::vector<Bytes> received(parts.size());
+  std::vector<vtkMPICommunicator::Request> requests;
+  constexpr std::size_t most = std::size_t{ 1 } << 30; // bytes of a message
+  const auto messages = [](std::size_t bytes) { return (bytes + most - 1) / most; };
+  std::size_t count = 0;
+  for (std::size_t rank = 0; rank < parts.size(); ++rank)
+  {
+    received[rank].resize(rank == own ? 0 : static_cast<std::size_t>(sizes[rank]));
+    count += rank == own ? 0 : messages(received[rank].size()) + messages(parts[rank].size());
+  }
+  requests.reserve(count);
+  const auto forMessages = [&](std::vector<Bytes>& buffers, const auto& start) {
+    for (std::size_t rank = 0; rank < buffers.size(); ++rank)
+    {
+      Bytes& buffer = buffers[rank];
+      for (std::size_t first = 0; first < buffer.size() && rank != own; first += most)
+      {
+        requests.emplace_back();
+        start(buffer.data() + first, static_cast<int>(std::min(most, buffer.size() - first)),
+          static_cast<int>(rank), requests.back());
+      }
+    }
+  };
+  forMessages(received, [&](char* bytes, int length, int rank, auto& request) {
+    this->Controller->NoBlockReceive(bytes, length, rank, exchangeTag, request);
+  });
+  forMessages(parts, [&](char* bytes, int length, int rank, auto& request) {
+    this->Controller->NoBlockSend(bytes, length, rank, exchangeTag, request);
+  });
+  received[own] = std::move(parts[own]);
+  for (vtkMPICommunicator::Request& request : requests)
+  {
+    request.Wait();
+  }
+  return received;
+}
+
+} // namespace
+
+std::unique_ptr<RankRun> RankRun::Begin(const std::string& subject, int piece, int pieces)
+{
+  if (!sharesWithRanks(piece, pieces))
+  {
+    return nullptr;
+  }
+  static Meeting meeting(mpiController());
+  meeting.Wait(std::hash<std::string>()(subject));
+  return std::make_unique<MpiRun>(mpiController());
+}
+
+#else
+
+std::unique_ptr<RankRun> RankRun::Begin(const std::string&, int, int)
+{
+  return nullptr;
+}
+
+#endif
+
+} // namespace RectifiedTransport

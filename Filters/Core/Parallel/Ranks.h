@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The processes that run one computation together, each on its part of the data: the interface by
+// which a host application lets them exchange bytes.
+#ifndef RectifiedTransport_Ranks_h
+#define RectifiedTransport_Ranks_h
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Thrown by an exchange where the computation of another process has failed; what failed is known
+// there. No std::exception, as it is no error of this process.
+class FailedElsewhere
+{
+};
+
+using Bytes = std::vector<char>;
+
+// All processes call the same exchanges in the same order. One that fails, or is cancelled, ends
+// those of the others: their next exchange throws FailedElsewhere or Cancelled.
+class Ranks
+{
+public:
+  virtual ~Ranks() = default;
+
+  virtual int Count() const = 0;
+  virtual int Own() const = 0; // from 0
+  // What each rank gives, on all of them.
+  virtual std::vector<Bytes> Gather(const Bytes& own) const = 0;
+  // Sends a part to each rank, this one included, and returns what each sent here.
+  virtual std::vector<Bytes> Exchange(std::vector<Bytes> parts) const = 0;
+};
+
+template <class T>
+Bytes toBytes(const T* values, std::size_t count)
+{
+  static_assert(std::is_trivially_copyable_v<T>, "bytes are all there is of it");
+  Bytes bytes(count * sizeof(T));
+  if (count > 0)
+  {
+    std::memcpy(bytes.data(), values, bytes.size());
+  }
+  return bytes;
+}
+
+template <class T>
+Bytes toBytes(const std::vector<T>& values)
+{
+  return toBytes(values.data(), values.size());
+}
+
+template <class T>
+std::vector<T> fromBytes(const Bytes& bytes)
+{
+  static_assert(std::is_trivially_copyable_v<T>, "bytes are all there is of it");
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty())
+  {
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  }
+  return values;
+}
+
+// One value of each rank, in their order.
+template <class T>
+std::vector<T> gatherValues(const Ranks& ranks, const T& own)
+{
+  std::vector<T> values;
+  for (const Bytes& bytes : ranks.Gather(toBytes(&own, 1)))
+  {
+    values.push_back(fromBytes<T>(bytes).front());
+  }
+  return values;
+}
+
+// The sum over all ranks, of integers or exact sums; `own` where there is one rank.
+template <class Sum>
+Sum sumOverRanks(const Ranks* ranks, const Sum& own)
+{
+  if (!ranks)
+  {
+    return own;
+  }
+  Sum all{};
+  for (const Sum& part : gatherValues(*ranks, own))
+  {
+    if constexpr (std::is_arithmetic_v<Sum>)
+    {
+      static_assert(std::is_integral_v<Sum>, "sums of doubles depend on their order");
+      all += part;
+    }
+    else
+    {
+      all.Add(part);
+    }
+  }
+  return all;
+}
+
+// [0, count) divided among the ranks as evenly as may be.
+struct RankShare
+{
+  RankShare(std::int64_t count, int ranks, int rank)
+    : First(count / ranks * rank + std::min<std::int64_t>(count % ranks, rank))
+    , Count(count / ranks + (rank < count % ranks ? 1 : 0))
+  {
+  }
+  RankShare(std::int64_t count, const Ranks* ranks)
+    : RankShare(count, ranks ? ranks->Count() : 1, ranks ? ranks->Own() : 0)
+  {
+  }
+
+  std::int64_t First;
+  std::int64_t Count;
+};
+
+} // namespace RectifiedTransport
+
+#endif

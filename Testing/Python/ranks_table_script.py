@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What TestRanksTable.py runs on each rank: filters on distributed images. Each rank writes what it
+has of the outputs: a digest of each element, by its place."""
+import pickle
+import sys
+import zlib
+
+import numpy as np
+from paraview import simple
+from rt_testing import load_plugin
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+GHOSTS = "vtkGhostType"
+RANK = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
+gathered = {}
+
+
+def digests(data, owner):
+    """Of each point or cell that is no ghost, by its first point and number of points."""
+    attributes = data.GetAttributes(owner)
+    arrays = [attributes.GetArray(i) for i in range(attributes.GetNumberOfArrays())]
+    ghosts = [array for array in arrays if array.GetName() == GHOSTS]
+    arrays = sorted((array for array in arrays if array.GetName() != GHOSTS),
+                    key=lambda array: array.GetName())
+    found = []
+    if owner == vtkDataObject.CELL and not arrays:
+        return found, []
+    for i in range(data.GetNumberOfElements(owner)):
+        if ghosts and vtk_to_numpy(ghosts[0])[i] & 1:
+            continue
+        places = [i] if owner == vtkDataObject.POINT else [
+            data.GetCell(i).GetPointId(k) for k in range(data.GetCell(i).GetNumberOfPoints())]
+        place = b"".join(np.array(data.GetPoint(k)).tobytes() for k in places)
+        values = b"".join(np.array(array.GetTuple(i)).tobytes() for array in arrays)
+        found.append((place, zlib.crc32(values)))
+    return found, [(array.GetName(), array.GetNumberOfComponents()) for array in arrays]
+
+
+def give(name, proxy, port=0):
+    proxy.UpdatePipeline()
+    data = proxy.GetClientSideObject().GetOutputDataObject(port)
+    fields = {array.GetName(): array.GetTuple(0) for array in (
+        data.GetFieldData().GetArray(i) for i in range(data.GetFieldData().GetNumberOfArrays()))}
+    gathered[name] = {"fields": fields, "points": digests(data, vtkDataObject.POINT),
+                      "cells": digests(data, vtkDataObject.CELL)}
+
+
+def main(path):
+    load_plugin()
+    image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
+    cells = simple.PointDatatoCellData(Input=image, ProcessAllArrays=1)
+    flat = simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 0, 10])
+    ghosts = simple.GhostCellsGenerator(Input=image, BuildIfRequired=0,
+                                        MinimumNumberOfGhosts=2)
+    inputs = {"points": image, "cells": cells, "flat": flat, "ghosts": ghosts}
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    seeds = simple.UniformSeeds(NumberOfPoints=300, Dimension=3, Pattern="Jittered")
+    for name, density in inputs.items():
+        give("sample " + name, simple.SampleDensity(
+            Input=density, NumberOfParticles=500, **usual))
+        give("map " + name, simple.TransportMap(Input=density, **usual))
+    give("tiled", simple.SampleDensity(Input=image, NumberOfParticles=500, Tables="Tiled",
+                                       NegativeValues="Clamp", NumberOfSteps=32))
+    give("few", simple.SampleDensity(Input=image, NumberOfParticles=2, **usual))
+    give("paths", simple.SampleDensity(
+        Input=cells, NumberOfParticles=60, OutputPaths=1, SampleArrays=0, **usual))
+    give("early", simple.SampleDensity(Input=image, NumberOfParticles=300, FlowTime=0.5, **usual))
+    give("cell grid", simple.SampleDensity(
+        Input=cells, SamplesPerCell=1, SeedPattern="Jittered", **usual))
+    give("seeds", simple.SampleDensity(Input=image, Seeds=seeds, **usual))
+    give("map back", simple.TransportMap(Input=image, Direction="DensityToUniform", **usual))
+    give("map coarse", simple.TransportMap(Input=cells, SampleDimensions=[5, 7, 3], **usual))
+    give("map tiled", simple.TransportMap(Input=image, Tables="Tiled", NegativeValues="Clamp",
+                                          NumberOfSteps=32))
+    shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
+                           ComputeNormals=0)
+    give("warp", simple.DensityEqualizingWarp(Input=shell, Density=image, **usual))
+    give("warp cells", simple.DensityEqualizingWarp(Input=shell, Density=cells, **usual))
+    give("seeds apart", simple.SampleDensity(
+        Input=image, Seeds=simple.RedistributeDataSet(Input=seeds), **usual))
+    field = simple.TransportMap(Input=image, **usual)
+    give("contour", simple.Contour(Input=field, ContourBy=["POINTS", "Divergence"],
+                                   Isosurfaces=[0.0], ComputeNormals=0))
+    give("slice", simple.Slice(Input=field))
+    give("threshold", simple.Threshold(Input=simple.SampleDensity(
+        Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
+        LowerThreshold=150, UpperThreshold=1000))
+    with open("%s.%d" % (path, RANK), "wb") as file:
+        pickle.dump(gathered, file)
+    print("WROTE", RANK, flush=True)
+
+
+main(sys.argv[1])
