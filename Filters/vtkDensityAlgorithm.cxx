@@ -174,16 +174,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* imag
   }
   const bool onPoints = common.front() == 'p';
   const std::string name = common.substr(common.find("array ") + 6);
-  const auto whole = pieces->Gather(pieces->Whole(), { name });
-  vtkDataArray* array = whole->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
-                          ->GetArray(name.c_str());
-  if (!array)
-  {
-    throw Failure("The density array '" + name +
-      "' has not the same type and number of components on all ranks; it must have");
-  }
-  return std::make_unique<DensityImage>(
-    whole, array, onPoints, this->GetDensityRules(), std::move(pieces));
+  return std::make_unique<DensityImage>(std::move(pieces), name, onPoints, this->GetDensityRules());
 }
 
 //------------------------------------------------------------------------------

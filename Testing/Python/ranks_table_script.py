@@ -47,6 +47,28 @@ def give(name, proxy, port=0):
                       "cells": digests(data, vtkDataObject.CELL)}
 
 
+def give_tiled():
+    """Of several tiles, and of a density that is empty in most places."""
+    image = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
+                           StandardDeviation=2)
+    sparse = simple.Calculator(Input=image, Function="(RTData > 270) * RTData",
+                               ResultArrayName="Ink")
+    tiled = dict(Tables="Tiled", NegativeValues="Clamp")
+    wide = simple.ExtractSubset(Input=simple.Wavelet(WholeExtent=[0, 2100, 0, 900, 0, 1]),
+                                VOI=[0, 2100, 0, 900, 0, 0])
+    for name, density in (("long", image), ("sparse", sparse), ("wide", wide)):
+        for maps in ("On", "Off"):
+            give("%s maps %s" % (name, maps), simple.SampleDensity(
+                Input=density, NumberOfParticles=3000, FlowMaps=maps, **tiled))
+        give(name + " map", simple.TransportMap(
+            Input=density, SampleDimensions=[40, 6, 7 if name != "wide" else 1], **tiled))
+        give(name + " back", simple.TransportMap(
+            Input=density, SampleDimensions=[40, 6, 7 if name != "wide" else 1], Direction="DensityToUniform", **tiled))
+    give("long warp", simple.DensityEqualizingWarp(Input=simple.Contour(
+        Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[260.0], ComputeNormals=0),
+        Density=image, **tiled))
+
+
 def main(path):
     load_plugin()
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
@@ -87,6 +109,7 @@ def main(path):
     give("threshold", simple.Threshold(Input=simple.SampleDensity(
         Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
         LowerThreshold=150, UpperThreshold=1000))
+    give_tiled()
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

@@ -9,6 +9,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkDataArray.h"
@@ -18,6 +19,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -32,13 +34,27 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
+// One hash of those of all ranks; 0 where one has none.
+std::uint64_t joinFingerprints(const Ranks& ranks, std::uint64_t own)
+{
+  std::uint64_t joined = 0xcbf29ce484222325; // as FNV-1a, by words
+  for (const std::uint64_t bits : gatherValues(ranks, own))
+  {
+    if (bits == 0)
+    {
+      return 0;
+    }
+    joined = (joined ^ bits) * 0x100000001b3;
+  }
+  return joined;
+}
+
 } // namespace
 
-DensityImage::DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints,
-  const DensityRules& rules, std::unique_ptr<const ImagePieces> pieces)
+DensityImage::DensityImage(
+  vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules)
   : Input(image)
   , Array(array)
-  , Distribution(std::move(pieces))
   , Rules(rules)
   , Name(describeArray(array))
 {
@@ -56,6 +72,47 @@ DensityImage::DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoin
   // The modification time of the vtkImageData itself: its GetMTime() includes all its arrays.
   this->Changed = { time(this->Sources[0]), time(this->Sources[1]), time(this->Sources[2]),
     static_cast<std::uint64_t>(image->vtkObject::GetMTime()) };
+  this->FindReading();
+}
+
+// `Array` is an empty one of the kind until the image is gathered.
+DensityImage::DensityImage(std::unique_ptr<const ImagePieces> pieces, const std::string& name,
+  bool onPoints, const DensityRules& rules)
+  : Distribution(std::move(pieces))
+  , ArrayName(name)
+  , Rules(rules)
+  , Name("density array '" + name + "'")
+{
+  const vtkSmartPointer<vtkImageData> frame = this->Distribution->MakeFrame();
+  this->Geometry = gridOf(frame, onPoints);
+  requireCells(this->Geometry);
+  const int owner = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  for (const ArrayKind& kind : this->Distribution->Kinds())
+  {
+    if (kind.Owner == owner && kind.Name == name)
+    {
+      this->Array = kind.Make(frame, 0);
+    }
+    else if (kind.IsGhosts())
+    {
+      this->Sources[kind.Owner == vtkDataObject::POINT ? 1 : 2] = kind.Make(frame, 0);
+    }
+  }
+  if (!this->Array)
+  {
+    throw Failure("The " + this->Name +
+      " has not the same type and number of components on all ranks; it must have");
+  }
+  requireComponent(this->Name, rules.Component, this->Array->GetNumberOfComponents());
+  this->Sources[0] = this->Array;
+  // Times differ among the ranks: only contents are compared.
+  static std::atomic<std::uint64_t> count{ 0 };
+  this->Changed = { ++count, 0, 0, 0 };
+  this->FindReading();
+}
+
+void DensityImage::FindReading()
+{
   const double measure = this->Geometry.CellMeasure();
   std::uint64_t measureBits = 0;
   std::memcpy(&measureBits, &measure, sizeof(measure));
@@ -82,7 +139,20 @@ const DensityImage::Content& DensityImage::GetContent(Progress& progress)
   {
     return this->Hashed;
   }
-  const std::uint64_t bits = fingerprint({ this->Sources.begin(), this->Sources.end() }, progress);
+  std::vector<vtkDataArray*> arrays(this->Sources.begin(), this->Sources.end());
+  if (this->Distribution)
+  {
+    vtkImageData* own = this->Distribution->OwnImage();
+    const int owner = this->Geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+    arrays = { own->GetAttributes(owner)->GetArray(this->ArrayName.c_str()),
+      own->GetPointGhostArray(), own->GetCellGhostArray() };
+  }
+  std::uint64_t bits = fingerprint(arrays, progress);
+  if (this->Distribution)
+  {
+    const bool hasNone = this->Distribution->OwnImage()->GetNumberOfPoints() == 0;
+    bits = joinFingerprints(this->Distribution->Group(), hasNone ? 1 : bits);
+  }
   this->Hashed = this->Reading;
   this->Hashed[0] = bits;
   return this->Hashed;
@@ -104,16 +174,74 @@ void DensityImage::FindBlanks(vtkImageData* image)
 
 void DensityImage::Prepare(Progress& progress)
 {
+  if (this->Distribution)
+  {
+    this->Gathered = this->GatherPart(this->Distribution->Whole());
+    this->Gathered->Prepare(progress);
+    return;
+  }
+  this->PrepareWith(this->NeedsWhite() ? this->FindWhite(progress) : 0.0, progress);
+}
+
+void DensityImage::PrepareShared(Progress& progress)
+{
+  if (!this->NeedsWhite())
+  {
+    return;
+  }
+  const auto own = static_cast<std::size_t>(this->Distribution->Group().Own());
+  double largest = 0.0;
+  if (const auto piece =
+        this->GatherPart(this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
+                                                     : this->Distribution->Cells()[own]))
+  {
+    piece->PrepareWith(0.0, progress); // marks blanks
+    largest = piece->FindWhite(progress);
+  }
+  const std::vector<double> all = gatherValues(this->Distribution->Group(), largest);
+  this->White = *std::max_element(all.begin(), all.end());
+}
+
+bool DensityImage::NeedsWhite() const
+{
+  return needsWhite(this->Rules, this->Array->GetNumberOfComponents());
+}
+
+void DensityImage::PrepareWith(double white, Progress& progress)
+{
   if (this->HiddenPoints)
   {
     this->BlankCellsOfHiddenPoints(progress);
   }
-  if (needsWhite(this->Rules, this->Array->GetNumberOfComponents()))
+  this->Reader->SetWhite(white);
+}
+
+std::unique_ptr<DensityImage> DensityImage::GatherBox(const std::array<int, 6>& extent) const
+{
+  std::unique_ptr<DensityImage> box = this->GatherPart(extent);
+  if (box)
   {
-    this->Reader->SetWhite(this->Array->GetDataType() == VTK_UNSIGNED_CHAR
-        ? std::numeric_limits<unsigned char>::max()
-        : this->FindWhite(progress));
+    const SerialExecutor serial;
+    Progress progress{ Context(serial) };
+    box->PrepareWith(this->White, progress);
   }
+  return box;
+}
+
+// nullptr for an empty extent.
+std::unique_ptr<DensityImage> DensityImage::GatherPart(const std::array<int, 6>& extent) const
+{
+  const vtkSmartPointer<vtkImageData> image =
+    this->Distribution->Gather(extent, { this->ArrayName });
+  if (image->GetNumberOfPoints() == 0)
+  {
+    return nullptr;
+  }
+  const bool onPoints = this->Geometry.IsOnPoints();
+  vtkDataSetAttributes* attributes =
+    image->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+  return std::make_unique<DensityImage>(
+    image, attributes->GetArray(this->ArrayName.c_str()), onPoints, this->Rules);
 }
 
 void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
@@ -152,6 +280,10 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 
 double DensityImage::FindWhite(Progress& progress) const
 {
+  if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
+  {
+    return std::numeric_limits<unsigned char>::max();
+  }
   const std::int64_t cells = this->Geometry.NumberOfCells();
   const double largest = reduceChunks(
     progress, cells, grain, -std::numeric_limits<double>::infinity(),
@@ -164,7 +296,7 @@ double DensityImage::FindWhite(Progress& progress) const
 
 void DensityImage::ThrowInvalid(const DensitySummary& summary) const
 {
-  throwInvalidDensity(this->Name, summary, this->Reader->HasBlanks());
+  throwInvalidDensity(this->Name, summary, this->Sources[1] || this->Sources[2]);
 }
 
 } // namespace RectifiedTransport

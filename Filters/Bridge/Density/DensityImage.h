@@ -35,10 +35,13 @@ public:
   // parameters of reading them. The hash is 0 if an array is not contiguous in memory.
   using Content = std::array<std::uint64_t, 12>;
 
-  // `array` is point or cell data of `image`, which is gathered from `pieces`, if there are any.
-  // Throws Failure for errors that do not depend on its values.
-  DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules,
-    std::unique_ptr<const ImagePieces> pieces = nullptr);
+  // `array` is point or cell data of `image`. Throws Failure for errors that do not depend on its
+  // values.
+  DensityImage(vtkImageData* image, vtkDataArray* array, bool onPoints, const DensityRules& rules);
+  // Of an image that lies on several ranks, all of which make it and call Prepare and GetContent
+  // together; `name` is that of the array.
+  DensityImage(std::unique_ptr<const ImagePieces> pieces, const std::string& name, bool onPoints,
+    const DensityRules& rules);
   ~DensityImage();
   DensityImage(const DensityImage&) = delete;
   DensityImage& operator=(const DensityImage&) = delete;
@@ -56,17 +59,31 @@ public:
   const Content& GetContent(Progress& progress);
 
   // Computes what reading needs of all values, such as the largest one. To be called before Source.
+  // Of an image on several ranks, it gathers the whole image on each.
   void Prepare(Progress& progress);
   template <int D>
   DensitySource<D> Source() const
   {
-    return { this->Geometry.Size<D>(), *this->Reader };
+    return { this->Geometry.Size<D>(), this->Values() };
   }
+  const DensityValues& Values() const
+  {
+    return this->Gathered ? this->Gathered->Values() : *this->Reader;
+  }
+
+  // In place of Prepare, for an image on several ranks: none of them gets all of it.
+  void PrepareShared(Progress& progress);
+  // The part of it in an extent, after PrepareShared; each rank may want another one.
+  std::unique_ptr<DensityImage> GatherBox(const std::array<int, 6>& extent) const;
 
   // Throws the Failure for values that are no density.
   [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
 
 private:
+  void FindReading();
+  std::unique_ptr<DensityImage> GatherPart(const std::array<int, 6>& extent) const;
+  void PrepareWith(double white, Progress& progress);
+  bool NeedsWhite() const;
   void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
   double FindWhite(Progress& progress) const;
@@ -75,6 +92,9 @@ private:
   vtkSmartPointer<vtkImageData> Input;
   vtkSmartPointer<vtkDataArray> Array;
   const std::unique_ptr<const ImagePieces> Distribution;
+  const std::string ArrayName; // where there are pieces
+  double White = 0.0;
+  std::unique_ptr<DensityImage> Gathered; // after Prepare
   const DensityRules Rules;
   const std::string Name;
   std::unique_ptr<DensityReader> Reader;

@@ -2,6 +2,7 @@
 #include "Bridge/Density/FlowCache.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +25,7 @@ const SharedFlow& FlowCache::Update(
   constexpr double partOfHash = 0.05;
   progress.BeginStage(progress.StageEnd() + partOfHash * (end - progress.StageEnd()));
   const ContentHash hash(density, progress);
-  if (!this->Kept || !(this->Hash == hash))
+  if (!onAllRanks(progress.Group(), this->Kept && this->Hash == hash))
   {
     this->Hash = ContentHash(); // invalid until the tables are built
     this->Kept =

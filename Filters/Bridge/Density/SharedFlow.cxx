@@ -2,11 +2,13 @@
 #include "Bridge/Density/SharedFlow.h"
 
 #include "Bridge/Density/ContentHash.h"
+#include "Bridge/Density/PiecesDensity.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <cmath>
 #include <map>
@@ -25,6 +27,16 @@ template <int D>
 std::string describeTables(const GridSize<D>& size)
 {
   return "the tables of a density of " + describeSize<D>(size) + " cells";
+}
+
+void prepare(DensityImage& density, FlowTables tables, Progress& progress)
+{
+  if (tables == FlowTables::Tiled && density.Pieces())
+  {
+    density.PrepareShared(progress);
+    return;
+  }
+  density.Prepare(progress);
 }
 
 // The flows in use by any filter of the process, by the content of their densities. Expired entries
@@ -88,7 +100,8 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
 {
   FlowRegistry& registry = FlowRegistry::Get();
   const bool isShared = content.IsComplete() && tables == FlowTables::Whole;
-  if (auto shared = isShared ? registry.Find(content) : nullptr)
+  auto shared = isShared ? registry.Find(content) : nullptr;
+  if (onAllRanks(progress.Group(), shared != nullptr))
   {
     return shared;
   }
@@ -101,7 +114,7 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
 
   constexpr double partOfPreparation = 0.1;
   progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
-  density.Prepare(progress);
+  prepare(density, tables, progress);
   progress.BeginStage(end);
   const auto made = std::make_shared<SharedFlow>();
   made->Kind = tables;
@@ -119,10 +132,16 @@ void SharedFlow::Attach(DensityImage& density, Progress& progress)
 {
   if (this->Kind == FlowTables::Tiled)
   {
-    density.Prepare(progress);
+    prepare(density, this->Kind, progress);
+    const bool isDistributed = density.Pieces() != nullptr;
     const auto set = [&](auto dimension) {
       constexpr int D = decltype(dimension)::value;
-      if (auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept))
+      auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept);
+      if (flow && isDistributed)
+      {
+        flow->SetDensity(this->ShareDensity<D>(density));
+      }
+      else if (flow)
       {
         flow->SetDensity(density.Source<D>().Values);
       }
@@ -132,28 +151,37 @@ void SharedFlow::Attach(DensityImage& density, Progress& progress)
   }
 }
 
+template <int D>
+const SharedDensity<D>& SharedFlow::ShareDensity(const DensityImage& density)
+{
+  const auto made = std::make_shared<const PiecesDensity<D>>(density);
+  this->Distributed = made;
+  return *made;
+}
+
 // Old and new tables side by side would double the peak.
 template <int D>
 void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progress)
 {
-  const DensitySource<D> source = density.Source<D>();
-  const GridSize<D> size = source.Size;
+  const GridSize<D> size = density.Grid().Size<D>();
   withMemory(describeTables<D>(size), RectifiedFlow<D>::MemoryFor(size), [&]() {
     try
     {
       if (this->Kind == FlowTables::Tiled)
       {
         previous = std::monostate();
-        this->Kept = RectifiedFlow<D>(source, FlowTables::Tiled, progress.Stage());
+        this->Kept = density.Pieces()
+          ? RectifiedFlow<D>(size, this->ShareDensity<D>(density), progress.Stage())
+          : RectifiedFlow<D>(density.Source<D>(), FlowTables::Tiled, progress.Stage());
       }
       else if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))
       {
-        this->Kept = RectifiedFlow<D>(source, std::move(*memory), progress.Stage());
+        this->Kept = RectifiedFlow<D>(density.Source<D>(), std::move(*memory), progress.Stage());
       }
       else
       {
         previous = std::monostate();
-        this->Kept = RectifiedFlow<D>(source, progress.Stage());
+        this->Kept = RectifiedFlow<D>(density.Source<D>(), progress.Stage());
       }
     }
     catch (const InvalidDensity& invalid)

@@ -46,6 +46,10 @@ private:
   template <int D>
   void Build(DensityImage& density, AnyFlow previous, Progress& progress);
 
+  template <int D>
+  const SharedDensity<D>& ShareDensity(const DensityImage& density);
+
+  std::shared_ptr<const void> Distributed; // a PiecesDensity, where the flow reads one
   AnyFlow Kept;
   FlowTables Kind = FlowTables::Whole;
   double Mass = 0.0;

@@ -18,11 +18,32 @@
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 namespace RectifiedTransport
 {
 
 namespace
 {
+
+// For the masses in the cells of a part of the lattice.
+template <int D>
+void prepareShares(
+  const RectifiedFlow<D>& flow, const GridSize<D>& lattice, const LatticePart<D>& part)
+{
+  const Point<D> step = latticeStep<D>(lattice, flow.Size());
+  GridSize<D> low{};
+  GridSize<D> high{};
+  for (int a = 0; a < D && part.Count() > 0; ++a)
+  {
+    low[a] = static_cast<std::int64_t>(static_cast<double>(part.Low[a]) * step[a]);
+    const double end = std::ceil(static_cast<double>(part.Low[a] + part.Cells[a]) * step[a]);
+    high[a] = std::min(flow.Size()[a], static_cast<std::int64_t>(end) + 1);
+  }
+  flow.PrepareShares(low, high);
+}
 
 template <int D>
 TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
@@ -54,6 +75,10 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
     ? flow.BackwardLattice(lattice, field.Part(), field.Positions(), map.Flow, progress.Stage())
     : flow.ForwardLattice(
         lattice, field.Part(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
+  if (map.Backward && ranks)
+  {
+    prepareShares<D>(flow, field.Whole(), field.Part());
+  }
   const double cost = field.Write(map.Backward ? &flow : nullptr,
     tuplesOf(wanted, owner, samples.Extent()), progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());

@@ -167,6 +167,21 @@ void ImagePieces::TakePieces(const std::vector<Piece>& pieces)
   }
 }
 
+vtkSmartPointer<vtkImageData> ImagePieces::MakeFrame() const
+{
+  return this->MakeImage(this->WholeExtent);
+}
+
+vtkSmartPointer<vtkImageData> ImagePieces::MakeImage(Extent extent) const
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetOrigin(this->Geometry[0], this->Geometry[1], this->Geometry[2]);
+  image->SetSpacing(this->Geometry[3], this->Geometry[4], this->Geometry[5]);
+  image->GetDirectionMatrix()->DeepCopy(this->Geometry.data() + 6);
+  image->SetExtent(extent.data());
+  return image;
+}
+
 vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   const Extent& wanted, const std::vector<std::string>& names) const
 {
@@ -204,12 +219,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   }
   std::vector<Bytes> received = this->Processes.Exchange(std::move(parts));
 
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetOrigin(this->Geometry[0], this->Geometry[1], this->Geometry[2]);
-  image->SetSpacing(this->Geometry[3], this->Geometry[4], this->Geometry[5]);
-  image->GetDirectionMatrix()->DeepCopy(this->Geometry.data() + 6);
-  Extent extent = wanted; // VTK takes no constant one
-  image->SetExtent(extent.data());
+  const vtkSmartPointer<vtkImageData> image = this->MakeImage(wanted);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
   made.reserve(kinds.size());
   for (const ArrayKind& kind : kinds)

@@ -36,6 +36,11 @@ public:
   // Of the corners of each rank's cells, without duplicates.
   const std::vector<Extent>& Cells() const { return this->CellExtents; }
   const Ranks& Group() const { return this->Processes; }
+  vtkImageData* OwnImage() const { return this->Own; }
+  // The arrays that can be gathered.
+  const std::vector<ArrayKind>& Kinds() const { return this->Arrays; }
+  // An image of the whole extent, without arrays.
+  vtkSmartPointer<vtkImageData> MakeFrame() const;
 
   // The part of the whole image in an extent, which may be empty, and each rank may want another
   // one: of the arrays that all ranks with data have, those of these names, or all, and the ghost
@@ -46,6 +51,7 @@ public:
 private:
   struct Piece;
   void TakePieces(const std::vector<Piece>& pieces);
+  vtkSmartPointer<vtkImageData> MakeImage(Extent extent) const;
 
   const Ranks& Processes;
   vtkImageData* const Own;

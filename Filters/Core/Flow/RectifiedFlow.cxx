@@ -126,6 +126,19 @@ struct RectifiedFlow<Dimension>::Internals
     this->Tiles = std::make_unique<TiledFlow<Dimension>>(density, limits, progress);
   }
 
+  Internals(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
+    const Context& context, const TileLimits& limits)
+    : Size(size)
+  {
+    check<Dimension>(size, "a density");
+    if (!context.Group)
+    {
+      throw std::invalid_argument("a density of several ranks needs a context that has them");
+    }
+    Progress progress(context);
+    this->Tiles = std::make_unique<TiledFlow<Dimension>>(size, density, limits, progress);
+  }
+
   // Without levels where there are tiles.
   const TableView<Dimension>& View() const
   {
@@ -224,6 +237,13 @@ RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
 }
 
 template <int Dimension>
+RectifiedFlow<Dimension>::RectifiedFlow(const GridSize<Dimension>& size,
+  const SharedDensity<Dimension>& density, const Context& context, const TileLimits& limits)
+  : Data(std::make_unique<Internals>(size, density, context, limits))
+{
+}
+
+template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
 {
@@ -298,6 +318,25 @@ void RectifiedFlow<Dimension>::SetDensity(const DensityValues& values)
   if (this->Data->Tiles)
   {
     this->Data->Tiles->SetDensity(values);
+  }
+}
+
+template <int Dimension>
+void RectifiedFlow<Dimension>::SetDensity(const SharedDensity<Dimension>& density)
+{
+  if (this->Data->Tiles)
+  {
+    this->Data->Tiles->SetDensity(density);
+  }
+}
+
+template <int Dimension>
+void RectifiedFlow<Dimension>::PrepareShares(
+  const GridSize<Dimension>& low, const GridSize<Dimension>& high) const
+{
+  if (this->Data->Tiles)
+  {
+    this->Data->Tiles->PrepareShares(low, high);
   }
 }
 

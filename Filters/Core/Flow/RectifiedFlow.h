@@ -22,6 +22,7 @@
 #include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Tables/Density.h"
+#include "Core/Tables/SharedDensity.h"
 
 #include <cstdint>
 #include <memory>
@@ -51,6 +52,10 @@ public:
   // by less than the error of either.
   RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
     const Context& context = Context(), const TileLimits& limits = {});
+  // Tiled, of a density that lies on the ranks of the context, which call all that needs a context
+  // together. None of them has more of it at a time than a part of about its share, or a tile.
+  RectifiedFlow(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
+    const Context& context, const TileLimits& limits = {});
   // The same in the memory of `previous`, if its tables are as large: for a density that changes
   // with time. Takes about half the time that new memory takes, and never allocates both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,
@@ -72,8 +77,11 @@ public:
     FlowDirection direction, double particles, bool isLattice, const TileLimits& limits = {});
   // For flows with tiles: the values are now at another place in memory.
   void SetDensity(const DensityValues& values);
+  void SetDensity(const SharedDensity<Dimension>& density);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
+  // For flows on ranks, which call this together: before Share of boxes in these grid cells.
+  void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high) const;
   // The share of the mass in a box.
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const;
   // The measure, in grid cells, of the part in the domain of the smallest box about a point that

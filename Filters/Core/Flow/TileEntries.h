@@ -28,6 +28,10 @@ public:
   {
     return this->Words[static_cast<std::size_t>(block)].load(std::memory_order_relaxed);
   }
+  bool Has(std::int64_t particle) const
+  {
+    return (this->Block(particle / BlockSize) >> (particle % BlockSize) & 1) != 0;
+  }
   // On any thread.
   void Add(std::int64_t particle)
   {

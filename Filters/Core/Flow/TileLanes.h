@@ -32,11 +32,15 @@ public:
     , Left(left)
     , Evaluations(evaluations)
     , Advect(flowKernels().Advect<Dimension>())
-    , Size(job.FromStates ? StateSize : Dimension)
+    , Size(valuesOf(job.FromStates))
   {
     this->Job.Output = this->Ends;
     std::iota(this->Numbers, this->Numbers + BlockSize, std::int64_t{ 0 });
   }
+
+  // How many doubles a particle's seed, or its state, has.
+  static int valuesOf(bool fromStates) { return fromStates ? StateSize : Dimension; }
+  int ValuesEach() const { return this->Size; }
 
   // Where the seed, or the state, of the next particle goes.
   double* Next() { return this->Seeds + this->Count * this->Size; }

@@ -30,8 +30,8 @@ std::vector<std::vector<TileUnit>> assignTiles(
     }
   }
   // The costliest first, each to the rank with the least work so far.
-  std::stable_sort(units.begin(), units.end(),
-    [](const Costly& a, const Costly& b) { return a.Cost > b.Cost; });
+  std::stable_sort(
+    units.begin(), units.end(), [](const Costly& a, const Costly& b) { return a.Cost > b.Cost; });
   std::vector<std::vector<TileUnit>> assigned(static_cast<std::size_t>(ranks));
   std::vector<double> work(assigned.size(), 0.0);
   for (const Costly& unit : units)

@@ -25,6 +25,15 @@ public:
     , Graded(density, gradedStrides<Dimension>(density.Size, limits), gradedRatio, progress)
   {
   }
+  // On the ranks of the progress.
+  TiledFlow(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
+    const TileLimits& limits, Progress& progress)
+    : Size(size)
+    , OfRanks(&density)
+    , Limits(limits)
+    , Graded(size, density, gradedStrides<Dimension>(size, limits), gradedRatio, progress)
+  {
+  }
 
   // Without levels.
   const TableView<Dimension>& View() const { return this->Graded.View(); }
@@ -34,6 +43,15 @@ public:
     return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
   void SetDensity(const DensityValues& values) { this->Values = &values; }
+  void SetDensity(const SharedDensity<Dimension>& density) { this->OfRanks = &density; }
+  void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high)
+  {
+    if (this->OfRanks)
+    {
+      this->Gathered = this->OfRanks->Gather(low, high);
+      this->Values = this->Gathered.get();
+    }
+  }
   static double MemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, bool isLattice, const TileLimits& limits)
   {
@@ -42,7 +60,7 @@ public:
   }
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
   {
-    return densityIn<Dimension>(this->Density(), low, high) / this->Summary().Total;
+    return densityIn<Dimension>({ this->Size, *this->Values }, low, high) / this->Summary().Total;
   }
 
   // Throws std::invalid_argument where tiles do not serve the options, NoMemoryForFlowMap,
@@ -74,7 +92,7 @@ public:
       counters.Evaluations += isNew ? map->Evaluations() : 0;
     }
     TiledAdvection<Dimension>(
-      this->Density(), this->Graded, plan, shared, map.get(), counters, progress)
+      this->Values, this->OfRanks, this->Graded, plan, shared, map.get(), counters, progress)
       .Run(source, positions);
     FlowReport report;
     report.Redone = counters.Redone;
@@ -84,8 +102,6 @@ public:
   }
 
 private:
-  DensitySource<Dimension> Density() const { return { this->Size, *this->Values }; }
-
   static TilePlan<Dimension> PlanFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, const TileLimits& limits)
   {
@@ -99,7 +115,9 @@ private:
   }
 
   const GridSize<Dimension> Size;
-  const DensityValues* Values;
+  const DensityValues* Values = nullptr;
+  const SharedDensity<Dimension>* OfRanks = nullptr;
+  std::unique_ptr<const DensityValues> Gathered; // of PrepareShares
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
   KeptFlowMap<Dimension> Maps[2];
@@ -114,10 +132,16 @@ public:
   {
     throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
   }
+  TiledFlow(const GridSize<1>&, const SharedDensity<1>&, const TileLimits&, Progress&)
+  {
+    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
+  }
   const TableView<1>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
   std::int64_t MemorySize() { return 0; }
   void SetDensity(const DensityValues&) {}
+  void SetDensity(const SharedDensity<1>&) {}
+  void PrepareShares(const GridSize<1>&, const GridSize<1>&) {}
   static double MemoryFor(
     const GridSize<1>&, const FlowOptions&, FlowDirection, double, bool, const TileLimits&)
   {

@@ -103,6 +103,12 @@ Sum sumOverRanks(const Ranks* ranks, const Sum& own)
   return all;
 }
 
+// Whether a condition holds on all ranks.
+inline bool onAllRanks(const Ranks* ranks, bool condition)
+{
+  return ranks ? sumOverRanks<std::int64_t>(ranks, condition ? 0 : 1) == 0 : condition;
+}
+
 // [0, count) divided among the ranks as evenly as may be.
 struct RankShare
 {

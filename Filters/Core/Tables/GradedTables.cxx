@@ -2,6 +2,7 @@
 #include "Core/Tables/GradedTables.h"
 
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 #include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/NodeLayout.h"
 #include "Core/Tables/ScaledDensity.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 
 namespace RectifiedTransport
 {
@@ -17,6 +19,7 @@ namespace
 {
 
 constexpr int record = 4; // doubles, in 2D and 3D
+constexpr double partOfReading = 0.9;
 
 } // namespace
 
@@ -50,32 +53,31 @@ std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t stride, do
 }
 
 template <int Dimension>
-GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
-  const GridSize<Dimension>& strides, double ratio, Progress& progress)
+GradedTables<Dimension>::GradedTables(
+  const GridSize<Dimension>& size, const GridSize<Dimension>& strides, double ratio)
 {
   TableView<Dimension>& tables = this->Tables;
   GridSize<Dimension> counts;
   std::int64_t rows = 1;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const std::int64_t size = density.Size[axis];
-    this->Nodes[axis] = gradedNodes(size, strides[axis], ratio);
+    this->Nodes[axis] = gradedNodes(size[axis], strides[axis], ratio);
     const std::vector<std::int64_t>& nodes = this->Nodes[axis];
     counts[axis] = static_cast<std::int64_t>(nodes.size());
     this->Places[axis].assign(nodes.begin(), nodes.end());
-    this->NodeBelow[axis].reserve(static_cast<std::size_t>(size));
+    this->NodeBelow[axis].reserve(static_cast<std::size_t>(size[axis]));
     for (std::size_t node = 0; node + 1 < nodes.size(); ++node)
     {
       this->NodeBelow[axis].insert(this->NodeBelow[axis].end(),
         static_cast<std::size_t>(nodes[node + 1] - nodes[node]), static_cast<std::int32_t>(node));
     }
-    tables.Cells[axis] = size;
-    tables.Size[axis] = static_cast<double>(size);
+    tables.Cells[axis] = size[axis];
+    tables.Size[axis] = static_cast<double>(size[axis]);
     tables.Low[axis] = 0.0;
     tables.High[axis] = tables.Size[axis];
     tables.EvenLevels[axis] = false;
     tables.Uneven[axis] = { this->NodeBelow[axis].data(), this->Places[axis].data() };
-    rows *= axis > 0 ? size : 1;
+    rows *= axis > 0 ? size[axis] : 1;
   }
   tables.IsUneven = true;
   tables.LevelCount = 2;
@@ -83,25 +85,68 @@ GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
   this->Records = LargeBuffer<double>(layOutNodes<Dimension>(counts, tables.Levels[1].Stride));
   tables.Levels[1].Nodes = this->Records.data();
   tables.Levels[0] = tables.Levels[1];
-  tables.WordsPerRow = (density.Size[0] + 63) / 64;
+  tables.WordsPerRow = (size[0] + 63) / 64;
   this->Occupied = LargeBuffer<std::uint64_t>(tables.WordsPerRow * rows);
+}
 
-  this->Build(density.Values, progress);
+template <int Dimension>
+GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
+  const GridSize<Dimension>& strides, double ratio, Progress& progress)
+  : GradedTables(density.Size, strides, ratio)
+{
+  this->Finish([&](int scaling) {
+    const ScaledDensity scaled(density.Values, scaling);
+    const DensityValues* values = &density.Values;
+    if (scaling != 0)
+    {
+      values = &scaled;
+    }
+    const std::int64_t layers = this->NumberOfLayers();
+    std::vector<DensitySummary> found(static_cast<std::size_t>(layers));
+    progress.BeginStage(partOfReading);
+    this->AddLayers(*values, { 0, layers }, progress, found);
+    this->TakeSummaries(found);
+    progress.BeginStage(1.0);
+    this->SumNodes(progress);
+  });
+}
+
+template <int Dimension>
+GradedTables<Dimension>::GradedTables(const GridSize<Dimension>& size,
+  const SharedDensity<Dimension>& density, const GridSize<Dimension>& strides, double ratio,
+  Progress& progress)
+  : GradedTables(size, strides, ratio)
+{
+  this->Finish([&](int scaling) {
+    progress.BeginStage(partOfReading);
+    this->AddShared(density, scaling, *progress.Group(), progress);
+    progress.BeginStage(1.0);
+    this->SumNodes(progress);
+  });
+}
+
+// addAll(scaling) sums the values, scaled by a power of two.
+template <int Dimension>
+template <class AddAll>
+void GradedTables<Dimension>::Finish(const AddAll& addAll)
+{
+  TableView<Dimension>& tables = this->Tables;
+  addAll(0);
   const DensitySummary found = this->Found;
   requireDensity(found);
   tables.Largest = found.Maximum;
   this->Exponent = scalingOf(found.Maximum);
   if (this->Exponent != 0)
   {
-    const ScaledDensity scaled(density.Values, this->Exponent);
-    this->Build(scaled, progress);
+    addAll(this->Exponent);
     this->Found = found;
     tables.Largest = std::ldexp(found.Maximum, this->Exponent);
   }
   std::int64_t last = 0;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    last += (counts[axis] - 1) * tables.Levels[1].Stride[axis];
+    last +=
+      (static_cast<std::int64_t>(this->Nodes[axis].size()) - 1) * tables.Levels[1].Stride[axis];
   }
   const double* sums = this->Records.data() + last;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -129,32 +174,99 @@ std::int64_t GradedTables<Dimension>::MemorySize() const
   return bytes;
 }
 
-// Layers between nodes of the last axis: all that a layer writes are the records above it.
 template <int Dimension>
-void GradedTables<Dimension>::Build(const DensityValues& density, Progress& progress)
+std::int64_t GradedTables<Dimension>::NumberOfLayers() const
 {
-  const auto layers = static_cast<std::int64_t>(this->Nodes[Dimension - 1].size()) - 1;
-  std::vector<DensitySummary> found(static_cast<std::size_t>(layers));
-  constexpr double partOfReading = 0.9;
-  progress.BeginStage(partOfReading);
+  return static_cast<std::int64_t>(this->Nodes[Dimension - 1].size()) - 1;
+}
+
+// All that a layer writes are the records above it.
+template <int Dimension>
+void GradedTables<Dimension>::AddLayers(const DensityValues& density, const Layers& layers,
+  Progress& progress, std::vector<DensitySummary>& found)
+{
   progress.For(
-    layers, 1,
+    layers.End - layers.First, 1,
     [&](std::int64_t first, std::int64_t last) {
       std::vector<double> row(static_cast<std::size_t>(this->Tables.Cells[0]));
       std::vector<std::uint64_t> words(static_cast<std::size_t>(this->Tables.WordsPerRow));
-      for (std::int64_t layer = first; layer < last && !progress.ShouldStop(); ++layer)
+      for (std::int64_t i = first; i < last && !progress.ShouldStop(); ++i)
       {
+        const std::int64_t layer = layers.First + i;
         this->AddLayer(density, layer, row.data(), words, found[static_cast<std::size_t>(layer)]);
       }
     },
     2);
+}
+
+template <int Dimension>
+void GradedTables<Dimension>::TakeSummaries(const std::vector<DensitySummary>& found)
+{
   this->Found = {};
   for (const DensitySummary& part : found)
   {
     merge(part, this->Found);
   }
-  progress.BeginStage(1.0);
-  this->SumNodes(progress);
+}
+
+// Each rank sums the layers that begin in its share of the grid cells along the last axis; all
+// ranks get the records, the bits and the summaries of all.
+template <int Dimension>
+void GradedTables<Dimension>::AddShared(
+  const SharedDensity<Dimension>& density, int scaling, const Ranks& ranks, Progress& progress)
+{
+  constexpr int axis = Dimension - 1;
+  const std::vector<std::int64_t>& nodes = this->Nodes[axis];
+  const auto layersOf = [&](int rank) {
+    const auto layerAt = [&](int end) {
+      const std::int64_t cell = nodes.back() * end / ranks.Count();
+      return static_cast<std::int64_t>(
+        std::lower_bound(nodes.begin(), nodes.end(), cell) - nodes.begin());
+    };
+    return Layers{ layerAt(rank), layerAt(rank + 1) };
+  };
+  const auto nodeOf = [&](std::int64_t layer) { return nodes[static_cast<std::size_t>(layer)]; };
+  const Layers own = layersOf(ranks.Own());
+  std::vector<DensitySummary> found(static_cast<std::size_t>(this->NumberOfLayers()));
+  {
+    GridSize<Dimension> low{};
+    GridSize<Dimension> high;
+    std::copy_n(this->Tables.Cells, Dimension, high.begin());
+    low[axis] = nodeOf(own.First);
+    high[axis] = nodeOf(own.End);
+    const std::unique_ptr<const DensityValues> values = density.Gather(low, high);
+    const ScaledDensity scaled(*values, scaling);
+    const DensityValues* read = values.get();
+    if (scaling != 0)
+    {
+      read = &scaled;
+    }
+    this->AddLayers(*read, own, progress, found);
+  }
+  const std::int64_t stride = this->Tables.Levels[1].Stride[axis];
+  const std::int64_t rows = this->Occupied.size() / this->Tables.WordsPerRow / nodes.back();
+  const std::int64_t words = this->Tables.WordsPerRow * rows; // of a slice
+  std::fill_n(this->Records.data(), stride, 0.0);
+  const auto share = [&](const auto* all, std::int64_t first, std::int64_t end) {
+    return toBytes(all + first, static_cast<std::size_t>(end - first));
+  };
+  const auto take = [&](const Bytes& bytes, auto* to) {
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(to));
+  };
+  const std::vector<Bytes> records =
+    ranks.Gather(share(this->Records.data(), (own.First + 1) * stride, (own.End + 1) * stride));
+  const std::vector<Bytes> bits =
+    ranks.Gather(share(this->Occupied.data(), nodeOf(own.First) * words, nodeOf(own.End) * words));
+  const std::vector<Bytes> summaries = ranks.Gather(share(found.data(), own.First, own.End));
+  for (int rank = 0; rank < ranks.Count(); ++rank)
+  {
+    const Layers theirs = layersOf(rank);
+    const auto from = static_cast<std::size_t>(rank);
+    take(records[from], this->Records.data() + (theirs.First + 1) * stride);
+    take(bits[from], this->Occupied.data() + nodeOf(theirs.First) * words);
+    take(summaries[from], found.data() + theirs.First);
+  }
+  this->TakeSummaries(found);
 }
 
 // The sums of the grid cells of one layer in the boxes between nodes, each at the node above its

@@ -5,6 +5,7 @@
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/Density.h"
+#include "Core/Tables/SharedDensity.h"
 #include "Core/Tables/TableView.h"
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace RectifiedTransport
 {
 
 class Progress;
+class Ranks;
 
 // The nodes along one axis of `size` grid cells. They are `stride` cells apart, a power of two, but
 // denser towards both faces, as boxes that are cut there are narrow: a cell between nodes is one
@@ -31,6 +33,10 @@ public:
   // Throws InvalidDensity, Cancelled and std::bad_alloc.
   GradedTables(const DensitySource<Dimension>& density, const GridSize<Dimension>& strides,
     double ratio, Progress& progress);
+  // The same tables of a density of the ranks of the progress, on each of them: every rank sums
+  // some layers of the grid. All of them call this.
+  GradedTables(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
+    const GridSize<Dimension>& strides, double ratio, Progress& progress);
 
   const TableView<Dimension>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
@@ -39,7 +45,22 @@ public:
   std::int64_t MemorySize() const;
 
 private:
-  void Build(const DensityValues& density, Progress& progress);
+  // Layers of the grid between nodes of the last axis.
+  struct Layers
+  {
+    std::int64_t First;
+    std::int64_t End;
+  };
+
+  GradedTables(const GridSize<Dimension>& size, const GridSize<Dimension>& strides, double ratio);
+  template <class AddAll>
+  void Finish(const AddAll& addAll);
+  std::int64_t NumberOfLayers() const;
+  void AddLayers(const DensityValues& density, const Layers& layers, Progress& progress,
+    std::vector<DensitySummary>& found);
+  void AddShared(
+    const SharedDensity<Dimension>& density, int scaling, const Ranks& ranks, Progress& progress);
+  void TakeSummaries(const std::vector<DensitySummary>& found);
   void AddLayer(const DensityValues& density, std::int64_t layer, double* row,
     std::vector<std::uint64_t>& words, DensitySummary& found);
   void AddRow(const double* cells, double* record, const double* centres) const;

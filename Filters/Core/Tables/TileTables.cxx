@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  const DensitySource<Dimension>& Whole;
+  const DensitySource<Dimension> Whole;
   const GridSize<Dimension>& Low;
   const GridSize<Dimension>& Cells;
 };
@@ -50,10 +50,8 @@ private:
 } // namespace
 
 template <int Dimension>
-TileTables<Dimension>::TileTables(
-  const DensitySource<Dimension>& density, const TableView<Dimension>& whole, int scaling)
-  : Density(density)
-  , Scaling(scaling)
+TileTables<Dimension>::TileTables(const TableView<Dimension>& whole, int scaling)
+  : Scaling(scaling)
   , Tables(whole)
 {
   this->Tables.IsUneven = false;
@@ -66,8 +64,8 @@ TileTables<Dimension>::TileTables(
 }
 
 template <int Dimension>
-void TileTables<Dimension>::Build(
-  const GridSize<Dimension>& low, const GridSize<Dimension>& high, Progress& progress)
+void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<Dimension>& low,
+  const GridSize<Dimension>& high, Progress& progress)
 {
   // As if the part were the domain; what is summed but for the nodes is not used.
   TableView<Dimension> part = this->Tables;
@@ -91,7 +89,9 @@ void TileTables<Dimension>::Build(
   part.Levels[0].Nodes = this->Nodes.data();
   GridSize<Dimension> cells;
   std::copy_n(part.Cells, Dimension, cells.begin());
-  const PartOfDensity<Dimension> values(this->Density, low, cells);
+  GridSize<Dimension> size;
+  std::copy_n(this->Tables.Cells, Dimension, size.begin());
+  const PartOfDensity<Dimension> values({ size, density }, low, cells);
   const ScaledDensity scaled(values, this->Scaling);
   const DensityValues* read = &values;
   if (this->Scaling != 0)

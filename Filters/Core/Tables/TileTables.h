@@ -20,22 +20,21 @@ template <int Dimension>
 class TileTables
 {
 public:
-  // `whole` are tables of the whole density, which the parts have the rest of the view from; its
-  // values are scaled by 2^scaling in them. Both must outlive this object.
-  TileTables(
-    const DensitySource<Dimension>& density, const TableView<Dimension>& whole, int scaling);
+  // `whole` are tables of the whole density, which the parts have the rest of the view from, and
+  // which must outlive this object; values are scaled by 2^scaling in them.
+  TileTables(const TableView<Dimension>& whole, int scaling);
 
-  // Builds the tables of the grid cells from `low` up to `high`, as the work of the progress's
-  // current stage, which has a unit for each of their cells along the last axis. Throws Cancelled
-  // and std::bad_alloc.
-  void Build(const GridSize<Dimension>& low, const GridSize<Dimension>& high, Progress& progress);
+  // Builds the tables of the grid cells from `low` up to `high` of the whole density, as the work
+  // of the progress's current stage, which has a unit for each of their cells along the last axis.
+  // Throws Cancelled and std::bad_alloc.
+  void Build(const DensityValues& density, const GridSize<Dimension>& low,
+    const GridSize<Dimension>& high, Progress& progress);
 
   const TableView<Dimension>& View() const { return this->Tables; }
   // The bytes of the tables of so many cells.
   static double MemoryFor(const GridSize<Dimension>& cells);
 
 private:
-  const DensitySource<Dimension> Density;
   const int Scaling;
   TableView<Dimension> Tables;
   LargeBuffer<double> Nodes;

@@ -145,7 +145,7 @@ TYPED_TEST(PartTables, OfPartsOneAfterAnother)
   const DensityArray<D, double> source = density.Source();
   Progress progress{ Context() };
   const GradedTables<D> whole(source, evenSize<D>(2), 3.0, progress);
-  TileTables<D> tile(source, whole.View(), whole.Scaling());
+  TileTables<D> tile(whole.View(), whole.Scaling());
   const auto part = [](const GridSize<2>& plane, const GridSize<3>& space) {
     return sizeFor<D>({ 1 }, plane, space);
   };
@@ -157,7 +157,7 @@ TYPED_TEST(PartTables, OfPartsOneAfterAnother)
   for (const auto& [low, high] : parts)
   {
     progress.BeginStage(1.0, high[D - 1] - low[D - 1]);
-    tile.Build(low, high, progress);
+    tile.Build(DensitySource<D>(source).Values, low, high, progress);
     const TableView<D>& view = tile.View();
     const std::vector<double> all = sumsOf<D>(density, low, high);
     GridSize<D> span;
