@@ -48,7 +48,10 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples,
   requireMemory(purpose, 5.0 * real * count + scratch);
   this->Around = this->OwnPart;
   this->NumberOfSamples = static_cast<std::int64_t>(count);
-  this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, this->NumberOfSamples);
+  if (!ranks)
+  {
+    this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, this->NumberOfSamples);
+  }
   if (!sharesMemory)
   {
     withMemory(purpose, scratch,
@@ -137,24 +140,27 @@ double MapField<D>::Write(const RectifiedFlow<D>* flow, const TupleBox& wanted, 
   progress.BeginStage(progress.StageEnd() + partOfDerivatives * (end - progress.StageEnd()));
   std::vector<vtkSmartPointer<vtkDoubleArray>> arrays = this->WriteDerivatives(progress);
   progress.BeginStage(end);
+  if (!this->Displacement)
+  {
+    this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, this->NumberOfSamples);
+  }
   const PointSpan<3> displacements(this->Displacement->GetPointer(0), this->NumberOfSamples);
   const double cost = this->Processes
     ? writeDisplacements<D>(this->Geometry, this->Lattice, this->OwnPart, this->Positions(), flow,
         displacements, progress.Stage())
     : writeDisplacements<D>(
         this->Geometry, this->Lattice, this->Positions(), flow, displacements, progress.Stage());
-  arrays.insert(arrays.begin(), this->Displacement);
+  arrays.insert(arrays.begin(), std::exchange(this->Displacement, nullptr));
   if (this->Processes)
   {
-    const std::vector<vtkSmartPointer<vtkDoubleArray>> own = arrays;
-    const std::vector<vtkDataArray*> from(own.begin(), own.end());
+    this->PositionBuffer = {};
     for (vtkSmartPointer<vtkDoubleArray>& array : arrays)
     {
-      array =
+      auto there =
         newArray<vtkDoubleArray>(array->GetName(), array->GetNumberOfComponents(), wanted.Count());
+      exchangeBoxes(this->Held, wanted, *this->Processes, { array }, { there });
+      array = there;
     }
-    const std::vector<vtkDataArray*> to(arrays.begin(), arrays.end());
-    exchangeBoxes(this->Held, wanted, *this->Processes, from, to);
   }
   output->SetVectors(arrays[0]);
   output->AddArray(arrays[1]);

@@ -231,7 +231,15 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
     const char* bytes = received[rank].data();
     for (std::size_t i = 0; i < kinds.size(); ++i)
     {
-      bytes = boxes(kinds[i]).Take(bytes, rank, made[i]);
+      if (boxes(kinds[i]).IsOwn(rank))
+      {
+        boxes(kinds[i]).CopyOwn(
+          kinds[i].Find(this->Own), tuplesOf(own, kinds[i].Owner, this->WholeExtent), made[i]);
+      }
+      else
+      {
+        bytes = boxes(kinds[i]).Take(bytes, rank, made[i]);
+      }
     }
     received[rank] = Bytes();
   }

@@ -208,6 +208,28 @@ void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& 
   }
 }
 
+void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
+  const std::vector<TupleRun>& runsThere, vtkDataArray* to)
+{
+  const auto size = static_cast<std::size_t>(to->GetDataTypeSize()) *
+    static_cast<std::size_t>(to->GetNumberOfComponents());
+  const auto* here = from ? static_cast<const char*>(from->GetVoidPointer(0)) : nullptr;
+  auto* there = static_cast<char*>(to->GetVoidPointer(0));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+  {
+    const std::size_t length = static_cast<std::size_t>(runs[i].Count) * size;
+    char* target = there + static_cast<std::size_t>(runsThere[i].First) * size;
+    if (here)
+    {
+      std::copy_n(here + static_cast<std::size_t>(runs[i].First) * size, length, target);
+    }
+    else
+    {
+      std::fill_n(target, length, '\0');
+    }
+  }
+}
+
 const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to)
 {
   const auto size = static_cast<std::size_t>(to->GetDataTypeSize()) *

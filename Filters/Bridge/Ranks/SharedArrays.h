@@ -55,6 +55,9 @@ struct TupleRun
 
 // Appends the tuples of a contiguous array; zeros of one byte for nullptr.
 void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to);
+// Copies tuples to as many of another array of the kind; zeros for nullptr.
+void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
+  const std::vector<TupleRun>& runsThere, vtkDataArray* to);
 // Takes them from bytes on; returns where the next ones begin.
 const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to);
 

@@ -141,8 +141,18 @@ void BoxExchange::Append(vtkDataArray* from, const TupleBox& all, std::vector<By
 {
   for (std::size_t rank = 0; rank < this->Wanted.size(); ++rank)
   {
-    appendTuples(from, runsOf(this->PartOf(this->Own, this->Wanted[rank]), all), parts[rank]);
+    if (rank != this->Own)
+    {
+      appendTuples(from, runsOf(this->PartOf(this->Own, this->Wanted[rank]), all), parts[rank]);
+    }
   }
+}
+
+void BoxExchange::CopyOwn(vtkDataArray* from, const TupleBox& all, vtkDataArray* to) const
+{
+  const TupleBox& wanted = this->Wanted[this->Own];
+  const TupleBox part = this->PartOf(this->Own, wanted);
+  copyTuples(from, runsOf(part, all), runsOf(part, wanted), to);
 }
 
 const char* BoxExchange::Take(const char* from, std::size_t rank, vtkDataArray* to) const
@@ -164,9 +174,16 @@ void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, co
   for (std::size_t rank = received.size(); rank-- > 0;)
   {
     const char* bytes = received[rank].data();
-    for (vtkDataArray* array : to)
+    for (std::size_t i = 0; i < to.size(); ++i)
     {
-      bytes = boxes.Take(bytes, rank, array);
+      if (boxes.IsOwn(rank))
+      {
+        boxes.CopyOwn(from[i], held[rank], to[i]);
+      }
+      else
+      {
+        bytes = boxes.Take(bytes, rank, to[i]);
+      }
     }
   }
 }

@@ -91,12 +91,14 @@ public:
   // `held` are those of all ranks, `wanted` those that this rank wants. Called by all ranks.
   BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks);
 
-  // Appends to the parts for the ranks what they want of a contiguous array, whose tuples are those
-  // of the box `all`; nullptr for zeros of one byte.
+  // Appends to the parts for the other ranks what they want of a contiguous array, whose tuples are
+  // those of the box `all`; nullptr for zeros of one byte.
   void Append(vtkDataArray* from, const TupleBox& all, std::vector<Bytes>& parts) const;
-  // Takes what a rank sent from bytes on; returns where the next array begins. The ranks in
-  // descending order.
+  // Takes what another rank sent from bytes on; returns where the next array begins. The ranks in
+  // descending order, and of this rank CopyOwn.
   const char* Take(const char* from, std::size_t rank, vtkDataArray* to) const;
+  void CopyOwn(vtkDataArray* from, const TupleBox& all, vtkDataArray* to) const;
+  bool IsOwn(std::size_t rank) const { return rank == this->Own; }
 
 private:
   TupleBox PartOf(std::size_t rank, const TupleBox& wanted) const;
