@@ -242,8 +242,9 @@ private:
       this->Announce(state, message, {});
     }
   }
+  std::vector<Bytes> Transfer(const std::vector<const Bytes*>& parts) const;
   std::vector<long long> Announce(
-    State state, const std::string& message, const std::vector<Bytes>& parts) const;
+    State state, const std::string& message, const std::vector<const Bytes*>& parts) const;
   void CollectReports(const std::string& message) const;
 
   vtkMPIController* Controller;
@@ -254,14 +255,14 @@ private:
 // Precedes every exchange: how each rank fares, and what it will send. Returns the sizes of what
 // arrives here, and throws where others have failed, unless this rank has, too.
 std::vector<long long> MpiRun::Announce(
-  State state, const std::string& message, const std::vector<Bytes>& parts) const
+  State state, const std::string& message, const std::vector<const Bytes*>& parts) const
 {
   const auto ranks = static_cast<std::size_t>(this->Count());
   std::vector<long long> own(ranks + 1);
   own[0] = static_cast<long long>(state);
   for (std::size_t rank = 0; rank < parts.size(); ++rank)
   {
-    own[rank + 1] = static_cast<long long>(parts[rank].size());
+    own[rank + 1] = static_cast<long long>(parts[rank]->size());
   }
   std::vector<long long> all(ranks * own.size());
   this->Controller->AllGather(own.data(), all.data(), static_cast<vtkIdType>(own.size()));
@@ -320,43 +321,56 @@ void MpiRun::CollectReports(const std::string& message) const
 
 std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
 {
-  return this->Exchange(std::vector<Bytes>(static_cast<std::size_t>(this->Count()), own));
+  std::vector<Bytes> received =
+    this->Transfer(std::vector<const Bytes*>(static_cast<std::size_t>(this->Count()), &own));
+  received[static_cast<std::size_t>(this->Own())] = own;
+  return received;
 }
 
 std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
 {
+  std::vector<const Bytes*> given;
+  for (const Bytes& part : parts)
+  {
+    given.push_back(&part);
+  }
+  std::vector<Bytes> received = this->Transfer(given);
+  const auto own = static_cast<std::size_t>(this->Own());
+  received[own] = std::move(parts[own]);
+  return received;
+}
+
+// Without this rank's own part.
+std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) const
+{
   const std::vector<long long> sizes = this->Announce(State::Runs, "", parts);
   const auto own = static_cast<std::size_t>(this->Own());
-  std::vector<Bytes> received(parts.size());
-  std::vector<vtkMPICommunicator::Request> requests;
   constexpr std::size_t most = std::size_t{ 1 } << 30; // bytes of a message
-  const auto messages = [](std::size_t bytes) { return (bytes + most - 1) / most; };
-  std::size_t count = 0;
+  const auto forMessages = [=](std::size_t rank, std::size_t bytes, const auto& start) {
+    for (std::size_t first = 0; first < bytes && rank != own; first += most)
+    {
+      start(first, static_cast<int>(std::min(most, bytes - first)), static_cast<int>(rank));
+    }
+  };
+  std::vector<Bytes> received(parts.size());
+  std::list<vtkMPICommunicator::Request> requests;
   for (std::size_t rank = 0; rank < parts.size(); ++rank)
   {
     received[rank].resize(rank == own ? 0 : static_cast<std::size_t>(sizes[rank]));
-    count += rank == own ? 0 : messages(received[rank].size()) + messages(parts[rank].size());
+    forMessages(rank, received[rank].size(), [&](std::size_t first, int length, int remote) {
+      requests.emplace_back();
+      this->Controller->NoBlockReceive(
+        received[rank].data() + first, length, remote, exchangeTag, requests.back());
+    });
   }
-  requests.reserve(count);
-  const auto forMessages = [&](std::vector<Bytes>& buffers, const auto& start) {
-    for (std::size_t rank = 0; rank < buffers.size(); ++rank)
-    {
-      Bytes& buffer = buffers[rank];
-      for (std::size_t first = 0; first < buffer.size() && rank != own; first += most)
-      {
-        requests.emplace_back();
-        start(buffer.data() + first, static_cast<int>(std::min(most, buffer.size() - first)),
-          static_cast<int>(rank), requests.back());
-      }
-    }
-  };
-  forMessages(received, [&](char* bytes, int length, int rank, auto& request) {
-    this->Controller->NoBlockReceive(bytes, length, rank, exchangeTag, request);
-  });
-  forMessages(parts, [&](char* bytes, int length, int rank, auto& request) {
-    this->Controller->NoBlockSend(bytes, length, rank, exchangeTag, request);
-  });
-  received[own] = std::move(parts[own]);
+  for (std::size_t rank = 0; rank < parts.size(); ++rank)
+  {
+    forMessages(rank, parts[rank]->size(), [&](std::size_t first, int length, int remote) {
+      requests.emplace_back();
+      this->Controller->NoBlockSend(
+        parts[rank]->data() + first, length, remote, exchangeTag, requests.back());
+    });
+  }
   for (vtkMPICommunicator::Request& request : requests)
   {
     request.Wait();

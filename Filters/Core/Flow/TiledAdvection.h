@@ -381,9 +381,10 @@ private:
         for (std::size_t rank = 0; rank < units.size(); ++rank)
         {
           Sent& those = sent[rank];
+          const auto each =
+            static_cast<std::size_t>(TileLanes<Dimension>::valuesOf(stage.FromStates));
           const auto give = [&](const double* values, std::int64_t index, std::int64_t particle) {
-            those.Values.insert(those.Values.end(), values,
-              values + TileLanes<Dimension>::valuesOf(stage.FromStates));
+            those.Values.insert(those.Values.end(), values, values + each);
             those.Index.push_back(index);
             those.Particle.push_back(particle);
           };

@@ -247,25 +247,23 @@ void GradedTables<Dimension>::AddShared(
   const std::int64_t rows = this->Occupied.size() / this->Tables.WordsPerRow / nodes.back();
   const std::int64_t words = this->Tables.WordsPerRow * rows; // of a slice
   std::fill_n(this->Records.data(), stride, 0.0);
-  const auto share = [&](const auto* all, std::int64_t first, std::int64_t end) {
-    return toBytes(all + first, static_cast<std::size_t>(end - first));
+  // Of what has `each` values for each of the places along the axis.
+  const auto gather = [&](auto* all, std::int64_t each, const auto& placeOf) {
+    const std::int64_t first = placeOf(own.First) * each;
+    const std::int64_t end = placeOf(own.End) * each;
+    const std::vector<Bytes> parts =
+      ranks.Gather(toBytes(all + first, static_cast<std::size_t>(end - first)));
+    for (int rank = 0; rank < ranks.Count(); ++rank)
+    {
+      const Bytes& part = parts[static_cast<std::size_t>(rank)];
+      std::copy(part.begin(), part.end(),
+        reinterpret_cast<char*>(all + placeOf(layersOf(rank).First) * each));
+    }
   };
-  const auto take = [&](const Bytes& bytes, auto* to) {
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(to));
-  };
-  const std::vector<Bytes> records =
-    ranks.Gather(share(this->Records.data(), (own.First + 1) * stride, (own.End + 1) * stride));
-  const std::vector<Bytes> bits =
-    ranks.Gather(share(this->Occupied.data(), nodeOf(own.First) * words, nodeOf(own.End) * words));
-  const std::vector<Bytes> summaries = ranks.Gather(share(found.data(), own.First, own.End));
-  for (int rank = 0; rank < ranks.Count(); ++rank)
-  {
-    const Layers theirs = layersOf(rank);
-    const auto from = static_cast<std::size_t>(rank);
-    take(records[from], this->Records.data() + (theirs.First + 1) * stride);
-    take(bits[from], this->Occupied.data() + nodeOf(theirs.First) * words);
-    take(summaries[from], found.data() + theirs.First);
-  }
+  const auto layerOf = [](std::int64_t layer) { return layer; };
+  gather(this->Records.data() + stride, stride, layerOf);
+  gather(this->Occupied.data(), words, nodeOf);
+  gather(found.data(), 1, layerOf);
   this->TakeSummaries(found);
 }
 
