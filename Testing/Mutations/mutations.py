@@ -282,7 +282,7 @@ OTHERS = [
     E(CORE + "Flow/TiledAdvection.h", "level.HandOver = «this->Plan.HandOver << pass»",
       "this->Plan.HandOver"),
     E(CORE + "Flow/TiledAdvection.h", "«extra.Troubled[static_cast<std::size_t>(i)]» &&", "false"),
-    S(CORE + "Flow/TiledAdvection.h", "job.StopsAtMap = stage.StopsAtMap;", ""),
+    S(CORE + "Flow/TileRun.h", "job.StopsAtMap = stage.StopsAtMap;", ""),
     E(CORE + "Tables/GradedTables.cxx", "moment += cells[i] * (static_cast<double>(i) + «0.5»)", "0.0"),
     E(CORE + "Tables/DensityShare.cxx", "sum += values[cell] * («x.PartOf(i + cell)» * part)", "1.0"),
     E(BRIDGE + "Density/SharedFlow.cxx",
