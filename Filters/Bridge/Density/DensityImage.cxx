@@ -296,7 +296,8 @@ double DensityImage::FindWhite(Progress& progress) const
 
 void DensityImage::ThrowInvalid(const DensitySummary& summary) const
 {
-  throwInvalidDensity(this->Name, summary, this->Sources[1] || this->Sources[2]);
+  const bool hasCellFlags = !this->Geometry.IsOnPoints() && this->Sources[2];
+  throwInvalidDensity(this->Name, summary, this->Sources[1] || hasCellFlags);
 }
 
 } // namespace RectifiedTransport

@@ -123,7 +123,7 @@ void MapField<D>::FetchAround()
   LargeBuffer<double> positions(around.Count() * D);
   const auto from = arrayOn(this->PositionBuffer.data(), D, this->OwnPart.Count());
   const auto to = arrayOn(positions.data(), D, around.Count());
-  exchangeBoxes(this->Held, this->BoxOf(around), *this->Processes, { from }, { to });
+  exchangeBoxes(this->Held, this->BoxOf(around), *this->Processes, from, to);
   this->PositionBuffer = std::move(positions);
   this->Around = around;
 }
@@ -158,7 +158,7 @@ double MapField<D>::Write(const RectifiedFlow<D>* flow, const TupleBox& wanted, 
     {
       auto there =
         newArray<vtkDoubleArray>(array->GetName(), array->GetNumberOfComponents(), wanted.Count());
-      exchangeBoxes(this->Held, wanted, *this->Processes, { array }, { there });
+      exchangeBoxes(this->Held, wanted, *this->Processes, array, there);
       array = there;
     }
   }

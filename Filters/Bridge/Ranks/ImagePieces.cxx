@@ -203,46 +203,20 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
   };
   const BoxExchange points = exchangeOf(vtkDataObject::POINT);
   const BoxExchange cells = exchangeOf(vtkDataObject::CELL);
-  const auto boxes = [&](const ArrayKind& kind) -> const BoxExchange& {
-    return kind.Owner == vtkDataObject::POINT ? points : cells;
-  };
-
   Extent own{ 0, -1, 0, -1, 0, -1 };
   if (this->Own && this->Own->GetNumberOfPoints() > 0)
   {
     std::copy_n(this->Own->GetExtent(), 6, own.begin());
   }
-  std::vector<Bytes> parts(this->PointExtents.size());
-  for (const ArrayKind& kind : kinds)
-  {
-    boxes(kind).Append(kind.Find(this->Own), tuplesOf(own, kind.Owner, this->WholeExtent), parts);
-  }
-  std::vector<Bytes> received = this->Processes.Exchange(std::move(parts));
-
   const vtkSmartPointer<vtkImageData> image = this->MakeImage(wanted);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-  made.reserve(kinds.size());
+  std::vector<BoxArrays> arrays;
   for (const ArrayKind& kind : kinds)
   {
-    made.push_back(kind.Make(image, tuplesOf(wanted, kind.Owner, this->WholeExtent).Count()));
+    const vtkIdType tuples = tuplesOf(wanted, kind.Owner, this->WholeExtent).Count();
+    arrays.push_back({ kind.Owner == vtkDataObject::POINT ? &points : &cells, kind.Find(this->Own),
+      tuplesOf(own, kind.Owner, this->WholeExtent), kind.Make(image, tuples) });
   }
-  for (std::size_t rank = received.size(); rank-- > 0;)
-  {
-    const char* bytes = received[rank].data();
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-    {
-      if (boxes(kinds[i]).IsOwn(rank))
-      {
-        boxes(kinds[i]).CopyOwn(
-          kinds[i].Find(this->Own), tuplesOf(own, kinds[i].Owner, this->WholeExtent), made[i]);
-      }
-      else
-      {
-        bytes = boxes(kinds[i]).Take(bytes, rank, made[i]);
-      }
-    }
-    received[rank] = Bytes();
-  }
+  exchangeArrays(arrays, this->Processes);
   return image;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/PlaceOwners.h"
 
+#include "Core/Geometry/Dispatch.h"
+
 #include <algorithm>
 
 namespace RectifiedTransport
@@ -67,19 +69,28 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const
     for (std::size_t part = 0; part < parts; ++part)
     {
       std::size_t rest = part;
-      bool isInside = true;
+      std::array<std::int64_t, 3> cell{};
       for (std::size_t a = 0; a < 3; ++a)
       {
-        const std::int64_t place = this->Cut[a][rest % this->Cut[a].size()];
+        cell[a] = this->Cut[a][rest % this->Cut[a].size()];
         rest /= this->Cut[a].size();
-        isInside = isInside && place >= box.Low[a] && place < box.High[a];
       }
-      if (isInside)
+      if (box.Holds(cell))
       {
         this->Owners[part] = static_cast<int>(rank);
       }
     }
   }
+}
+
+bool PlaceOwners::Box::Holds(const std::array<std::int64_t, 3>& cell) const
+{
+  bool isInside = true;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    isInside = isInside && cell[a] >= this->Low[a] && cell[a] < this->High[a];
+  }
+  return isInside;
 }
 
 template <int D>
@@ -96,20 +107,9 @@ int PlaceOwners::Find(const double* place) const
   }
   if (this->Owners.empty())
   {
-    for (std::size_t rank = 0; rank < this->Boxes.size(); ++rank)
-    {
-      const Box& box = this->Boxes[rank];
-      bool isInside = true;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        isInside = isInside && cell[a] >= box.Low[a] && cell[a] < box.High[a];
-      }
-      if (isInside)
-      {
-        return static_cast<int>(rank);
-      }
-    }
-    return 0;
+    const auto owner = std::find_if(
+      this->Boxes.begin(), this->Boxes.end(), [&](const Box& box) { return box.Holds(cell); });
+    return owner == this->Boxes.end() ? 0 : static_cast<int>(owner - this->Boxes.begin());
   }
   std::size_t part = 0;
   for (std::size_t a = 3; a-- > 0;)
@@ -125,15 +125,9 @@ int PlaceOwners::Find(const double* place) const
 
 int PlaceOwners::OwnerOf(const double* place) const
 {
-  switch (this->Grid.Dimension())
-  {
-    case 1:
-      return this->Find<1>(place);
-    case 2:
-      return this->Find<2>(place);
-    default:
-      return this->Find<3>(place);
-  }
+  const auto find = dispatchDimension(
+    this->Grid.Dimension(), &PlaceOwners::Find<1>, &PlaceOwners::Find<2>, &PlaceOwners::Find<3>);
+  return (this->*find)(place);
 }
 
 } // namespace RectifiedTransport

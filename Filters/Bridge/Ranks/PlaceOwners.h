@@ -35,6 +35,8 @@ private:
   {
     std::array<std::int64_t, 3> Low;
     std::array<std::int64_t, 3> High;
+
+    bool Holds(const std::array<std::int64_t, 3>& cell) const;
   };
 
   const ImageGrid& Grid;

@@ -161,31 +161,37 @@ const char* BoxExchange::Take(const char* from, std::size_t rank, vtkDataArray* 
   return takeTuples(from, runsOf(this->PartOf(rank, wanted), wanted), to);
 }
 
-void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
-  const std::vector<vtkDataArray*>& from, const std::vector<vtkDataArray*>& to)
+void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
 {
-  const BoxExchange boxes(held, wanted, ranks);
-  std::vector<Bytes> parts(held.size());
-  for (vtkDataArray* array : from)
+  std::vector<Bytes> parts(static_cast<std::size_t>(ranks.Count()));
+  for (const BoxArrays& array : arrays)
   {
-    boxes.Append(array, held[static_cast<std::size_t>(ranks.Own())], parts);
+    array.Boxes->Append(array.From, array.All, parts);
   }
-  const std::vector<Bytes> received = ranks.Exchange(std::move(parts));
+  std::vector<Bytes> received = ranks.Exchange(std::move(parts));
   for (std::size_t rank = received.size(); rank-- > 0;)
   {
     const char* bytes = received[rank].data();
-    for (std::size_t i = 0; i < to.size(); ++i)
+    for (const BoxArrays& array : arrays)
     {
-      if (boxes.IsOwn(rank))
+      if (array.Boxes->IsOwn(rank))
       {
-        boxes.CopyOwn(from[i], held[rank], to[i]);
+        array.Boxes->CopyOwn(array.From, array.All, array.To);
       }
       else
       {
-        bytes = boxes.Take(bytes, rank, to[i]);
+        bytes = array.Boxes->Take(bytes, rank, array.To);
       }
     }
+    received[rank] = Bytes();
   }
+}
+
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  vtkDataArray* from, vtkDataArray* to)
+{
+  const BoxExchange boxes(held, wanted, ranks);
+  exchangeArrays({ { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to } }, ranks);
 }
 
 } // namespace RectifiedTransport

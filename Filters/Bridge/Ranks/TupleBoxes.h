@@ -7,6 +7,8 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
+#include "vtkSmartPointer.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -108,9 +110,19 @@ private:
   const std::size_t Own;
 };
 
-// Of arrays alone: the tuples of the wanted boxes, as the arrays `to`.
+// An array whose tuples are those of the box `All`, and one for the wanted tuples of an exchange.
+struct BoxArrays
+{
+  const BoxExchange* Boxes;
+  vtkSmartPointer<vtkDataArray> From; // nullptr for zeros of one byte
+  TupleBox All;
+  vtkSmartPointer<vtkDataArray> To;
+};
+// Of several arrays together. Called by all ranks, with as many and the same ones.
+void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
+// Of one array whose tuples are those that this rank holds.
 void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
-  const std::vector<vtkDataArray*>& from, const std::vector<vtkDataArray*>& to);
+  vtkDataArray* from, vtkDataArray* to);
 
 } // namespace RectifiedTransport
 

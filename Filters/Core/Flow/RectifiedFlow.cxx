@@ -381,9 +381,9 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
     positions.size(), static_cast<double>(seeds.size()) * static_cast<double>(times.size()));
   AdvectionRun<Dimension> run(
     this->Data->WholeTables("a path"), AdvectionKind::Forward, options, context);
-  const SortedPoints<Dimension> source(seeds);
+  SortedPoints<Dimension> source(seeds);
   this->Data->Prepare(run, options, source.CountOfAll(context.Group), times.front());
-  return run.Advect(SortedPoints<Dimension>(seeds), positions, times);
+  return run.Advect(source, positions, times);
 }
 
 template <int Dimension>

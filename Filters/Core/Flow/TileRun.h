@@ -59,8 +59,7 @@ public:
   // Whether a condition holds here or on another rank.
   bool HasAnyRank(bool condition) const
   {
-    return this->OfRanks ? sumOverRanks<std::int64_t>(this->Work.Group(), condition ? 1 : 0) > 0
-                         : condition;
+    return !onAllRanks(this->OfRanks ? this->Work.Group() : nullptr, !condition);
   }
 
   // Makes the tables of each tile with items, and advects the particles that giveAll(item, give)
