@@ -90,25 +90,27 @@ private:
 
 } // namespace
 
+vtkMPIController* mpiController()
+{
+  return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+}
+
 bool haveSeveralRanks()
 {
-  auto* controller =
-    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  vtkMPIController* controller = mpiController();
   return controller && controller->GetNumberOfProcesses() > 1;
 }
 
 bool sharesWithRanks(int piece, int pieces)
 {
-  auto* controller =
-    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  vtkMPIController* controller = mpiController();
   return controller && pieces > 1 && pieces == controller->GetNumberOfProcesses() &&
     piece == controller->GetLocalProcessId();
 }
 
 RankAgreement compareRanks(const std::string& subject, std::uint64_t fingerprint, int& rank)
 {
-  auto* controller =
-    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  vtkMPIController* controller = mpiController();
   const int ranks = controller->GetNumberOfProcesses();
   const int own = controller->GetLocalProcessId();
   static MessageQueue queue(controller);

@@ -3,8 +3,14 @@
 #ifndef RectifiedTransport_RankAgreement_h
 #define RectifiedTransport_RankAgreement_h
 
+#include "Bridge/VTKCompatibility.h"
+
 #include <cstdint>
 #include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkMPIController;
+VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -17,6 +23,9 @@ enum class RankAgreement
   Differs,
   NoAnswer, // within ten seconds: not all ranks execute the filter
 };
+
+// The global controller, where it is one of MPI; only where VTK has it.
+vtkMPIController* mpiController();
 
 bool haveSeveralRanks();
 

@@ -35,11 +35,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int meetingTag = 52718;
 constexpr int exchangeTag = 52719;
 
-vtkMPIController* mpiController()
-{
-  return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
-}
-
 std::chrono::duration<double> longestWait()
 {
   constexpr double usual = 120.0;
@@ -81,6 +76,7 @@ private:
   };
   // The subject; the number of the call on the rank that comes; the kind; a rank that is missing.
   using Message = std::array<unsigned long, 4>;
+  using Calls = std::map<unsigned long, unsigned long>; // the subjects of those that wait
   struct Send
   {
     Message Content;
@@ -143,7 +139,7 @@ private:
       {
         for (Message message; this->Receive(rank, message);)
         {
-          std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
+          Calls& waiting = this->Waiting[rank];
           if (message[2] == Comes)
           {
             waiting[message[1]] = message[0];
@@ -153,15 +149,15 @@ private:
             waiting.erase(message[1]);
           }
         }
-        missing = missing == 0 && !this->IsWaiting(rank, subject) ? rank : missing;
+        const Calls& waiting = this->Waiting[rank];
+        missing = missing == 0 && callFor(subject, waiting) == waiting.end() ? rank : missing;
       }
       return missing == 0;
     });
     for (int rank = 1; rank < ranks; ++rank)
     {
-      std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
-      const auto call = std::find_if(
-        waiting.begin(), waiting.end(), [&](const auto& entry) { return entry.second == subject; });
+      Calls& waiting = this->Waiting[rank];
+      const auto call = callFor(subject, waiting);
       if (call != waiting.end())
       {
         this->SendTo(rank,
@@ -176,16 +172,15 @@ private:
     }
   }
 
-  bool IsWaiting(int rank, std::uint64_t subject)
+  static Calls::const_iterator callFor(std::uint64_t subject, const Calls& waiting)
   {
-    const std::map<unsigned long, unsigned long>& waiting = this->Waiting[rank];
-    return std::any_of(
+    return std::find_if(
       waiting.begin(), waiting.end(), [&](const auto& entry) { return entry.second == subject; });
   }
 
   void Come(std::uint64_t subject)
   {
-    const unsigned long call = ++this->Calls;
+    const unsigned long call = ++this->OwnCalls;
     this->SendTo(0, { subject, call, Comes, 0 });
     Message answer{};
     // Twice as long, as the first rank may come late and then waits itself.
@@ -203,9 +198,8 @@ private:
 
   vtkMPIController* Controller;
   std::list<Send> Sends;
-  unsigned long Calls = 0;
-  // On the first rank, of each other one: the subjects of the calls that wait.
-  std::map<int, std::map<unsigned long, unsigned long>> Waiting;
+  unsigned long OwnCalls = 0;
+  std::map<int, Calls> Waiting; // on the first rank, of each other one
 };
 
 class MpiRun final : public RankRun
