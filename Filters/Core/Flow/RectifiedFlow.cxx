@@ -5,7 +5,7 @@
 #include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/SortedPoints.h"
-#include "Core/Flow/TiledFlow.h"
+#include "Core/Flow/Tiles/TiledFlow.h"
 #include "Core/Geometry/CountText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"

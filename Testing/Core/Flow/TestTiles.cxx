@@ -2,7 +2,7 @@
 // Flows with tiles, against those with whole tables. The limits make the tables of small densities
 // as coarse, and their tiles as many, as those of large ones.
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Flow/TilePlan.h"
+#include "Core/Flow/Tiles/TilePlan.h"
 
 #include "../../MemoryLimit.h"
 #include "RecordingContext.h"

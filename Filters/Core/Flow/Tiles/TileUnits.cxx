@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/TileUnits.h"
+#include "Core/Flow/Tiles/TileUnits.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Flow/TilePlan.h"
+#include "Core/Flow/Tiles/TilePlan.h"
 
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Tables/GradedTables.h"

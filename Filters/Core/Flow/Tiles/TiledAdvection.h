@@ -5,9 +5,9 @@
 
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/NodeAdvance.h"
-#include "Core/Flow/TileEntries.h"
-#include "Core/Flow/TilePlan.h"
-#include "Core/Flow/TileRun.h"
+#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TilePlan.h"
+#include "Core/Flow/Tiles/TileRun.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/GradedTables.h"
 

@@ -4,7 +4,7 @@
 #define RectifiedTransport_TiledFlow_h
 
 #include "Core/Flow/KeptFlowMap.h"
-#include "Core/Flow/TiledAdvection.h"
+#include "Core/Flow/Tiles/TiledAdvection.h"
 #include "Core/Tables/DensityShare.h"
 
 #include <cstdint>

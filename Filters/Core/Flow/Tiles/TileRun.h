@@ -5,10 +5,10 @@
 #define RectifiedTransport_TileRun_h
 
 #include "Core/Flow/AdvectionRun.h"
-#include "Core/Flow/TileEntries.h"
-#include "Core/Flow/TileLanes.h"
-#include "Core/Flow/TilePlan.h"
-#include "Core/Flow/TileUnits.h"
+#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileLanes.h"
+#include "Core/Flow/Tiles/TilePlan.h"
+#include "Core/Flow/Tiles/TileUnits.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Tables/GradedTables.h"
 #include "Core/Tables/SharedDensity.h"
