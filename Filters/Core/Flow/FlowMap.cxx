@@ -3,6 +3,7 @@
 
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <atomic>
@@ -66,7 +67,8 @@ public:
   }
 
   // Makes the records, each from the finest of the coarser levels that may be interpolated there,
-  // else from scratch. Returns the number of velocity evaluations.
+  // else from scratch; each rank some of them, which all get. Returns the number of velocity
+  // evaluations here.
   std::int64_t Advance()
   {
     const auto fill = [this](const std::int64_t* numbers, int count, double* places) {
@@ -81,9 +83,18 @@ public:
         }
       }
     };
-    return NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
-      .Run(static_cast<std::int64_t>(this->Marks.size()), this->Job.Map->LevelCount,
-        this->Marks.data(), fill);
+    const auto nodes = static_cast<std::int64_t>(this->Marks.size());
+    const Ranks* ranks = this->Work.Group();
+    const RankShare share(nodes, ranks);
+    const std::int64_t evaluations =
+      NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
+        .Run(share.First, share.Count, this->Job.Map->LevelCount, this->Marks.data(), fill);
+    if (ranks)
+    {
+      gatherParts(*ranks, shareStarts(nodes, this->RecordSize(), *ranks), this->Level.Records);
+      gatherParts(*ranks, shareStarts(nodes, 1, *ranks), this->Marks.data());
+    }
+    return evaluations;
   }
 
   // Sets to 1 or 0 whether the cells may not be interpolated: a corner met an empty box, or the
@@ -118,6 +129,12 @@ public:
 private:
   static constexpr std::int64_t nodeGrain = std::int64_t{ 1 } << 12;
 
+  std::int64_t RecordSize() const
+  {
+    return this->Job.Backward ? FlowMapLevel<Dimension>::BackwardRecord
+                              : FlowMapLevel<Dimension>::ForwardRecord;
+  }
+
   // Calls function(node, its place along the axis) for all nodes.
   template <class Function>
   void ForNodes(int axis, const Function& function)
@@ -143,9 +160,7 @@ private:
   // what a cubic leaves out.
   float Bend(std::int64_t node, std::int64_t stride) const
   {
-    constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
-    constexpr int backward = FlowMapLevel<Dimension>::BackwardRecord;
-    const int record = this->Job.Backward ? backward : forward;
+    const std::int64_t record = this->RecordSize();
     const float* first = this->Level.Records + node * record;
     const auto difference = [&](int entry) {
       const float* r = first + entry;

@@ -22,7 +22,8 @@ class FlowMap
 public:
   // Makes all levels of a shape, but forwards none from the first on of which more cells are bad
   // than the share of the steps that it saves. The job gives the tables, the direction, the steps
-  // and their weights. Throws std::bad_alloc and Cancelled.
+  // and their weights. The ranks of the context, if it has any, make it together. Throws
+  // std::bad_alloc and Cancelled.
   FlowMap(
     const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context);
   FlowMap(const FlowMap&) = delete;

@@ -5,6 +5,7 @@
 
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,18 +20,21 @@ template <int Dimension>
 class KeptFlowMap
 {
 public:
-  // Returns the map of a shape if it is kept; else makes it, which begin() gives a context for, and
-  // keeps it. Called by several runs at once. Throws NoMemoryForFlowMap and Cancelled.
+  // Returns the map of a shape if it is kept, on all ranks; else makes it, which begin() gives a
+  // context for, and keeps it. Called by several runs at once. Throws NoMemoryForFlowMap and
+  // Cancelled.
   template <class Begin>
   std::shared_ptr<const FlowMap<Dimension>> FindOrMake(const FlowMapShape<Dimension>& shape,
-    int refinement, const FlowJob<Dimension>& job, const Begin& begin, bool& isNew)
+    int refinement, const FlowJob<Dimension>& job, const Ranks* ranks, const Begin& begin,
+    bool& isNew)
   {
     const Steps steps{ shape.NumberOfSteps, refinement };
     std::shared_ptr<const FlowMap<Dimension>> map = this->Get(steps);
-    isNew = !map;
+    isNew = !onAllRanks(ranks, map != nullptr);
     if (isNew)
     {
       // Not locked: other runs make their own meanwhile, of the same bits.
+      map.reset();
       this->Set(steps, nullptr); // old and new maps side by side would double the peak
       const Context context = begin();
       try

@@ -30,15 +30,17 @@ public:
   {
   }
 
-  // Makes `count` records, each from the finest of the first `parents` levels of the job's map that
-  // may be interpolated there, else from scratch. fill(numbers, count, places) gives the places of
-  // at most BlockSize nodes. Sets the marks, one a node, of those that met an empty box to 1, those
-  // of the others to 0. Returns the number of velocity evaluations. Throws Cancelled.
+  // Makes the records of the nodes [first, first + count), each from the finest of the first
+  // `parents` levels of the job's map that may be interpolated there, else from scratch.
+  // fill(numbers, count, places) gives the places of at most BlockSize nodes. Sets the marks of the
+  // nodes that met an empty box to 1, those of the others to 0. Returns the number of velocity
+  // evaluations. Throws Cancelled.
   template <class Fill>
-  std::int64_t Run(std::int64_t count, int parents, unsigned char* marks, const Fill& fill)
+  std::int64_t Run(
+    std::int64_t first, std::int64_t count, int parents, unsigned char* marks, const Fill& fill)
   {
     std::vector<std::int64_t> left(static_cast<std::size_t>(count));
-    std::iota(left.begin(), left.end(), std::int64_t{ 0 });
+    std::iota(left.begin(), left.end(), first);
     std::int64_t evaluations = 0;
     for (int parent = parents - 1; parent >= -1 && !left.empty(); --parent)
     {

@@ -203,7 +203,7 @@ struct RectifiedFlow<Dimension>::Internals
     KeptFlowMap<Dimension>& kept = this->Maps[job.Backward ? 1 : 0];
     bool isNew = false;
     auto map = kept.FindOrMake(
-      shape, shared.Refinement, job,
+      shape, shared.Refinement, job, run.Group(),
       [&]() { return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)); }, isNew);
     run.UseMap(std::move(map), isNew);
   }

@@ -109,6 +109,36 @@ inline bool onAllRanks(const Ranks* ranks, bool condition)
   return ranks ? sumOverRanks<std::int64_t>(ranks, condition ? 0 : 1) == 0 : condition;
 }
 
+// Of one array, whose part [starts[r], starts[r + 1]) rank r has: all of it on all ranks, in
+// messages of bounded size.
+template <class T>
+void gatherParts(const Ranks& ranks, const std::vector<std::int64_t>& starts, T* all)
+{
+  constexpr std::int64_t bytesAtOnce = std::int64_t{ 1 } << 24;
+  const std::int64_t most =
+    std::max<std::int64_t>(1, bytesAtOnce / (ranks.Count() * static_cast<std::int64_t>(sizeof(T))));
+  std::int64_t longest = 0;
+  for (std::size_t rank = 0; rank + 1 < starts.size(); ++rank)
+  {
+    longest = std::max(longest, starts[rank + 1] - starts[rank]);
+  }
+  const auto own = static_cast<std::size_t>(ranks.Own());
+  for (std::int64_t done = 0; done < longest; done += most)
+  {
+    const std::int64_t count =
+      std::clamp<std::int64_t>(starts[own + 1] - starts[own] - done, 0, most);
+    const std::vector<Bytes> parts =
+      ranks.Gather(toBytes(all + starts[own] + done, static_cast<std::size_t>(count)));
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    {
+      if (rank != own && !parts[rank].empty())
+      {
+        std::memcpy(all + starts[rank] + done, parts[rank].data(), parts[rank].size());
+      }
+    }
+  }
+}
+
 // [0, count) divided among the ranks as evenly as may be.
 struct RankShare
 {
@@ -125,6 +155,19 @@ struct RankShare
   std::int64_t First;
   std::int64_t Count;
 };
+
+// Where the shares of all ranks begin, and the end, of what has `each` values.
+inline std::vector<std::int64_t> shareStarts(
+  std::int64_t count, std::int64_t each, const Ranks& ranks)
+{
+  std::vector<std::int64_t> starts;
+  for (int rank = 0; rank < ranks.Count(); ++rank)
+  {
+    starts.push_back(RankShare(count, ranks.Count(), rank).First * each);
+  }
+  starts.push_back(count * each);
+  return starts;
+}
 
 } // namespace RectifiedTransport
 

@@ -247,18 +247,14 @@ void GradedTables<Dimension>::AddShared(
   const std::int64_t rows = this->Occupied.size() / this->Tables.WordsPerRow / nodes.back();
   const std::int64_t words = this->Tables.WordsPerRow * rows; // of a slice
   std::fill_n(this->Records.data(), stride, 0.0);
-  // Of what has `each` values for each of the places along the axis.
+  // Of what has `each` values for each of the places along the axis, of all ranks.
   const auto gather = [&](auto* all, std::int64_t each, const auto& placeOf) {
-    const std::int64_t first = placeOf(own.First) * each;
-    const std::int64_t end = placeOf(own.End) * each;
-    const std::vector<Bytes> parts =
-      ranks.Gather(toBytes(all + first, static_cast<std::size_t>(end - first)));
-    for (int rank = 0; rank < ranks.Count(); ++rank)
+    std::vector<std::int64_t> starts;
+    for (int rank = 0; rank <= ranks.Count(); ++rank)
     {
-      const Bytes& part = parts[static_cast<std::size_t>(rank)];
-      std::copy(part.begin(), part.end(),
-        reinterpret_cast<char*>(all + placeOf(layersOf(rank).First) * each));
+      starts.push_back(placeOf(layersOf(rank).First) * each);
     }
+    gatherParts(ranks, starts, all);
   };
   const auto layerOf = [](std::int64_t layer) { return layer; };
   gather(this->Records.data() + stride, stride, layerOf);

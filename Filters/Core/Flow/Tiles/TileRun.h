@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tables of one tile after another, and the particles that are advected on them (TilePlan.h).
-// On several ranks each of them makes the tables of some tiles, for the particles of all.
+// On several ranks each of them makes the tables of some tiles, for its own particles and those of
+// others.
 #ifndef RectifiedTransport_TileRun_h
 #define RectifiedTransport_TileRun_h
 
@@ -8,7 +9,8 @@
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TileLanes.h"
 #include "Core/Flow/Tiles/TilePlan.h"
-#include "Core/Flow/Tiles/TileUnits.h"
+#include "Core/Flow/Tiles/TileSchedule.h"
+#include "Core/Flow/Tiles/TileVisitors.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Tables/GradedTables.h"
 #include "Core/Tables/SharedDensity.h"
@@ -17,8 +19,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -89,23 +89,7 @@ public:
       GridSize<Dimension> high;
       this->Plan.FindCells(tile, low, high);
       this->BuildTile(*this->Density, low, high, from, to);
-      const FlowJob<Dimension> job = this->TileJob(stage);
-      this->Work.For(
-        count, grain,
-        [&](std::int64_t b, std::int64_t e) {
-          TileLanes<Dimension> lanes(
-            job, stage.Pass, stage.IsKept, positions, left, this->Count.Evaluations);
-          for (std::int64_t item = first + b; item < first + e && !this->Work.ShouldStop(); ++item)
-          {
-            giveAll(
-              items[item], [&](const double* values, std::int64_t index, std::int64_t particle) {
-                std::copy_n(values, lanes.ValuesEach(), lanes.Next());
-                lanes.Add(index, particle);
-              });
-          }
-          lanes.Advance();
-        },
-        grain);
+      this->AdvectItems(items, first, first + count, stage, positions, left, giveAll);
     }
   }
 
@@ -138,148 +122,112 @@ private:
     this->BeginStage(from, to, 1.0);
   }
 
-  // Particles that are sent to the rank that has their tile.
-  struct Sent
+  // Advects the particles of the items [first, last).
+  template <class Item, class GiveAll>
+  void AdvectItems(const ByTile<Item>& items, std::int64_t first, std::int64_t last,
+    const TileStage<Dimension>& stage, PointSpan<Dimension> positions, ParticleMask& left,
+    const GiveAll& giveAll)
   {
-    std::vector<double> Values;
-    std::vector<std::int64_t> Index;
-    std::vector<std::int64_t> Particle;
-  };
+    const FlowJob<Dimension> job = this->TileJob(stage);
+    this->Work.For(
+      last - first, grain,
+      [&](std::int64_t b, std::int64_t e) {
+        TileLanes<Dimension> lanes(
+          job, stage.Pass, stage.IsKept, positions, left, this->Count.Evaluations);
+        for (std::int64_t item = first + b; item < first + e && !this->Work.ShouldStop(); ++item)
+        {
+          giveAll(
+            items[item], [&](const double* values, std::int64_t index, std::int64_t particle) {
+              std::copy_n(values, lanes.ValuesEach(), lanes.Next());
+              lanes.Add(index, particle);
+            });
+        }
+        lanes.Advance();
+      },
+      grain);
+  }
 
-  // In rounds: in each, every rank has the tables of one tile at most, gets the particles of all
-  // ranks that are in it, part by part, and sends back where they end.
+  // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
+  // those of others that visit it, which are sent back.
   template <class Item, class GiveAll>
   void RunTilesOfRanks(const ByTile<Item>& items, const TileStage<Dimension>& stage,
     PointSpan<Dimension> positions, ParticleMask& left, double begin, double end,
     const GiveAll& giveAll)
   {
     const Ranks& ranks = *this->Work.Group();
-    const std::vector<std::vector<TileUnit>> units = this->AssignTiles(items, ranks);
+    const std::vector<std::vector<TileUnit>> units = this->Schedule(items, ranks);
+    const auto own = static_cast<std::size_t>(ranks.Own());
     std::size_t rounds = 0;
     for (const std::vector<TileUnit>& those : units)
     {
       rounds = std::max(rounds, those.size());
     }
-    // Bounds what one rank may receive at a time.
-    constexpr std::int64_t mostReceived = std::int64_t{ 1 } << 21;
-    constexpr std::int64_t leastSent = std::int64_t{ 1 } << 12;
-    const auto most = static_cast<std::size_t>(std::max(leastSent, mostReceived / ranks.Count()));
     for (std::size_t round = 0; round < rounds; ++round)
     {
-      const double all = static_cast<double>(rounds);
-      this->MakeTileOfRound(units[static_cast<std::size_t>(ranks.Own())], round,
-        begin + (end - begin) * static_cast<double>(round) / all,
-        begin + (end - begin) * static_cast<double>(round + 1) / all);
-      std::vector<std::int64_t> next(units.size());
-      std::vector<std::int64_t> last(units.size());
-      for (std::size_t rank = 0; rank < units.size(); ++rank)
+      const double each = (end - begin) / static_cast<double>(rounds);
+      const double from = begin + each * static_cast<double>(round);
+      const bool hasTile = round < units[own].size();
+      this->MakeTile(hasTile ? &units[own][round] : nullptr, from, from + each);
+      if (hasTile)
       {
-        if (round < units[rank].size())
+        const std::int64_t start = items.Start(units[own][round].Tile);
+        for (const TileVisit& visit : units[own][round].Visits)
         {
-          const TileUnit& unit = units[rank][round];
-          const std::int64_t first = items.Start(unit.Tile);
-          const std::int64_t count = items.Start(unit.Tile + 1) - first;
-          next[rank] = first + unit.FirstOf(count);
-          last[rank] = first + unit.EndOf(count);
+          if (visit.From == ranks.Own())
+          {
+            this->AdvectItems(
+              items, start + visit.First, start + visit.End, stage, positions, left, giveAll);
+          }
         }
       }
-      bool hasMore = true;
-      while (this->HasAnyRank(hasMore))
+      TileVisitors<Dimension, Item> visitors(items, units, round, ranks);
+      while (visitors.HaveMore())
       {
-        hasMore = false;
-        std::vector<Sent> sent(units.size());
-        for (std::size_t rank = 0; rank < units.size(); ++rank)
-        {
-          Sent& those = sent[rank];
-          const auto each =
-            static_cast<std::size_t>(TileLanes<Dimension>::valuesOf(stage.FromStates));
-          const auto give = [&](const double* values, std::int64_t index, std::int64_t particle) {
-            those.Values.insert(those.Values.end(), values, values + each);
-            those.Index.push_back(index);
-            those.Particle.push_back(particle);
-          };
-          for (; next[rank] < last[rank] && those.Index.size() < most; ++next[rank])
-          {
-            giveAll(items[next[rank]], give);
-          }
-          hasMore = hasMore || next[rank] < last[rank];
-        }
-        this->ExchangeAndAdvect(stage, sent, positions, left, ranks);
+        const int values = TileLanes<Dimension>::valuesOf(stage.FromStates);
+        const std::vector<Bytes> received = ranks.Exchange(visitors.Leave(values, giveAll));
+        visitors.Return(
+          ranks.Exchange(this->AdvectReceived(stage, received)), stage.IsKept, positions, left);
       }
     }
   }
 
   template <class Item>
-  std::vector<std::vector<TileUnit>> AssignTiles(
-    const ByTile<Item>& items, const Ranks& ranks) const
+  std::vector<std::vector<TileUnit>> Schedule(const ByTile<Item>& items, const Ranks& ranks) const
   {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(this->Plan.Count()));
-    for (std::size_t tile = 0; tile < counts.size(); ++tile)
+    std::vector<TileCount> own;
+    for (std::int64_t tile = 0; tile < this->Plan.Count(); ++tile)
     {
-      const auto number = static_cast<std::int64_t>(tile);
-      counts[tile] = items.Start(number + 1) - items.Start(number);
-    }
-    std::vector<std::int64_t> all(counts.size());
-    for (const Bytes& bytes : ranks.Gather(toBytes(counts)))
-    {
-      const auto theirs = fromBytes<std::int64_t>(bytes);
-      for (std::size_t tile = 0; tile < all.size(); ++tile)
+      const std::int64_t count = items.Start(tile + 1) - items.Start(tile);
+      if (count > 0)
       {
-        all[tile] += theirs[tile];
+        own.push_back({ tile, count });
       }
+    }
+    std::vector<std::vector<TileCount>> all;
+    for (const Bytes& bytes : ranks.Gather(toBytes(own)))
+    {
+      all.push_back(fromBytes<TileCount>(bytes));
     }
     // Measured: a cell of a tile's tables takes about 1/50 of the time of a particle.
     constexpr double cell = 0.02;
-    const double particlesOfItem = std::is_integral_v<Item> ? 1 : BlockSize;
-    return assignTiles(all,
-      cell * numberOfCells<Dimension>(this->Plan.MostCells()) / particlesOfItem, ranks.Count());
+    const double particlesOfItem = TileVisitors<Dimension, Item>::ParticlesOfItem;
+    return scheduleTiles(
+      all, cell * numberOfCells<Dimension>(this->Plan.MostCells()) / particlesOfItem);
   }
 
-  void MakeTileOfRound(
-    const std::vector<TileUnit>& units, std::size_t round, double begin, double end)
+  // nullptr where this rank needs none: others may need its part of the density.
+  void MakeTile(const TileUnit* unit, double from, double to)
   {
     GridSize<Dimension> low{};
     GridSize<Dimension> high{};
-    const bool hasTile = round < units.size();
-    if (hasTile)
+    if (unit)
     {
-      this->Plan.FindCells(units[round].Tile, low, high);
+      this->Plan.FindCells(unit->Tile, low, high);
     }
     const auto values = this->OfRanks->Gather(low, high);
-    if (hasTile)
+    if (unit)
     {
-      this->BuildTile(*values, low, high, begin, end);
-    }
-  }
-
-  void ExchangeAndAdvect(const TileStage<Dimension>& stage, std::vector<Sent>& sent,
-    PointSpan<Dimension> positions, ParticleMask& left, const Ranks& ranks)
-  {
-    std::vector<Bytes> parts;
-    for (Sent& those : sent)
-    {
-      parts.push_back(toBytes(those.Values));
-      those.Values = {};
-    }
-    const std::vector<Bytes> ends =
-      ranks.Exchange(this->AdvectReceived(stage, ranks.Exchange(std::move(parts))));
-    for (std::size_t rank = 0; rank < sent.size(); ++rank)
-    {
-      const Sent& those = sent[rank];
-      const std::size_t count = those.Index.size();
-      const char* unresolved = ends[rank].data() + count * sizeof(double) * Dimension;
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        if (unresolved[i] == 0 || stage.IsKept)
-        {
-          std::memcpy(positions[those.Index[i]], ends[rank].data() + i * sizeof(double) * Dimension,
-            sizeof(double) * Dimension);
-        }
-        if (unresolved[i] != 0)
-        {
-          left.Add(those.Particle[i]);
-        }
-      }
+      this->BuildTile(*values, low, high, from, to);
     }
   }
 

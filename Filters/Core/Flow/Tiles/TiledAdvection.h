@@ -304,7 +304,7 @@ private:
       return extra.Particle[static_cast<std::size_t>(number)];
     };
     this->Count.Evaluations += NodeAdvance<Dimension>(job, level, this->Work)
-                                 .Run(count, parents, extra.Troubled.data(),
+                                 .Run(0, count, parents, extra.Troubled.data(),
                                    [&](const std::int64_t* numbers, int length, double* places) {
                                      for (int i = 0; i < length; ++i)
                                      {

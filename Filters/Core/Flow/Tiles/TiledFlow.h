@@ -83,7 +83,7 @@ public:
     {
       bool isNew = false;
       map = this->Maps[isBackward ? 1 : 0].FindOrMake(
-        plan.Shape, 0, shared.Job,
+        plan.Shape, 0, shared.Job, context.Group,
         [&]() {
           progress.BeginStage(plan.Shape.Cost / (plan.Shape.Cost + particles * plan.HandOver));
           return progress.Stage();

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/Tiles/TileSchedule.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::int64_t sumOf(const std::vector<TileVisit>& visits)
+{
+  return std::accumulate(visits.begin(), visits.end(), std::int64_t{ 0 },
+    [](std::int64_t sum, const TileVisit& visit) { return sum + visit.Count(); });
+}
+
+class Scheduling
+{
+public:
+  Scheduling(const std::vector<std::vector<TileCount>>& counts, double costOfTables)
+    : CostOfTables(costOfTables)
+    , Units(counts.size())
+  {
+    constexpr double uneven = 1.125; // of a rank's items to its part of all
+    // A visit costs about a fourth of what tables of its own would for that many items.
+    constexpr double worthwhile = 4.0;
+    std::int64_t all = 0;
+    for (const std::vector<TileCount>& those : counts)
+    {
+      for (const TileCount& count : those)
+      {
+        all += count.Items;
+      }
+    }
+    this->Least = std::max<std::int64_t>(1, static_cast<std::int64_t>(worthwhile * costOfTables));
+    this->Most = std::max(this->Least,
+      static_cast<std::int64_t>(
+        uneven * static_cast<double>(all) / static_cast<double>(counts.size())));
+  }
+
+  void Add(const std::vector<std::vector<TileCount>>& counts)
+  {
+    for (std::size_t rank = 0; rank < counts.size(); ++rank)
+    {
+      std::vector<TileCount> own = counts[rank];
+      std::stable_sort(own.begin(), own.end(),
+        [](const TileCount& a, const TileCount& b) { return a.Items > b.Items; });
+      for (const TileCount& count : own)
+      {
+        this->AddOwn(rank, count);
+      }
+    }
+    std::vector<std::pair<std::int64_t, std::int64_t>> order; // items and tiles
+    for (const auto& [tile, visits] : this->Moving)
+    {
+      order.emplace_back(-sumOf(visits), tile);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [items, tile] : order)
+    {
+      for (const TileVisit& visit : this->Moving[tile])
+      {
+        this->AddMoving(tile, visit);
+      }
+    }
+  }
+
+  std::vector<std::vector<TileUnit>> Sorted() const
+  {
+    std::vector<std::vector<TileUnit>> sorted;
+    for (const Rank& rank : this->Units)
+    {
+      sorted.emplace_back();
+      for (const auto& [tile, visits] : rank.ByTile)
+      {
+        sorted.back().push_back({ tile, visits });
+      }
+      std::stable_sort(sorted.back().begin(), sorted.back().end(),
+        [](const TileUnit& a, const TileUnit& b) { return a.Count() > b.Count(); });
+    }
+    return sorted;
+  }
+
+private:
+  struct Rank
+  {
+    std::map<std::int64_t, std::vector<TileVisit>> ByTile;
+    std::int64_t Items = 0;
+    double Cost = 0.0; // with that of the tables
+  };
+
+  void AddOwn(std::size_t rank, const TileCount& count)
+  {
+    std::int64_t own = std::min(count.Items, this->Most - this->Units[rank].Items);
+    own = own < this->Least ? 0 : own;
+    const int from = static_cast<int>(rank);
+    if (own > 0)
+    {
+      this->Give(rank, count.Tile, { from, 0, own });
+    }
+    if (own < count.Items)
+    {
+      this->Moving[count.Tile].push_back({ from, own, count.Items });
+    }
+  }
+
+  // Divided where no rank may take all of it.
+  void AddMoving(std::int64_t tile, TileVisit visit)
+  {
+    while (visit.Count() > 0)
+    {
+      const std::size_t rank = this->Choose(tile, static_cast<std::size_t>(visit.From));
+      const std::int64_t taken =
+        std::min(visit.Count(), std::max(this->Least, this->Most - this->Units[rank].Items));
+      this->Give(rank, tile, { visit.From, visit.First, visit.First + taken });
+      visit.First += taken;
+    }
+  }
+
+  // One that makes the tile's tables and may take more, the one of least cost; else that of least
+  // cost of all, or the visitor's own where that costs no more.
+  std::size_t Choose(std::int64_t tile, std::size_t from) const
+  {
+    const auto cheaper = [this](std::size_t a, std::size_t b) {
+      return this->Units[a].Cost < this->Units[b].Cost;
+    };
+    std::size_t best = this->Units.size();
+    std::size_t least = 0;
+    for (std::size_t rank = 0; rank < this->Units.size(); ++rank)
+    {
+      least = cheaper(rank, least) ? rank : least;
+      const bool serves =
+        this->Units[rank].ByTile.count(tile) > 0 && this->Units[rank].Items < this->Most;
+      if (serves && (best == this->Units.size() || cheaper(rank, best)))
+      {
+        best = rank;
+      }
+    }
+    if (best < this->Units.size())
+    {
+      return best;
+    }
+    return this->Units[from].Cost <= this->Units[least].Cost ? from : least;
+  }
+
+  void Give(std::size_t rank, std::int64_t tile, const TileVisit& visit)
+  {
+    Rank& given = this->Units[rank];
+    std::vector<TileVisit>& visits = given.ByTile[tile];
+    given.Cost += static_cast<double>(visit.Count()) + (visits.empty() ? this->CostOfTables : 0.0);
+    given.Items += visit.Count();
+    visits.push_back(visit);
+  }
+
+  const double CostOfTables;
+  std::vector<Rank> Units;
+  std::map<std::int64_t, std::vector<TileVisit>> Moving; // by tile
+  std::int64_t Most = 0;                                 // items of a rank
+  std::int64_t Least = 0;                                // of a part of them in a tile
+};
+
+} // namespace
+
+std::int64_t TileUnit::Count() const
+{
+  return sumOf(this->Visits);
+}
+
+std::vector<std::vector<TileUnit>> scheduleTiles(
+  const std::vector<std::vector<TileCount>>& counts, double costOfTables)
+{
+  Scheduling scheduling(counts, costOfTables);
+  scheduling.Add(counts);
+  return scheduling.Sorted();
+}
+
+} // namespace RectifiedTransport

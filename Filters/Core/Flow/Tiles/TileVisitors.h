@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles that visit the ranks which have the tables of their tile, in one round.
+#ifndef RectifiedTransport_TileVisitors_h
+#define RectifiedTransport_TileVisitors_h
+
+#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileSchedule.h"
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension, class Item>
+class TileVisitors
+{
+public:
+  static constexpr std::int64_t ParticlesOfItem = std::is_integral_v<Item> ? 1 : BlockSize;
+
+  // Of the items of this rank; `units` are those of all ranks.
+  TileVisitors(const ByTile<Item>& items, const std::vector<std::vector<TileUnit>>& units,
+    std::size_t round, const Ranks& ranks)
+    : Items(items)
+    , Runs(units.size())
+    // Bounds what one rank may receive at a time.
+    , Most(std::max<std::int64_t>(
+        1, (std::int64_t{ 1 } << 18) / ParticlesOfItem / static_cast<std::int64_t>(units.size())))
+  {
+    for (std::size_t rank = 0; rank < units.size(); ++rank)
+    {
+      if (round >= units[rank].size())
+      {
+        continue;
+      }
+      const TileUnit& unit = units[rank][round];
+      std::vector<std::int64_t> counts(units.size());
+      for (const TileVisit& visit : unit.Visits)
+      {
+        if (visit.From != static_cast<int>(rank))
+        {
+          std::int64_t& count = counts[static_cast<std::size_t>(visit.From)];
+          count += visit.Count();
+          this->Longest = std::max(this->Longest, count);
+        }
+        if (visit.From != static_cast<int>(rank) && visit.From == ranks.Own())
+        {
+          const std::int64_t start = items.Start(unit.Tile);
+          this->Runs[rank].push_back({ start + visit.First, start + visit.End });
+        }
+      }
+    }
+  }
+
+  // On all ranks alike.
+  bool HaveMore() const { return this->Done < this->Longest; }
+
+  // The next ones, `each` values a particle, which giveAll(item, give) gives, for each rank.
+  template <class GiveAll>
+  std::vector<Bytes> Leave(int each, const GiveAll& giveAll)
+  {
+    this->Places.assign(this->Runs.size(), {});
+    std::vector<Bytes> parts(this->Runs.size());
+    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(each);
+    for (std::size_t rank = 0; rank < this->Runs.size(); ++rank)
+    {
+      Bytes& part = parts[rank];
+      std::vector<Place>& places = this->Places[rank];
+      const auto give = [&](const double* values, std::int64_t index, std::int64_t particle) {
+        const std::size_t size = part.size();
+        part.resize(size + bytes);
+        std::memcpy(part.data() + size, values, bytes);
+        places.push_back({ index, particle });
+      };
+      std::int64_t taken = 0;
+      for (Run& run : this->Runs[rank])
+      {
+        for (; run.Next < run.End && taken < this->Most; ++run.Next, ++taken)
+        {
+          giveAll(this->Items[run.Next], give);
+        }
+      }
+    }
+    this->Done += this->Most;
+    return parts;
+  }
+
+  // Writes where they ended, which is followed by a byte for each that says whether it is
+  // unresolved: those are added to what is left, and written only if they are kept.
+  void Return(const std::vector<Bytes>& ends, bool isKept, PointSpan<Dimension> positions,
+    ParticleMask& left) const
+  {
+    constexpr std::size_t bytes = sizeof(double) * Dimension;
+    for (std::size_t rank = 0; rank < ends.size(); ++rank)
+    {
+      const std::vector<Place>& places = this->Places[rank];
+      const char* end = ends[rank].data();
+      const char* unresolved = end + places.size() * bytes;
+      for (const Place& place : places)
+      {
+        if (*unresolved == 0 || isKept)
+        {
+          std::memcpy(positions[place.Index], end, bytes);
+        }
+        if (*unresolved != 0)
+        {
+          left.Add(place.Particle);
+        }
+        end += bytes;
+        ++unresolved;
+      }
+    }
+  }
+
+private:
+  struct Run
+  {
+    std::int64_t Next;
+    std::int64_t End;
+  };
+  struct Place
+  {
+    std::int64_t Index;
+    std::int64_t Particle;
+  };
+
+  const ByTile<Item>& Items;
+  std::vector<std::vector<Run>> Runs; // of items, for each rank
+  const std::int64_t Most;            // items at a time for a rank
+  std::int64_t Longest = 0;           // items of a rank for another one
+  std::int64_t Done = 0;
+  std::vector<std::vector<Place>> Places; // of those that are away
+};
+
+} // namespace RectifiedTransport
+
+#endif

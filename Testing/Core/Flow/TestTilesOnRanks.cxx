@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flows with tiles that several ranks compute together have the bits of one rank.
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Parallel/Ranks.h"
+#include "Core/Tables/SharedDensity.h"
+
+#include "TestDimensions.h"
+#include "TestFlow.h"
+#include "ThreadRanks.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace RectifiedTransport
+{
+namespace
+{
+
+template <int Dimension>
+TileLimits smallTiles()
+{
+  TileLimits limits;
+  limits.GradedNodes = Dimension == 3 ? 250000 : 20000;
+  limits.Width = 24;
+  return limits;
+}
+
+template <int Dimension>
+GridSize<Dimension> oddSize()
+{
+  return sizeFor<Dimension>({ 100 }, { 171, 127 }, { 77, 71, 67 });
+}
+
+// Boxes of a density that is in memory once. What lies outside of a box is not read.
+template <int Dimension>
+class BoxesOfDensity final : public SharedDensity<Dimension>
+{
+public:
+  BoxesOfDensity(const TestDensity<Dimension>& density, const Ranks& ranks)
+    : Size(density.Size)
+    , Whole(density.Source())
+    , Group(ranks)
+  {
+  }
+
+  std::unique_ptr<const DensityValues> Gather(
+    const GridSize<Dimension>& low, const GridSize<Dimension>& high) const override
+  {
+    EXPECT_TRUE(onAllRanks(&this->Group, true)); // all of them come
+    return std::make_unique<Box>(this->Size, this->Whole, low, high);
+  }
+
+private:
+  class Box final : public DensityValues
+  {
+  public:
+    Box(const GridSize<Dimension>& size, const DensityArray<Dimension, double>& whole,
+      const GridSize<Dimension>& low, const GridSize<Dimension>& high)
+      : Size(size)
+      , Whole(whole)
+      , Low(low)
+      , High(high)
+    {
+    }
+    void Read(std::int64_t first, std::int64_t count, double* values) const override
+    {
+      std::int64_t rest = first;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        const std::int64_t along = rest % this->Size[axis];
+        rest /= this->Size[axis];
+        const std::int64_t length = axis == 0 ? count : 1;
+        if (along < this->Low[axis] || along + length > this->High[axis])
+        {
+          throw std::logic_error("cells outside of the box are read");
+        }
+      }
+      this->Whole.Read(first, count, values);
+    }
+
+  private:
+    const GridSize<Dimension> Size;
+    const DensityArray<Dimension, double>& Whole;
+    const GridSize<Dimension> Low;
+    const GridSize<Dimension> High;
+  };
+
+  const GridSize<Dimension> Size;
+  const DensityArray<Dimension, double> Whole;
+  const Ranks& Group;
+};
+
+// A flow on one rank, and what it gives there.
+template <int Dimension>
+class RankFlow
+{
+public:
+  RankFlow(const TestDensity<Dimension>& density, const Ranks& ranks)
+    : Group(ranks)
+    , Density(density, ranks)
+    , Flow(density.Size, Density, this->RankContext(), smallTiles<Dimension>())
+  {
+  }
+
+  Context RankContext() const
+  {
+    Context context(this->Serial);
+    context.Group = &this->Group;
+    return context;
+  }
+
+private:
+  const SerialExecutor Serial;
+  const Ranks& Group;
+  const BoxesOfDensity<Dimension> Density;
+
+public:
+  const RectifiedFlow<Dimension> Flow;
+};
+
+// Each rank's share of the seeds, moved by move(flow, seeds, context); together.
+template <int Dimension, class Shares, class Move>
+Points<Dimension> runShares(const TestDensity<Dimension>& density, const Points<Dimension>& seeds,
+  int count, const Shares& shares, const Move& move)
+{
+  Points<Dimension> all(seeds.size());
+  runOnRanks(count, [&](const Ranks& ranks) {
+    const RankFlow<Dimension> run(density, ranks);
+    const std::int64_t first = shares(ranks.Own());
+    const std::int64_t last = shares(ranks.Own() + 1);
+    Points<Dimension> own(seeds.begin() + first, seeds.begin() + last);
+    move(run.Flow, own, run.RankContext());
+    std::copy(own.begin(), own.end(), all.begin() + first);
+  });
+  return all;
+}
+
+template <class T>
+using TilesOnRanks = DimensionTest<T>;
+TYPED_TEST_SUITE(TilesOnRanks, PlaneAndSpace);
+
+// Seeds in equal shares, and all of them on one rank; densities with empty regions, too, whose
+// particles are redone.
+TYPED_TEST(TilesOnRanks, PointsHaveTheBitsOfOneRank)
+{
+  constexpr int D = TypeParam::value;
+  for (const TestDensity<D>& density :
+    { twoGaussians<D>(oddSize<D>()), discWithHole<D>(oddSize<D>()) })
+  {
+    const DensityArray<D, double> source = density.Source();
+    const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+    const Points<D> seeds = randomPoints<D>(density.Size, 4001);
+    const auto end = static_cast<std::int64_t>(seeds.size());
+    for (const FlowMaps maps : OffAndOn)
+    {
+      const FlowOptions options = with(maps, steps(32));
+      const Points<D> forward = runForward(alone, seeds, options);
+      const Points<D> backward = runBackward(alone, seeds, options);
+      for (const int count : { 1, 2, 3 })
+      {
+        SCOPED_TRACE(nameOf(maps) + " on " + std::to_string(count));
+        const auto equal = [&](int rank) {
+          return rank < count ? RankShare(end, count, rank).First : end;
+        };
+        const auto onLast = [&](int rank) { return rank < count ? std::int64_t{ 0 } : end; };
+        const auto moveForward = [&](const RectifiedFlow<D>& flow, Points<D>& own,
+                                   const Context& context) {
+          flow.Forward(own, own, options, context);
+        };
+        const auto moveBackward = [&](const RectifiedFlow<D>& flow, Points<D>& own,
+                                    const Context& context) {
+          flow.Backward(own, own, options, context);
+        };
+        EXPECT_TRUE(sameBits<D>(forward, runShares<D>(density, seeds, count, equal, moveForward)));
+        EXPECT_TRUE(sameBits<D>(forward, runShares<D>(density, seeds, count, onLast, moveForward)));
+        EXPECT_TRUE(
+          sameBits<D>(backward, runShares<D>(density, seeds, count, equal, moveBackward)));
+      }
+    }
+  }
+}
+
+// Layers of a lattice, with so many samples in a tile that ranks make its tables for their own.
+TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
+{
+  constexpr int D = TypeParam::value;
+  constexpr int last = D - 1;
+  const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
+  const DensityArray<D, double> source = density.Source();
+  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+  const GridSize<D> lattice = evenSize<D>(D == 3 ? 80 : 150);
+  Points<D> expected(cellCount<D>(lattice));
+  const FlowOptions options = with(FlowMaps::Auto, steps(32));
+  alone.ForwardLattice(lattice, expected, options);
+  for (const int count : { 2, 3 })
+  {
+    Points<D> all(expected.size());
+    runOnRanks(count, [&](const Ranks& ranks) {
+      const RankFlow<D> run(density, ranks);
+      const RankShare share(lattice[last], &ranks);
+      LatticePart<D> part = LatticePart<D>::WholeOf(lattice);
+      part.Low[last] = share.First;
+      part.Cells[last] = share.Count;
+      const std::int64_t layer = part.Count() / share.Count;
+      run.Flow.ForwardLattice(lattice, part, cellCentre<D>(),
+        { all.data()->data() + D * share.First * layer, part.Count() }, options, run.RankContext());
+    });
+    EXPECT_TRUE(sameBits<D>(expected, all));
+  }
+}
+
+// The second time the map is kept on one of the ranks alone: all make it again.
+TYPED_TEST(TilesOnRanks, AgreeOnKeptMaps)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
+  const Points<D> seeds = randomPoints<D>(density.Size, 500);
+  const FlowOptions options = with(FlowMaps::On, steps(32));
+  const FlowOptions others = with(FlowMaps::On, steps(40));
+  const DensityArray<D, double> source = density.Source();
+  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+  const Points<D> expected = runForward(alone, seeds, options);
+  std::atomic<int> same{ 0 };
+  runOnRanks(2, [&](const Ranks& ranks) {
+    const RankFlow<D> first(density, ranks);
+    const RankFlow<D> second(density, ranks);
+    Points<D> found = runForward(first.Flow, seeds, options, first.RankContext());
+    // Flows whose histories differ by rank, as after a failure.
+    runForward(second.Flow, seeds, others, second.RankContext());
+    const RankFlow<D>& mixed = ranks.Own() == 0 ? first : second;
+    found = runForward(mixed.Flow, seeds, options, mixed.RankContext());
+    same += sameBits<D>(expected, found) ? 1 : 0;
+  });
+  EXPECT_EQ(same, 2);
+}
+
+} // namespace
+} // namespace RectifiedTransport
