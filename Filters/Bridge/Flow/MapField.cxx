@@ -2,13 +2,12 @@
 #include "Bridge/Flow/MapField.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Flow/MapDerivatives.h"
-#include "Core/Flow/MapDisplacement.h"
-#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace RectifiedTransport
@@ -29,39 +28,36 @@ vtkSmartPointer<vtkDoubleArray> arrayOn(double* values, int components, std::int
 } // namespace
 
 template <int D>
-MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples,
+MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
   const std::string& purpose, const Ranks* ranks)
   : Geometry(geometry)
   , Processes(ranks)
   , Lattice(samples.Size<D>())
   , OwnPart(LatticePart<D>::WholeOf(this->Lattice))
+  , Wanted(this->OwnPart)
+  , Kept(this->OwnPart)
 {
-  double count = numberOfCells<D>(this->Lattice);
   if (ranks)
   {
-    this->FindParts(samples, *ranks);
-    count = numberOfCells<D>(this->OwnPart.Cells);
+    this->FindParts(samples, wanted, *ranks);
   }
   constexpr double real = sizeof(double);
-  const bool sharesMemory = D == 3 && !ranks;
-  const double scratch = sharesMemory ? 0.0 : real * D * count;
-  requireMemory(purpose, 5.0 * real * count + scratch);
-  this->Around = this->OwnPart;
-  this->NumberOfSamples = static_cast<std::int64_t>(count);
-  if (!ranks)
-  {
-    this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, this->NumberOfSamples);
-  }
-  if (!sharesMemory)
+  const double kept = numberOfCells<D>(this->Kept.Cells) + static_cast<double>(this->Ahead);
+  const double count = numberOfCells<D>(this->Wanted.Cells);
+  const double vectors = D == 3 ? std::max(kept, count) : count;
+  const double scratch = D == 3 ? 0.0 : real * D * kept;
+  requireMemory(purpose, real * (3.0 * vectors + 2.0 * count) + scratch);
+  this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, static_cast<vtkIdType>(vectors));
+  if (D != 3)
   {
     withMemory(purpose, scratch,
-      [&]() { this->PositionBuffer = LargeBuffer<double>(this->NumberOfSamples * D); });
+      [&]() { this->PositionBuffer = LargeBuffer<double>(this->Kept.Count() * D); });
   }
 }
 
 // Pieces as VTK divides extents, of which points at common faces belong to the upper one.
 template <int D>
-void MapField<D>::FindParts(const ImageGrid& samples, const Ranks& ranks)
+void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks)
 {
   const Extent& whole = samples.Extent();
   int axis = 0;
@@ -89,6 +85,27 @@ void MapField<D>::FindParts(const ImageGrid& samples, const Ranks& ranks)
     }
     this->Held.push_back(this->BoxOf(part));
   }
+  this->Wanted = this->PartOf(wanted);
+  this->Kept = this->Wanted.Around(this->Lattice).With(this->OwnPart);
+  // Displacements are written layer by layer where positions of layers before were.
+  const int last = D - 1;
+  if (D == 3 && this->Wanted.Count() > 0 && this->Kept.Low[last] == this->Wanted.Low[last])
+  {
+    this->Ahead = this->Wanted.Count() / this->Wanted.Cells[last];
+  }
+}
+
+template <int D>
+LatticePart<D> MapField<D>::PartOf(const TupleBox& box) const
+{
+  LatticePart<D> part{ {}, {} };
+  for (int a = 0; a < D && !box.IsEmpty(); ++a)
+  {
+    const auto along = static_cast<std::size_t>(this->Axes[static_cast<std::size_t>(a)]);
+    part.Low[a] = box.Low[along] - this->Start[along];
+    part.Cells[a] = box.High[along] - box.Low[along];
+  }
+  return part;
 }
 
 template <int D>
@@ -111,77 +128,82 @@ TupleBox MapField<D>::BoxOf(const LatticePart<D>& part) const
 template <int D>
 PointSpan<D> MapField<D>::Positions()
 {
-  double* own = this->PositionBuffer.data();
-  return { own ? own : this->Displacement->GetPointer(0), this->Around.Count() };
+  double* first =
+    D == 3 ? this->Displacement->GetPointer(3 * this->Ahead) : this->PositionBuffer.data();
+  return { first, this->Kept.Count() };
 }
 
-// What derivatives at the part's border depend on.
+// What derivatives at the border of the wanted samples depend on, too.
 template <int D>
-void MapField<D>::FetchAround()
+void MapField<D>::Complete()
 {
-  const LatticePart<D> around = this->OwnPart.Around(this->Lattice);
-  LargeBuffer<double> positions(around.Count() * D);
-  const auto from = arrayOn(this->PositionBuffer.data(), D, this->OwnPart.Count());
-  const auto to = arrayOn(positions.data(), D, around.Count());
-  exchangeBoxes(this->Held, this->BoxOf(around), *this->Processes, from, to);
-  this->PositionBuffer = std::move(positions);
-  this->Around = around;
+  const auto array = arrayOn(this->Positions().data(), D, this->Kept.Count());
+  completeBoxes(this->Held, this->BoxOf(this->Wanted.Around(this->Lattice)),
+    this->BoxOf(this->Kept), *this->Processes, array);
 }
 
 template <int D>
-double MapField<D>::Write(const RectifiedFlow<D>* flow, const TupleBox& wanted, Progress& progress,
-  double end, vtkDataSetAttributes* output)
+double MapField<D>::Write(
+  const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output)
 {
   if (this->Processes)
   {
-    this->FetchAround();
+    this->Complete();
   }
-  constexpr double partOfDerivatives = 0.4;
-  progress.BeginStage(progress.StageEnd() + partOfDerivatives * (end - progress.StageEnd()));
-  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays = this->WriteDerivatives(progress);
-  progress.BeginStage(end);
-  if (!this->Displacement)
-  {
-    this->Displacement = newArray<vtkDoubleArray>("Displacement", 3, this->NumberOfSamples);
-  }
-  const PointSpan<3> displacements(this->Displacement->GetPointer(0), this->NumberOfSamples);
-  const double cost = this->Processes
-    ? writeDisplacements<D>(this->Geometry, this->Lattice, this->OwnPart, this->Positions(), flow,
-        displacements, progress.Stage())
-    : writeDisplacements<D>(
-        this->Geometry, this->Lattice, this->Positions(), flow, displacements, progress.Stage());
-  arrays.insert(arrays.begin(), std::exchange(this->Displacement, nullptr));
-  if (this->Processes)
-  {
-    this->PositionBuffer = {};
-    for (vtkSmartPointer<vtkDoubleArray>& array : arrays)
-    {
-      auto there =
-        newArray<vtkDoubleArray>(array->GetName(), array->GetNumberOfComponents(), wanted.Count());
-      exchangeBoxes(this->Held, wanted, *this->Processes, array, there);
-      array = there;
-    }
-  }
-  output->SetVectors(arrays[0]);
-  output->AddArray(arrays[1]);
-  output->AddArray(arrays[2]);
-  return cost;
-}
-
-template <int D>
-std::vector<vtkSmartPointer<vtkDoubleArray>> MapField<D>::WriteDerivatives(Progress& progress)
-{
-  auto divergences = newArray<vtkDoubleArray>("Divergence", 1, this->NumberOfSamples);
-  auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, this->NumberOfSamples);
-  double* divergence = divergences->GetPointer(0);
-  double* determinant = determinants->GetPointer(0);
-  const MapDerivatives<D> derivatives(this->Lattice, this->OwnPart,
+  const std::int64_t count = this->Wanted.Count();
+  auto divergences = newArray<vtkDoubleArray>("Divergence", 1, count);
+  auto determinants = newArray<vtkDoubleArray>("JacobianDeterminant", 1, count);
+  const MapDerivatives<D> derivatives(this->Lattice, this->Wanted, this->Kept,
     latticeStep<D>(this->Lattice, this->Geometry.template Size<D>()), this->Positions());
+  const MapDisplacement<D> moves(
+    this->Geometry, this->Lattice, this->Wanted, this->Kept, this->Positions(), flow);
+  DisplacementSums sums;
+  const bool hasOwn = this->Wanted.Contains(this->OwnPart);
+  if (!hasOwn)
+  {
+    progress.BeginStage(0.5 * (progress.StageEnd() + end));
+    MapDisplacement<D>(
+      this->Geometry, this->Lattice, this->OwnPart, this->Kept, this->Positions(), flow)
+      .Count(sums, progress);
+  }
+  this->WriteSamples(derivatives, moves, sums, progress, end, divergences->GetPointer(0),
+    determinants->GetPointer(0));
+  output->SetVectors(std::exchange(this->Displacement, nullptr));
+  output->AddArray(divergences);
+  output->AddArray(determinants);
+  return moves.MeanSquare(sumOverRanks(this->Processes, sums));
+}
+
+// Derivatives depend on the positions of the layers before and after.
+template <int D>
+void MapField<D>::WriteSamples(const MapDerivatives<D>& derivatives,
+  const MapDisplacement<D>& moves, DisplacementSums& sums, Progress& progress, double end,
+  double* divergence, double* determinant)
+{
+  const std::int64_t count = this->Wanted.Count();
+  const bool isInPlace = D == 3 && this->Processes;
+  const std::int64_t layers = isInPlace ? this->Wanted.Cells[D - 1] : 1;
+  const std::int64_t each = count / std::max<std::int64_t>(1, layers);
+  const LatticePart<D> counted =
+    this->Wanted.Contains(this->OwnPart) ? this->OwnPart : LatticePart<D>{ {}, {} };
+  const PointSpan<3> displacements(this->Displacement->GetPointer(0), count);
+  const double begin = progress.StageEnd();
   constexpr std::int64_t grain = 4096;
-  progress.For(this->NumberOfSamples, grain, [&](std::int64_t first, std::int64_t last) {
-    derivatives.Write(first, last, divergence, determinant);
-  });
-  return { divergences, determinants };
+  constexpr double partOfDerivatives = 0.4;
+  for (std::int64_t layer = 0; layer < layers; ++layer)
+  {
+    const double all = static_cast<double>(layers);
+    const double from = begin + (end - begin) * static_cast<double>(layer) / all;
+    const double to = begin + (end - begin) * static_cast<double>(layer + 1) / all;
+    progress.BeginStage(from + partOfDerivatives * (to - from));
+    progress.For(each, grain, [&](std::int64_t first, std::int64_t last) {
+      derivatives.Write(layer * each + first, layer * each + last, divergence, determinant);
+    });
+    progress.BeginStage(to);
+    moves.Write(layer * each, (layer + 1) * each, counted, displacements, sums, progress);
+  }
+  progress.BeginStage(end);
+  this->Displacement->SetNumberOfTuples(static_cast<vtkIdType>(count));
 }
 
 template class MapField<1>;

@@ -56,10 +56,10 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const double count = all / (ranks ? ranks->Count() : 1);
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
     (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
-  MapField<D> field(density.Grid(), samples,
+  const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  MapField<D> field(density.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks);
   applyGrid(samples, output);
-  const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   if (ranks)
   {
     Extent extent = wanted; // VTK takes no constant one
@@ -72,15 +72,16 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
   const FlowReport report = map.Backward
-    ? flow.BackwardLattice(lattice, field.Part(), field.Positions(), map.Flow, progress.Stage())
-    : flow.ForwardLattice(
-        lattice, field.Part(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
+    ? flow.BackwardLattice(
+        lattice, field.Part(), field.Within(), field.Positions(), map.Flow, progress.Stage())
+    : flow.ForwardLattice(lattice, field.Part(), field.Within(), cellCentre<D>(), field.Positions(),
+        map.Flow, progress.Stage());
   if (map.Backward && ranks)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());
   }
-  const double cost = field.Write(map.Backward ? &flow : nullptr,
-    tuplesOf(wanted, owner, samples.Extent()), progress, 1.0, output->GetAttributes(owner));
+  const double cost =
+    field.Write(map.Backward ? &flow : nullptr, progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", cost);
   return { samples, all, sumOverRanks(ranks, report.MovedToMass) };
@@ -93,18 +94,20 @@ TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& want
 {
   const ImageGrid samples =
     gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+  Extent part = intersectionOf(wanted, samples.Extent());
+  part = isEmpty(part) ? Extent{ 0, -1, 0, -1, 0, -1 } : part;
   if (samples.Extent() == density.Grid().Extent())
   {
     vtkSmartPointer<vtkImageData> image = density.Image();
     if (density.Pieces())
     {
-      image = density.Pieces()->Gather(wanted);
+      image = density.Pieces()->Gather(part);
     }
     output->GetPointData()->PassData(image->GetPointData());
     output->GetCellData()->PassData(image->GetCellData());
   }
   return dispatchDimension(samples.Dimension(), makeMap<1>, makeMap<2>, makeMap<3>)(
-    *this, density, samples, wanted, cache, progress, output);
+    *this, density, samples, part, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

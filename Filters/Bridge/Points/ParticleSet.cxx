@@ -17,6 +17,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -182,7 +183,7 @@ double ParticleSet<D>::WriteParticles(
   this->SetPoints(output);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
-  data->AddArray(this->SeedPosition);
+  data->AddArray(std::exchange(this->SeedPosition, nullptr)); // not to be kept in memory here
   data->SetVectors(displacements);
   data->AddArray(masses);
   return cost;

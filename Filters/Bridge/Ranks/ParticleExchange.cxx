@@ -10,13 +10,14 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -71,77 +72,84 @@ std::vector<TupleRun> runsOfPoints(const std::vector<TupleRun>& particles, std::
   return points;
 }
 
+// How many particles each rank sends here, of those that this rank sends to each.
+std::vector<std::int64_t> exchangeCounts(
+  const std::vector<std::vector<TupleRun>>& sorted, const Ranks& ranks)
+{
+  std::vector<Bytes> sent;
+  for (const std::vector<TupleRun>& runs : sorted)
+  {
+    std::int64_t count = 0;
+    for (const TupleRun& run : runs)
+    {
+      count += run.Count;
+    }
+    sent.push_back(toBytes(&count, 1));
+  }
+  std::vector<std::int64_t> counts;
+  for (const Bytes& bytes : ranks.Exchange(std::move(sent)))
+  {
+    counts.push_back(fromBytes<std::int64_t>(bytes).front());
+  }
+  return counts;
+}
+
+// The tuples of an array, `each` a particle, for their ranks.
+std::vector<Bytes> pack(
+  vtkDataArray* array, std::int64_t each, const std::vector<std::vector<TupleRun>>& sorted)
+{
+  std::vector<Bytes> parts(sorted.size());
+  for (std::size_t rank = 0; rank < sorted.size(); ++rank)
+  {
+    appendTuples(array, runsOfPoints(sorted[rank], each), parts[rank]);
+  }
+  return parts;
+}
+
+void unpack(std::vector<Bytes> received, std::int64_t each, const std::vector<std::int64_t>& counts,
+  vtkDataArray* array)
+{
+  vtkIdType first = 0;
+  for (std::size_t rank = 0; rank < received.size(); ++rank)
+  {
+    const auto length = static_cast<vtkIdType>(counts[rank] * each);
+    takeTuples(received[rank].data(), { { first, length } }, array);
+    received[rank] = Bytes();
+    first += length;
+  }
+}
+
 } // namespace
 
+// Array by array, as each is in memory twice meanwhile.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress)
 {
   const std::vector<ArrayKind> kinds = sharedArrays(particles, ranks);
   vtkDataArray* places = particles->GetPoints()->GetData();
   const auto sorted = sortByOwner(places, points, owners, ranks, progress);
-  std::vector<Bytes> parts(sorted.size());
-  for (std::size_t rank = 0; rank < sorted.size(); ++rank)
-  {
-    const std::vector<TupleRun> runs = runsOfPoints(sorted[rank], points);
-    appendTuples(places, runs, parts[rank]);
-    for (const ArrayKind& kind : kinds)
-    {
-      const bool isOfPoints = kind.Owner == vtkDataObject::POINT;
-      appendTuples(kind.Find(particles), isOfPoints ? runs : sorted[rank], parts[rank]);
-    }
-  }
-  // How many there are precedes their arrays.
-  std::vector<std::int64_t> counts(parts.size());
-  for (std::size_t rank = 0; rank < sorted.size(); ++rank)
-  {
-    for (const TupleRun& run : sorted[rank])
-    {
-      counts[rank] += run.Count;
-    }
-  }
-  std::vector<Bytes> countBytes;
-  for (const std::int64_t count : counts)
-  {
-    countBytes.push_back(toBytes(&count, 1));
-  }
-  counts.clear();
-  std::int64_t all = 0;
-  for (const Bytes& bytes : ranks.Exchange(std::move(countBytes)))
-  {
-    counts.push_back(fromBytes<std::int64_t>(bytes).front());
-    all += counts.back();
-  }
+  const std::vector<std::int64_t> counts = exchangeCounts(sorted, ranks);
+  const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  const vtkSmartPointer<vtkPoints> moved = particles->GetPoints();
+  std::vector<Bytes> parts = pack(places, points, sorted);
+  places->Initialize(); // of no other data set
+  parts = ranks.Exchange(std::move(parts));
+  places->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
+  unpack(std::move(parts), points, counts, places);
 
-  const auto made = vtkSmartPointer<vtkDataArray>::Take(places->NewInstance());
-  made->SetName(places->GetName());
-  made->SetNumberOfComponents(3);
-  particles->Initialize(); // all of it is in bytes now
-  const std::vector<Bytes> received = ranks.Exchange(std::move(parts));
-
-  made->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
-  std::vector<vtkSmartPointer<vtkDataArray>> arrays;
+  vtkNew<vtkPolyData> arrays;
+  arrays->ShallowCopy(particles);
+  particles->Initialize();
+  particles->SetPoints(moved);
   for (const ArrayKind& kind : kinds)
   {
-    const bool isOfPoints = kind.Owner == vtkDataObject::POINT;
-    arrays.push_back(kind.Make(particles, static_cast<vtkIdType>(all * (isOfPoints ? points : 1))));
+    const std::int64_t each = kind.Owner == vtkDataObject::POINT ? points : 1;
+    parts = pack(kind.Find(arrays), each, sorted);
+    arrays->GetAttributes(kind.Owner)->RemoveArray(kind.Name.c_str());
+    parts = ranks.Exchange(std::move(parts));
+    unpack(
+      std::move(parts), each, counts, kind.Make(particles, static_cast<vtkIdType>(all * each)));
   }
-  vtkIdType first = 0;
-  for (std::size_t rank = 0; rank < received.size(); ++rank)
-  {
-    const std::vector<TupleRun> ofCells = { { first, static_cast<vtkIdType>(counts[rank]) } };
-    const std::vector<TupleRun> ofPoints = runsOfPoints(ofCells, points);
-    const char* bytes = takeTuples(received[rank].data(), ofPoints, made);
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-    {
-      bytes =
-        takeTuples(bytes, kinds[i].Owner == vtkDataObject::POINT ? ofPoints : ofCells, arrays[i]);
-    }
-    first += static_cast<vtkIdType>(counts[rank]);
-  }
-  vtkNew<vtkPoints> moved;
-  moved->SetDataType(made->GetDataType());
-  moved->SetData(made);
-  particles->SetPoints(moved);
   const auto cells = newParticleCells(static_cast<vtkIdType>(all), points, progress);
   if (points > 1)
   {

@@ -150,15 +150,15 @@ void BoxExchange::Append(vtkDataArray* from, const TupleBox& all, std::vector<By
 
 void BoxExchange::CopyOwn(vtkDataArray* from, const TupleBox& all, vtkDataArray* to) const
 {
-  const TupleBox& wanted = this->Wanted[this->Own];
+  const TupleBox& wanted = this->OwnWanted();
   const TupleBox part = this->PartOf(this->Own, wanted);
   copyTuples(from, runsOf(part, all), runsOf(part, wanted), to);
 }
 
-const char* BoxExchange::Take(const char* from, std::size_t rank, vtkDataArray* to) const
+const char* BoxExchange::Take(
+  const char* from, std::size_t rank, vtkDataArray* to, const TupleBox& all) const
 {
-  const TupleBox& wanted = this->Wanted[this->Own];
-  return takeTuples(from, runsOf(this->PartOf(rank, wanted), wanted), to);
+  return takeTuples(from, runsOf(this->PartOf(rank, this->OwnWanted()), all), to);
 }
 
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
@@ -180,18 +180,27 @@ void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
       }
       else
       {
-        bytes = array.Boxes->Take(bytes, rank, array.To);
+        bytes = array.Boxes->Take(bytes, rank, array.To, array.Boxes->OwnWanted());
       }
     }
     received[rank] = Bytes();
   }
 }
 
-void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
-  vtkDataArray* from, vtkDataArray* to)
+void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
+  const Ranks& ranks, vtkDataArray* array)
 {
   const BoxExchange boxes(held, wanted, ranks);
-  exchangeArrays({ { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to } }, ranks);
+  std::vector<Bytes> parts(held.size());
+  boxes.Append(array, all, parts);
+  const std::vector<Bytes> received = ranks.Exchange(std::move(parts));
+  for (std::size_t rank = 0; rank < received.size(); ++rank)
+  {
+    if (!boxes.IsOwn(rank))
+    {
+      boxes.Take(received[rank].data(), rank, array, all);
+    }
+  }
 }
 
 } // namespace RectifiedTransport

@@ -96,10 +96,12 @@ public:
   // Appends to the parts for the other ranks what they want of a contiguous array, whose tuples are
   // those of the box `all`; nullptr for zeros of one byte.
   void Append(vtkDataArray* from, const TupleBox& all, std::vector<Bytes>& parts) const;
-  // Takes what another rank sent from bytes on; returns where the next array begins. The ranks in
-  // descending order, and of this rank CopyOwn.
-  const char* Take(const char* from, std::size_t rank, vtkDataArray* to) const;
+  // Takes what another rank sent from bytes on, for an array whose tuples are those of the box
+  // `all`; returns where the next array begins. The ranks in descending order, and of this rank
+  // CopyOwn, to one of the wanted tuples.
+  const char* Take(const char* from, std::size_t rank, vtkDataArray* to, const TupleBox& all) const;
   void CopyOwn(vtkDataArray* from, const TupleBox& all, vtkDataArray* to) const;
+  const TupleBox& OwnWanted() const { return this->Wanted[this->Own]; }
   bool IsOwn(std::size_t rank) const { return rank == this->Own; }
 
 private:
@@ -120,9 +122,10 @@ struct BoxArrays
 };
 // Of several arrays together. Called by all ranks, with as many and the same ones.
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
-// Of one array whose tuples are those that this rank holds.
-void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
-  vtkDataArray* from, vtkDataArray* to);
+// Within one array, whose tuples are those of the box `all`: of these this rank has those that it
+// holds, and gets the wanted ones.
+void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
+  const Ranks& ranks, vtkDataArray* array);
 
 } // namespace RectifiedTransport
 

@@ -57,7 +57,7 @@ void LatticeOrder<Dimension>::Fill(
       for (int axis = Dimension; axis-- > 0;)
       {
         const std::int64_t cell = block.Low[axis] + place[axis];
-        *index = *index * this->Part.Cells[axis] + (cell - this->Part.Low[axis]);
+        *index = *index * this->Within.Cells[axis] + (cell - this->Within.Low[axis]);
         points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
       }
       ++index;

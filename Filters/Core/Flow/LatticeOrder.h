@@ -22,14 +22,17 @@ public:
   // `lattice` cells an axis on the box [0, size]; `place` is the point in its cell, in [0, 1].
   LatticeOrder(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size,
     const Point<Dimension>& place = cellCentre<Dimension>())
-    : LatticeOrder(lattice, LatticePart<Dimension>::WholeOf(lattice), size, place)
+    : LatticeOrder(lattice, LatticePart<Dimension>::WholeOf(lattice),
+        LatticePart<Dimension>::WholeOf(lattice), size, place)
   {
   }
-  // Of a part of the lattice.
+  // Of a part of the lattice, with the numbers of its cells in another part that contains it.
   LatticeOrder(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const GridSize<Dimension>& size, const Point<Dimension>& place = cellCentre<Dimension>())
+    const LatticePart<Dimension>& within, const GridSize<Dimension>& size,
+    const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
     , Part(part)
+    , Within(within)
     , Size(size)
     , Place(place)
   {
@@ -45,13 +48,14 @@ public:
   // The number of samples from `first` on: needs no preparation.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: their numbers in the part, axis 0 fastest, and
-  // their coordinates.
+  // Samples [first, first + count) of this order: their numbers, axis 0 fastest, and their
+  // coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
 private:
   GridSize<Dimension> Lattice;
   LatticePart<Dimension> Part;
+  LatticePart<Dimension> Within; // of the numbers
   GridSize<Dimension> Size;
   Point<Dimension> Place;
 };

@@ -17,7 +17,7 @@ void MapDerivatives<Dimension>::Write(
   for (int axis = 0; axis < Dimension; ++axis)
   {
     stride[axis] = cells;
-    cells *= this->Around.Cells[axis];
+    cells *= this->Within.Cells[axis];
   }
   GridSize<Dimension> cell = this->Part.CellOf(first);
   for (std::int64_t i = first; i < last; ++i)
@@ -25,7 +25,7 @@ void MapDerivatives<Dimension>::Write(
     // Row a is the derivative along axis a.
     Eigen::Matrix<double, Dimension, Dimension> jacobian;
     jacobian.setIdentity();
-    const std::int64_t at = this->Around.NumberOf(cell);
+    const std::int64_t at = this->Within.NumberOf(cell);
     double divergence = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
     {

@@ -24,15 +24,18 @@ public:
   // lattice cell in the same units.
   MapDerivatives(const GridSize<Dimension>& lattice, const Point<Dimension>& step,
     ConstPointSpan<Dimension> positions)
-    : MapDerivatives(lattice, LatticePart<Dimension>::WholeOf(lattice), step, positions)
+    : MapDerivatives(lattice, LatticePart<Dimension>::WholeOf(lattice),
+        LatticePart<Dimension>::WholeOf(lattice), step, positions)
   {
   }
-  // Of a part of the lattice: `positions` are those of the part with the cells around it.
+  // Of a part of the lattice: `positions` are those of another part, `within`, which contains the
+  // first with the cells around it.
   MapDerivatives(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const Point<Dimension>& step, ConstPointSpan<Dimension> positions)
+    const LatticePart<Dimension>& within, const Point<Dimension>& step,
+    ConstPointSpan<Dimension> positions)
     : Lattice(lattice)
     , Part(part)
-    , Around(part.Around(lattice))
+    , Within(within)
     , Step(step)
     , Positions(positions)
   {
@@ -44,7 +47,7 @@ public:
 private:
   GridSize<Dimension> Lattice;
   LatticePart<Dimension> Part;
-  LatticePart<Dimension> Around;
+  LatticePart<Dimension> Within;
   Point<Dimension> Step;
   ConstPointSpan<Dimension> Positions;
 };

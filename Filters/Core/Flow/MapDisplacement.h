@@ -6,7 +6,11 @@
 
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"
-#include "Core/Parallel/Context.h"
+#include "Core/Geometry/LengthScale.h"
+#include "Core/Parallel/ExactSum.h"
+#include "Core/Parallel/Progress.h"
+
+#include <cstdint>
 
 namespace RectifiedTransport
 {
@@ -14,24 +18,65 @@ namespace RectifiedTransport
 template <int Dimension>
 class RectifiedFlow;
 
-// Writes image minus centre of each cell of a lattice on the domain of `grid`; `positions` are the
-// images in index space, axis 0 fastest. In 3D positions and displacements may share memory.
-// Returns the mean squared displacement of the cells, in squared physical units: of those of equal
-// measure at time 0, and for a map backwards, which begins at the density, weighted with the share
-// of the mass of `density` that is in each. Throws std::overflow_error where that is past the
-// largest double, std::bad_alloc and Cancelled.
+// Weighted squares of displacements, summed exactly: over parts of a lattice in any order.
+struct DisplacementSums
+{
+  ExactSum Cost{};
+  ExactSum Weight{};
+
+  void Add(const DisplacementSums& other)
+  {
+    this->Cost.Add(other.Cost);
+    this->Weight.Add(other.Weight);
+  }
+};
+
+// Image minus centre of each cell of a lattice on the domain of `grid`.
+template <int Dimension>
+class MapDisplacement
+{
+public:
+  // Of a part of the lattice: `positions` are the images, in index space, of another part,
+  // `within`, which contains it, axis 0 fastest. For a map backwards, which begins at the density,
+  // cells weigh with the share of the mass of `density` that is in them; else equally.
+  MapDisplacement(const ImageGrid& grid, const GridSize<Dimension>& lattice,
+    const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+    ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density);
+
+  // Writes those of the part's cells [first, last), which may be where no other positions are that
+  // are still needed, and adds those that `counted` has to the sums. As the work of the current
+  // stage. Throws Cancelled.
+  void Write(std::int64_t first, std::int64_t last, const LatticePart<Dimension>& counted,
+    PointSpan<3> displacements, DisplacementSums& sums, Progress& progress) const;
+  // Adds all cells of the part to the sums, as the work of the current stage. Throws Cancelled.
+  void Count(DisplacementSums& sums, Progress& progress) const;
+
+  // The mean squared displacement, in squared physical units. Throws std::overflow_error where it
+  // is past the largest double.
+  double MeanSquare(const DisplacementSums& sums) const;
+
+private:
+  void Displace(const GridSize<Dimension>& cell, double* displacement) const;
+  void AddTo(
+    DisplacementSums& sums, const GridSize<Dimension>& cell, const double* displacement) const;
+
+  const ImageGrid& Grid;
+  const LengthScale Scale;
+  const GridSize<Dimension> Lattice;
+  const LatticePart<Dimension> Part;
+  const LatticePart<Dimension> Within;
+  const GridSize<Dimension> Size;
+  const Point<Dimension> Step;
+  const ConstPointSpan<Dimension> Positions;
+  const RectifiedFlow<Dimension>* const Density;
+};
+
+// Of the whole lattice; returns the mean square. In 3D positions and displacements may share
+// memory. Throws std::bad_alloc, std::overflow_error and Cancelled.
 template <int Dimension>
 double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& lattice,
   ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density,
   PointSpan<3> displacements, const Context& context = Context());
-// The same of a part of the lattice: `positions` are those of the part with the cells around it,
-// and not in the memory of the displacements. The mean is that over the parts of all ranks of the
-// context, which call this together with parts that do not overlap.
-template <int Dimension>
-double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, ConstPointSpan<Dimension> positions,
-  const RectifiedFlow<Dimension>* density, PointSpan<3> displacements,
-  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

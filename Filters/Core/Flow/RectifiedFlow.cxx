@@ -69,11 +69,16 @@ void check(const GridSize<Dimension>& size, const char* what)
 
 template <int Dimension>
 LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const Point<Dimension>& place,
-  const GridSize<Dimension>& size, std::int64_t positions)
+  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+  const Point<Dimension>& place, const GridSize<Dimension>& size, std::int64_t positions)
 {
   check<Dimension>(lattice, "a lattice");
-  checkCount(positions, numberOfCells<Dimension>(part.Cells));
+  checkCount(positions, numberOfCells<Dimension>(within.Cells));
+  if (!within.Contains(part))
+  {
+    throw std::invalid_argument("the positions are those of a part of a lattice that does not "
+                                "contain the one that is advected, it must");
+  }
   for (int axis = 0; axis < Dimension; ++axis)
   {
     if (part.Low[axis] < 0 || part.Cells[axis] < 0 ||
@@ -93,7 +98,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(coordinate) + ", it must be from 0 to 1");
     }
   }
-  return LatticeOrder<Dimension>(lattice, part, size, place);
+  return LatticeOrder<Dimension>(lattice, part, within, size, place);
 }
 
 template <int Dimension>
@@ -407,16 +412,18 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context) const
 {
-  return this->ForwardLattice(
-    lattice, LatticePart<Dimension>::WholeOf(lattice), place, positions, options, context);
+  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
+  return this->ForwardLattice(lattice, whole, whole, place, positions, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const Point<Dimension>& place, PointSpan<Dimension> positions,
-  const FlowOptions& options, const Context& context) const
+  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+  const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context) const
 {
-  const auto order = checkedOrder<Dimension>(lattice, part, place, this->Size(), positions.size());
+  const auto order =
+    checkedOrder<Dimension>(lattice, part, within, place, this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Forward, order, positions, options, context);
 }
 
@@ -424,17 +431,17 @@ template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  return this->BackwardLattice(
-    lattice, LatticePart<Dimension>::WholeOf(lattice), positions, options, context);
+  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
+  return this->BackwardLattice(lattice, whole, whole, positions, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, PointSpan<Dimension> positions, const FlowOptions& options,
-  const Context& context) const
+  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  const auto order =
-    checkedOrder<Dimension>(lattice, part, cellCentre<Dimension>(), this->Size(), positions.size());
+  const auto order = checkedOrder<Dimension>(
+    lattice, part, within, cellCentre<Dimension>(), this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Backward, order, positions, options, context);
 }
 

@@ -49,6 +49,38 @@ struct LatticePart
     }
     return number;
   }
+  bool Contains(const GridSize<Dimension>& cell) const
+  {
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      if (cell[axis] < this->Low[axis] || cell[axis] >= this->Low[axis] + this->Cells[axis])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+  bool Contains(const LatticePart& other) const
+  {
+    return this->With(other).Count() == this->Count();
+  }
+  // The smallest part that contains both.
+  LatticePart With(const LatticePart& other) const
+  {
+    if (this->Count() == 0 || other.Count() == 0)
+    {
+      return other.Count() == 0 ? *this : other;
+    }
+    LatticePart both;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      both.Low[axis] = std::min(this->Low[axis], other.Low[axis]);
+      both.Cells[axis] =
+        std::max(this->Low[axis] + this->Cells[axis], other.Low[axis] + other.Cells[axis]) -
+        both.Low[axis];
+    }
+    return both;
+  }
   // The part with one more layer of cells on each side, where the lattice has them.
   LatticePart Around(const GridSize<Dimension>& lattice) const
   {
