@@ -141,7 +141,7 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
 template <int Dimension>
 void TilePlan<Dimension>::ChooseTiles(const TileLimits& limits)
 {
-  constexpr std::int64_t usualWidth = Dimension == 3 ? 128 : 1024;
+  constexpr std::int64_t usualWidth = Dimension == 3 ? 64 : 1024;
   constexpr double usualHalos = 2.5; // a tile, of both sides
   const bool isForward = this->Shape.Direction == FlowDirection::Forward;
   this->InverseTime = isForward ? 1.0 / (1.0 - this->TimeLeft) : 1.0;
