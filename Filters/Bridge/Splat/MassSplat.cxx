@@ -36,11 +36,10 @@ SplatReport splatInto(
   const ImageGrid& geometry = target.Geometry;
   const SplatParticles<D, Real> particles{ input.Points, input.Masses, input.MassEach,
     geometry.ToIndexMap<D>() };
-  const double scale = target.DivideByVolume ? 1.0 / geometry.CellMeasure() : 1.0;
   const double bytes = 8.0 * static_cast<double>(input.Points.size());
   return withMemory("putting the points in order", bytes, [&]() {
     return splatMass<D, Real>(
-      particles, geometry.Size<D>(), target.Options, scale, cells, progress.Stage());
+      particles, geometry.Size<D>(), target.Options, target.Scale(), cells, progress.Stage());
   });
 }
 

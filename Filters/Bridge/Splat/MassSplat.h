@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_MassSplat_h
 #define RectifiedTransport_MassSplat_h
 
+#include "Bridge/Points/SplatTarget.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Splat/Splat.h"
 
 #include <cstdint>
 
@@ -17,14 +17,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-// The grid and the options of a splat.
-struct SplatTarget
-{
-  const ImageGrid& Geometry;
-  SplatOptions Options;
-  bool DivideByVolume; // densities, else masses
-};
 
 // Throws Failure where the density of a cell that holds all of `mass` would not be finite; `what`
 // is the subject of the message, `rule` completes "make the masses smaller, ...".
