@@ -69,6 +69,106 @@ def give_tiled():
         Density=image, **tiled))
 
 
+# In single precision, with global ids in place of SeedId.
+SINGLE = """
+from vtkmodules.vtkCommonCore import VTK_FLOAT, vtkPoints
+source = self.GetInputDataObject(0, 0)
+data = self.GetOutputDataObject(0)
+data.ShallowCopy(source)
+points = vtkPoints()
+points.SetDataType(VTK_FLOAT)
+points.SetNumberOfPoints(source.GetNumberOfPoints())
+for i in range(source.GetNumberOfPoints()):
+    points.SetPoint(i, source.GetPoint(i))
+data.SetPoints(points)
+ids = source.GetPointData().GetArray("SeedId")
+data.GetPointData().RemoveArray("SeedId")
+if ids:
+    numbers = ids.NewInstance()
+    numbers.DeepCopy(ids)
+    numbers.SetName("Number")
+    data.GetPointData().SetGlobalIds(numbers)
+"""
+# The same points on each rank, or on some alone.
+SPREAD = """
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+data = self.GetPolyDataOutput()
+points = vtkPoints()
+masses = vtkDoubleArray()
+masses.SetName("Weight")
+for i in range(20000 if %s else 0):
+    points.InsertNextPoint(i * 13 %% 101 / 10.0, i * 29 %% 97 / 12.0, i * 7 %% 89 / 9.0)
+    masses.InsertNextValue(0.1 + i %% 7 / 3.0)
+data.SetPoints(points)
+data.GetPointData().AddArray(masses)
+"""
+
+
+def spread(where):
+    return simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SPREAD % where)
+
+
+def weighed(particles):
+    return simple.Calculator(Input=particles, ResultArrayName="Weight",
+                             Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
+
+
+def give_splats(image, cells, flat, ghosts):
+    """Of particles that lie on ranks in another order than on one."""
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    particles = weighed(simple.SampleDensity(Input=image, NumberOfParticles=20000, **usual))
+    weight = dict(MassArray=["POINTS", "Weight"])
+    small = dict(Dimensions=[19, 14, 11])
+    reference = simple.Wavelet(WholeExtent=[-2, 5, 1, 6, 2, 8])
+    for kernel in ("CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"):
+        for on in ("Points", "Cells"):
+            options = dict(Input=particles, Kernel=kernel, Association=on, **weight)
+            give("splat %s %s" % (kernel, on), simple.SplatMass(**small, **options))
+            give("splat %s %s reference" % (kernel, on), simple.SplatMass(
+                Reference=image if on == "Points" else ghosts, **options))
+            give("splat %s %s drop" % (kernel, on), simple.SplatMass(
+                Reference=reference, Boundary="Drop", **options))
+            give("splat %s %s outside" % (kernel, on), simple.SplatMass(
+                Reference=reference, **options))
+    give("splat ones", simple.SplatMass(Input=particles, DivideByVolume=0, **small))
+    large = simple.Wavelet(WholeExtent=[0, 60, 0, 50, 0, 40], Center=[20, 20, 20])
+    # Some of many chunks of cells are dropped.
+    give("splat large drop", simple.SplatMass(
+        Input=particles, Reference=large, Boundary="Drop", **weight))
+    single = simple.ProgrammableFilter(Input=particles, Script=SINGLE)
+    give("splat single", simple.SplatMass(Input=single, Association="Cells", **small, **weight))
+    plane = weighed(simple.SampleDensity(Input=flat, NumberOfParticles=3000, **usual))
+    for on in ("Points", "Cells"):
+        give("splat flat " + on, simple.SplatMass(
+            Input=plane, Dimensions=[30, 20, 25], Association=on, **weight))
+        give("splat flat reference " + on, simple.SplatMass(
+            Input=plane, Reference=flat, Association=on, **weight))
+    line = simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 4, 4])
+    on_line = simple.SampleDensity(Input=line, NumberOfParticles=300, **usual)
+    give("splat line", simple.SplatMass(Input=on_line, Dimensions=[30, 20, 25]))
+    give("splat layer", simple.SplatMass(Input=particles, Dimensions=[12, 9, 1], **weight))
+    give("splat whole", simple.SplatMass(Input=spread("True"), **small, **weight))
+    give("splat first", simple.SplatMass(Input=spread("rank == 0"), **small, **weight))
+    give("splat last", simple.SplatMass(
+        Input=spread("rank == ranks - 1"), Reference=image, **weight))
+    field = simple.SplatMass(Input=particles, **small, **weight)
+    give("splat contour", simple.Contour(Input=field, ContourBy=["POINTS", "Density"],
+                                         Isosurfaces=[10.0], ComputeNormals=0))
+    give("splat threshold", simple.Threshold(
+        Input=field, Scalars=["POINTS", "Density"], LowerThreshold=5, UpperThreshold=1000))
+    give("splat slice", simple.Slice(Input=field))
+    give("splat subset", simple.ExtractSubset(Input=field, VOI=[3, 12, 2, 9, 1, 8]))
+    # Behind an image of one layer less than the Dimensions have.
+    flat_field = simple.SplatMass(Input=plane, Dimensions=[30, 20, 25], **weight)
+    give("splat flat subset", simple.ExtractSubset(Input=flat_field, VOI=[3, 12, 0, 0, 1, 8]))
+    give("splat map", simple.TransportMap(Input=flat_field, **usual))
+    give("splat again", simple.SplatMass(Input=simple.SampleDensity(
+        Input=field, NumberOfParticles=2000, **usual), Dimensions=[8, 8, 8]))
+
+
 def main(path):
     load_plugin()
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
@@ -110,6 +210,7 @@ def main(path):
         Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
         LowerThreshold=150, UpperThreshold=1000))
     give_tiled()
+    give_splats(image, cells, flat, ghosts)
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

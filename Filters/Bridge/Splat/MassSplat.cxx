@@ -98,11 +98,10 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
 
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress)
 {
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const vtkIdType count = cells->GetNumberOfTuples();
   const double* values = cells->GetPointer(0);
   const double sum = reduceChunks(
-    progress, count, grain, 0.0,
+    progress, count, splatSumChunk, 0.0,
     [values](std::int64_t first, std::int64_t last) {
       return std::accumulate(values + first, values + last, 0.0);
     },

@@ -35,8 +35,9 @@ std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatT
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The total mass of the cells that splatPoints wrote, as the work of the current stage. Throws
-// Cancelled.
+// The total mass of the cells that splatPoints wrote, as the work of the current stage: the sum of
+// the sums of `splatSumChunk` cells that follow one another. Throws Cancelled.
+constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 
 } // namespace RectifiedTransport

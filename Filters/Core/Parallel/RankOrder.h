@@ -58,18 +58,25 @@ private:
   std::int64_t ShareCount = 0;
 };
 
-// A sum whose terms are added one after another, those of rank 0 first: add(sum) returns a sum with
-// the terms of this rank. Called by all ranks.
-template <class Add>
-double sumInTurn(const Ranks& ranks, const Add& add)
+// Sums whose terms are added one after another, those of rank 0 first: add(sums) adds the terms of
+// this rank. Called by all ranks; `ranks` is nullptr where there is one.
+template <class Sums, class Add>
+Sums sumInTurn(const Ranks* ranks, Sums sums, const Add& add)
 {
-  double sum = 0.0;
-  for (int rank = 0; rank < ranks.Count(); ++rank)
+  if (!ranks)
   {
-    const double here = rank == ranks.Own() ? add(sum) : 0.0;
-    sum = gatherValues(ranks, here)[static_cast<std::size_t>(rank)];
+    add(sums);
+    return sums;
   }
-  return sum;
+  for (int rank = 0; rank < ranks->Count(); ++rank)
+  {
+    if (rank == ranks->Own())
+    {
+      add(sums);
+    }
+    sums = gatherValues(*ranks, sums)[static_cast<std::size_t>(rank)];
+  }
+  return sums;
 }
 
 // As reduceChunks: the sum of the sums of chunks of `grain` values. Each rank gives whole chunks,

@@ -93,9 +93,8 @@ void check(int ranks, std::int64_t count, std::int64_t grain, bool hasKeys,
     const std::vector<double>& share = brought[own];
     EXPECT_EQ(order.Count(), static_cast<std::int64_t>(share.size()));
     EXPECT_EQ(sumChunks(share.data(), order.Count(), grain, group), chunks);
-    EXPECT_EQ(sumInTurn(group,
-                [&](double sum) { return std::accumulate(share.begin(), share.end(), sum); }),
-      inOrder);
+    const auto add = [&](double& sum) { sum = std::accumulate(share.begin(), share.end(), sum); };
+    EXPECT_EQ(sumInTurn(&group, 0.0, add), inOrder);
   });
   std::vector<double> all;
   for (const std::vector<double>& share : brought)
