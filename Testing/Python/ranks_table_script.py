@@ -47,6 +47,17 @@ def give(name, proxy, port=0):
                       "cells": digests(data, vtkDataObject.CELL)}
 
 
+def give_row(name, proxy):
+    """Of a table of one row, as one point."""
+    proxy.UpdatePipeline()
+    table = proxy.GetClientSideObject().GetOutputDataObject(0)
+    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    row = {column.GetName(): column.GetTuple(0) for column in columns if table.GetNumberOfRows()}
+    values = b"".join(np.array(row[column]).tobytes() for column in sorted(row))
+    gathered[name] = {"fields": row, "points": ([(b"row", zlib.crc32(values))] if row else [], []),
+                      "cells": ([], [])}
+
+
 def give_tiled():
     """Of several tiles, and of a density that is empty in most places."""
     image = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
@@ -116,10 +127,10 @@ def weighed(particles):
                              Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
 
 
-def give_splats(image, cells, flat, ghosts):
+def give_splats(image, flat, ghosts):
     """Of particles that lie on ranks in another order than on one."""
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
-    particles = weighed(simple.SampleDensity(Input=image, NumberOfParticles=20000, **usual))
+    particles = weighed(simple.SampleDensity(Input=image, NumberOfParticles=10000, **usual))
     weight = dict(MassArray=["POINTS", "Weight"])
     small = dict(Dimensions=[19, 14, 11])
     reference = simple.Wavelet(WholeExtent=[-2, 5, 1, 6, 2, 8])
@@ -134,7 +145,7 @@ def give_splats(image, cells, flat, ghosts):
             give("splat %s %s outside" % (kernel, on), simple.SplatMass(
                 Reference=reference, **options))
     give("splat ones", simple.SplatMass(Input=particles, DivideByVolume=0, **small))
-    large = simple.Wavelet(WholeExtent=[0, 60, 0, 50, 0, 40], Center=[20, 20, 20])
+    large = simple.Wavelet(WholeExtent=[0, 40, 0, 30, 0, 25], Center=[20, 20, 20])
     # Some of many chunks of cells are dropped.
     give("splat large drop", simple.SplatMass(
         Input=particles, Reference=large, Boundary="Drop", **weight))
@@ -167,6 +178,34 @@ def give_splats(image, cells, flat, ghosts):
     give("splat map", simple.TransportMap(Input=flat_field, **usual))
     give("splat again", simple.SplatMass(Input=simple.SampleDensity(
         Input=field, NumberOfParticles=2000, **usual), Dimensions=[8, 8, 8]))
+
+
+def give_qualities(inputs):
+    clamp = dict(NegativeValues="Clamp")
+    particles = {name: simple.SampleDensity(Input=image, NumberOfParticles=4000, NumberOfSteps=8,
+                                            **clamp) for name, image in inputs.items()}
+    for name, image in inputs.items():
+        give_row("quality " + name, simple.TransportQuality(
+            Input=particles[name], Density=image, **clamp))
+    points, image = particles["points"], inputs["points"]
+    give_row("quality blocks", simple.TransportQuality(
+        Input=points, Density=image, BlockSize=2, **clamp))
+    masses = simple.Calculator(Input=points, ResultArrayName="Mass",
+                               Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
+    give_row("quality masses", simple.TransportQuality(Input=masses, Density=image, **clamp))
+    # Where others are, and not all inside.
+    moved = simple.Transform(Input=simple.RedistributeDataSet(Input=masses))
+    moved.Transform.Translate = [1.5, -0.7, 0.2]
+    give_row("quality moved", simple.TransportQuality(Input=moved, Density=image, **clamp))
+    give_row("quality whole", simple.TransportQuality(
+        Input=spread("True"), Density=image, **clamp))
+    give_row("quality last", simple.TransportQuality(
+        Input=spread("rank == ranks - 1"), Density=image, **clamp))
+    field = simple.SplatMass(Input=points, Dimensions=[10, 8, 9])
+    give_row("quality of a splat", simple.TransportQuality(Input=points, Density=field))
+    give_row("quality plane", simple.TransportQuality(
+        Input=particles["flat"], Density=simple.SplatMass(
+            Input=particles["flat"], Dimensions=[10, 8, 9], Association="Cells")))
 
 
 def main(path):
@@ -210,7 +249,8 @@ def main(path):
         Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
         LowerThreshold=150, UpperThreshold=1000))
     give_tiled()
-    give_splats(image, cells, flat, ghosts)
+    give_splats(image, flat, ghosts)
+    give_qualities(inputs)
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)
