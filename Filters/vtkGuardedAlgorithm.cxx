@@ -2,15 +2,17 @@
 #include "vtkGuardedAlgorithm.h"
 
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Run/RankRun.h"
+#include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SMPExecutor.h"
 #include "Bridge/Run/WholeInputs.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -87,6 +89,23 @@ void clearImages(vtkInformationVector* outputVector)
       image->GetPointData()->Initialize();
     }
   }
+}
+// A rank's own piece; where `ranks` is nullptr, what was requested last.
+void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks* ranks)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (!ranks)
+  {
+    producer->Update(port);
+    return;
+  }
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(producer->GetNumberOfOutputPorts());
+  vtkInformation* request = requests->GetInformationObject(port);
+  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->Own());
+  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->Count());
+  request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  producer->Update(port, requests);
 }
 } // namespace
 
@@ -236,6 +255,38 @@ int vtkGuardedAlgorithm::RequestInformation(
 void vtkGuardedAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
+  this->UpdateInputPiece(port, inputVector, outputVector, connection, nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::FindBoundsBeforeData(int port, vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector, double bounds[6])
+{
+  const std::unique_ptr<RectifiedTransport::RankRun> run =
+    this->Whole->BeginWithoutPieces(this, port, inputVector);
+  try
+  {
+    this->UpdateInputPiece(port, inputVector, outputVector, 0, run.get());
+    RectifiedTransport::findBounds(vtkPointSet::GetData(inputVector[port]), run.get(), bounds);
+    if (run)
+    {
+      run->End();
+    }
+  }
+  catch (...)
+  {
+    if (run)
+    {
+      run->Fail(""); // it is reported here
+    }
+    throw;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::UpdateInputPiece(int port, vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks)
+{
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* input = inputVector[port]->GetInformationObject(connection);
   if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
@@ -260,7 +311,7 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
   {
     return;
   }
-  producer->Update(outputPort);
+  updatePiece(producer, outputPort, ranks);
   this->Updated[{ port, connection }] = { producer, outputPort, pipeline->GetPipelineMTime() };
 }
 

@@ -114,6 +114,15 @@ protected:
     vtkInformationVector* outputVector, int connection = 0);
 
   /**
+   * The same for points on a port that ShareAmongRanks names, and their bounds; the first lower
+   * bound is above the upper one where there are no points. Where there are several ranks, all of
+   * them meet here, each updates its own piece, and the bounds are those of all. Ranks that do not
+   * meet in time, or execute blocks, update all data alone.
+   */
+  void FindBoundsBeforeData(int port, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, double bounds[6]);
+
+  /**
    * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
    * filter needs all data: whole images, because a transport is global, and all points.
    */
@@ -168,6 +177,8 @@ protected:
   int Threading;
 
 private:
+  void UpdateInputPiece(int port, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,

@@ -10,6 +10,7 @@
 #include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -52,6 +53,8 @@ vtkMassSplatter::vtkMassSplatter()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
+  this->ShareAmongRanks(0, true);
+  this->ShareAmongRanks(1, false);
 }
 
 //------------------------------------------------------------------------------
@@ -120,14 +123,15 @@ int vtkMassSplatter::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0, inputVector, outputVector);
-    vtkPointSet* points = vtkPointSet::GetData(inputVector[0]);
+    double bounds[6];
+    this->FindBoundsBeforeData(0, inputVector, outputVector, bounds);
     requireDimensions(this->Dimensions);
-    if (points && points->GetNumberOfPoints() > 0)
+    if (bounds[0] <= bounds[1])
     {
-      grid = splatter.GridAround(points);
+      grid = splatter.GridAround(bounds);
     }
   }
+  announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
 }
@@ -160,9 +164,10 @@ int vtkMassSplatter::RequestData(
   MassSplatter splatter = this->GetSplatter();
   splatter.Splat = this->GetSplatSettings().Options();
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // All data are in piece 0, whatever pieces are requested.
+  // On one rank all data are in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
@@ -171,20 +176,29 @@ int vtkMassSplatter::RequestData(
   auto* reference = requireBlock<vtkImageData>(
     vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");
   const vtkIdType count = input ? input->GetNumberOfPoints() : 0;
-  if (!input || (reference ? reference->GetNumberOfPoints() == 0 : count == 0))
+  if (!ranks && (!input || (reference ? reference->GetNumberOfPoints() == 0 : count == 0)))
   {
     return 1;
   }
   vtkDataArray* masses = count > 0 ? this->FindMasses(input) : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  const std::int64_t outside = splatter.Run(input, masses, reference, progress, output);
+  vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  const MassSplatter::Report report = ranks
+    ? splatter.RunOnRanks(input, masses, reference,
+        { inputVector[1]->GetNumberOfInformationObjects() > 0,
+          announcedGrid(outputInformation, true).Extent(), requestedExtent(outputInformation) },
+        progress, output)
+    : splatter.Run(input, masses, reference, progress, output);
   // Without a Reference the extent may not be known before the data.
-  announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));
-  if (outside > 0)
+  if (!report.Grid.IsEmpty())
   {
-    vtkWarningMacro(<< outside << " of " << count
-                    << (outside == 1 ? " points is outside the domain; its mass "
-                                     : " points are outside the domain; their mass ")
+    announceGrid(report.Grid, outputInformation);
+  }
+  if (report.Outside > 0 && (!ranks || ranks->Own() == 0))
+  {
+    vtkWarningMacro(<< report.Outside << " of " << report.Points
+                    << (report.Outside == 1 ? " points is outside the domain; its mass "
+                                            : " points are outside the domain; their mass ")
                     << (this->Boundary == RENORMALIZE ? "went to the nearest points of its border"
                                                       : "was left out"));
   }

@@ -6,8 +6,10 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Quality/TransportQuality.h"
+#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -18,6 +20,7 @@
 #include "vtkTable.h"
 
 #include <memory>
+#include <optional>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportQuality);
@@ -43,6 +46,8 @@ vtkTransportQuality::vtkTransportQuality()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
+  this->ShareAmongRanks(0, true);
+  this->ShareAmongRanks(1, false);
 }
 
 //------------------------------------------------------------------------------
@@ -91,7 +96,8 @@ int vtkTransportQuality::RequestData(
 {
   requireThat(this->BlockSize >= 0, "BlockSize", this->BlockSize,
     "at least 1, or 0 for blocks of about 64 particles");
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
   // The row is in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
   {
@@ -99,17 +105,27 @@ int vtkTransportQuality::RequestData(
   }
   vtkPointSet* particles = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  if (!density || !particles || particles->GetNumberOfPoints() == 0)
+  std::optional<SharedPoints> shared;
+  if (ranks)
+  {
+    shared.emplace(particles, ghostPoint, *ranks);
+    particles = shared->All() > 0 ? shared->Set() : nullptr;
+  }
+  if (!density || !particles || (particles->GetNumberOfPoints() == 0 && !ranks))
   {
     return 1;
   }
   const CountedPoints counted(particles, "input point set");
-  if (counted.Count() == 0)
+  if (counted.Count() == 0 && !ranks)
   {
     return 1;
   }
-  const ParticleQuality quality = TransportQuality{ this->BlockSize }.Run(
-    particles, counted, *density, this->GetFlowCache(), progress);
+  const ParticleQuality quality = TransportQuality{ this->BlockSize }.Run(particles, counted,
+    shared ? shared->Keys() : nullptr, *density, this->GetFlowCache(), progress);
+  if (ranks && ranks->Own() > 0)
+  {
+    return 1;
+  }
 
   vtkTable* output = vtkTable::GetData(outputVector);
   addColumn<vtkIdTypeArray>(output, "Particles", static_cast<vtkIdType>(quality.Particles));

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two ranks: filters that do not share their data. Data that lie on both are an error and give
-nothing; what is whole on each, or on the first alone, gives a result. Nothing may hang."""
+"""Two ranks: points that lie on both are an error and give nothing of filters that do not share them;
+what is whole on each, or on the first alone, gives a result. Nothing may hang."""
 import os
 import re
 import shutil
@@ -14,6 +14,9 @@ MPIRUN = shutil.which("mpirun")
 PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_script.py")
 
+# What takes points of several ranks.
+SHARE = ("splat", "seeds", "quality", "reference")
+
 
 class Ranks(unittest.TestCase):
     def check(self, *options):
@@ -26,7 +29,7 @@ class Ranks(unittest.TestCase):
                         "block"):
             for kind in ("whole", "gathered"):
                 expected["%s %s" % (filter_, kind)] = "some"
-            expected["%s shared" % filter_] = "some" if filter_ == "seeds" else "none error"
+            expected["%s shared" % filter_] = "some" if filter_ in SHARE else "none error"
         for name in ("parameterization shared", "surface shared"):
             expected[name] = "none error"
         expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid",

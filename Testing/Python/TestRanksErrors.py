@@ -34,6 +34,23 @@ OTHERS = {
     "wrong on one": "Rank 1: NumberOfParticles is -1",
     "missing": "Rank 1 has not run this filter within 3 seconds of this one",
 }
+POINT_MESSAGES = {
+    "splat not finite": "Rank 1: The input point set has 1 point that is NaN or infinite",
+    "reference not finite": "Rank 1: The input point set has 1 point that is NaN or infinite",
+    "quality not finite": "Rank 1: The input point set has 1 point that is NaN or infinite",
+    "splat not a number": "Rank 1: The mass array 'Mass' has 1 value that is NaN",
+    "quality not a number": "Rank 1: The array 'Mass' of the particles has the value nan",
+    "splat array": "Rank 1: The input has no mass array 'Mass'",
+    "quality array": "The array 'Mass' of the particles is on some ranks only",
+    "splat too much": "masses of inf in all make densities past the largest double",
+    "quality too much": "sums to inf; the sum must be positive and a double",
+    "reference spacing": "The images of the ranks are not parts of one: the spacing is 1 1 1 on "
+                         "rank 0, but 1 1 2 on rank 1",
+    "reference gap": "The images of the ranks do not fill their common extent",
+    "splat wrong property": "Dimensions is 5 5 -1; it must be at least 1 along every axis",
+    "splat wrong on one": "Rank 1: Dimensions is 5 5 -1",
+    "splat missing": "Rank 1 has not run this filter within 3 seconds of this one",
+}
 # Points of a map on each rank, and of 60 particles where they lie on one.
 RIGHT = {
     "right": None,
@@ -92,6 +109,46 @@ class RanksErrors(unittest.TestCase):
                 if particles:
                     self.assertEqual(self.points("sample " + name), particles)
                 self.assertEqual(self.points("map " + name), [7 * 6 * 5] * RANKS)
+
+    def test_points(self):
+        whole = 6 * 5 * 12
+        for name, mass in (("right", 120), ("weighed", 120), ("one has none", 80),
+                           ("first has none", 80), ("one has all", 40), ("outside", 120)):
+            for kind in ("splat ", "reference ", "quality "):
+                with self.subTest(kind + name):
+                    self.assertEqual(self.errors(kind + name), [[]] * RANKS)
+                    counts = self.points(kind + name)
+                    if kind == "quality ":
+                        self.assertEqual(counts, [1, 0, 0])
+                        continue
+                    self.assertEqual(sum(counts), whole)
+                    self.assertEqual([rank[kind + name][3] for rank in self.given], [mass] * RANKS)
+        for kind, count in (("splat ", 0), ("reference ", whole), ("quality ", 0)):
+            self.assertEqual(sum(self.points(kind + "none has any")), count)
+            self.assertEqual(self.errors(kind + "none has any"), [[]] * RANKS)
+
+    def test_one_warning_counts_the_points_of_all(self):
+        first, *others = [rank["reference outside"][2] for rank in self.given]
+        self.assertEqual(others, [[]] * (RANKS - 1))
+        self.assertEqual(len(first), 1)
+        self.assertIn("3 of 120 points are outside the domain", first[0])
+        self.assertEqual(self.given[0]["splat outside"][2], [])
+
+    def test_one_message_of_points(self):
+        for name, text in POINT_MESSAGES.items():
+            with self.subTest(name):
+                self.assertEqual(self.points(name), [0] * RANKS)
+                first, *others = self.errors(name)
+                self.assertEqual(others, [[]] * (RANKS - 1))
+                self.assertEqual(len(first), 1, first)
+                self.assertIn(text, first[0])
+
+    def test_points_after_an_abort(self):
+        for name in ("splat abort", "quality abort"):
+            self.assertEqual(self.points(name), [0] * RANKS)
+            self.assertEqual(self.errors(name), [[]] * RANKS)
+        self.assertEqual(sum(self.points("splat afterwards")), 6 * 5 * 12)
+        self.assertEqual(self.given[0]["splat alone"][0], 6 * 5 * 12)
 
     def test_no_data_anywhere(self):
         for kind in ("sample ", "map "):

@@ -16,9 +16,9 @@ PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_table_script.py")
 MOST_RANKS = 4
 # Of other filters behind ours the cells may begin elsewhere.
-BEHIND = ("contour", "slice", "threshold")
+BEHIND = ("contour", "slice", "threshold", "splat contour", "splat slice", "splat threshold")
 # A slice rounds as its piece does; seeds that are divided otherwise have other numbers.
-PLACES_ALONE = ("slice", "seeds apart")
+PLACES_ALONE = ("slice", "seeds apart", "splat slice")
 
 
 def run(ranks):
@@ -26,7 +26,7 @@ def run(ranks):
         path = os.path.join(folder, "given")
         done = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), PVBATCH, "--sym",
-             SCRIPT, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+             SCRIPT, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=400)
         if done.returncode != 0 or done.stdout.count("WROTE") != ranks:
             raise AssertionError(done.stdout[-2000:] + done.stderr[-4000:])
         given = []
@@ -80,6 +80,14 @@ class RanksTable(unittest.TestCase):
                 self.assertEqual(sum(len(rank[name][owner][0]) for rank in those),
                                  len(expected[owner][0]))
         self.assertGreater(len(expected["points"][0]), 0)
+
+    def test_rows_are_on_the_first_rank(self):
+        first, *others = run(3)
+        names = [name for name in first if name.startswith("quality")]
+        self.assertGreater(len(names), 5)
+        for name in names:
+            self.assertEqual(len(first[name]["points"][0]), 1)
+            self.assertTrue(all(not rank[name]["points"][0] for rank in others))
 
     def test_particles_are_where_they_lie(self):
         """More than one rank has some of them, and those of paths as of points."""

@@ -5,10 +5,12 @@ import json
 import sys
 
 import numpy as np
-from rectifiedtransport import vtkTransportMap, vtkTransportSampler
+from rectifiedtransport import (vtkMassSplatter, vtkTransportMap, vtkTransportQuality,
+                                vtkTransportSampler)
 from rt_testing import Listener
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -129,6 +131,104 @@ else:
 algorithm = vtkTransportSampler()
 algorithm.SetNumberOfParticles(60)
 report("afterwards", algorithm, source)
+
+
+def points(count=40, last=None, **arrays):
+    """Of this rank, in the whole image; the last one elsewhere."""
+    data = vtkPolyData()
+    places = vtkPoints()
+    for i in range(count):
+        places.InsertNextPoint(i % 7 * 0.9, i % 5, 4 * RANK + i % 11 * 0.4)
+    if last:
+        places.SetPoint(count - 1, last)
+    data.SetPoints(places)
+    for name, values in arrays.items():
+        array = numpy_to_vtk(np.array(values, dtype=float), deep=1)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    return data
+
+
+def weights(value=1.0):
+    return points(Mass=[1.0] * 39 + [value])
+
+
+NONE = points(0)
+POINTS = {
+    "right": points,
+    "weighed": weights,
+    "one has none": lambda: on(FAULTY, lambda: NONE, points),
+    "first has none": lambda: on(0, lambda: NONE, points),
+    "one has all": lambda: on(FAULTY, points, lambda: NONE),
+    "none has any": lambda: NONE,
+    "not finite": lambda: on(FAULTY, lambda: points(last=(np.nan, 0, 0)), points),
+    "not a number": lambda: on(FAULTY, lambda: weights(np.nan), weights),
+    "array": lambda: on(FAULTY, points, weights),
+    "outside": lambda: points(last=(-9, 0, 0)),
+    "too much": lambda: weights(1e308),
+}
+
+
+def report_points(name, algorithm, data, other=None):
+    """Of a filter with points, and an image or none: also its warnings and a number of the result."""
+    heard = Listener(algorithm)
+    algorithm.SetInputData(data)
+    if other:
+        image = vtkTrivialProducer()
+        image.SetOutput(other)
+        image.SetWholeExtent(WHOLE)
+        algorithm.SetInputConnection(1, image.GetOutputPort())
+    algorithm.UpdatePiece(RANK, RANKS.GetNumberOfProcesses(), 0)
+    output = algorithm.GetOutput()
+    own = [error.splitlines() for error in heard.errors
+           if "returned failure for request" not in error]
+    image = output.IsA("vtkImageData")
+    field = output.GetFieldData().GetArray("TotalMass") if image else None
+    results[name] = [output.GetNumberOfCells() if image else output.GetNumberOfRows(),
+                     [" ".join(lines) for lines in own],
+                     [line for text in heard.warnings for line in text.splitlines() if "of" in line],
+                     field.GetValue(0) if field else 0]
+    RANKS.Barrier()
+
+
+def splatter(data):
+    algorithm = vtkMassSplatter()
+    algorithm.SetDimensions(6, 5, 12)
+    algorithm.SetAssociationToCells()
+    if data.GetPointData().GetArray("Mass") or name == "array":
+        algorithm.SetInputArrayToProcess(0, 0, 0, 0, "Mass")
+    return algorithm
+
+
+for name, make in POINTS.items():
+    report_points("splat " + name, splatter(make()), make())
+    report_points("reference " + name, splatter(make()), make(), piece())
+    report_points("quality " + name, vtkTransportQuality(), make(), piece())
+for name, image in (("spacing", IMAGES["spacing"]), ("gap", IMAGES["gap"])):
+    report_points("reference " + name, splatter(points()), points(), image())
+for name, wrong in (("splat wrong property", lambda: -1), ("splat wrong on one", lambda: on(
+        FAULTY, lambda: -1, lambda: 5))):
+    algorithm = splatter(points())
+    algorithm.SetDimensions(5, 5, wrong())
+    report_points(name, algorithm, points())
+for name, kind in (("splat abort", vtkMassSplatter), ("quality abort", vtkTransportQuality)):
+    algorithm = kind()
+    if RANK == FAULTY:
+        algorithm.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
+    report_points(name, algorithm, points(), piece())
+if RANK == FAULTY:
+    results["splat missing"] = [0, [], [], 0]
+    RANKS.Barrier()
+else:
+    report_points("splat missing", splatter(points()), points())
+report_points("splat afterwards", splatter(points()), points())
+# One rank alone, as with an image: the others do not come.
+if RANK == 0:
+    algorithm = splatter(points())
+    algorithm.SetInputData(points())
+    algorithm.Update()
+    results["splat alone"] = [algorithm.GetOutput().GetNumberOfCells(), [], [], 0]
+RANKS.Barrier()
 with open("%s.%d" % (sys.argv[1], RANK), "w", encoding="utf-8") as file:
     json.dump(results, file)
 print("WROTE", RANK, flush=True)

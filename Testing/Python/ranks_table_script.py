@@ -47,6 +47,17 @@ def give(name, proxy, port=0):
                       "cells": digests(data, vtkDataObject.CELL)}
 
 
+def give_row(name, proxy):
+    """Of a table of one row, as one point."""
+    proxy.UpdatePipeline()
+    table = proxy.GetClientSideObject().GetOutputDataObject(0)
+    columns = [table.GetColumn(i) for i in range(table.GetNumberOfColumns())]
+    row = {column.GetName(): column.GetTuple(0) for column in columns if table.GetNumberOfRows()}
+    values = b"".join(np.array(row[column]).tobytes() for column in sorted(row))
+    gathered[name] = {"fields": row, "points": ([(b"row", zlib.crc32(values))] if row else [], []),
+                      "cells": ([], [])}
+
+
 def give_tiled():
     """Of several tiles, and of a density that is empty in most places."""
     image = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
@@ -67,6 +78,134 @@ def give_tiled():
     give("long warp", simple.DensityEqualizingWarp(Input=simple.Contour(
         Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[260.0], ComputeNormals=0),
         Density=image, **tiled))
+
+
+# In single precision, with global ids in place of SeedId.
+SINGLE = """
+from vtkmodules.vtkCommonCore import VTK_FLOAT, vtkPoints
+source = self.GetInputDataObject(0, 0)
+data = self.GetOutputDataObject(0)
+data.ShallowCopy(source)
+points = vtkPoints()
+points.SetDataType(VTK_FLOAT)
+points.SetNumberOfPoints(source.GetNumberOfPoints())
+for i in range(source.GetNumberOfPoints()):
+    points.SetPoint(i, source.GetPoint(i))
+data.SetPoints(points)
+ids = source.GetPointData().GetArray("SeedId")
+data.GetPointData().RemoveArray("SeedId")
+if ids:
+    numbers = ids.NewInstance()
+    numbers.DeepCopy(ids)
+    numbers.SetName("Number")
+    data.GetPointData().SetGlobalIds(numbers)
+"""
+# The same points on each rank, or on some alone.
+SPREAD = """
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+data = self.GetPolyDataOutput()
+points = vtkPoints()
+masses = vtkDoubleArray()
+masses.SetName("Weight")
+for i in range(20000 if %s else 0):
+    points.InsertNextPoint(i * 13 %% 101 / 10.0, i * 29 %% 97 / 12.0, i * 7 %% 89 / 9.0)
+    masses.InsertNextValue(0.1 + i %% 7 / 3.0)
+data.SetPoints(points)
+data.GetPointData().AddArray(masses)
+"""
+
+
+def spread(where):
+    return simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SPREAD % where)
+
+
+def weighed(particles):
+    return simple.Calculator(Input=particles, ResultArrayName="Weight",
+                             Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
+
+
+def give_splats(image, flat, ghosts):
+    """Of particles that lie on ranks in another order than on one."""
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    particles = weighed(simple.SampleDensity(Input=image, NumberOfParticles=10000, **usual))
+    weight = dict(MassArray=["POINTS", "Weight"])
+    small = dict(Dimensions=[19, 14, 11])
+    reference = simple.Wavelet(WholeExtent=[-2, 5, 1, 6, 2, 8])
+    for kernel in ("CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"):
+        for on in ("Points", "Cells"):
+            options = dict(Input=particles, Kernel=kernel, Association=on, **weight)
+            give("splat %s %s" % (kernel, on), simple.SplatMass(**small, **options))
+            give("splat %s %s reference" % (kernel, on), simple.SplatMass(
+                Reference=image if on == "Points" else ghosts, **options))
+            give("splat %s %s drop" % (kernel, on), simple.SplatMass(
+                Reference=reference, Boundary="Drop", **options))
+            give("splat %s %s outside" % (kernel, on), simple.SplatMass(
+                Reference=reference, **options))
+    give("splat ones", simple.SplatMass(Input=particles, DivideByVolume=0, **small))
+    large = simple.Wavelet(WholeExtent=[0, 40, 0, 30, 0, 25], Center=[20, 20, 20])
+    # Some of many chunks of cells are dropped.
+    give("splat large drop", simple.SplatMass(
+        Input=particles, Reference=large, Boundary="Drop", **weight))
+    single = simple.ProgrammableFilter(Input=particles, Script=SINGLE)
+    give("splat single", simple.SplatMass(Input=single, Association="Cells", **small, **weight))
+    plane = weighed(simple.SampleDensity(Input=flat, NumberOfParticles=3000, **usual))
+    for on in ("Points", "Cells"):
+        give("splat flat " + on, simple.SplatMass(
+            Input=plane, Dimensions=[30, 20, 25], Association=on, **weight))
+        give("splat flat reference " + on, simple.SplatMass(
+            Input=plane, Reference=flat, Association=on, **weight))
+    line = simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 4, 4])
+    on_line = simple.SampleDensity(Input=line, NumberOfParticles=300, **usual)
+    give("splat line", simple.SplatMass(Input=on_line, Dimensions=[30, 20, 25]))
+    give("splat layer", simple.SplatMass(Input=particles, Dimensions=[12, 9, 1], **weight))
+    give("splat whole", simple.SplatMass(Input=spread("True"), **small, **weight))
+    give("splat first", simple.SplatMass(Input=spread("rank == 0"), **small, **weight))
+    give("splat last", simple.SplatMass(
+        Input=spread("rank == ranks - 1"), Reference=image, **weight))
+    field = simple.SplatMass(Input=particles, **small, **weight)
+    give("splat contour", simple.Contour(Input=field, ContourBy=["POINTS", "Density"],
+                                         Isosurfaces=[10.0], ComputeNormals=0))
+    give("splat threshold", simple.Threshold(
+        Input=field, Scalars=["POINTS", "Density"], LowerThreshold=5, UpperThreshold=1000))
+    give("splat slice", simple.Slice(Input=field))
+    give("splat subset", simple.ExtractSubset(Input=field, VOI=[3, 12, 2, 9, 1, 8]))
+    # Behind an image of one layer less than the Dimensions have.
+    flat_field = simple.SplatMass(Input=plane, Dimensions=[30, 20, 25], **weight)
+    give("splat flat subset", simple.ExtractSubset(Input=flat_field, VOI=[3, 12, 0, 0, 1, 8]))
+    give("splat map", simple.TransportMap(Input=flat_field, **usual))
+    give("splat again", simple.SplatMass(Input=simple.SampleDensity(
+        Input=field, NumberOfParticles=2000, **usual), Dimensions=[8, 8, 8]))
+
+
+def give_qualities(inputs):
+    clamp = dict(NegativeValues="Clamp")
+    particles = {name: simple.SampleDensity(Input=image, NumberOfParticles=4000, NumberOfSteps=8,
+                                            **clamp) for name, image in inputs.items()}
+    for name, image in inputs.items():
+        give_row("quality " + name, simple.TransportQuality(
+            Input=particles[name], Density=image, **clamp))
+    points, image = particles["points"], inputs["points"]
+    give_row("quality blocks", simple.TransportQuality(
+        Input=points, Density=image, BlockSize=2, **clamp))
+    masses = simple.Calculator(Input=points, ResultArrayName="Mass",
+                               Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
+    give_row("quality masses", simple.TransportQuality(Input=masses, Density=image, **clamp))
+    # Where others are, and not all inside.
+    moved = simple.Transform(Input=simple.RedistributeDataSet(Input=masses))
+    moved.Transform.Translate = [1.5, -0.7, 0.2]
+    give_row("quality moved", simple.TransportQuality(Input=moved, Density=image, **clamp))
+    give_row("quality whole", simple.TransportQuality(
+        Input=spread("True"), Density=image, **clamp))
+    give_row("quality last", simple.TransportQuality(
+        Input=spread("rank == ranks - 1"), Density=image, **clamp))
+    field = simple.SplatMass(Input=points, Dimensions=[10, 8, 9])
+    give_row("quality of a splat", simple.TransportQuality(Input=points, Density=field))
+    give_row("quality plane", simple.TransportQuality(
+        Input=particles["flat"], Density=simple.SplatMass(
+            Input=particles["flat"], Dimensions=[10, 8, 9], Association="Cells")))
 
 
 def main(path):
@@ -110,6 +249,8 @@ def main(path):
         Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
         LowerThreshold=150, UpperThreshold=1000))
     give_tiled()
+    give_splats(image, flat, ghosts)
+    give_qualities(inputs)
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

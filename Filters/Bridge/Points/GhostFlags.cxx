@@ -34,12 +34,12 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
   return array->GetPointer(0);
 }
 
-CountedPoints::CountedPoints(vtkDataSet* points, const char* what)
+CountedPoints::CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts)
   : Number(points->GetNumberOfPoints())
 {
   const unsigned char* flags = ghostFlags(points, vtkDataObject::POINT, what);
   const std::int64_t all = this->Number;
-  const auto isGhost = [](unsigned char flag) { return (flag & ghostPoint) != 0; };
+  const auto isGhost = [ghosts](unsigned char flag) { return (flag & ghosts) != 0; };
   if (!flags || std::none_of(flags, flags + all, isGhost))
   {
     return;

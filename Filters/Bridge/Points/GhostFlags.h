@@ -28,12 +28,12 @@ constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
 // where there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 
-// The points of a data set that are no ghosts, numbered from 0 in their order.
+// The points of a data set that are no ghosts, of these flags, numbered from 0 in their order.
 class CountedPoints
 {
 public:
   // Throws Failure as above, and where memory is short.
-  CountedPoints(vtkDataSet* points, const char* what);
+  CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts = ghostPoint);
 
   std::int64_t Count() const { return this->Number; }
   // The index of the point of a number.

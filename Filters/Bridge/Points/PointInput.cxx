@@ -7,6 +7,9 @@
 #include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -22,6 +25,29 @@ vtkPointSet* pointSetOf(vtkInformationVector* port)
 void findBounds(vtkPointSet* points, double bounds[6])
 {
   vtkBoundingBox::ComputeBounds(points->GetPoints(), bounds);
+}
+
+void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 6> own{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  if (points && points->GetNumberOfPoints() > 0)
+  {
+    findBounds(points, own.data());
+  }
+  std::copy_n(own.begin(), 6, bounds);
+  if (!ranks)
+  {
+    return;
+  }
+  for (const std::array<double, 6>& there : gatherValues(*ranks, own))
+  {
+    for (std::size_t i = 0; i < 6; i += 2)
+    {
+      bounds[i] = std::min(bounds[i], there[i]);
+      bounds[i + 1] = std::max(bounds[i + 1], there[i + 1]);
+    }
+  }
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)

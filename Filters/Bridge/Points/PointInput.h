@@ -5,6 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArrayRange.h"
@@ -30,6 +31,9 @@ vtkPointSet* pointSetOf(vtkInformationVector* port);
 // The bounds of all points of a set, also of those that no vtkCell uses. vtkPointSet::GetBounds
 // caches its result, which is outdated where coordinates were changed without Modified().
 void findBounds(vtkPointSet* points, double bounds[6]);
+// Those of the points of all ranks, which call this together; of this rank's where `ranks` is
+// nullptr. `points` may be nullptr. Without points lower bounds are above the upper ones.
+void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6]);
 
 // Counts points whose coordinates are not finite; thread-safe.
 class NotFinitePoints

@@ -25,8 +25,6 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-
 // The sums over a range of points, in the order of their indices.
 struct RangeOfMasses
 {
@@ -79,7 +77,8 @@ private:
   template <class ReadRange>
   void ReadAll(Progress& progress, const ReadRange& read)
   {
-    this->Found = reduceChunks(progress, this->Count, grain, RangeOfMasses{}, read, joinRanges);
+    this->Found =
+      reduceChunks(progress, this->Count, PointMasses::Chunk, RangeOfMasses{}, read, joinRanges);
   }
 
   template <class Next>

@@ -9,6 +9,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -29,6 +30,9 @@ vtkDataArray* findMasses(vtkPointSet* points, int attribute);
 class PointMasses
 {
 public:
+  // The total is the sum of the sums of so many masses that follow one another.
+  static constexpr std::int64_t Chunk = std::int64_t{ 1 } << 13;
+
   PointMasses() = default;
   // Reads an array of the points, nullptr for the mass 1 each, as the work of the current stage.
   // Ghosts have no mass. Throws Failure for values that are not finite and for ghost arrays of

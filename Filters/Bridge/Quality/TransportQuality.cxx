@@ -10,6 +10,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -17,9 +18,11 @@
 #include "vtkPoints.h"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -63,6 +66,7 @@ class ParticleArrays
 public:
   ParticleArrays(vtkPointSet* particles, const CountedPoints& counted, Progress& progress)
     : Counted(counted)
+    , Group(progress.Group())
     , Work(progress)
     , Particles(particles)
   {
@@ -75,13 +79,14 @@ public:
     this->Points.emplace(this->Particles->GetPoints()->GetData(), this->Counted, this->Work);
     ParticleSample sample;
     sample.Points = { this->Points->data(), this->Counted.Count() };
-    if (vtkDataArray* masses = findArray(this->Particles, "Mass", 1))
+    vtkDataArray* masses = this->Find("Mass", 1);
+    if (masses)
     {
       this->Masses.emplace(masses, this->Counted, this->Work);
       sample.Masses = this->Masses->data();
-      this->CheckMasses();
     }
-    if (vtkDataArray* displacements = findArray(this->Particles, "Displacement", 3))
+    this->CheckMasses(sample.Masses);
+    if (vtkDataArray* displacements = this->Find("Displacement", 3))
     {
       this->Displacements.emplace(displacements, this->Counted, this->Work);
       sample.Displacements = { this->Displacements->data(), this->Counted.Count() };
@@ -91,6 +96,20 @@ public:
   }
 
 private:
+  // Of this rank's particles, nullptr where it has none. Throws Failure where only some ranks have
+  // the array.
+  vtkDataArray* Find(const char* name, int components) const
+  {
+    const bool hasAny = this->Counted.Count() > 0;
+    vtkDataArray* array = hasAny ? findArray(this->Particles, name, components) : nullptr;
+    const bool areAllWithout = onAllRanks(this->Group, !array);
+    if (!onAllRanks(this->Group, array || !hasAny) && !areAllWithout)
+    {
+      fail(name, "is on some ranks only; all that have particles must have it, or none");
+    }
+    return array;
+  }
+
   [[noreturn]] void FailValue(
     const char* name, double value, std::int64_t particle, const char* rule) const
   {
@@ -100,11 +119,12 @@ private:
     fail(name, message.str());
   }
 
-  void CheckMasses()
+  // nullptr for none on this rank.
+  void CheckMasses(const double* masses)
   {
-    const double* masses = this->Masses->data();
     double total = 0.0;
-    this->Work.ForInOrder(this->Counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
+    const std::int64_t count = masses ? this->Counted.Count() : 0;
+    this->Work.ForInOrder(count, grain, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
         if (!(masses[i] >= 0.0) || std::isinf(masses[i]))
@@ -114,6 +134,15 @@ private:
         total += masses[i];
       }
     });
+    if (onAllRanks(this->Group, !masses))
+    {
+      return;
+    }
+    if (this->Group)
+    {
+      const std::vector<double> totals = gatherValues(*this->Group, total);
+      total = std::accumulate(totals.begin(), totals.end(), 0.0);
+    }
     if (!(total > 0.0) || std::isinf(total))
     {
       std::ostringstream message;
@@ -143,6 +172,7 @@ private:
   }
 
   const CountedPoints& Counted;
+  const Ranks* Group;
   Progress& Work;
   vtkPointSet* Particles;
   std::optional<DoubleTuples> Points;
@@ -160,7 +190,8 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
   const auto count = particles.Points.size();
   if (blockSize == 0)
   {
-    blockSize = blockSizeFor<D>(grid.Size<D>(), count, usualParticles);
+    blockSize =
+      blockSizeFor<D>(grid.Size<D>(), sumOverRanks(progress.Group(), count), usualParticles);
   }
   const double blocks = numberOfCells<D>(numberOfBlocks<D>(grid.Size<D>(), blockSize));
   const std::string purpose = "the comparison of " + std::to_string(count) + " particles with " +
@@ -175,7 +206,7 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
 } // namespace
 
 ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoints& counted,
-  DensityImage& density, FlowCache& cache, Progress& progress) const
+  const std::int64_t* order, DensityImage& density, FlowCache& cache, Progress& progress) const
 {
   constexpr double partOfReading = 0.1;
   const double all = Cost::Comparison * static_cast<double>(counted.Count());
@@ -184,7 +215,8 @@ ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoint
   const SharedFlow& flow = cache.Update(density, progress, ends[0]);
   progress.BeginStage(ends[1]);
   ParticleArrays arrays(particles, counted, progress);
-  const ParticleSample sample = arrays.Read();
+  ParticleSample sample = arrays.Read();
+  sample.Order = order;
   progress.BeginStage(1.0);
   return dispatchDimension(density.Grid().Dimension(), measure<1>, measure<2>, measure<3>)(
     sample, density.Grid(), this->BlockSize, flow, progress);

@@ -24,9 +24,10 @@ struct TransportQuality
   int BlockSize;
 
   // Compares the particles that are no ghosts, at least one, with a density, whose tables are kept
-  // in the cache. Throws Failure, std::overflow_error and Cancelled.
-  ParticleQuality Run(vtkPointSet* particles, const CountedPoints& counted, DensityImage& density,
-    FlowCache& cache, Progress& progress) const;
+  // in the cache. Those of all ranks of the progress together, in the order of a key for each, or
+  // without keys (nullptr) of the ranks. Throws Failure, std::overflow_error and Cancelled.
+  ParticleQuality Run(vtkPointSet* particles, const CountedPoints& counted,
+    const std::int64_t* order, DensityImage& density, FlowCache& cache, Progress& progress) const;
 };
 
 } // namespace RectifiedTransport

@@ -187,6 +187,19 @@ std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data)
 } // namespace
 
 //------------------------------------------------------------------------------
+bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks)
+{
+  std::vector<vtkDataObject*> own;
+  if (data)
+  {
+    own.push_back(data);
+  }
+  const std::vector<std::uint64_t> all = gatherValues(ranks, fingerprintOf(own));
+  return std::all_of(
+    all.begin(), all.end(), [&all](std::uint64_t there) { return there == all.front(); });
+}
+
+//------------------------------------------------------------------------------
 void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -274,6 +287,18 @@ std::unique_ptr<RankRun> WholeInputs::BeginRun(
     return nullptr;
   }
   return RankRun::Begin(filter->GetClassName(), this->Piece, this->NumberOfPieces);
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RankRun> WholeInputs::BeginWithoutPieces(
+  vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const
+{
+  // A composite data set is executed by blocks, of which ranks may have different numbers.
+  if (!vtkPointSet::GetData(inputVector[port]) || this->IsIteratingOverBlocks(filter, inputVector))
+  {
+    return nullptr;
+  }
+  return RankRun::BeginWithoutPieces(filter->GetClassName() + std::string(" information"));
 }
 
 //------------------------------------------------------------------------------

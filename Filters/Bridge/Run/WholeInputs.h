@@ -28,6 +28,11 @@ namespace RectifiedTransport
 {
 
 class RankRun;
+class Ranks;
+
+// Whether all ranks have the same data, or none has any, so that it is one data set and not parts
+// of one. Called by all ranks; `data` may be nullptr.
+bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 
 // Of one filter. Remembers the last comparison with other ranks, so that it is made once for data
 // that do not change.
@@ -52,6 +57,9 @@ public:
   // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
   // RankRun::Begin.
   std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
+  // The same in REQUEST_INFORMATION, for points on a port.
+  std::unique_ptr<RankRun> BeginWithoutPieces(
+    vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
 
   // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
   // not the same on all ranks; warns where other ranks do not answer. Of the needed ports.

@@ -36,11 +36,10 @@ SplatReport splatInto(
   const ImageGrid& geometry = target.Geometry;
   const SplatParticles<D, Real> particles{ input.Points, input.Masses, input.MassEach,
     geometry.ToIndexMap<D>() };
-  const double scale = target.DivideByVolume ? 1.0 / geometry.CellMeasure() : 1.0;
   const double bytes = 8.0 * static_cast<double>(input.Points.size());
   return withMemory("putting the points in order", bytes, [&]() {
     return splatMass<D, Real>(
-      particles, geometry.Size<D>(), target.Options, scale, cells, progress.Stage());
+      particles, geometry.Size<D>(), target.Options, target.Scale(), cells, progress.Stage());
   });
 }
 
@@ -99,11 +98,10 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
 
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress)
 {
-  constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const vtkIdType count = cells->GetNumberOfTuples();
   const double* values = cells->GetPointer(0);
   const double sum = reduceChunks(
-    progress, count, grain, 0.0,
+    progress, count, splatSumChunk, 0.0,
     [values](std::int64_t first, std::int64_t last) {
       return std::accumulate(values + first, values + last, 0.0);
     },

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_MassSplat_h
 #define RectifiedTransport_MassSplat_h
 
+#include "Bridge/Points/SplatTarget.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/Points.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Splat/Splat.h"
 
 #include <cstdint>
 
@@ -17,14 +17,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-// The grid and the options of a splat.
-struct SplatTarget
-{
-  const ImageGrid& Geometry;
-  SplatOptions Options;
-  bool DivideByVolume; // densities, else masses
-};
 
 // Throws Failure where the density of a cell that holds all of `mass` would not be finite; `what`
 // is the subject of the message, `rule` completes "make the masses smaller, ...".
@@ -43,8 +35,9 @@ std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatT
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The total mass of the cells that splatPoints wrote, as the work of the current stage. Throws
-// Cancelled.
+// The total mass of the cells that splatPoints wrote, as the work of the current stage: the sum of
+// the sums of `splatSumChunk` cells that follow one another. Throws Cancelled.
+constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -5,10 +5,13 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/MassSplat.h"
+#include "Bridge/Splat/SplatOnRanks.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -18,10 +21,57 @@
 namespace RectifiedTransport
 {
 
-ImageGrid MassSplatter::CellsAround(vtkPointSet* points) const
+namespace
 {
-  double bounds[6];
-  findBounds(points, bounds);
+
+// The work before the splat, and the splat, of all.
+constexpr double endOfPoints = 0.1;
+constexpr double endOfMasses = 0.2;
+constexpr double endOfSplat = 0.95;
+
+PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& progress)
+{
+  if (points->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  progress.BeginStage(endOfPoints);
+  visitPoints(points, "input point set", progress, [](std::int64_t, const double*) {});
+  progress.BeginStage(endOfMasses);
+  return { points, masses, progress };
+}
+
+void requireAxis(const ImageGrid& cells, bool hasReference)
+{
+  if (cells.Dimension() == 0)
+  {
+    throw Failure(hasReference
+        ? "The Reference has one point along every axis; it needs at least one axis of two points "
+          "or more"
+        : "The input's points are all at one place, about which there is no box; connect an image "
+          "as the Reference, or points that differ");
+  }
+}
+
+void requireMemoryFor(double values, const ImageGrid& cells)
+{
+  const std::array<int, 3> along = cells.NumberOfValues();
+  const GridSize<3> size{ along[0], along[1], along[2] };
+  requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
+    values * sizeof(double));
+}
+
+void requireFinite(double sizes, const SplatTarget& target)
+{
+  requireFiniteDensity(sizes, target, "The points' masses",
+    target.DivideByVolume ? "the cells larger, or switch DivideByVolume off"
+                          : "so that the sum of their sizes is a double");
+}
+
+} // namespace
+
+ImageGrid MassSplatter::CellsIn(const double (&bounds)[6]) const
+{
   const ImageGrid box = gridOfBox(bounds);
   int dimensions[3];
   for (std::size_t a = 0; a < 3; ++a)
@@ -31,49 +81,46 @@ ImageGrid MassSplatter::CellsAround(vtkPointSet* points) const
   return gridWithValues(box, dimensions, "Dimensions");
 }
 
-ImageGrid MassSplatter::GridAround(vtkPointSet* points) const
+// Of the image.
+ImageGrid MassSplatter::GridOf(const ImageGrid& cells, bool hasReference) const
 {
-  const ImageGrid cells = this->CellsAround(points);
-  return this->OnPoints ? cells.AtCellCentres() : cells;
+  return this->OnPoints && !hasReference ? cells.AtCellCentres() : cells;
 }
 
-std::int64_t MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
-  Progress& progress, vtkImageData* output) const
+ImageGrid MassSplatter::GridAround(const double (&bounds)[6]) const
+{
+  return this->GridOf(this->CellsIn(bounds), false);
+}
+
+MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses,
+  vtkImageData* reference, Progress& progress, vtkImageData* output) const
 {
   const vtkIdType count = points->GetNumberOfPoints();
-  PointMasses given;
-  if (count > 0)
+  const PointMasses given = readPoints(points, masses, progress);
+  ImageGrid cells;
+  if (reference)
   {
-    progress.BeginStage(0.1);
-    visitPoints(points, "input point set", progress, [](std::int64_t, const double*) {});
-    progress.BeginStage(0.2);
-    given = PointMasses(points, masses, progress);
+    cells = gridOf(reference, this->OnPoints);
   }
-  const ImageGrid cells = reference ? gridOf(reference, this->OnPoints) : this->CellsAround(points);
-  if (cells.Dimension() == 0)
+  else
   {
-    throw Failure(reference
-        ? "The Reference has one point along every axis; it needs at least one axis of two points "
-          "or more"
-        : "The input's points are all at one place, about which there is no box; connect an image "
-          "as the Reference, or points that differ");
+    double bounds[6];
+    findBounds(points, bounds);
+    cells = this->CellsIn(bounds);
   }
+  requireAxis(cells, reference != nullptr);
   if (!reference)
   {
-    const std::array<int, 3> along = cells.NumberOfValues();
-    const GridSize<3> size{ along[0], along[1], along[2] };
-    requireMemory("the array Density of " + describeSize<3>(size) + " values (see Dimensions)",
-      numberOfCells<3>(size) * sizeof(double));
+    requireMemoryFor(numberOfValues(cells), cells);
   }
-  applyGrid(this->OnPoints && !reference ? cells.AtCellCentres() : cells, output);
+  const ImageGrid grid = this->GridOf(cells, reference != nullptr);
+  applyGrid(grid, output);
   requireCells(cells);
   const SplatTarget target{ cells, this->Splat, this->DivideByVolume };
-  requireFiniteDensity(given.TotalSize(), target, "The points' masses",
-    this->DivideByVolume ? "the cells larger, or switch DivideByVolume off"
-                         : "so that the sum of their sizes is a double");
+  requireFinite(given.TotalSize(), target);
 
   const auto density = newArray<vtkDoubleArray>("Density", 1, cells.NumberOfCells());
-  progress.BeginStage(0.95);
+  progress.BeginStage(endOfSplat);
   const std::int64_t outside = count > 0
     ? splatPoints(points->GetPoints()->GetData(), given.Values(), 1.0, target, progress, density)
     : splatPoints(ConstPointSpan<3>(), 1.0, target, progress, density);
@@ -84,7 +131,58 @@ std::int64_t MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses, vtkIma
   output->GetAttributes(this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(density);
   addFieldValue(output, "TotalMass", total);
-  return outside;
+  return { grid, count, outside };
+}
+
+MassSplatter::Report MassSplatter::RunOnRanks(vtkPointSet* points, vtkDataArray* masses,
+  vtkImageData* reference, const Share& share, Progress& progress, vtkImageData* output) const
+{
+  const Ranks& ranks = *progress.Group();
+  // Hidden points have no mass, but their places among the others.
+  const SharedPoints shared(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+  const PointMasses given = readPoints(shared.Set(), masses, progress);
+  ImageGrid cells;
+  if (share.HasReference)
+  {
+    const ImagePieces pieces(reference, ranks);
+    cells = isEmpty(pieces.Whole()) ? cells : gridOf(pieces.MakeFrame(), this->OnPoints);
+  }
+  else if (shared.All() > 0)
+  {
+    double bounds[6];
+    findBounds(shared.Set(), &ranks, bounds);
+    cells = this->CellsIn(bounds);
+    requireMemoryFor(numberOfValues(cells) / ranks.Count(), cells);
+  }
+  if (cells.IsEmpty())
+  {
+    return {};
+  }
+  requireAxis(cells, share.HasReference);
+  const ImageGrid grid = this->GridOf(cells, share.HasReference);
+  applyGrid(grid, output);
+  Extent wanted = grid.Extent() == share.Announced
+    ? share.Wanted
+    : dividedExtent(grid.Extent(), ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+  output->SetExtent(wanted.data());
+  requireCells(cells);
+  double sizes = 0.0;
+  for (const double there : gatherValues(ranks, given.TotalSize()))
+  {
+    sizes += there;
+  }
+  const SplatTarget target{ cells, this->Splat, this->DivideByVolume };
+  requireFinite(sizes, target);
+
+  const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
+  const auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(box.Count()));
+  progress.BeginStage(1.0);
+  const RankSplat splat = splatOnRanks({ shared, given, target },
+    { tuplesOf(grid.Extent(), owner, grid.Extent()), box }, ranks, progress, density);
+  output->GetAttributes(owner)->SetScalars(density);
+  addFieldValue(output, "TotalMass", splat.TotalMass);
+  return { grid, shared.All(), splat.Outside };
 }
 
 } // namespace RectifiedTransport

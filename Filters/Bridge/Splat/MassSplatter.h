@@ -29,16 +29,37 @@ struct MassSplatter
   bool DivideByVolume;
   SplatOptions Splat;
 
+  struct Report
+  {
+    ImageGrid Grid; // of the whole image; empty where there is none
+    std::int64_t Points = 0;
+    std::int64_t Outside = 0; // of the grid
+  };
+  // What ranks want and give together.
+  struct Share
+  {
+    bool HasReference;
+    std::array<int, 6> Announced; // the whole extent
+    std::array<int, 6> Wanted;    // of the image, by this rank
+  };
+
   // The grid of the output on the points' bounds, without a reference. Throws Failure.
-  ImageGrid GridAround(vtkPointSet* points) const;
+  ImageGrid GridAround(const double (&bounds)[6]) const;
 
   // Splats masses, 1 each where `masses` is nullptr, onto the grid of a reference, or of the
-  // points' bounds. Returns how many points are outside of it. Throws Failure and Cancelled.
-  std::int64_t Run(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
-    Progress& progress, vtkImageData* output) const;
+  // points' bounds. Throws Failure and Cancelled.
+  Report Run(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference, Progress& progress,
+    vtkImageData* output) const;
+
+  // The same of the points of the progress's ranks, which call this together. Each gives its part
+  // of points and reference, which may be nullptr, and gets the part of the image that it wants: of
+  // what VTK would divide the image into where that is not what was announced.
+  Report RunOnRanks(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
+    const Share& share, Progress& progress, vtkImageData* output) const;
 
 private:
-  ImageGrid CellsAround(vtkPointSet* points) const;
+  ImageGrid CellsIn(const double (&bounds)[6]) const;
+  ImageGrid GridOf(const ImageGrid& cells, bool hasReference) const;
 };
 
 } // namespace RectifiedTransport

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -77,6 +78,25 @@ std::vector<T> gatherValues(const Ranks& ranks, const T& own)
     values.push_back(fromBytes<T>(bytes).front());
   }
   return values;
+}
+
+// Sends values to each rank, this one included, and returns those that each sent here.
+template <class T>
+std::vector<std::vector<T>> exchangeValues(const Ranks& ranks, std::vector<std::vector<T>> given)
+{
+  std::vector<Bytes> parts;
+  for (std::vector<T>& values : given)
+  {
+    parts.push_back(toBytes(values));
+    values = {};
+  }
+  std::vector<std::vector<T>> received;
+  for (Bytes& bytes : ranks.Exchange(std::move(parts)))
+  {
+    received.push_back(fromBytes<T>(bytes));
+    bytes = {};
+  }
+  return received;
 }
 
 // The sum over all ranks, of integers or exact sums; `own` where there is one rank.
@@ -150,6 +170,15 @@ struct RankShare
   RankShare(std::int64_t count, const Ranks* ranks)
     : RankShare(count, ranks ? ranks->Count() : 1, ranks ? ranks->Own() : 0)
   {
+  }
+
+  // Which rank has an item of [0, count).
+  static int Of(std::int64_t item, std::int64_t count, int ranks)
+  {
+    const std::int64_t each = count / ranks;
+    const std::int64_t larger = count % ranks * (each + 1); // the items of the ranks with one more
+    return static_cast<int>(
+      item < larger ? item / (each + 1) : count % ranks + (item - larger) / each);
   }
 
   std::int64_t First;

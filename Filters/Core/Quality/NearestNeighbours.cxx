@@ -3,6 +3,7 @@
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <array>
@@ -88,6 +89,8 @@ public:
   }
 
   const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
+  // Of all points.
+  const TreeBox& Bounds() const { return this->Boxes.front(); }
 
   // The least squared distance of a point from another one, or `best` if that is less.
   double Search(const TreePoint& point, double best, std::int64_t box = 0) const
@@ -118,6 +121,18 @@ public:
       }
     }
     return best;
+  }
+
+  // The squared distance of a point from a box; infinite or NaN from one without points.
+  static double GapTo(const TreePoint& point, const TreeBox& box)
+  {
+    double squared = 0.0;
+    for (int r = 0; r < 3; ++r)
+    {
+      const double gap = std::max({ box.Low[r] - point.X[r], point.X[r] - box.High[r], 0.0 });
+      squared += gap * gap;
+    }
+    return squared;
   }
 
 private:
@@ -218,32 +233,80 @@ private:
     return middle;
   }
 
-  // The squared distance of a point from a box.
   double Gap(const TreePoint& point, std::int64_t box) const
   {
-    const TreeBox& at = this->Boxes[static_cast<std::size_t>(box)];
-    double squared = 0.0;
-    for (int r = 0; r < 3; ++r)
-    {
-      const double gap = std::max({ at.Low[r] - point.X[r], point.X[r] - at.High[r], 0.0 });
-      squared += gap * gap;
-    }
-    return squared;
+    return GapTo(point, this->Boxes[static_cast<std::size_t>(box)]);
   }
 
   LargeBuffer<TreePoint> Points;
   std::vector<TreeBox> Boxes;
 };
 
+constexpr std::int64_t grain = 512;
+constexpr double endOfOwn = 0.7; // of the work, where other ranks follow
+
+// A point and the least squared distance known.
+struct Query
+{
+  double X[3];
+  double Best;
+};
+
+// Lowers the squared distances of this rank's points to those from the points of other ranks: one
+// of them after another answers for those that are nearer to its points' box than to a neighbour.
+void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, const Ranks& ranks,
+  Progress& progress)
+{
+  const std::vector<TreeBox> boxes = gatherValues(ranks, tree.Bounds());
+  for (int step = 1; step < ranks.Count(); ++step)
+  {
+    progress.BeginStage(endOfOwn + (1.0 - endOfOwn) * step / (ranks.Count() - 1));
+    const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
+    std::vector<std::vector<Query>> queries(boxes.size());
+    std::vector<std::int64_t> asked;
+    for (std::int64_t i = 0; i < count && boxes[other].Last > 0; ++i)
+    {
+      const TreePoint& point = tree.At(i);
+      const double best = squared[point.Id];
+      if (PointTree::GapTo(point, boxes[other]) < best)
+      {
+        queries[other].push_back({ { point.X[0], point.X[1], point.X[2] }, best });
+        asked.push_back(point.Id);
+      }
+    }
+    std::vector<std::vector<double>> answers;
+    for (const std::vector<Query>& those : exchangeValues(ranks, std::move(queries)))
+    {
+      answers.emplace_back(those.size());
+      double* found = answers.back().data();
+      progress.For(
+        static_cast<std::int64_t>(those.size()), grain,
+        [&tree, &those, found](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = first; i < last; ++i)
+          {
+            const Query& query = those[static_cast<std::size_t>(i)];
+            constexpr std::int64_t notHere = -1;
+            found[i] = tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
+          }
+        },
+        grain);
+    }
+    const std::vector<double> found = exchangeValues(ranks, std::move(answers))[other];
+    for (std::size_t i = 0; i < asked.size(); ++i)
+    {
+      squared[asked[i]] = found[i];
+    }
+  }
+}
+
 } // namespace
 
 void nearestDistances(ConstPointSpan<3> points, double* distances, const Context& context)
 {
-  constexpr std::int64_t grain = 512;
   Progress progress(context);
   PointTree tree(points.size());
   tree.Build(points, progress, 0.4);
-  progress.BeginStage(1.0);
+  progress.BeginStage(context.Group ? endOfOwn : 1.0);
   progress.For(
     points.size(), grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -251,11 +314,19 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
       for (std::int64_t i = first; i < last; ++i)
       {
         const TreePoint& point = tree.At(i);
-        distances[point.Id] =
-          std::sqrt(tree.Search(point, std::numeric_limits<double>::infinity()));
+        const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
+        distances[point.Id] = context.Group ? squared : std::sqrt(squared);
       }
     },
     grain);
+  if (context.Group)
+  {
+    searchOnRanks(tree, points.size(), distances, *context.Group, progress);
+    for (std::int64_t i = 0; i < points.size(); ++i)
+    {
+      distances[i] = std::sqrt(distances[i]);
+    }
+  }
 }
 
 } // namespace RectifiedTransport

@@ -11,9 +11,11 @@
 namespace RectifiedTransport
 {
 
-// Writes the distance of each point from the nearest other one: infinite if there is no other. The
-// boxes are divided about the median along their widest axis, so that clusters cost no more than
-// spread points; O(count log count). Throws std::bad_alloc and Cancelled.
+// Writes the distance of each point from the nearest other one: infinite if there is no other.
+// Where the context has ranks, the points are those of all ranks, which call this together, each
+// with its own; points that lie near those of few other ranks cost least. The boxes are divided
+// about the median along their widest axis, so that clusters cost no more than spread points;
+// O(count log count). Throws std::bad_alloc and Cancelled.
 void nearestDistances(
   ConstPointSpan<3> points, double* distances, const Context& context = Context());
 

@@ -5,15 +5,19 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankOrder.h"
 #include "Core/Quality/NearestNeighbours.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -51,23 +55,29 @@ public:
     , BlockSize(blockSize)
     , BlockCounts(numberOfBlocks<Dimension>(this->Size, blockSize))
     , Blocks(static_cast<std::int64_t>(numberOfCells<Dimension>(this->BlockCounts)))
+    , Group(context.Group)
+    , OwnBlocks(this->Blocks, this->Group)
     , Count(particles.Points.size())
     , Work(context)
     , Points(3 * this->Count)
     , Block(this->Count)
     , Spacing(this->Count)
-    , Found(this->Blocks)
-    , Expected(this->Blocks)
+    , Found(this->OwnBlocks.Count)
+    , Expected(this->OwnBlocks.Count)
   {
   }
 
   ParticleQuality Measure()
   {
-    this->Quality.Particles = this->Count;
+    this->Quality.Particles = sumOverRanks(this->Group, this->Count);
     this->Quality.TotalMass = this->Flow.Total() * this->Grid.CellMeasure();
     this->Work.BeginStage(0.1);
     this->Place();
     this->Work.BeginStage(0.2);
+    if (this->Group)
+    {
+      this->Order.emplace(this->Count, this->Particles.Order, 1, *this->Group, this->Work);
+    }
     this->AddMasses();
     this->Work.BeginStage(0.25);
     this->MeasureCost();
@@ -93,6 +103,24 @@ private:
         kernel(i);
       }
     });
+  }
+
+  // The sum of value(i) over the particles of all ranks in their order.
+  template <class Value>
+  double SumInOrder(const Value& value)
+  {
+    double sum = 0.0;
+    if (!this->Order)
+    {
+      this->InOrder(this->Count, [&](std::int64_t i) { sum += value(i); });
+      return sum;
+    }
+    std::vector<double> own;
+    own.reserve(static_cast<std::size_t>(this->Count));
+    this->InOrder(this->Count, [&](std::int64_t i) { own.push_back(value(i)); });
+    const std::vector<double> share = this->Order->Bring(own.data());
+    return sumInTurn(this->Group, sum,
+      [&](double& running) { running = std::accumulate(share.begin(), share.end(), running); });
   }
 
   // The mass of a particle relative to that of all.
@@ -127,8 +155,8 @@ private:
         this->Block.data()[i] = this->BlockAt(index);
       }
     });
-    this->Quality.Outside = outside;
-    this->Quality.InEmptyCells = inEmpty;
+    this->Quality.Outside = sumOverRanks(this->Group, outside.load());
+    this->Quality.InEmptyCells = sumOverRanks(this->Group, inEmpty.load());
   }
 
   std::int64_t BlockAt(const Point<Dimension>& index) const
@@ -144,13 +172,13 @@ private:
 
   void AddMasses()
   {
-    if (!this->Particles.Masses)
+    if (onAllRanks(this->Group, !this->Particles.Masses || this->Count == 0))
     {
-      this->ParticleMass = static_cast<double>(this->Count);
+      this->ParticleMass = static_cast<double>(this->Quality.Particles);
       return;
     }
-    double total = 0.0;
-    this->InOrder(this->Count, [&](std::int64_t i) { total += this->Particles.Masses[i]; });
+    const double total =
+      this->SumInOrder([this](std::int64_t i) { return this->Particles.Masses[i]; });
     if (!(total > 0.0) || std::isinf(total))
     {
       throw std::invalid_argument("The masses of the particles sum to " + std::to_string(total) +
@@ -161,50 +189,97 @@ private:
 
   void MeasureCost()
   {
-    double cost = 0.0;
-    this->InOrder(this->Particles.Displacements.size(), [&](std::int64_t i) {
+    if (onAllRanks(this->Group, this->Particles.Displacements.size() == 0))
+    {
+      return;
+    }
+    this->Quality.TransportCost = this->SumInOrder([this](std::int64_t i) {
       const double* d = this->Particles.Displacements[i];
-      cost += this->Share(i) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      return this->Share(i) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     });
-    this->Quality.TransportCost = cost;
+  }
+
+  // The share of a particle, of a block.
+  struct BlockTerm
+  {
+    std::int64_t Block;
+    double Share;
+  };
+
+  // Adds the shares of the particles to this rank's blocks, in the order of the particles.
+  void AddShares()
+  {
+    double* found = this->Found.data();
+    std::fill_n(found, this->OwnBlocks.Count, 0.0);
+    if (!this->Order)
+    {
+      this->InOrder(this->Count, [&](std::int64_t i) {
+        if (this->Block.data()[i] != noBlock)
+        {
+          found[this->Block.data()[i]] += this->Share(i);
+        }
+      });
+      return;
+    }
+    std::vector<BlockTerm> own;
+    own.reserve(static_cast<std::size_t>(this->Count));
+    this->InOrder(this->Count, [&](std::int64_t i) {
+      own.push_back({ this->Block.data()[i], this->Share(i) });
+    });
+    const int ranks = this->Group->Count();
+    std::vector<std::vector<BlockTerm>> given(static_cast<std::size_t>(ranks));
+    for (const BlockTerm& term : this->Order->Bring(own.data()))
+    {
+      if (term.Block != noBlock)
+      {
+        given[static_cast<std::size_t>(RankShare::Of(term.Block, this->Blocks, ranks))].push_back(
+          term);
+      }
+    }
+    for (const std::vector<BlockTerm>& terms : exchangeValues(*this->Group, std::move(given)))
+    {
+      for (const BlockTerm& term : terms)
+      {
+        found[term.Block - this->OwnBlocks.First] += term.Share;
+      }
+    }
   }
 
   // The relative L2 distance of two densities that are constant on blocks.
   void CompareBlocks()
   {
-    double* found = this->Found.data();
-    double* expected = this->Expected.data();
-    std::fill_n(found, this->Blocks, 0.0);
     this->Work.BeginStage(0.3);
-    this->InOrder(this->Count, [&](std::int64_t i) {
-      if (this->Block.data()[i] != noBlock)
-      {
-        found[this->Block.data()[i]] += this->Share(i);
-      }
-    });
+    this->AddShares();
+    const double* found = this->Found.data();
+    double* expected = this->Expected.data();
     this->Work.BeginStage(0.35);
-    this->Work.For(this->Blocks, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t block = first; block < last; ++block)
+    this->Work.For(this->OwnBlocks.Count, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
       {
-        const auto [low, high] = this->BlockBox(block);
-        expected[block] = this->Flow.Share(low, high);
+        const auto [low, high] = this->BlockBox(this->OwnBlocks.First + i);
+        expected[i] = this->Flow.Share(low, high);
       }
     });
     this->Work.BeginStage(0.4);
-    double difference = 0.0;
-    double norm = 0.0;
-    this->InOrder(this->Blocks, [&](std::int64_t block) {
-      const auto [low, high] = this->BlockBox(block);
-      double measure = 1.0;
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        measure *= high[axis] - low[axis];
-      }
-      const double off = found[block] - expected[block];
-      difference += off * off / measure;
-      norm += expected[block] * expected[block] / measure;
+    struct Squares
+    {
+      double Difference = 0.0;
+      double Norm = 0.0;
+    };
+    const Squares squares = sumInTurn(this->Group, Squares(), [&](Squares& sums) {
+      this->InOrder(this->OwnBlocks.Count, [&](std::int64_t i) {
+        const auto [low, high] = this->BlockBox(this->OwnBlocks.First + i);
+        double measure = 1.0;
+        for (int axis = 0; axis < Dimension; ++axis)
+        {
+          measure *= high[axis] - low[axis];
+        }
+        const double off = found[i] - expected[i];
+        sums.Difference += off * off / measure;
+        sums.Norm += expected[i] * expected[i] / measure;
+      });
     });
-    this->Quality.DensityError = std::sqrt(difference / norm);
+    this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
   }
 
   std::pair<Point<Dimension>, Point<Dimension>> BlockBox(std::int64_t block) const
@@ -255,28 +330,36 @@ private:
 
   void AverageSpacings()
   {
-    double sum = 0.0;
-    double smallest = std::numeric_limits<double>::infinity();
-    std::int64_t related = 0;
-    this->InOrder(this->Count, [&](std::int64_t i) {
-      const double spacing = this->Spacing.data()[i];
-      if (spacing >= 0.0)
-      {
-        sum += spacing;
-        smallest = std::min(smallest, spacing);
-        ++related;
-      }
+    struct Spacings
+    {
+      double Sum = 0.0;
+      double Smallest = std::numeric_limits<double>::infinity();
+      std::int64_t Related = 0;
+    };
+    const std::vector<double> brought =
+      this->Order ? this->Order->Bring(this->Spacing.data()) : std::vector<double>();
+    const double* all = this->Order ? brought.data() : this->Spacing.data();
+    const std::int64_t count = this->Order ? this->Order->Count() : this->Count;
+    const Spacings found = sumInTurn(this->Group, Spacings(), [&](Spacings& sums) {
+      this->InOrder(count, [&](std::int64_t i) {
+        if (all[i] >= 0.0)
+        {
+          sums.Sum += all[i];
+          sums.Smallest = std::min(sums.Smallest, all[i]);
+          ++sums.Related;
+        }
+      });
     });
-    if (!std::isfinite(sum))
+    if (!std::isfinite(found.Sum))
     {
       throw std::overflow_error(
         "MeanSpacing passes the largest double; the spacings of the density along its axes must "
         "be more alike");
     }
-    if (related > 0)
+    if (found.Related > 0)
     {
-      this->Quality.SmallestSpacing = smallest;
-      this->Quality.MeanSpacing = sum / static_cast<double>(related);
+      this->Quality.SmallestSpacing = found.Smallest;
+      this->Quality.MeanSpacing = found.Sum / static_cast<double>(found.Related);
     }
   }
 
@@ -288,6 +371,8 @@ private:
   const std::int64_t BlockSize;
   const GridSize<Dimension> BlockCounts;
   const std::int64_t Blocks;
+  const Ranks* const Group; // nullptr for one rank
+  const RankShare OwnBlocks;
   const std::int64_t Count;
   Progress Work;
   LargeBuffer<double> Points; // in units of Scale
@@ -296,6 +381,7 @@ private:
   LargeBuffer<double> Found; // shares of the mass in each block
   LargeBuffer<double> Expected;
   double ParticleMass = 0.0;
+  std::optional<RankOrder> Order; // of the particles of several ranks
   ParticleQuality Quality;
 };
 

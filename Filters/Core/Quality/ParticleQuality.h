@@ -13,12 +13,15 @@
 namespace RectifiedTransport
 {
 
-// Particles in physical space: at least one, and all numbers finite.
+// Particles in physical space: at least one (of all ranks), and all numbers finite.
 struct ParticleSample
 {
   ConstPointSpan<3> Points;
   const double* Masses = nullptr;       // not negative; null: all the same
   ConstPointSpan<3> Displacements = {}; // one a particle, or none at all
+  // On ranks, the keys of the order in which the particles are summed up; null: those of rank 0
+  // first, on each in their order.
+  const std::int64_t* Order = nullptr;
 };
 
 struct ParticleQuality
@@ -74,7 +77,9 @@ GridSize<Dimension> numberOfBlocks(const GridSize<Dimension>& cells, std::int64_
   return blocks;
 }
 
-// Compares particles with the density of a flow, which lies on `grid` in physical space. Takes
+// Compares particles with the density of a flow, which lies on `grid` in physical space. Where the
+// context has ranks, the particles are those of all ranks, which call this together, each with its
+// own and, if it has any, what the others have of them; all get the figures of all. Takes
 // about 88 bytes a particle and 16 a block meanwhile, and O(particles log particles). Throws
 // std::invalid_argument for a block without cells and masses whose sum is not a positive number,
 // std::overflow_error for a figure past the largest double, std::bad_alloc and Cancelled.

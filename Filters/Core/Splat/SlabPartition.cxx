@@ -23,32 +23,51 @@ void SlabPartition<Dimension, Real>::FindChunks(
     for (std::int64_t chunk = begin; chunk < end; ++chunk)
     {
       const std::int64_t start = chunk * splatChunk;
-      const CellBox<Dimension> box =
-        this->Reach(*this->Job, first + start, std::min(splatChunk, count - start));
-      double cells = 1.0;
-      for (int a = 0; a < Dimension; ++a)
-      {
-        cells *= box.High[a] - box.Low[a];
-      }
-      this->Chunks[static_cast<std::size_t>(chunk)] = { box.Low[Dimension - 1],
-        box.High[Dimension - 1], cells > cellsInCaches };
+      this->Chunks[static_cast<std::size_t>(chunk)] =
+        this->ChunkOf(this->Reach(*this->Job, first + start, std::min(splatChunk, count - start)));
     }
   });
   this->SumPlanes();
 }
 
 template <int Dimension, class Real>
+typename SlabPartition<Dimension, Real>::Chunk SlabPartition<Dimension, Real>::ChunkOf(
+  const CellBox<Dimension>& reached) const
+{
+  constexpr int last = Dimension - 1;
+  const CellBox<Dimension>& box = this->Job->Box;
+  Chunk chunk{ box.Low[last], box.Low[last], false };
+  double cells = 1.0;
+  for (int a = 0; a < Dimension; ++a)
+  {
+    const std::int32_t low = std::max(reached.Low[a], box.Low[a]);
+    cells *= std::max(0, std::min(reached.High[a], box.High[a]) - low);
+  }
+  if (cells > 0.0)
+  {
+    chunk = { std::max(reached.Low[last], box.Low[last]),
+      std::min(reached.High[last], box.High[last]), cells > cellsInCaches };
+  }
+  return chunk;
+}
+
+template <int Dimension, class Real>
 void SlabPartition<Dimension, Real>::SumPlanes()
 {
   // As differences from plane to plane at first.
-  const auto planes = static_cast<std::size_t>(this->Job->Size[Dimension - 1]);
+  const std::int32_t start = this->Job->Box.Low[Dimension - 1];
+  const auto planes = static_cast<std::size_t>(this->Job->Box.High[Dimension - 1] - start);
   this->Work.assign(planes + 1, 0.0);
   this->Crossings.assign(planes + 1, 0);
   std::int64_t scattered = 0;
   for (const Chunk& chunk : this->Chunks)
   {
-    const auto low = static_cast<std::size_t>(chunk.Low);
-    const auto high = static_cast<std::size_t>(chunk.High);
+    if (chunk.Low == chunk.High)
+    {
+      continue;
+    }
+    const auto low = static_cast<std::size_t>(chunk.Low - start);
+    const auto high = static_cast<std::size_t>(chunk.High - start);
     const double each = 1.0 / static_cast<double>(high - low);
     this->Work[low] += each;
     this->Work[high] -= each;
@@ -73,10 +92,11 @@ void SlabPartition<Dimension, Real>::SumPlanes()
 template <int Dimension, class Real>
 double SlabPartition<Dimension, Real>::CutSlabs(std::int64_t wanted)
 {
-  const std::int32_t planes = this->Job->Size[Dimension - 1];
+  const std::int32_t start = this->Job->Box.Low[Dimension - 1];
+  const std::int32_t planes = this->Job->Box.High[Dimension - 1] - start;
   const auto chunks = static_cast<double>(this->Chunks.size());
   const double share = chunks / static_cast<double>(std::max<std::int64_t>(wanted, 1));
-  this->Cuts.assign(1, 0);
+  this->Cuts.assign(1, start);
   std::int64_t visits = this->NumberOfChunks();
   for (std::int32_t cut = 1; cut < planes && static_cast<std::int64_t>(this->Cuts.size()) < wanted;
        ++cut)
@@ -84,11 +104,11 @@ double SlabPartition<Dimension, Real>::CutSlabs(std::int64_t wanted)
     const double work = this->Work[static_cast<std::size_t>(cut) - 1];
     if (work >= share * static_cast<double>(this->Cuts.size()))
     {
-      this->Cuts.push_back(cut);
+      this->Cuts.push_back(start + cut);
       visits += this->Crossings[static_cast<std::size_t>(cut)];
     }
   }
-  this->Cuts.push_back(planes);
+  this->Cuts.push_back(start + planes);
   return static_cast<double>(visits) / chunks;
 }
 
@@ -122,12 +142,7 @@ typename SlabPartition<Dimension, Real>::Run SlabPartition<Dimension, Real>::Nex
 template <int Dimension, class Real>
 CellBox<Dimension> SlabPartition<Dimension, Real>::Slab(std::int64_t slab) const
 {
-  CellBox<Dimension> box;
-  for (int a = 0; a < Dimension; ++a)
-  {
-    box.Low[a] = 0;
-    box.High[a] = this->Job->Size[a];
-  }
+  CellBox<Dimension> box = this->Job->Box;
   box.Low[Dimension - 1] = this->Cuts[static_cast<std::size_t>(slab)];
   box.High[Dimension - 1] = this->Cuts[static_cast<std::size_t>(slab) + 1];
   return box;

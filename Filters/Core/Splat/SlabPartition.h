@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planes of the grid that chunks of particles reach, and a partition of the grid into slabs of
-// about equal work.
+// The planes of the grid that chunks of particles reach, and a partition of the cells in memory
+// into slabs of about equal work.
 #ifndef RectifiedTransport_SlabPartition_h
 #define RectifiedTransport_SlabPartition_h
 
@@ -41,8 +41,8 @@ public:
   // Whether most chunks reach over more cells than caches hold, after FindChunks.
   bool IsScattered() const { return this->Scattered; }
 
-  // Cuts the grid into at most `wanted` slabs, after FindChunks. Returns the mean number of slabs
-  // that a chunk reaches.
+  // Cuts the cells in memory into at most `wanted` slabs, after FindChunks. Returns the mean number
+  // of slabs that a chunk reaches.
   double CutSlabs(std::int64_t wanted);
 
   std::int64_t NumberOfSlabs() const { return static_cast<std::int64_t>(this->Cuts.size()) - 1; }
@@ -51,7 +51,7 @@ public:
   CellBox<Dimension> Slab(std::int64_t slab) const;
 
 private:
-  // Planes [Low, High) across the last axis.
+  // Planes [Low, High) across the last axis; none where no cell in memory is reached.
   struct Chunk
   {
     std::int32_t Low;
@@ -60,6 +60,7 @@ private:
   };
 
   std::int64_t NumberOfChunks() const { return static_cast<std::int64_t>(this->Chunks.size()); }
+  Chunk ChunkOf(const CellBox<Dimension>& reached) const;
   void SumPlanes();
 
   const SplatJob<Dimension, Real>* Job = nullptr;

@@ -5,8 +5,8 @@
 #include "Core/Splat/Splat.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Splat/Kernels/SplatKernels.h"
 #include "Core/Splat/SlabPartition.h"
+#include "Core/Splat/SplatSetup.h"
 #include "Core/Splat/SplatTiles.h"
 
 #include <algorithm>
@@ -41,35 +41,27 @@ class SplatRun
 {
 public:
   SplatRun(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
-    const SplatOptions& options, double scale, double* cells, Progress& progress)
-    : Work(progress)
+    const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
+    Progress& progress)
+    : Setup(particles, size, options)
+    , Work(progress)
     , Tiles(this->Job)
+    , NumberOfCells(part.Count())
+    , IsWhole(part.Cells == size)
   {
-    this->Job.Particles = particles;
-    this->Job.Renormalize = options.Boundary == SplatBoundary::Renormalize;
     this->Job.Scale = scale;
-    this->Job.Cells = cells;
-    // Weights of two cells that keep the centroid are those of the CloudInCell.
-    constexpr double twoCells = 1.0 / 3.0;
-    const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
-    const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
-    this->Kernels = splatKernels<Dimension, Real>(kernel);
-    this->Job.Width = this->Kernels.Width;
-    if (kernel == SplatKernel::Gaussian)
-    {
-      this->UseGaussian(options.Radius);
-    }
+    this->Job.Memory.Cells = cells;
     std::int64_t stride = 1;
     double reached = 1.0;
     for (int a = 0; a < Dimension; ++a)
     {
-      this->Job.Size[a] = static_cast<std::int32_t>(size[a]);
-      this->Job.Stride[a] = stride;
-      this->Job.Kept[a] = std::min(this->Job.Width, this->Job.Size[a]);
-      stride *= size[a];
+      this->Job.Box.Low[a] = static_cast<std::int32_t>(part.Low[a]);
+      this->Job.Box.High[a] = static_cast<std::int32_t>(part.Low[a] + part.Cells[a]);
+      this->Job.Memory.Stride[a] = stride;
+      this->Job.Memory.Start += stride * part.Low[a];
+      stride *= part.Cells[a];
       reached *= this->Job.Kept[a];
     }
-    this->NumberOfCells = stride;
     const double shortest = std::clamp(shortestSlice / reached, 64.0, shortestSlice / 8.0);
     this->Step = static_cast<std::int64_t>(shortest);
     const double dense =
@@ -97,24 +89,10 @@ public:
   }
 
 private:
-  void UseGaussian(double radius)
-  {
-    this->Job.Cut = 3.0 * radius;
-    this->Job.PerVariance = 1.0 / (radius * radius);
-    this->Job.Width = static_cast<std::int32_t>(2.0 * this->Job.Cut) + 1;
-    const int farthest = static_cast<int>(this->Job.Cut + 0.5) + 1;
-    for (int k = 0; k <= farthest; ++k)
-    {
-      const double square = static_cast<double>(k) * k;
-      this->AtOffset.push_back(this->Kernels.Exponential(-0.5 * square * this->Job.PerVariance));
-    }
-    this->Job.AtOffset = this->AtOffset.data();
-  }
-
   void Clear(double end)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 16;
-    double* cells = this->Job.Cells;
+    double* cells = this->Job.Memory.Cells;
     this->Work.BeginStage(end);
     this->Work.For(
       this->NumberOfCells, grain,
@@ -155,7 +133,7 @@ private:
   void AddInOrder(std::int64_t first, std::int64_t count)
   {
     this->MakeScratch(1);
-    this->Outside += this->AddRange(first, count, nullptr, 0);
+    this->Outside += this->AddRange(first, count, this->BoxOf(this->Job.Box, true), 0);
   }
 
   // Each task adds the chunks that reach its slab to the cells of the slab.
@@ -174,7 +152,7 @@ private:
         {
           const std::int64_t start = run.First * splatChunk;
           const std::int64_t number = std::min(run.Last * splatChunk, count) - start;
-          outside += this->AddRange(first + start, number, run.IsInside ? nullptr : &box, slab);
+          outside += this->AddRange(first + start, number, this->BoxOf(box, run.IsInside), slab);
         }
         this->Outside += outside;
       }
@@ -218,22 +196,30 @@ private:
     return outside;
   }
 
+  // What a kernel is to clip particles to; null where they lie within the box as far as they lie
+  // within the grid.
+  const CellBox<Dimension>* BoxOf(const CellBox<Dimension>& box, bool isInside) const
+  {
+    return isInside && this->IsWhole ? nullptr : &box;
+  }
+
   void MakeScratch(std::int64_t tasks)
   {
-    this->ScratchEach = this->AtOffset.empty() ? 0 : std::int64_t{ Dimension } * this->Job.Width;
+    this->ScratchEach = this->Kernels.Width > 0 ? 0 : std::int64_t{ Dimension } * this->Job.Width;
     this->Scratch.resize(static_cast<std::size_t>(this->ScratchEach * tasks));
   }
   double* ScratchOf(std::int64_t task) { return this->Scratch.data() + task * this->ScratchEach; }
 
-  SplatJob<Dimension, Real> Job{};
-  SplatKernels<Dimension, Real> Kernels;
+  SplatSetup<Dimension, Real> Setup;
+  SplatJob<Dimension, Real>& Job = this->Setup.Job;
+  const SplatKernels<Dimension, Real>& Kernels = this->Setup.Kernels;
   Progress& Work;
   SlabPartition<Dimension, Real> Slabs;
   SplatTiles<Dimension, Real> Tiles;
-  std::int64_t NumberOfCells = 0;
+  const std::int64_t NumberOfCells; // in memory
+  const bool IsWhole;               // they are those of the grid
   std::int64_t ShortestSlice = 0;
   std::int64_t Step = 0; // particles between two polls for cancellation
-  std::vector<double> AtOffset;
   std::vector<double> Scratch;
   std::int64_t ScratchEach = 0;
   std::atomic<std::int64_t> Outside{ 0 };
@@ -247,20 +233,46 @@ SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const Context& context)
 {
   Progress progress(context);
-  return SplatRun<Dimension, Real>(particles, size, options, scale, cells, progress).Run();
+  return SplatRun<Dimension, Real>(
+    particles, size, LatticePart<Dimension>::WholeOf(size), options, scale, cells, progress)
+    .Run();
+}
+
+template <int Dimension, class Real>
+void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
+  const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
+  const Context& context)
+{
+  if (part.Count() > 0)
+  {
+    Progress progress(context);
+    SplatRun<Dimension, Real>(particles, size, part, options, scale, cells, progress).Run();
+  }
 }
 
 template SplatReport splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<1, float>(const SplatParticles<1, float>&, const GridSize<1>&,
+  const LatticePart<1>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<2, float>(const SplatParticles<2, float>&, const GridSize<2>&,
+  const LatticePart<2>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<3, float>(const SplatParticles<3, float>&, const GridSize<3>&,
+  const LatticePart<3>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<1, double>(const SplatParticles<1, double>&, const GridSize<1>&,
+  const LatticePart<1>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<2, double>(const SplatParticles<2, double>&, const GridSize<2>&,
+  const LatticePart<2>&, const SplatOptions&, double, double*, const Context&);
 template SplatReport splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
   const SplatOptions&, double, double*, const Context&);
+template void splatMass<3, double>(const SplatParticles<3, double>&, const GridSize<3>&,
+  const LatticePart<3>&, const SplatOptions&, double, double*, const Context&);
 
 } // namespace RectifiedTransport

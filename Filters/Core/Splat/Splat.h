@@ -6,6 +6,7 @@
 
 #include "Core/Geometry/GridSize.h"
 #include "Core/Geometry/IndexMap.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Context.h"
 
 #include <cstdint>
@@ -64,6 +65,13 @@ struct SplatReport
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
+  const Context& context = Context());
+
+// The same for the cells of a part of the grid: each has the bits that it has in the whole.
+// Particles that reach none of them may be left out.
+template <int Dimension, class Real>
+void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
+  const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,
   const Context& context = Context());
 
 } // namespace RectifiedTransport

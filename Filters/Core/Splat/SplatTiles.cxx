@@ -31,7 +31,7 @@ void SplatTiles<Dimension, Real>::Divide()
     for (int a = 0; a < Dimension; ++a)
     {
       this->Shift[a] = shift;
-      this->Tiles[a] = ((this->Job.Size[a] - 1) >> shift) + 1;
+      this->Tiles[a] = ((this->Job.Box.High[a] - this->Job.Box.Low[a] - 1) >> shift) + 1;
       this->NumberOfTiles *= this->Tiles[a];
     }
     if (this->NumberOfTiles <= mostTiles)
@@ -49,9 +49,15 @@ void SplatTiles<Dimension, Real>::VisitTiles(const std::int32_t* cells, const Vi
   std::int64_t high[3] = { 0, 0, 0 };
   for (int a = 0; a < Dimension; ++a)
   {
-    const std::int32_t first = cells[a];
-    low[a] = first >> this->Shift[a];
-    high[a] = (first + this->Job.Kept[a] - 1) >> this->Shift[a];
+    const CellBox<Dimension>& box = this->Job.Box;
+    const std::int32_t first = std::max(cells[a], box.Low[a]);
+    const std::int32_t last = std::min(cells[a] + this->Job.Kept[a], box.High[a]) - 1;
+    if (last < first)
+    {
+      return;
+    }
+    low[a] = (first - box.Low[a]) >> this->Shift[a];
+    high[a] = (last - box.Low[a]) >> this->Shift[a];
   }
   for (std::int64_t k = low[2]; k <= high[2]; ++k)
   {
@@ -138,11 +144,11 @@ CellBox<Dimension> SplatTiles<Dimension, Real>::Box(std::int64_t tile) const
   CellBox<Dimension> box;
   for (int a = 0; a < Dimension; ++a)
   {
-    const std::int64_t low = (tile % this->Tiles[a]) << this->Shift[a];
+    const std::int64_t low = this->Job.Box.Low[a] + ((tile % this->Tiles[a]) << this->Shift[a]);
     tile /= this->Tiles[a];
     box.Low[a] = static_cast<std::int32_t>(low);
     box.High[a] = static_cast<std::int32_t>(
-      std::min<std::int64_t>(low + (std::int64_t{ 1 } << this->Shift[a]), this->Job.Size[a]));
+      std::min<std::int64_t>(low + (std::int64_t{ 1 } << this->Shift[a]), this->Job.Box.High[a]));
   }
   return box;
 }

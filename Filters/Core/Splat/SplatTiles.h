@@ -23,7 +23,7 @@ public:
   {
   }
 
-  // Divides the grid into tiles, once the job has its size.
+  // Divides the cells in memory into tiles, once the job has them.
   void Divide();
 
   // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; results are

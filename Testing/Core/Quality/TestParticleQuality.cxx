@@ -4,9 +4,13 @@
 
 #include "TestDensities.h"
 #include "TestGrid.h"
+#include "ThreadRanks.h"
+
+#include "Core/Geometry/ReproducibleMath.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -174,6 +178,94 @@ TEST(ParticleQuality, SameBitsOnAnyThreads)
   EXPECT_EQ(one.TransportCost, many.TransportCost);
   EXPECT_EQ(one.SmallestSpacing, many.SmallestSpacing);
   EXPECT_EQ(one.MeanSpacing, many.MeanSpacing);
+}
+
+// The particles of one rank.
+struct RankParticles
+{
+  std::vector<Point<3>> Points;
+  std::vector<double> Masses;
+  std::vector<Point<3>> Displacements;
+  std::vector<std::int64_t> Order;
+};
+
+// Particles divided by place, or without regard to it; the last rank has none.
+template <int Dimension>
+void checkOnRanks(const GridSize<Dimension>& size, int ranks, bool byPlace, bool hasMasses)
+{
+  const auto grid = makeGrid<Dimension>(size, { 0.5, 0.7, 1.3 }, { 8.0, -1.0, 0.0 });
+  const auto density = randomCells<Dimension>(size, 0.0, 5);
+  RankParticles all;
+  std::vector<RankParticles> of(static_cast<std::size_t>(ranks));
+  for (std::int64_t i = 0; i < 1500; ++i)
+  {
+    const auto word = [i](std::uint64_t seed) {
+      return unitReal(randomWord(seed, static_cast<std::uint64_t>(i)));
+    };
+    Point<Dimension> index;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      const double place = 1.01 * word(static_cast<std::uint64_t>(axis)) - 0.005; // some outside
+      index[axis] = place * static_cast<double>(size[axis]);
+    }
+    Point<3> point;
+    grid.template ToPhysical<Dimension>(index.data(), point.data());
+    const int owner = byPlace
+      ? static_cast<int>(std::clamp(index[0] / static_cast<double>(size[0]), 0.0, 0.999) * ranks)
+      : static_cast<int>(i * 7 % 11 % ranks);
+    RankParticles& own = of[static_cast<std::size_t>(owner + 1 == ranks ? 0 : owner)];
+    for (RankParticles* particles : { &all, &own })
+    {
+      particles->Points.push_back(i % 500 == 499 ? Point<3>{ 9.0, 0.0, 0.0 } : point);
+      particles->Masses.push_back(word(7) + 0.1);
+      particles->Displacements.push_back({ word(8), word(9), word(10) });
+      particles->Order.push_back(5 * i - 700);
+    }
+  }
+  const RectifiedFlow<Dimension> flow(density.Source());
+  const auto sampleOf = [&](const RankParticles& particles) {
+    return ParticleSample{ particles.Points, hasMasses ? particles.Masses.data() : nullptr,
+      particles.Displacements, particles.Order.data() };
+  };
+  const ParticleQuality expected = measureQuality<Dimension>(sampleOf(all), flow, grid, 3);
+  EXPECT_GT(expected.MeanSpacing, 0.0);
+  EXPECT_GT(expected.Outside, 0);
+  runOnRanks(ranks, [&](const Ranks& group) {
+    RankParticles own = of[static_cast<std::size_t>(group.Own())];
+    // As moved, those of a rank are in no order.
+    std::reverse(own.Points.begin(), own.Points.end());
+    std::reverse(own.Masses.begin(), own.Masses.end());
+    std::reverse(own.Displacements.begin(), own.Displacements.end());
+    std::reverse(own.Order.begin(), own.Order.end());
+    const SerialExecutor serial;
+    Context context(serial);
+    context.Group = &group;
+    const ParticleQuality found = measureQuality<Dimension>(sampleOf(own), flow, grid, 3, context);
+    EXPECT_EQ(found.Particles, expected.Particles);
+    EXPECT_EQ(found.TotalMass, expected.TotalMass);
+    EXPECT_EQ(found.Outside, expected.Outside);
+    EXPECT_EQ(found.InEmptyCells, expected.InEmptyCells);
+    EXPECT_EQ(found.DensityError, expected.DensityError);
+    EXPECT_EQ(found.TransportCost, expected.TransportCost);
+    EXPECT_EQ(found.SmallestSpacing, expected.SmallestSpacing);
+    EXPECT_EQ(found.MeanSpacing, expected.MeanSpacing);
+  });
+}
+
+TEST(ParticleQuality, TheSameBitsOnRanks)
+{
+  for (const int ranks : { 2, 3, 5 })
+  {
+    for (const bool byPlace : { false, true })
+    {
+      for (const bool hasMasses : { false, true })
+      {
+        checkOnRanks<1>({ 40 }, ranks, byPlace, hasMasses);
+        checkOnRanks<2>({ 30, 20 }, ranks, byPlace, hasMasses);
+        checkOnRanks<3>({ 12, 9, 7 }, ranks, byPlace, hasMasses);
+      }
+    }
+  }
 }
 
 } // namespace

@@ -97,13 +97,13 @@ std::vector<double> addInOrder(const Cloud<D>& cloud, const GridSize<D>& size, S
   for (int a = 0; a < D; ++a)
   {
     job.Size[a] = static_cast<std::int32_t>(size[a]);
-    job.Stride[a] = stride;
+    job.Memory.Stride[a] = stride;
     job.Kept[a] = std::min(job.Width, job.Size[a]);
     stride *= size[a];
   }
   std::vector<double> scratch(21);
   std::vector<double> cells(static_cast<std::size_t>(stride), 0.0);
-  job.Cells = cells.data();
+  job.Memory.Cells = cells.data();
   kernels.Add(job, 0, nullptr, cloud.Count(), nullptr, scratch.data());
   return cells;
 }

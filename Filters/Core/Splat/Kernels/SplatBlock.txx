@@ -207,6 +207,15 @@ RT_INLINE CellBox<Dimension> boxOrGrid(
   return cells;
 }
 
+// The offset in memory of a cell, which need not be in the box.
+template <int Dimension>
+RT_INLINE std::int64_t rowOffset(
+  const CellMemory<Dimension>& memory, std::int64_t start, int j, int k)
+{
+  return start + (Dimension > 1 ? j * memory.Stride[Dimension > 1 ? 1 : 0] : 0) +
+    (Dimension > 2 ? k * memory.Stride[Dimension - 1] : 0);
+}
+
 // The masses of `count` particles first + begin, ... of a range, or with an index first +
 // index[begin], .... Lanes from the count on repeat the last one; their results are not used.
 template <int Dimension, class Real>

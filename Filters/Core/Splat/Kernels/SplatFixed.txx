@@ -158,26 +158,20 @@ RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
   return box;
 }
 
-template <int Dimension>
-RT_INLINE std::int64_t rowOffset(const std::int64_t* stride, int j, int k)
-{
-  return (Dimension > 1 ? j * stride[Dimension > 1 ? 1 : 0] : 0) +
-    (Dimension > 2 ? k * stride[Dimension - 1] : 0);
-}
-
 // Adds particle i to the cells that it reaches, of numbers [begin, end) along the last axis.
 template <int Dimension, class Weights>
 RT_INLINE void addLayers(const WeighedBlock<Weights>& weighed, int i, double mass,
-  const std::int64_t* stride, int begin, int end, double* cells)
+  const CellMemory<Dimension>& memory, int begin, int end)
 {
   constexpr int width = Weights::Width;
   constexpr int last = Dimension - 1;
   double weight[Dimension][width];
-  double* start = cells;
+  double* cells = memory.Cells;
+  std::int64_t start = -memory.Start;
   for (int a = 0; a < Dimension; ++a)
   {
     weighed.Spread(3 * i + a, weight[a]);
-    start += weighed.First[3 * i + a] * stride[a];
+    start += weighed.First[3 * i + a] * memory.Stride[a];
   }
   int first[3] = { 0, 0, 0 };
   int after[3] = { width, Dimension > 1 ? width : 1, Dimension > 2 ? width : 1 };
@@ -191,11 +185,11 @@ RT_INLINE void addLayers(const WeighedBlock<Weights>& weighed, int i, double mas
     for (int j = first[1]; j < after[1]; ++j)
     {
       const double row = Dimension > 1 ? slice * weight[Dimension > 1 ? 1 : 0][j] : slice;
-      double* to = start + rowOffset<Dimension>(stride, j, k);
+      const std::int64_t to = rowOffset(memory, start, j, k);
 #pragma GCC unroll 3
       for (int l = first[0]; l < after[0]; ++l)
       {
-        to[l] += row * weight[0][l];
+        cells[to + l] += row * weight[0][l];
       }
     }
   }
@@ -203,10 +197,10 @@ RT_INLINE void addLayers(const WeighedBlock<Weights>& weighed, int i, double mas
 
 // Adds particle i to all cells that it reaches.
 template <int Dimension, class Weights>
-RT_INLINE void addWhole(const WeighedBlock<Weights>& weighed, int i, double mass,
-  const std::int64_t* stride, double* cells)
+RT_INLINE void addWhole(
+  const WeighedBlock<Weights>& weighed, int i, double mass, const CellMemory<Dimension>& memory)
 {
-  addLayers<Dimension>(weighed, i, mass, stride, 0, Weights::Width, cells);
+  addLayers(weighed, i, mass, memory, 0, Weights::Width);
 }
 
 // Adds particle i, which may be at the border, to the cells of a box.
@@ -218,7 +212,8 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
   double weight[3][width];
   int begin[3] = { 0, 0, 0 };
   int end[3] = { 1, 1, 1 };
-  double* start = job.Cells;
+  double* cells = job.Memory.Cells;
+  std::int64_t start = -job.Memory.Start;
   for (int a = 0; a < Dimension; ++a)
   {
     weighed.Spread(3 * i + a, weight[a]);
@@ -228,7 +223,7 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
     {
       first = keepInside(first, width, job.Kept[a], size, job.Renormalize, weight[a]);
     }
-    start += first * job.Stride[a];
+    start += first * job.Memory.Stride[a];
     begin[a] = larger(box.Low[a] - first, 0);
     end[a] = smaller(box.High[a] - first, job.Kept[a]);
   }
@@ -238,10 +233,10 @@ void addPart(const SplatJob<Dimension, Real>& job, const WeighedBlock<Weights>& 
     for (int j = begin[1]; j < end[1]; ++j)
     {
       const double row = Dimension > 1 ? slice * weight[1][j] : slice;
-      double* to = start + rowOffset<Dimension>(job.Stride, j, k);
+      const std::int64_t to = rowOffset(job.Memory, start, j, k);
       for (int l = begin[0]; l < end[0]; ++l)
       {
-        to[l] += row * weight[0][l];
+        cells[to + l] += row * weight[0][l];
       }
     }
   }
@@ -387,14 +382,10 @@ private:
 
   RT_INLINE void AddWhole()
   {
-    std::int64_t stride[Dimension]; // a copy, as the cells might alias the job
-    for (int a = 0; a < Dimension; ++a)
-    {
-      stride[a] = this->Job.Stride[a];
-    }
+    const CellMemory<Dimension> memory = this->Job.Memory; // as the cells might alias the job
     for (int i = 0; i < this->Particles.Count; ++i)
     {
-      addWhole<Dimension>(this->Weighed, i, this->Particles.Mass[i], stride, this->Job.Cells);
+      addWhole(this->Weighed, i, this->Particles.Mass[i], memory);
     }
   }
 
@@ -429,8 +420,7 @@ private:
       const Covered covered = coveredBy(reached, this->Box);
       if (covered == Covered::All)
       {
-        addWhole<Dimension>(
-          this->Weighed, i, this->Particles.Mass[i], this->Job.Stride, this->Job.Cells);
+        addWhole(this->Weighed, i, this->Particles.Mass[i], this->Job.Memory);
       }
       else if (covered == Covered::Some)
       {
@@ -447,8 +437,8 @@ private:
     for (int i = 0; i < this->Particles.Count; ++i)
     {
       const std::int32_t first = this->Weighed.First[3 * i + last];
-      addLayers<Dimension>(this->Weighed, i, this->Particles.Mass[i], this->Job.Stride,
-        larger(low - first, 0), smaller(high - first, Weights::Width), this->Job.Cells);
+      addLayers(this->Weighed, i, this->Particles.Mass[i], this->Job.Memory, larger(low - first, 0),
+        smaller(high - first, Weights::Width));
     }
   }
 

@@ -110,12 +110,12 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& bl
 {
   int begin[3] = { 0, 0, 0 };
   int end[3] = { 1, 1, 1 };
-  std::int64_t start = 0;
+  std::int64_t start = -job.Memory.Start;
   const double* weight[3] = { scratch, scratch, scratch };
   for (int a = 0; a < Dimension; ++a)
   {
     const std::int32_t cell = first[3 * i + a];
-    start += cell * job.Stride[a];
+    start += cell * job.Memory.Stride[a];
     begin[a] = larger(box.Low[a] - cell, 0);
     end[a] = smaller(box.High[a] - cell, job.Kept[a]);
     if (begin[a] >= end[a])
@@ -134,14 +134,13 @@ RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& bl
     for (int j = begin[1]; j < end[1]; ++j)
     {
       const double row = Dimension > 1 ? slice * weight[1][j] : slice;
-      const std::int64_t offset = (Dimension > 1 ? j * job.Stride[Dimension > 1 ? 1 : 0] : 0) +
-        (Dimension > 2 ? k * job.Stride[Dimension - 1] : 0);
-      double* __restrict to = job.Cells + start + offset;
+      const std::int64_t to = rowOffset(job.Memory, start, j, k);
+      double* __restrict cells = job.Memory.Cells;
       const double* __restrict along = weight[0];
 #pragma omp simd
       for (int l = begin[0]; l < end[0]; ++l)
       {
-        to[l] += row * along[l];
+        cells[to + l] += row * along[l];
       }
     }
   }

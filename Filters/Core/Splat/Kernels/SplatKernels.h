@@ -22,18 +22,27 @@ struct CellBox
   std::int32_t High[Dimension];
 };
 
+// Where the values of the cells of a box are.
+template <int Dimension>
+struct CellMemory
+{
+  double* Cells; // of the box alone, axis 0 fastest
+  std::int64_t Stride[Dimension];
+  std::int64_t Start; // the sum of stride times cell of the box's first cell
+};
+
 // The input and parameters that all ranges of one splat share.
 template <int Dimension, class Real>
 struct SplatJob
 {
   SplatParticles<Dimension, Real> Particles;
   std::int32_t Size[Dimension];
-  std::int64_t Stride[Dimension];
   std::int32_t Width;           // cells an axis that a particle reaches
   std::int32_t Kept[Dimension]; // the lesser of Width and Size
   bool Renormalize;
   double Scale;
-  double* Cells;
+  CellBox<Dimension> Box; // the cells that are in memory
+  CellMemory<Dimension> Memory;
 
   // The Gaussian alone: its cutoff and 1 / sigma^2, in cells, and exp(-k^2 / 2 sigma^2).
   double Cut;
@@ -42,9 +51,9 @@ struct SplatJob
 };
 
 // Adds particles [first, first + count), or with an index particles first + index[0], ..., first +
-// index[count - 1], in this order, to the cells of a box (null: all cells). `scratch` is of Width
-// doubles an axis; only the Gaussian needs it. Returns how many are outside, of those whose first
-// cell is in the box along the last axis.
+// index[count - 1], in this order, to the cells of a box (null: all of the grid). `scratch` is of
+// Width doubles an axis; only the Gaussian needs it. Returns how many are outside, of those whose
+// first cell is in the box along the last axis.
 template <int Dimension, class Real>
 using AddParticles = std::int64_t (*)(const SplatJob<Dimension, Real>& job, std::int64_t first,
   const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double* scratch);

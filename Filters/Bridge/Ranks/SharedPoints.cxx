@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/SharedPoints.h"
+
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/WholeInputs.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkDataArray.h"
+#include "vtkDataArrayRange.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkPointSet> countedSet(vtkPointSet* own, const Ranks& ranks)
+{
+  const bool isOne = areSameOnRanks(own, ranks) && ranks.Own() > 0;
+  if (own && own->GetPoints() && !isOne)
+  {
+    return own;
+  }
+  const auto none = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  none->SetPoints(points);
+  return none;
+}
+
+// Copies the integers of the counted points.
+struct CopyIntegers
+{
+  template <class ArrayT>
+  void operator()(ArrayT* array, const CountedPoints& counted, std::int64_t* to) const
+  {
+    const auto values = vtk::DataArrayValueRange<1>(array);
+    for (std::int64_t i = 0; i < counted.Count(); ++i)
+    {
+      to[i] = static_cast<std::int64_t>(values[static_cast<vtkIdType>(counted.Point(i))]);
+    }
+  }
+};
+
+using Integers = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Integrals>;
+
+// Those that may hold keys of a set, the preferred one first; nullptr for those that do not.
+std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
+{
+  vtkPointData* data = points->GetPointData();
+  std::array<vtkDataArray*, 2> arrays = { data->GetArray("SeedId"), data->GetGlobalIds() };
+  const CountedPoints none(vtkNew<vtkPolyData>(), "input point set");
+  for (vtkDataArray*& array : arrays)
+  {
+    CopyIntegers copy;
+    if (array &&
+      (array->GetNumberOfComponents() != 1 ||
+        array->GetNumberOfTuples() != points->GetNumberOfPoints() ||
+        !Integers::Execute(array, copy, none, nullptr)))
+    {
+      array = nullptr;
+    }
+  }
+  return arrays;
+}
+
+} // namespace
+
+SharedPoints::SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks)
+  : Points(countedSet(own, ranks))
+  , Number(this->Points, "input point set", ghosts)
+  , Total(sumOverRanks(&ranks, this->Number.Count()))
+{
+  this->FindKeys(ranks);
+}
+
+void SharedPoints::FindKeys(const Ranks& ranks)
+{
+  for (vtkDataArray* array : keyArrays(this->Points))
+  {
+    if (onAllRanks(&ranks, array != nullptr || this->Number.Count() == 0))
+    {
+      const std::int64_t count = this->Number.Count();
+      withMemory("the order of points", sizeof(std::int64_t) * static_cast<double>(count),
+        [&]() { this->Order = LargeBuffer<std::int64_t>(count); });
+      CopyIntegers copy;
+      if (count > 0)
+      {
+        Integers::Execute(array, copy, this->Number, this->Order.data());
+      }
+      return;
+    }
+  }
+}
+
+vtkSmartPointer<vtkDataArray> SharedPoints::TuplesOf(vtkDataArray* array) const
+{
+  if (this->Number.Count() == array->GetNumberOfTuples())
+  {
+    return array;
+  }
+  const auto copy = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  copy->SetNumberOfComponents(array->GetNumberOfComponents());
+  copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Number.Count()));
+  for (std::int64_t i = 0; i < this->Number.Count(); ++i)
+  {
+    copy->SetTuple(static_cast<vtkIdType>(i), static_cast<vtkIdType>(this->Number.Point(i)), array);
+  }
+  return copy;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points that lie on several ranks: which of them count, and in which order.
+#ifndef RectifiedTransport_SharedPoints_h
+#define RectifiedTransport_SharedPoints_h
+
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Ranks.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Of a data set that is the same on all ranks the points of the first rank alone count. Particles
+// lie on ranks in another order than on one: their order is that of the integers in their point
+// array SeedId, or else of their global ids, where all ranks that have points have the array.
+class SharedPoints
+{
+public:
+  // Without the points that the ghost array marks with one of these flags. Called by all ranks;
+  // `own` may be nullptr. Throws Failure.
+  SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks);
+
+  // Of this rank; without points where none count.
+  vtkPointSet* Set() const { return this->Points; }
+  const CountedPoints& Counted() const { return this->Number; }
+  // The number of points of all ranks.
+  std::int64_t All() const { return this->Total; }
+  // One for each counted point; nullptr where the order is that of the ranks and their points.
+  const std::int64_t* Keys() const { return this->Order.data(); }
+  // The tuples of the counted points: the array itself, or a copy.
+  vtkSmartPointer<vtkDataArray> TuplesOf(vtkDataArray* array) const;
+
+private:
+  void FindKeys(const Ranks& ranks);
+
+  vtkSmartPointer<vtkPointSet> Points;
+  CountedPoints Number;
+  std::int64_t Total;
+  LargeBuffer<std::int64_t> Order;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An order of elements that lie on several processes, and sums in that order: with the bits that
+// one process has of all of them.
+#ifndef RectifiedTransport_RankOrder_h
+#define RectifiedTransport_RankOrder_h
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The order is that of keys (of equal ones, and without keys: by rank, then by index). Every rank
+// has a share of it, of elements that follow one another; shares ascend with the ranks. All ranks
+// call the members together. Memory: 16 bytes for each element that a rank gives or gets, and while
+// it is made 40 more, if keys are spread about evenly between the least and the largest one.
+class RankOrder
+{
+public:
+  // Of this rank's elements. Keys may be null, on all ranks that have elements. Shares are of whole
+  // chunks of `grain` elements, but for the last chunk of all. Throws std::bad_alloc and Cancelled.
+  RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t grain, const Ranks& ranks,
+    Progress& progress);
+
+  // The elements of this rank's share.
+  std::int64_t Count() const { return this->ShareCount; }
+  // The values of this rank's share in order, given those of this rank's elements.
+  template <class T>
+  std::vector<T> Bring(const T* own) const
+  {
+    std::vector<std::vector<T>> given(this->Slots.size());
+    for (std::size_t i = 0; i < this->Receiver.size(); ++i)
+    {
+      given[static_cast<std::size_t>(this->Receiver[i])].push_back(own[i]);
+    }
+    const std::vector<std::vector<T>> received = exchangeValues(this->Group, std::move(given));
+    std::vector<T> values(static_cast<std::size_t>(this->ShareCount));
+    for (std::size_t rank = 0; rank < received.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < received[rank].size(); ++i)
+      {
+        values[static_cast<std::size_t>(this->Slots[rank][i])] = received[rank][i];
+      }
+    }
+    return values;
+  }
+
+private:
+  const Ranks& Group;
+  std::vector<int> Receiver;                    // of each element
+  std::vector<std::vector<std::int64_t>> Slots; // in the share, of what each rank sends
+  std::int64_t ShareCount = 0;
+};
+
+// Sums whose terms are added one after another, those of rank 0 first: add(sums) adds the terms of
+// this rank. Called by all ranks; `ranks` is nullptr where there is one.
+template <class Sums, class Add>
+Sums sumInTurn(const Ranks* ranks, Sums sums, const Add& add)
+{
+  if (!ranks)
+  {
+    add(sums);
+    return sums;
+  }
+  for (int rank = 0; rank < ranks->Count(); ++rank)
+  {
+    if (rank == ranks->Own())
+    {
+      add(sums);
+    }
+    sums = gatherValues(*ranks, sums)[static_cast<std::size_t>(rank)];
+  }
+  return sums;
+}
+
+// As reduceChunks: the sum of the sums of chunks of `grain` values. Each rank gives whole chunks,
+// the last one that has values perhaps a shorter one at the end. Called by all ranks.
+inline double sumChunks(
+  const double* values, std::int64_t count, std::int64_t grain, const Ranks& ranks)
+{
+  std::vector<double> sums;
+  for (std::int64_t first = 0; first < count; first += grain)
+  {
+    double sum = 0.0;
+    for (std::int64_t i = first; i < std::min(first + grain, count); ++i)
+    {
+      sum += values[i];
+    }
+    sums.push_back(sum);
+  }
+  double all = 0.0;
+  for (const Bytes& bytes : ranks.Gather(toBytes(sums)))
+  {
+    for (const double sum : fromBytes<double>(bytes))
+    {
+      all += sum;
+    }
+  }
+  return all;
+}
+
+} // namespace RectifiedTransport
+
+#endif

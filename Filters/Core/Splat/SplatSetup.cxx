@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Splat/SplatSetup.h"
+
+#include <algorithm>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension, class Real>
+SplatSetup<Dimension, Real>::SplatSetup(const SplatParticles<Dimension, Real>& particles,
+  const GridSize<Dimension>& size, const SplatOptions& options)
+{
+  this->Job.Particles = particles;
+  this->Job.Renormalize = options.Boundary == SplatBoundary::Renormalize;
+  // Weights of two cells that keep the centroid are those of the CloudInCell.
+  constexpr double twoCells = 1.0 / 3.0;
+  const bool isNarrow = options.Kernel == SplatKernel::Gaussian && options.Radius <= twoCells;
+  const SplatKernel kernel = isNarrow ? SplatKernel::CloudInCell : options.Kernel;
+  this->Kernels = splatKernels<Dimension, Real>(kernel);
+  this->Job.Width = this->Kernels.Width;
+  if (kernel == SplatKernel::Gaussian)
+  {
+    this->UseGaussian(options.Radius);
+  }
+  for (int a = 0; a < Dimension; ++a)
+  {
+    this->Job.Size[a] = static_cast<std::int32_t>(size[a]);
+    this->Job.Kept[a] = std::min(this->Job.Width, this->Job.Size[a]);
+  }
+}
+
+template <int Dimension, class Real>
+void SplatSetup<Dimension, Real>::UseGaussian(double radius)
+{
+  this->Job.Cut = 3.0 * radius;
+  this->Job.PerVariance = 1.0 / (radius * radius);
+  this->Job.Width = static_cast<std::int32_t>(2.0 * this->Job.Cut) + 1;
+  const int farthest = static_cast<int>(this->Job.Cut + 0.5) + 1;
+  for (int k = 0; k <= farthest; ++k)
+  {
+    const double square = static_cast<double>(k) * k;
+    this->AtOffset.push_back(this->Kernels.Exponential(-0.5 * square * this->Job.PerVariance));
+  }
+  this->Job.AtOffset = this->AtOffset.data();
+}
+
+template class SplatSetup<1, float>;
+template class SplatSetup<2, float>;
+template class SplatSetup<3, float>;
+template class SplatSetup<1, double>;
+template class SplatSetup<2, double>;
+template class SplatSetup<3, double>;
+
+} // namespace RectifiedTransport
