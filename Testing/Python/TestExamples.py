@@ -51,13 +51,14 @@ SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
          "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
          "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
                             "--panel", "120"],
+         "InSitu": ["--particles", "2000", "--panel", "320"],
          "Barycenters2D": ["--size", "64", "--rows", "3", "--panel", "96"],
          "Barycenters3D": ["--resolution", "32", "--rows", "3", "--panel", "120"]}
 SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "Barycenters3D": 3}
 need_meshes = unittest.skipUnless(
     os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
     "needs the meshes that Testing/run.sh fetches")
-OWN = {"Figure2Paths", "Figure5Cells", "PowerCells"}  # examples that make their input
+OWN = {"Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
 
 
 def run(example, *arguments):
@@ -356,6 +357,28 @@ class Examples(ExampleTest):
         self.assertNotEqual(on, off)
         self.assertLess(first(on[1]), 1.1 * first(off[1]))
         self.check_picture("flow-maps.png")
+
+    def test_in_situ(self):
+        """Particles pass between the ranks, and are those of one rank."""
+        printed = self.ran("InSitu")
+        if "Left out" in printed:
+            self.skipTest(printed)
+        two, one = tables(printed)
+        for rows in two, one:
+            self.assertEqual([row[:2] for row in rows],
+                             [[time + " s", "2000"] for time in ("0.0", "3.2", "6.4")])
+        for row, alone in zip(two, one):
+            parts = [int(part) for part in row[2].split(" + ")]
+            self.assertEqual((len(parts), sum(parts)), (2, 2000))
+            self.assertGreater(min(parts), 100)
+            self.assertEqual(alone[2:], ["2000", "0"])
+        self.assertGreater(int(two[1][3]), 0)
+        self.assertIn("The bits of one rank: particles-0000.pvtp, particles-0640.pvtp, "
+                      "particles-1280.pvtp, trajectories.vtp", printed)
+        moves = re.search(r"by (\S+) on average, 99 % by less than (\S+)", printed)
+        self.assertLess(float(moves.group(1)), 0.05)
+        self.assertLess(float(moves.group(2)), 0.25)
+        self.check_picture("in-situ.png")
 
     @need_meshes
     def test_stipple_surface(self):

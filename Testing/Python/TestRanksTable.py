@@ -21,12 +21,14 @@ BEHIND = ("contour", "slice", "threshold", "splat contour", "splat slice", "spla
 PLACES_ALONE = ("slice", "seeds apart", "splat slice")
 
 
-def run(ranks):
+def run(ranks, script=SCRIPT, *arguments):
+    """What a script writes on each of some ranks to the path that is its first argument."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "given")
         done = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), PVBATCH, "--sym",
-             SCRIPT, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=400)
+             script, path, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            timeout=400)
         if done.returncode != 0 or done.stdout.count("WROTE") != ranks:
             raise AssertionError(done.stdout[-2000:] + done.stderr[-4000:])
         given = []

@@ -256,4 +256,5 @@ def main(path):
     print("WROTE", RANK, flush=True)
 
 
-main(sys.argv[1])
+if __name__ == "__main__":
+    main(sys.argv[1])
