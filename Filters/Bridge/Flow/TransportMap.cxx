@@ -88,11 +88,15 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 
 } // namespace
 
+ImageGrid TransportMap::SampleGrid(const DensityImage& density) const
+{
+  return gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+}
+
 TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& wanted,
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
-  const ImageGrid samples =
-    gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+  const ImageGrid samples = this->SampleGrid(density);
   if (samples.Extent() == density.Grid().Extent())
   {
     vtkSmartPointer<vtkImageData> image = density.Image();
