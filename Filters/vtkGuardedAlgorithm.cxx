@@ -210,15 +210,19 @@ int vtkGuardedAlgorithm::GatherAndRun(
                                           : GatheredKind::Density;
   }
   RectifiedTransport::GatheredInputs inputs(inputVector, kinds, *this->Run);
-  if (this->Run->Own() > 0)
+  int result = 1;
+  if (this->Run->Own() == 0)
   {
-    return 1;
+    this->IsAlone = true;
+    result = this->RequestData(request, inputs.Vectors(), outputVector);
+    this->IsAlone = false;
   }
-  this->IsAlone = true;
-  const int result = this->RequestData(request, inputs.Vectors(), outputVector);
-  this->IsAlone = false;
+  this->ShareOutputs(*this->Run, outputVector);
   return result;
 }
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::ShareOutputs(const RectifiedTransport::Ranks&, vtkInformationVector*) {}
 
 //------------------------------------------------------------------------------
 void vtkGuardedAlgorithm::EndRun()

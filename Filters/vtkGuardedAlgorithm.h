@@ -138,9 +138,22 @@ protected:
 
   /**
    * For a constructor, of all ports: where there are several ranks, the data of all of them are
-   * gathered on the first one, which alone runs RequestData; the others have empty outputs.
+   * gathered on the first one, which alone runs RequestData; the others have empty outputs, but for
+   * what ShareOutputs gives them.
    */
   void GatherOnFirstRank(int port, GatheredType type);
+
+  /**
+   * Whether RequestData runs on the first rank alone, of data that are gathered.
+   */
+  bool RunsForAllRanks() const { return this->IsAlone; }
+
+  /**
+   * Divide among the ranks, all of which call it, what RequestData made on the first one. By
+   * default nothing.
+   */
+  virtual void ShareOutputs(
+    const RectifiedTransport::Ranks& ranks, vtkInformationVector* outputVector);
 
   /**
    * The ranks that run RequestData together; nullptr where this process runs it alone. Without a
