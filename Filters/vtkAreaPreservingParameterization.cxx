@@ -27,6 +27,7 @@ vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
   this->Corners = std::make_unique<CornerSettings>();
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
+  this->GatherOnFirstRank(0, GATHERED_SURFACE);
 }
 
 //------------------------------------------------------------------------------

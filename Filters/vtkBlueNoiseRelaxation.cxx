@@ -37,6 +37,8 @@ vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
+  this->GatherOnFirstRank(0, GATHERED_POINTS);
+  this->GatherOnFirstRank(1, GATHERED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

@@ -7,7 +7,9 @@
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Resampling/GatheredBlocks.h"
 #include "Bridge/Resampling/ResampledDensity.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
@@ -49,6 +51,7 @@ struct vtkDensityAlgorithm::vtkInternals
 {
   FlowCache Cache;
   std::map<int, ResampledDensity> Resampled; // by the number of the input
+  std::map<int, GatheredBlocks> Gathered;    // where it lies on several ranks
 };
 
 //------------------------------------------------------------------------------
@@ -109,6 +112,14 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   auto* image = vtkImageData::SafeDownCast(input);
+  if (const Ranks* ranks = this->GetRanks())
+  {
+    requireSameOnRanks(*ranks,
+      image     ? "an image"
+        : input ? "no image"
+                : "not there",
+      "The density is ");
+  }
   const bool isDistributed = image && this->GetRanks();
   if (!input || (image && image->GetNumberOfPoints() == 0 && !isDistributed))
   {
@@ -124,6 +135,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
     return this->ReadResampled(input, progress, arrayIndex, number);
   }
   this->Internals->Resampled.erase(number);
+  this->Internals->Gathered.erase(number);
   if (isDistributed)
   {
     return this->ReadPieces(image, arrayIndex);
@@ -182,6 +194,10 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
   std::vector<DensityBlock> blocks = densityBlocks(input);
+  if (const Ranks* ranks = this->GetRanks())
+  {
+    blocks = this->Internals->Gathered[number].Gather(blocks, *ranks);
+  }
   if (blocks.empty())
   {
     return nullptr;
@@ -220,7 +236,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   ResampledDensity& made = this->Internals->Resampled[number];
   made.Update(
     blocks, onPoints, dimension, this->DensityResolution, this->GetDensityRules(), progress);
-  if (made.CellsLeftOut() > 0)
+  if (made.CellsLeftOut() > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
   {
     vtkWarningMacro(<< made.CellsLeftOut()
                     << " cells of the input could not be divided into simplices and carry no mass");

@@ -5,12 +5,15 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/DistributedImage.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
+#include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -50,6 +53,8 @@ vtkEqualMassCells::vtkEqualMassCells()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
+  this->GatherOnFirstRank(0, GATHERED_POINTS);
+  this->GatherOnFirstRank(1, GATHERED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -130,7 +135,7 @@ int vtkEqualMassCells::RequestDataObject(
 int vtkEqualMassCells::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const EqualMassCells cells{ {}, {}, this->Resolution };
+  const LabelGrid pixels{ this->Resolution };
   ImageGrid grid;
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
@@ -138,32 +143,42 @@ int vtkEqualMassCells::RequestInformation(
     this->UpdateInputBeforeData(1, inputVector, outputVector);
     vtkInformation* information = inputVector[1]->GetInformationObject(0);
     vtkDataObject* domain = vtkDataObject::GetData(information);
+    const Ranks* ranks = this->GetRanksForInformation(1, inputVector);
     if (this->Measure == DENSITY)
     {
       const ImageGrid density = this->AnnouncedDensityGrid(information);
-      grid = density.IsEmpty() ? density : cells.GridOn(density);
+      grid = density.IsEmpty() ? density : pixels.On(density);
     }
     else if (domain)
     {
-      grid = cells.GridOn(domain);
+      grid = pixels.On(domain, ranks);
     }
     if (grid.IsEmpty())
     {
       const ImageGrid box = announcedGrid(information, false);
-      grid = box.IsEmpty() ? box : cells.GridOn(box);
+      grid = box.IsEmpty() ? box : pixels.On(box);
     }
   }
   else
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
+    const Ranks* ranks = this->GetRanksForInformation(0, inputVector);
+    const auto count = sumOverRanks<std::int64_t>(ranks, sites ? sites->GetNumberOfPoints() : 0);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
-    grid = sites && sites->GetNumberOfPoints() > 1
-      ? cells.GridAround(sites)
-      : gridWithResolution(gridOfBox(unit), this->Resolution, "Resolution");
+    grid = count > 1 ? pixels.Around(sites, ranks)
+                     : gridWithResolution(gridOfBox(unit), this->Resolution, "Resolution");
   }
+  announceSubExtents(outputVector->GetInformationObject(0));
   announceGrid(grid, outputVector->GetInformationObject(0));
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkEqualMassCells::ShareOutputs(const Ranks& ranks, vtkInformationVector* outputVector)
+{
+  distributeImage(
+    vtkImageData::GetData(outputVector, 0), outputVector->GetInformationObject(0), ranks);
 }
 
 //------------------------------------------------------------------------------
@@ -216,7 +231,8 @@ int vtkEqualMassCells::RequestData(
   else
   {
     this->GetFlowCache().Release();
-    if (!input || input->GetNumberOfPoints() == 0 || (domain && cells.GridOn(domain).IsEmpty()))
+    if (!input || input->GetNumberOfPoints() == 0 ||
+      (domain && LabelGrid{ this->Resolution }.On(domain).IsEmpty()))
     {
       return 1;
     }
@@ -224,7 +240,10 @@ int vtkEqualMassCells::RequestData(
   }
   addSiteColors(labels, input->GetNumberOfPoints(), progress);
   // Without a Domain the grid may not be known before the data.
-  announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
+  if (!this->RunsForAllRanks()) // else ShareOutputs does so
+  {
+    announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
+  }
   if (report.Outside > 0)
   {
     const bool isOne = report.Outside == 1;

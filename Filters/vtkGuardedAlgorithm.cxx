@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Resampling/GatheredInputs.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/RankRun.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -162,21 +164,13 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
-      clearImages(outputVector);
-      this->Run = this->Whole->BeginRun(this, inputVector);
-      this->Whole->Require(this, inputVector, this->Run.get());
-      const int result = this->RequestData(request, inputVector, outputVector);
-      if (this->Run)
-      {
-        this->Run->End();
-        this->Run = nullptr;
-      }
-      return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
+      return this->ProcessData(request, inputVector, outputVector);
     }
     return this->Superclass::ProcessRequest(request, inputVector, outputVector);
   }
   catch (...)
   {
+    this->IsAlone = false;
     const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run);
     return RectifiedTransport::handleException(this, outputVector, run.get());
   }
@@ -188,12 +182,74 @@ int vtkGuardedAlgorithm::ProcessInformation(
 {
   try
   {
-    return this->RequestInformation(request, inputVector, outputVector);
+    const int result = this->RequestInformation(request, inputVector, outputVector);
+    this->EndRun();
+    return result;
   }
-  catch (const RectifiedTransport::Failure&)
+  // RequestData reports it, once.
+  catch (const RectifiedTransport::FailedElsewhere&)
   {
-    RectifiedTransport::announceEmptyExtents(outputVector); // RequestData reports it, once
-    return 1;
+    this->Run = nullptr;
+  }
+  catch (const RectifiedTransport::Failure& failure)
+  {
+    if (const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run))
+    {
+      run->Fail(failure.what());
+    }
+  }
+  RectifiedTransport::announceEmptyExtents(outputVector);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::ProcessData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  clearImages(outputVector);
+  this->Run = this->Whole->BeginRun(this, inputVector);
+  this->Whole->Require(this, inputVector, this->Run.get());
+  const int result = this->Run && !this->Gathered.empty()
+    ? this->GatherAndRun(request, inputVector, outputVector)
+    : this->RequestData(request, inputVector, outputVector);
+  this->EndRun();
+  return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkGuardedAlgorithm::GatherAndRun(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using RectifiedTransport::GatheredKind;
+  std::map<int, GatheredKind> kinds;
+  for (const auto& [port, type] : this->Gathered)
+  {
+    kinds[port] = type == GATHERED_POINTS ? GatheredKind::Points
+      : type == GATHERED_SURFACE          ? GatheredKind::Surface
+                                          : GatheredKind::Density;
+  }
+  RectifiedTransport::GatheredInputs inputs(inputVector, kinds, *this->Run);
+  int result = 1;
+  if (this->Run->Own() == 0)
+  {
+    this->IsAlone = true;
+    result = this->RequestData(request, inputs.Vectors(), outputVector);
+    this->IsAlone = false;
+  }
+  this->ShareOutputs(*this->Run, outputVector);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::ShareOutputs(const RectifiedTransport::Ranks&, vtkInformationVector*) {}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::EndRun()
+{
+  if (this->Run)
+  {
+    this->Run->End();
+    this->Run = nullptr;
   }
 }
 
@@ -352,6 +408,28 @@ void vtkGuardedAlgorithm::ShareAmongRanks(int port, bool takesPoints)
 //------------------------------------------------------------------------------
 const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanks() const
 {
+  return this->IsAlone ? nullptr : this->Run.get();
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::GatherOnFirstRank(int port, GatheredType type)
+{
+  this->ShareAmongRanks(port, type != GATHERED_DENSITY);
+  this->Gathered[port] = type;
+}
+
+//------------------------------------------------------------------------------
+const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanksForInformation(
+  int port, vtkInformationVector** inputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* input = inputVector[port]->GetInformationObject(0);
+  if (input && !this->Run)
+  {
+    this->Run = RectifiedTransport::RankRun::Begin(
+      std::string(this->GetClassName()) + " information",
+      input->Get(Pipeline::UPDATE_PIECE_NUMBER()), input->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+  }
   return this->Run.get();
 }
 

@@ -130,17 +130,53 @@ protected:
 
   /**
    * For a constructor: where there are several ranks, all of them run the filter together. It
-   * requests of each rank its own piece of the images on this port, and of points where
-   * `takesPoints`, and gives each rank its piece of the output. Ports of other data are needed
-   * whole.
+   * requests of each rank its own piece of the points on this port (`takesPoints`), or of a density
+   * of any type, and gives each rank its piece of the output. Other ports are needed whole.
    */
   void ShareAmongRanks(int port, bool takesPoints);
+
+  /**
+   * What is gathered of a port.
+   */
+  enum GatheredType
+  {
+    GATHERED_POINTS,
+    GATHERED_SURFACE,
+    GATHERED_DENSITY
+  };
+
+  /**
+   * For a constructor, of all ports: where there are several ranks, the data of all of them are
+   * gathered on the first one, which alone runs RequestData; the others have empty outputs, but for
+   * what ShareOutputs gives them.
+   */
+  void GatherOnFirstRank(int port, GatheredType type);
+
+  /**
+   * Whether RequestData runs on the first rank alone, of data that are gathered.
+   */
+  bool RunsForAllRanks() const { return this->IsAlone; }
+
+  /**
+   * Divide among the ranks, all of which call it, what RequestData made on the first one. By
+   * default nothing.
+   */
+  virtual void ShareOutputs(
+    const RectifiedTransport::Ranks& ranks, vtkInformationVector* outputVector);
 
   /**
    * The ranks that run RequestData together; nullptr where this process runs it alone. Without a
    * failure all of them come to the same exchanges.
    */
   const RectifiedTransport::Ranks* GetRanks() const;
+
+  /**
+   * For RequestInformation, after UpdateInputBeforeData: the ranks where this rank's piece of the
+   * input was requested of its producer, so that all ranks know of all data; else nullptr. All
+   * ranks must call it then. Until RequestInformation returns, GetRanks returns them, too.
+   */
+  const RectifiedTransport::Ranks* GetRanksForInformation(
+    int port, vtkInformationVector** inputVector);
 
   /**
    * Choose the time to request from the inputs. By default it is the one that is requested
@@ -183,8 +219,15 @@ private:
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
+  int ProcessData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  int GatherAndRun(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector);
+  void EndRun();
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
-  std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData
+  std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData and RequestInformation
+  std::map<int, GatheredType> Gathered;             // by port; none where ranks share the work
+  bool IsAlone = false;                             // on the first rank, with gathered data
 
   // What UpdateInputBeforeData updated last.
   struct vtkUpdated

@@ -3,6 +3,8 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Image/SolidGrid.h"
+#include "Bridge/Ranks/GatheredPoints.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -34,6 +36,7 @@ vtkSolidDensity::vtkSolidDensity()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
+  this->ShareAmongRanks(0, true);
 }
 
 //------------------------------------------------------------------------------
@@ -64,12 +67,11 @@ int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->UpdateInputBeforeData(0, inputVector, outputVector);
-  vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
     this->GetAssociationSettings().IsOnPoints() };
-  const ImageGrid grid = surface && surface->GetNumberOfPoints() > 0
-    ? solid.GridAround(surface)
-    : ImageGrid().WithValuesOn(solid.OnPoints);
+  const ImageGrid grid = solid.GridAround(
+    vtkPolyData::GetData(inputVector[0]), this->GetRanksForInformation(0, inputVector));
+  announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
 }
@@ -82,25 +84,34 @@ int vtkSolidDensity::RequestData(
     "Supersampling", this->Supersampling, "from 1 to 16");
   this->GetAssociationSettings().Check();
   requireSolidGrid(this->Resolution, this->Padding);
-  AlgorithmProgress progress(this, this->Threading);
+  const Ranks* ranks = this->GetRanks();
+  AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // All data are in piece 0, whatever pieces are requested.
+  // On one rank all data are in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }
   auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
     "a vtkPolyData, as Extract Surface makes one of it");
-  if (!input || input->GetNumberOfPoints() == 0)
+  vtkSmartPointer<vtkPolyData> surface = input;
+  if (ranks)
+  {
+    const GatheredPoints gathered(input, *ranks, Receivers::All, PointSetKind::Surface);
+    surface = vtkPolyData::SafeDownCast(gathered.All());
+  }
+  if (!surface || surface->GetNumberOfPoints() == 0)
   {
     return 1;
   }
-  vtkImageData* output = vtkImageData::GetData(outputVector, 0);
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
     this->GetAssociationSettings().IsOnPoints() };
-  solid.Run(input, progress, output);
+  const ImageGrid grid = solid.GridAround(surface);
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  const Extent wanted = ranks ? extentToGive(grid, information, *ranks) : grid.Extent();
+  solid.Run(surface, wanted, progress, vtkImageData::GetData(outputVector, 0));
   // The extent may change with time.
-  announceGrid(gridOf(output, true), outputVector->GetInformationObject(0));
+  announceGrid(grid, information);
   return 1;
 }
 

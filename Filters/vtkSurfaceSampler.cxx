@@ -33,6 +33,7 @@ vtkSurfaceSampler::vtkSurfaceSampler()
   this->Corners = std::make_unique<CornerSettings>();
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
+  this->GatherOnFirstRank(0, GATHERED_SURFACE);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
 

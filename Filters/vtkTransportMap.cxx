@@ -4,6 +4,7 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Flow/TransportMap.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -76,6 +77,7 @@ int vtkTransportMap::RequestInformation(
   if (!vtkImageData::GetData(inputInformation))
   {
     this->UpdateInputBeforeData(0, inputVector, outputVector);
+    this->GetRanksForInformation(0, inputVector);
   }
   announceSubExtents(outputInformation);
   const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation);
@@ -124,8 +126,10 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
+  const Extent wanted = ranks ? extentToGive(map.SampleGrid(*density), outputInformation, *ranks)
+                              : requestedExtent(outputInformation);
   const TransportMap::Report result =
-    map.Run(*density, requestedExtent(outputInformation), this->GetFlowCache(), progress, output);
+    map.Run(*density, wanted, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
   if (result.MovedToMass > 0 && (!ranks || ranks->Own() == 0))

@@ -10,6 +10,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
 
@@ -53,6 +54,14 @@ int vtkUniformSeedSource::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+int vtkUniformSeedSource::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkUniformSeedSource::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -63,7 +72,14 @@ int vtkUniformSeedSource::RequestData(
     this->NumberOfPoints, this->RandomSeed };
   std::copy_n(this->Bounds, 6, source.Bounds.begin());
   AlgorithmProgress progress(this, this->Threading);
-  source.Run(progress, vtkPolyData::GetData(outputVector));
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  const int pieces = std::max(1, output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
+  const int piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
+  if (piece >= 0 && piece < pieces) // there are no more points than in all pieces
+  {
+    source.Run(piece, pieces, progress, vtkPolyData::GetData(outputVector));
+  }
   return 1;
 }
 

@@ -8,6 +8,10 @@
  * than 10 ms for 100,000 points, 0.05 s in a strip that is a few points thick. Memory: 40 bytes a
  * point, and while it runs 16 more in 2D, 50 more for blue noise in such a strip.
  *
+ * A piece has its share of the points, by their numbers, so that the ranks of MPI have together
+ * those of one rank, in the same order. Blue noise takes the time of all points for a piece, too;
+ * memory is for the piece alone.
+ *
  * Bounds that are not finite or not in ascending order, a Dimension other than 2 and 3 and a
  * NumberOfPoints below 1 are errors; the output is then empty.
  *
@@ -114,6 +118,8 @@ protected:
   ~vtkUniformSeedSource() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

@@ -208,6 +208,67 @@ def give_qualities(inputs):
             Input=particles["flat"], Dimensions=[10, 8, 9], Association="Cells")))
 
 
+def give_data():
+    """Seeds in pieces; densities that are no images; filters that gather their inputs."""
+    for pattern in ("BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"):
+        give("uniform " + pattern, simple.UniformSeeds(
+            NumberOfPoints=700, Dimension=3 if pattern == "Random" else 2, Pattern=pattern))
+    image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
+    cells = simple.PointDatatoCellData(Input=image, ProcessAllArrays=1)
+    meshes = {
+        "structured": simple.ImageDataToPointSet(Input=image),
+        "structured cells": simple.ImageDataToPointSet(Input=cells),
+        "mesh": simple.Threshold(Input=cells, Scalars=["CELLS", "RTData"],
+                                 LowerThreshold=0, UpperThreshold=1000),
+        "ghost mesh": simple.GhostCellsGenerator(Input=simple.Threshold(
+            Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0, UpperThreshold=1000),
+            BuildIfRequired=0, MinimumNumberOfGhosts=1),
+        "block": simple.GroupDatasets(Input=[simple.ImageDataToPointSet(Input=cells)]),
+    }
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8, DensityResolution=12)
+    for name, density in meshes.items():
+        give("sample " + name, simple.SampleDensity(
+            Input=density, NumberOfParticles=400, **usual))
+        give("map " + name, simple.TransportMap(Input=density, **usual))
+    shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
+                           ComputeNormals=0)
+    give("warp mesh", simple.DensityEqualizingWarp(Input=shell, Density=meshes["mesh"], **usual))
+    sphere = simple.Sphere(ThetaResolution=24, PhiResolution=20)
+    for name, surface in (("source", sphere),
+                          ("apart", simple.RedistributeDataSet(Input=sphere)),
+                          ("whole", simple.RedistributeDataSet(Input=sphere,
+                                                               NumberOfPartitions=1))):
+        if name == "apart":
+            surface = simple.ExtractSurface(Input=surface)
+        give("solid " + name, simple.SolidDensity(Input=surface, Resolution=14))
+        give("solid cells " + name, simple.SolidDensity(Input=surface, Resolution=14,
+                                                        Association="Cells"))
+    give("solid slice", simple.Slice(Input=simple.SolidDensity(Input=sphere, Resolution=14)))
+    sites = simple.UniformSeeds(NumberOfPoints=40)
+    relaxed = simple.UniformSeeds(NumberOfPoints=90, Dimension=3, Bounds=[-4, 8, 0, 7, 0, 10])
+    give("relaxed", simple.RelaxBlueNoise(
+        Input=relaxed, Density=image, MaximumIterations=3, NegativeValues="Clamp"))
+    give("relaxed by mesh", simple.RelaxBlueNoise(
+        Input=relaxed, Density=meshes["block"], MaximumIterations=3, NegativeValues="Clamp",
+        DensityResolution=12))
+    flat = simple.ExtractSubset(Input=image, VOI=[-4, 8, 0, 7, 3, 3])
+    for name, options in (("", {}), (" on", dict(Domain=flat)),
+                          (" by mass", dict(Domain=flat, Measure="Density",
+                                            NegativeValues="Clamp")),
+                          (" by power", dict(Domain=flat, Shape="Power"))):
+        divided = simple.EqualMassCells(Input=sites, Resolution=40, **options)
+        for port, output in enumerate(("labels", "sites", "outlines")):
+            give(output + name, divided, port)
+    give("few labels", simple.EqualMassCells(
+        Input=simple.UniformSeeds(NumberOfPoints=2), Resolution=3))
+    plane = simple.Plane(XResolution=9, YResolution=7)
+    give("surface", simple.SampleSurface(Input=plane, Resolution=24, NumberOfParticles=200))
+    give("parameterization", simple.AreaPreservingParameterization(Input=plane, Resolution=24))
+    cut = simple.ExtractSurface(Input=simple.RedistributeDataSet(Input=plane))
+    give("surface apart", simple.SampleSurface(Input=cut, Resolution=24, NumberOfParticles=200))
+    give("parameterization apart", simple.AreaPreservingParameterization(Input=cut, Resolution=24))
+
+
 def main(path):
     load_plugin()
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
@@ -251,6 +312,7 @@ def main(path):
     give_tiled()
     give_splats(image, flat, ghosts)
     give_qualities(inputs)
+    give_data()
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

@@ -89,11 +89,15 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
 
 } // namespace
 
+ImageGrid TransportMap::SampleGrid(const DensityImage& density) const
+{
+  return gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+}
+
 TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& wanted,
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
-  const ImageGrid samples =
-    gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
+  const ImageGrid samples = this->SampleGrid(density);
   Extent part = intersectionOf(wanted, samples.Extent());
   part = isEmpty(part) ? Extent{ 0, -1, 0, -1, 0, -1 } : part;
   if (samples.Extent() == density.Grid().Extent())

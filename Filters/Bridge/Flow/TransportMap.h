@@ -37,6 +37,9 @@ struct TransportMap
     std::int64_t MovedToMass; // from empty cells of the density
   };
 
+  // Of the samples, on the density's domain. Throws Failure.
+  ImageGrid SampleGrid(const DensityImage& density) const;
+
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid; where it is that of the density, the image gets the arrays of the input, too. On
   // ranks, which call this together, the image is the part of the grid in the extent that each

@@ -178,7 +178,7 @@ int largestDimension(vtkDataSet* data)
 std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
 {
   std::vector<DensityBlock> blocks;
-  const auto add = [&blocks](vtkDataObject* object, const std::string& name) {
+  const auto add = [&blocks](vtkDataObject* object, const std::string& name, std::int64_t number) {
     auto* set = vtkDataSet::SafeDownCast(object);
     if (object && !set)
     {
@@ -187,13 +187,13 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
     }
     if (set && set->GetNumberOfPoints() > 0)
     {
-      blocks.push_back({ set, name, geometryOf(set) });
+      blocks.push_back({ set, name, number, geometryOf(set) });
     }
   };
   vtkSmartPointer<vtkCompositeDataSet> composite = vtkCompositeDataSet::SafeDownCast(data);
   if (!composite)
   {
-    add(data, "input");
+    add(data, "input", 0);
     return blocks;
   }
   auto* grids = vtkOverlappingAMR::SafeDownCast(data);
@@ -204,7 +204,7 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    add(leaves->GetCurrentDataObject(), nameOfBlock(leaves));
+    add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), leaves->GetCurrentFlatIndex());
   }
   return blocks;
 }

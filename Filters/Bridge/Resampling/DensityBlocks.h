@@ -25,6 +25,7 @@ struct DensityBlock
 {
   vtkSmartPointer<vtkDataSet> Data;
   std::string Name;                    // that messages call it by
+  std::int64_t Number;                 // among the leaves of a composite data set
   std::vector<std::uint64_t> Geometry; // changes with the input's own points and cells
   vtkDataArray* Array = nullptr;       // the density; set by those who know its name
 };

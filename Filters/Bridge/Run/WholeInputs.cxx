@@ -4,13 +4,12 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/RankAgreement.h"
 #include "Bridge/Run/RankRun.h"
+#include "Bridge/Run/SampledFingerprint.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,7 +18,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cstring>
 #include <sstream>
 
 namespace RectifiedTransport
@@ -29,90 +27,6 @@ namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-// FNV-1a.
-class Mixer
-{
-public:
-  template <class Value>
-  void Add(Value value)
-  {
-    unsigned char bytes[sizeof(Value)];
-    std::memcpy(bytes, &value, sizeof(Value));
-    for (const unsigned char byte : bytes)
-    {
-      this->State = (this->State ^ byte) * 0x100000001b3;
-    }
-  }
-  std::uint64_t Mixed() const { return this->State; }
-
-private:
-  std::uint64_t State = 0xcbf29ce484222325;
-};
-
-// Of an array of any length: samples suffice, as pieces of a data set differ nearly everywhere.
-constexpr vtkIdType maximumSamples = 4096;
-
-template <class Visit>
-void visitSamples(vtkIdType count, const Visit& visit)
-{
-  const vtkIdType step = std::max<vtkIdType>(1, count / maximumSamples);
-  for (vtkIdType i = 0; i < count; i += step)
-  {
-    visit(i);
-  }
-}
-
-void addDataSet(vtkDataSet* data, Mixer& mixer)
-{
-  double bounds[6];
-  data->GetBounds(bounds);
-  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
-  mixer.Add(data->GetNumberOfPoints());
-  mixer.Add(data->GetNumberOfCells());
-  if (!vtkImageData::SafeDownCast(data))
-  {
-    visitSamples(data->GetNumberOfPoints(), [&](vtkIdType i) {
-      double x[3];
-      data->GetPoint(i, x);
-      std::for_each(x, x + 3, [&](double place) { mixer.Add(place); });
-    });
-  }
-  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      if (vtkDataArray* array = attributes->GetArray(i))
-      {
-        visitSamples(array->GetNumberOfTuples(),
-          [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
-      }
-    }
-  }
-}
-
-// Returns whether it has points.
-bool addData(vtkDataObject* data, Mixer& mixer)
-{
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    bool hasAny = false;
-    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    {
-      hasAny = addData(leaves->GetCurrentDataObject(), mixer) || hasAny;
-    }
-    return hasAny;
-  }
-  auto* set = vtkDataSet::SafeDownCast(data);
-  if (!set || set->GetNumberOfPoints() == 0)
-  {
-    return false;
-  }
-  addDataSet(set, mixer);
-  return true;
-}
 
 void writeExtent(std::ostream& os, const int* extent)
 {
@@ -168,20 +82,6 @@ std::string describeDifference(const std::string& input, const char* here, int r
     std::to_string(rank) +
     "; what lies on several ranks must be gathered on the first one, or be whole on each "
     "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
-}
-
-// A hash of the numbers of points and cells, the bounds, and samples of the coordinates and array
-// values of data sets and of the leaves of composite ones; 0 where none has points.
-std::uint64_t fingerprintOf(const std::vector<vtkDataObject*>& data)
-{
-  Mixer mixer;
-  bool hasAny = false;
-  for (vtkDataObject* object : data)
-  {
-    mixer.Add(hasAny);
-    hasAny = addData(object, mixer) || hasAny;
-  }
-  return hasAny ? std::max<std::uint64_t>(1, mixer.Mixed()) : 0;
 }
 
 } // namespace
@@ -259,7 +159,8 @@ bool WholeInputs::IsShared(int port, vtkInformation* input) const
     return false;
   }
   vtkDataObject* data = vtkDataObject::GetData(input);
-  return vtkImageData::SafeDownCast(data) || (shared->second && vtkPointSet::SafeDownCast(data));
+  // Over the blocks of composite points the executive iterates.
+  return !shared->second || vtkImageData::SafeDownCast(data) || vtkPointSet::SafeDownCast(data);
 }
 
 //------------------------------------------------------------------------------
@@ -354,7 +255,7 @@ void WholeInputs::requireSame(const RankRun& run, const Inputs& inputs)
   std::vector<std::uint64_t> own;
   for (const std::vector<vtkDataObject*>& port : inputs)
   {
-    own.push_back(fingerprintOf(port));
+    own.push_back(sampledFingerprint(port));
   }
   const std::vector<Bytes> gathered = run.Gather(toBytes(own));
   const auto first = fromBytes<std::uint64_t>(gathered.front());
@@ -384,7 +285,7 @@ bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
   for (std::size_t port = 0; port < inputs.size(); ++port)
   {
     const std::string name = "input port " + std::to_string(port);
-    const std::uint64_t fingerprint = fingerprintOf(inputs[port]);
+    const std::uint64_t fingerprint = sampledFingerprint(inputs[port]);
     // Equal on all ranks before: others may skip the comparison, as modification times are local.
     if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->EqualFingerprints[port]))
     {

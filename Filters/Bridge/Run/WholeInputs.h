@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a filter requests of its inputs: all, or of images and points that are distributed over
-// ranks the rank's own piece. Rejects other inputs that are distributed: results would be wrong.
+// What a filter requests of its inputs: all, or of data that are distributed over ranks the
+// rank's own piece. Rejects other inputs that are distributed: results would be wrong.
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
 
@@ -42,7 +42,7 @@ public:
   // Excepts a port; all others are needed whole.
   void Except(int port) { this->Excepted.insert(port); }
   bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
-  // Takes pieces of the images on a port, and of points, where the filter runs on all ranks.
+  // Takes pieces of the points on a port, or of any data, where the filter runs on all ranks.
   void Share(int port, bool takesPoints) { this->Shared[port] = takesPoints; }
 
   // Records the requested piece and the composite inputs, in REQUEST_UPDATE_EXTENT: while the
@@ -75,7 +75,7 @@ private:
   static void requireSame(const RankRun& run, const Inputs& inputs);
 
   std::set<int> Excepted;
-  std::map<int, bool> Shared; // whether points, too
+  std::map<int, bool> Shared; // whether points alone
   int Piece = 0;
   int NumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port

@@ -6,6 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellArray.h"
@@ -44,7 +45,8 @@ void requireBounds(const double* bounds, int dimension)
 }
 
 template <int D>
-void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* output)
+void fillBox(
+  const UniformSeedSource& source, int piece, int pieces, Progress& progress, vtkPolyData* output)
 {
   const double* bounds = source.Bounds.data();
   Point<D> lengths;
@@ -56,16 +58,20 @@ void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* o
     source.Pattern, lengths, source.NumberOfPoints, static_cast<std::uint64_t>(source.RandomSeed));
   constexpr double bytesPerPoint = 3 * sizeof(double) + 2 * sizeof(vtkIdType);
   const std::string purpose = "the points (see NumberOfPoints)";
-  requireMemory(purpose, seeds.Count() * bytesPerPoint);
-  const vtkIdType count = static_cast<vtkIdType>(seeds.Count());
+  constexpr double maximumCount = 9e18;
+  const RankShare share(
+    static_cast<std::int64_t>(std::min(seeds.Count(), maximumCount)), pieces, piece);
+  requireMemory(purpose, static_cast<double>(share.Count) * bytesPerPoint);
+  const auto count = static_cast<vtkIdType>(share.Count);
 
   auto coordinates = newArray<vtkDoubleArray>("Points", 3, count);
   double* points = coordinates->GetPointer(0);
   LargeBuffer<double> separate;
   progress.BeginStage(0.6);
-  withMemory(purpose, seeds.Count() * D * sizeof(double), [&]() {
+  withMemory(purpose, static_cast<double>(count) * D * sizeof(double), [&]() {
     separate = LargeBuffer<double>(D == 3 ? 0 : count * D);
-    seeds.Generate({ D == 3 ? points : separate.data(), count }, progress.Stage());
+    const PointSpan<D> made(D == 3 ? points : separate.data(), count);
+    seeds.GenerateFrom(share.First, made, progress.Stage());
   });
   const double* unit = D == 3 ? points : separate.data();
 
@@ -96,11 +102,11 @@ void fillBox(const UniformSeedSource& source, Progress& progress, vtkPolyData* o
 
 } // namespace
 
-void UniformSeedSource::Run(Progress& progress, vtkPolyData* output) const
+void UniformSeedSource::Run(int piece, int pieces, Progress& progress, vtkPolyData* output) const
 {
   requireBounds(this->Bounds.data(), this->Dimension);
   const auto fill = this->Dimension == 2 ? fillBox<2> : fillBox<3>; // not 1, as the filter checks
-  fill(*this, progress, output);
+  fill(*this, piece, pieces, progress, output);
 }
 
 } // namespace RectifiedTransport

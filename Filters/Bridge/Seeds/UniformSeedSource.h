@@ -27,8 +27,9 @@ struct UniformSeedSource
   std::int64_t NumberOfPoints;
   int RandomSeed;
 
-  // Throws Failure and Cancelled.
-  void Run(Progress& progress, vtkPolyData* output) const;
+  // Makes the points of a piece, which follow those of the pieces before. Throws Failure and
+  // Cancelled.
+  void Run(int piece, int pieces, Progress& progress, vtkPolyData* output) const;
 };
 
 } // namespace RectifiedTransport

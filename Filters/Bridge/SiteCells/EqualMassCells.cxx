@@ -4,15 +4,14 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/FlowCache.h"
-#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/SiteCells/LabelGrid.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/SiteCells/DensitySiteCells.h"
@@ -20,10 +19,8 @@
 #include "Core/SiteCells/SiteCellOutlines.h"
 #include "Core/SiteCells/SiteCells.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
@@ -380,64 +377,6 @@ std::string describeLabels(const ImageGrid& grid)
 
 } // namespace
 
-ImageGrid EqualMassCells::GridOn(vtkDataObject* domain) const
-{
-  ImageGrid box;
-  if (auto* image = vtkImageData::SafeDownCast(domain))
-  {
-    const ImageGrid grid = gridOf(image, false);
-    box = !grid.IsEmpty() && hasPointValues(image) ? grid.WithDualCells() : grid;
-  }
-  else
-  {
-    vtkBoundingBox all;
-    for (const DensityBlock& block : densityBlocks(domain))
-    {
-      double bounds[6];
-      block.Data->GetBounds(bounds);
-      all.AddBounds(bounds);
-    }
-    if (all.IsValid())
-    {
-      double bounds[6];
-      all.GetBounds(bounds);
-      box = gridOfBox(bounds);
-    }
-  }
-  return box.IsEmpty() ? box : this->GridOn(box);
-}
-
-ImageGrid EqualMassCells::GridOn(const ImageGrid& density) const
-{
-  const ImageGrid box = density.IsOnPoints() ? density.WithDualCells() : density;
-  if (box.Dimension() == 0)
-  {
-    throw Failure("The Domain has one point along every axis; it needs at least one axis of two "
-                  "points or more");
-  }
-  return gridWithResolution(box, this->Resolution, "Resolution");
-}
-
-ImageGrid EqualMassCells::GridAround(vtkPointSet* sites) const
-{
-  constexpr double margin = 0.05; // on each side
-  double bounds[6];
-  findBounds(sites, bounds);
-  for (int a = 0; a < 3; ++a)
-  {
-    const double length = bounds[2 * a + 1] - bounds[2 * a];
-    bounds[2 * a] -= margin * length;
-    bounds[2 * a + 1] += margin * length;
-  }
-  const ImageGrid box = gridOfBox(bounds);
-  if (box.Dimension() == 0)
-  {
-    throw Failure("The input's sites are all at one point, about which there is no domain; connect "
-                  "an image as the Domain");
-  }
-  return gridWithResolution(box, this->Resolution, "Resolution");
-}
-
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* domain,
   SiteLabels& kept, Progress& progress, const Outputs& outputs) const
 {
@@ -446,7 +385,8 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
     // Coordinates that are not finite have no bounds.
     visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
   }
-  const ImageGrid grid = domain ? this->GridOn(domain) : this->GridAround(sites);
+  const LabelGrid pixels{ this->Resolution };
+  const ImageGrid grid = domain ? pixels.On(domain) : pixels.Around(sites);
   requireCells(grid);
   if (this->IsPower)
   {
@@ -473,7 +413,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
 EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, DensityImage& density,
   FlowCache& cache, SiteLabels& kept, Progress& progress, const Outputs& outputs) const
 {
-  const ImageGrid grid = this->GridOn(density.Grid());
+  const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());
   requireCells(grid);
   if (this->IsPower)
   {

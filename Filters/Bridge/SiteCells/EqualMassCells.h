@@ -22,7 +22,6 @@ namespace RectifiedTransport
 
 class DensityImage;
 class FlowCache;
-class ImageGrid;
 class Progress;
 
 // The members are the properties of that class.
@@ -46,13 +45,6 @@ struct EqualMassCells
     std::int64_t Outside = 0;     // sites outside of the domain
     std::int64_t WithoutMass = 0; // sites whose cells have no mass
   };
-
-  // The pixels in the box of a domain: that of an image, as of a density, or the bounds of other
-  // data; in that of a density; and in the bounds of sites, 10 % longer along each axis. A grid
-  // without points for a domain without points. Throw Failure.
-  ImageGrid GridOn(vtkDataObject* domain) const;
-  ImageGrid GridOn(const ImageGrid& density) const;
-  ImageGrid GridAround(vtkPointSet* sites) const;
 
   // Assigns the pixels of a domain with points, or where it is nullptr around the sites, to at
   // least one site, equally many or with equal masses of a density that is not nullptr; reuses the

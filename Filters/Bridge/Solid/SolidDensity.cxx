@@ -4,6 +4,7 @@
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Image/SolidGrid.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Solid/ClosedSurface.h"
@@ -22,18 +23,19 @@ namespace RectifiedTransport
 namespace
 {
 
-vtkSmartPointer<vtkDoubleArray> cover(
-  const TriangleSurface& surface, const GridSize<3>& cells, int supersampling, Progress& progress)
+vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, Progress& progress)
 {
-  const std::string grid = describeSize<3>(cells) + " cells (see Resolution)";
-  const double count = numberOfCells<3>(cells);
+  const std::string grid = describeSize<3>(part.Cells) + " cells (see Resolution)";
+  const double count = numberOfCells<3>(part.Cells);
   requireMemory("a density of " + grid, count * sizeof(double));
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
   progress.BeginStage(1.0);
   const CoverageReport report = withMemory("the surface's " +
       std::to_string(surface.NumberOfTriangles) + " triangles in the layers of " + grid,
     static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
-      return coverSolid(surface, cells, supersampling, density->GetPointer(0), progress.Stage());
+      return coverPartOfSolid(
+        surface, cells, part, supersampling, density->GetPointer(0), progress.Stage());
     });
   if (report.OpenLines > 0)
   {
@@ -43,22 +45,55 @@ vtkSmartPointer<vtkDoubleArray> cover(
   return density;
 }
 
+// The cells of an extent of the grid, or those about its points.
+LatticePart<3> partOf(const Extent& wanted, const ImageGrid& grid)
+{
+  LatticePart<3> part{ {}, {} };
+  const int owner = grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
+  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
+  {
+    part.Low[a] = box.Low[a] - grid.Extent()[2 * a];
+    part.Cells[a] = box.High[a] - box.Low[a];
+  }
+  return part;
+}
+
 } // namespace
 
-ImageGrid SolidDensity::GridAround(vtkPolyData* surface) const
+ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks* ranks) const
 {
-  const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
+  std::array<double, 6> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  bool hasPoints = surface && surface->GetNumberOfPoints() > 0;
+  if (hasPoints)
+  {
+    bounds = polygonBounds(surface);
+  }
+  if (ranks)
+  {
+    hasPoints = !onAllRanks(ranks, !hasPoints);
+    bounds = boundsOfAll(*ranks, bounds);
+  }
+  if (!hasPoints)
+  {
+    return ImageGrid().WithValuesOn(this->OnPoints);
+  }
+  const ImageGrid cells = solidGrid(bounds, this->Resolution, this->Padding);
   return this->OnPoints ? cells.AtCellCentres() : cells;
 }
 
-void SolidDensity::Run(vtkPolyData* surface, Progress& progress, vtkImageData* output) const
+void SolidDensity::Run(
+  vtkPolyData* surface, const Extent& wanted, Progress& progress, vtkImageData* output) const
 {
   ClosedSurface closed(surface, progress, 0.4);
   const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
+  const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const TriangleSurface triangles = closed.InCells(cells, progress, 0.5);
   const vtkSmartPointer<vtkDoubleArray> density =
-    cover(triangles, cells.Size<3>(), this->Supersampling, progress);
-  applyGrid(this->OnPoints ? cells.AtCellCentres() : cells, output);
+    cover(triangles, cells.Size<3>(), partOf(wanted, grid), this->Supersampling, progress);
+  applyGrid(grid, output);
+  Extent extent = wanted; // VTK takes no constant one
+  output->SetExtent(extent.data());
   output->GetAttributes(this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(density);
 }

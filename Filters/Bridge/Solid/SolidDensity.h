@@ -6,6 +6,8 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 
+#include <array>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkPolyData;
@@ -15,6 +17,7 @@ namespace RectifiedTransport
 {
 
 class Progress;
+class Ranks;
 
 // The members are the properties of that class.
 struct SolidDensity
@@ -24,12 +27,14 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
 
-  // The image around a surface. Throws Failure.
-  ImageGrid GridAround(vtkPolyData* surface) const;
+  // The image around a surface, or the parts of one on all ranks, which call this together; without
+  // points around none. Throws Failure.
+  ImageGrid GridAround(vtkPolyData* surface, const Ranks* ranks = nullptr) const;
 
-  // Writes the fraction of each image cell that a closed surface encloses. Throws Failure and
-  // Cancelled.
-  void Run(vtkPolyData* surface, Progress& progress, vtkImageData* output) const;
+  // Writes the fraction of each image cell that a closed surface encloses, of the cells of an
+  // extent of the image. Throws Failure and Cancelled.
+  void Run(vtkPolyData* surface, const std::array<int, 6>& wanted, Progress& progress,
+    vtkImageData* output) const;
 };
 
 } // namespace RectifiedTransport

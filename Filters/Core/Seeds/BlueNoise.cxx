@@ -109,7 +109,8 @@ public:
     this->PrepareTile();
   }
 
-  void Generate(PointSpan<Dimension> unitPoints)
+  // Finds the window of Count points.
+  void FindSize()
   {
     // Collects the points between the sizes 1 - margin, which should hold fewer than `count`, and 1
     // + margin, which should hold more, and selects the count-th. The fluctuation of the number of
@@ -125,7 +126,41 @@ public:
     {
       margin *= 2.0;
     }
-    this->Emit(unitPoints);
+  }
+
+  // Calls visit(point) for each, in their order.
+  template <class VisitPoint>
+  void Emit(const VisitPoint& visit) const
+  {
+    const double scale = 1.0 / this->Size;
+    const double* tile = this->Tile.data();
+    const auto emit = [&](const Point<Dimension>& origin, int i) {
+      Point<Dimension> point;
+      for (int a = 0; a < Dimension; ++a)
+      {
+        point[a] = std::min((origin[a] + tile[i * Dimension + a]) * scale, 1.0);
+      }
+      visit(point);
+    };
+    std::int64_t ties = this->Ties;
+    this->Visit(
+      this->LastSize, this->LastSize,
+      [&](const Point<Dimension>& origin, int first, int last) {
+        for (int i = first; i < last; ++i)
+        {
+          emit(origin, i);
+        }
+      },
+      [&](const Point<Dimension>& origin, int first, int last) {
+        for (int i = first; i < last; ++i)
+        {
+          const double size = this->SizeThatHolds(origin, i);
+          if (size < this->LastSize || (size == this->LastSize && ties-- > 0))
+          {
+            emit(origin, i);
+          }
+        }
+      });
   }
 
 private:
@@ -243,39 +278,6 @@ private:
     return true;
   }
 
-  void Emit(PointSpan<Dimension> unitPoints)
-  {
-    const double scale = 1.0 / this->Size;
-    const double* tile = this->Tile.data();
-    double* output = unitPoints.data();
-    const auto write = [&](const Point<Dimension>& origin, int i) {
-      for (int a = 0; a < Dimension; ++a)
-      {
-        output[a] = std::min((origin[a] + tile[i * Dimension + a]) * scale, 1.0);
-      }
-      output += Dimension;
-    };
-    std::int64_t ties = this->Ties;
-    this->Visit(
-      this->LastSize, this->LastSize,
-      [&](const Point<Dimension>& origin, int first, int last) {
-        for (int i = first; i < last; ++i)
-        {
-          write(origin, i);
-        }
-      },
-      [&](const Point<Dimension>& origin, int first, int last) {
-        for (int i = first; i < last; ++i)
-        {
-          const double size = this->SizeThatHolds(origin, i);
-          if (size < this->LastSize || (size == this->LastSize && ties-- > 0))
-          {
-            write(origin, i);
-          }
-        }
-      });
-  }
-
   // The size of the smallest window that holds a point of a tile.
   double SizeThatHolds(const Point<Dimension>& origin, int i) const
   {
@@ -383,13 +385,65 @@ private:
   double Size = 0.0;     // of the window that becomes the unit box
 };
 
-void generateJitteredLine(std::uint64_t randomSeed, PointSpan<1> unitPoints, Progress& progress)
+template <int Dimension>
+void cutWindow(const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  PointSpan<Dimension> unitPoints, Progress& progress)
 {
-  const double n = static_cast<double>(unitPoints.size());
-  for (std::int64_t i = 0; i < unitPoints.size(); ++i)
+  Window<Dimension> window(lengths, unitPoints.size(), randomSeed, progress);
+  window.FindSize();
+  double* output = unitPoints.data();
+  window.Emit([&output](const Point<Dimension>& point) {
+    std::copy(point.begin(), point.end(), output);
+    output += Dimension;
+  });
+  if constexpr (Dimension == 2)
+  {
+    relaxBorder(lengths, unitPoints, progress);
+  }
+}
+
+// The points from number `first` on, of `count`.
+template <int Dimension>
+void cutPartOfWindow(const Point<Dimension>& lengths, std::int64_t count, std::uint64_t randomSeed,
+  std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
+{
+  Window<Dimension> window(lengths, count, randomSeed, progress);
+  window.FindSize();
+  std::int64_t number = 0;
+  const auto write = [&](const Point<Dimension>& point) {
+    if (number >= first && number - first < unitPoints.size())
+    {
+      std::copy(point.begin(), point.end(), unitPoints[number - first]);
+    }
+    ++number;
+  };
+  if constexpr (Dimension == 2)
+  {
+    std::vector<BorderSeed> border; // of all, as their cells depend on one another
+    const BorderBand band(lengths, count);
+    window.Emit([&](const Point<2>& point) {
+      if (band.Holds(point.data()))
+      {
+        border.push_back({ number, point });
+      }
+      write(point);
+    });
+    relaxBorder(lengths, count, border, first, unitPoints, progress);
+  }
+  else
+  {
+    window.Emit(write);
+  }
+}
+
+void generateJitteredLine(std::int64_t count, std::uint64_t randomSeed, std::int64_t first,
+  PointSpan<1> unitPoints, Progress& progress)
+{
+  const double n = static_cast<double>(count);
+  for (std::int64_t i = first; i < first + unitPoints.size(); ++i)
   {
     const double jitter = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
-    *unitPoints[i] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
+    *unitPoints[i - first] = (static_cast<double>(i) + 0.25 + 0.5 * jitter) / n;
     progress.Add(2);
   }
 }
@@ -398,8 +452,8 @@ void generateJitteredLine(std::uint64_t randomSeed, PointSpan<1> unitPoints, Pro
 // golden ratio in 2D and the square root of 2 in 3D: different ones, as both apply where two axes
 // are thin.
 template <int Dimension>
-void generateFlat(const Point<Dimension>& lengths, int thin, std::uint64_t randomSeed,
-  PointSpan<Dimension> unitPoints, Progress& progress)
+void generateFlat(const Point<Dimension>& lengths, int thin, std::int64_t count,
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
   Point<Dimension - 1> rest;
   for (int a = 0; a < Dimension - 1; ++a)
@@ -408,7 +462,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::uint64_t rando
   }
   // In the first part of the memory, which is overwritten from its end on.
   const PointSpan<Dimension - 1> across(unitPoints.data(), unitPoints.size());
-  generateBlueNoise<Dimension - 1>(rest, randomSeed, across, progress);
+  generateBlueNoise<Dimension - 1>(rest, count, randomSeed, first, across, progress);
   constexpr std::uint64_t step = Dimension == 2 ? 0x9E3779B97F4A7C15u : 0x6A09E667F3BCC909u;
   const std::uint64_t shift = randomWord(~randomSeed, Dimension);
   for (std::int64_t i = unitPoints.size() - 1; i >= 0; --i)
@@ -418,7 +472,7 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::uint64_t rando
     {
       point[a < thin ? a : a + 1] = across[i][a];
     }
-    point[thin] = unitReal(shift + static_cast<std::uint64_t>(i) * step);
+    point[thin] = unitReal(shift + static_cast<std::uint64_t>(first + i) * step);
     std::copy(point.begin(), point.end(), unitPoints[i]);
     progress.Add(1);
   }
@@ -427,17 +481,16 @@ void generateFlat(const Point<Dimension>& lengths, int thin, std::uint64_t rando
 } // namespace
 
 template <int Dimension>
-void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed,
-  PointSpan<Dimension> unitPoints, Progress& progress)
+void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
-  const std::int64_t count = unitPoints.size();
-  if (count == 0)
+  if (unitPoints.size() == 0)
   {
     return;
   }
   if constexpr (Dimension == 1)
   {
-    generateJitteredLine(randomSeed, unitPoints, progress);
+    generateJitteredLine(count, randomSeed, first, unitPoints, progress);
   }
   else
   {
@@ -453,21 +506,24 @@ void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed
     }
     if (power < thinnest)
     {
-      generateFlat<Dimension>(lengths, thin, randomSeed, unitPoints, progress);
+      generateFlat<Dimension>(lengths, thin, count, randomSeed, first, unitPoints, progress);
+    }
+    else if (unitPoints.size() == count)
+    {
+      cutWindow<Dimension>(lengths, randomSeed, unitPoints, progress);
     }
     else
     {
-      Window<Dimension>(lengths, count, randomSeed, progress).Generate(unitPoints);
-      if constexpr (Dimension == 2)
-      {
-        relaxBorder(lengths, unitPoints, progress);
-      }
+      cutPartOfWindow<Dimension>(lengths, count, randomSeed, first, unitPoints, progress);
     }
   }
 }
 
-template void generateBlueNoise<1>(const Point<1>&, std::uint64_t, PointSpan<1>, Progress&);
-template void generateBlueNoise<2>(const Point<2>&, std::uint64_t, PointSpan<2>, Progress&);
-template void generateBlueNoise<3>(const Point<3>&, std::uint64_t, PointSpan<3>, Progress&);
+template void generateBlueNoise<1>(
+  const Point<1>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<1>, Progress&);
+template void generateBlueNoise<2>(
+  const Point<2>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<2>, Progress&);
+template void generateBlueNoise<3>(
+  const Point<3>&, std::int64_t, std::uint64_t, std::int64_t, PointSpan<3>, Progress&);
 
 } // namespace RectifiedTransport

@@ -12,9 +12,10 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Fills unitPoints with `count` points of the unit box, evenly spaced in a box of sides `lengths`;
-// O(count) time, O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already
-// checked. Adds about 3 * count to the progress in 2D, else 2 * count. Throws Cancelled.
+// Fills unitPoints with points of the unit box, evenly spaced in a box of sides `lengths`: those
+// from number `first` on, of `count`. O(count) time also for a part, except in 1D, and
+// O(sqrt(count)) memory in 2D. Arguments are those of generateSeeds, already checked. Adds about 3
+// * count to the progress in 2D, else 2 * count. Throws Cancelled.
 //
 // 2D and 3D: a relaxed toroidal tile is repeated periodically, and the points are those of a window
 // of the box's shape at a corner, of the size that holds `count`. The window is rotated against the
@@ -31,8 +32,9 @@ class Progress;
 // 1D: one point in each of `count` equal intervals, jittered over half of it: spacings are between
 // 0.5 and 1.5 of the mean.
 template <int Dimension>
-void generateBlueNoise(const Point<Dimension>& lengths, std::uint64_t randomSeed,
-  PointSpan<Dimension> unitPoints, Progress& progress);
+void generateBlueNoise(const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints,
+  Progress& progress);
 
 } // namespace RectifiedTransport
 

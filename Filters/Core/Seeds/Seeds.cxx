@@ -152,11 +152,13 @@ template <int Dimension>
 class JitteredBoxes
 {
 public:
-  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed,
+  // Makes points from number `firstPoint` on.
+  JitteredBoxes(const Point<Dimension>& lengths, std::uint64_t randomSeed, std::int64_t firstPoint,
     PointSpan<Dimension> unitPoints, Progress& progress)
     : Lengths(lengths)
     , Order(shortestFirst<Dimension>(lengths))
     , RandomSeed(randomSeed)
+    , FirstPoint(firstPoint)
     , UnitPoints(unitPoints)
     , Work(progress)
   {
@@ -173,19 +175,25 @@ public:
     for (std::int64_t slab = 0; slab < slabs; ++slab)
     {
       const std::int64_t size = smaller + (slab < larger ? 1 : 0);
-      for (std::int64_t i = first + begin; i < first + begin + size; ++i)
+      const std::int64_t from = std::max(first + begin, this->FirstPoint);
+      const std::int64_t end =
+        std::min(first + begin + size, this->FirstPoint + this->UnitPoints.size());
+      for (std::int64_t i = from; i < end; ++i)
       {
         const int axis = this->Order[k];
         const double jitter =
           unitReal(randomWord(this->RandomSeed, static_cast<std::uint64_t>(i) * Dimension + axis));
         const double place = static_cast<double>(begin) + jitter * static_cast<double>(size);
-        this->UnitPoints[i][axis] = place / static_cast<double>(count);
+        this->UnitPoints[i - this->FirstPoint][axis] = place / static_cast<double>(count);
       }
-      if (k + 1 < Dimension)
+      if (from < end)
       {
-        this->Fill(k + 1, first + begin, size);
+        if (k + 1 < Dimension)
+        {
+          this->Fill(k + 1, first + begin, size);
+        }
+        this->Work.Add(end - from);
       }
-      this->Work.Add(size);
       begin += size;
     }
   }
@@ -205,27 +213,31 @@ private:
   Point<Dimension> Lengths;
   AxisOrder<Dimension> Order;
   std::uint64_t RandomSeed;
+  std::int64_t FirstPoint;
   PointSpan<Dimension> UnitPoints;
   Progress& Work;
 };
 
 template <int Dimension>
-void generateRandom(std::uint64_t randomSeed, PointSpan<Dimension> unitPoints, Progress& progress)
+void generateRandom(
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
+  std::uint64_t counter = static_cast<std::uint64_t>(first) * Dimension;
   for (std::int64_t i = 0; i < unitPoints.size() * Dimension; ++i)
   {
-    unitPoints.data()[i] = unitReal(randomWord(randomSeed, static_cast<std::uint64_t>(i)));
+    unitPoints.data()[i] = unitReal(randomWord(randomSeed, counter++));
     progress.Add(1);
   }
 }
 
 template <int Dimension>
 void generateLowDiscrepancy(
-  std::uint64_t randomSeed, PointSpan<Dimension> unitPoints, Progress& progress)
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints, Progress& progress)
 {
   for (int a = 0; a < Dimension; ++a)
   {
-    std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a));
+    std::uint64_t fraction = randomWord(randomSeed, static_cast<std::uint64_t>(a)) +
+      static_cast<std::uint64_t>(first) * lowDiscrepancyStep<Dimension>(a);
     for (std::int64_t i = 0; i < unitPoints.size(); ++i)
     {
       fraction += lowDiscrepancyStep<Dimension>(a);
@@ -235,10 +247,17 @@ void generateLowDiscrepancy(
   }
 }
 
-// Calls visit(cell) for every cell of a grid, axis 0 fastest.
-template <int Dimension, class F>
-void visitCells(
-  const GridSize<Dimension>& size, std::int64_t points, const Context& context, F&& visit)
+void requirePart(std::int64_t first, std::int64_t points, double all)
+{
+  if (first < 0 || static_cast<double>(points) > all - static_cast<double>(first))
+  {
+    throw std::invalid_argument("there are " + describeCount(all) + " seeds, not " +
+      std::to_string(points) + " from number " + std::to_string(first) + " on");
+  }
+}
+
+template <int Dimension>
+void requireAllCells(const GridSize<Dimension>& size, std::int64_t points)
 {
   checkGrid<Dimension>(size);
   const double cells = numberOfCells<Dimension>(size);
@@ -247,9 +266,23 @@ void visitCells(
     throw std::invalid_argument("there is memory for " + std::to_string(points) +
       " seeds, but the grid has " + describeCount(cells) + " cells");
   }
+}
+
+// Calls visit(cell) for cells of a grid from number `first` on, axis 0 fastest.
+template <int Dimension, class F>
+void visitCells(const GridSize<Dimension>& size, std::int64_t first, std::int64_t points,
+  const Context& context, F&& visit)
+{
+  checkGrid<Dimension>(size);
+  requirePart(first, points, numberOfCells<Dimension>(size));
   Progress progress(context);
   progress.BeginStage(1.0, points);
   GridSize<Dimension> cell{};
+  for (int a = 0; a < Dimension && points > 0; ++a)
+  {
+    cell[a] = first % size[a];
+    first /= size[a];
+  }
   for (std::int64_t i = 0; i < points; ++i)
   {
     visit(cell);
@@ -279,27 +312,37 @@ template <int Dimension>
 void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context)
 {
-  const std::int64_t count = unitPoints.size();
+  generateSeedsFrom<Dimension>(
+    pattern, lengths, unitPoints.size(), randomSeed, 0, unitPoints, context);
+}
+
+template <int Dimension>
+void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints,
+  const Context& context)
+{
   checkLengths<Dimension>(lengths);
   checkCount(count);
-  if (count == 0)
+  requirePart(first, unitPoints.size(), static_cast<double>(count));
+  if (unitPoints.size() == 0)
   {
     return;
   }
   Progress progress(context);
   constexpr int unitsOfBlueNoise = Dimension == 2 ? 3 : 2;
-  progress.BeginStage(
-    1.0, (pattern == SeedPattern::BlueNoise ? unitsOfBlueNoise : Dimension) * count);
+  progress.BeginStage(1.0,
+    pattern == SeedPattern::BlueNoise ? unitsOfBlueNoise * count : Dimension * unitPoints.size());
   switch (pattern)
   {
     case SeedPattern::BlueNoise:
-      return generateBlueNoise<Dimension>(lengths, randomSeed, unitPoints, progress);
+      return generateBlueNoise<Dimension>(lengths, count, randomSeed, first, unitPoints, progress);
     case SeedPattern::Jittered:
-      return JitteredBoxes<Dimension>(lengths, randomSeed, unitPoints, progress).Fill(0, 0, count);
+      return JitteredBoxes<Dimension>(lengths, randomSeed, first, unitPoints, progress)
+        .Fill(0, 0, count);
     case SeedPattern::LowDiscrepancy:
-      return generateLowDiscrepancy<Dimension>(randomSeed, unitPoints, progress);
+      return generateLowDiscrepancy<Dimension>(randomSeed, first, unitPoints, progress);
     case SeedPattern::Random:
-      return generateRandom<Dimension>(randomSeed, unitPoints, progress);
+      return generateRandom<Dimension>(randomSeed, first, unitPoints, progress);
     case SeedPattern::Lattice:
       break;
   }
@@ -311,28 +354,46 @@ template <int Dimension>
 void generateLattice(
   const GridSize<Dimension>& size, PointSpan<Dimension> unitPoints, const Context& context)
 {
+  requireAllCells<Dimension>(size, unitPoints.size());
+  generateLatticeFrom<Dimension>(size, 0, unitPoints, context);
+}
+
+template <int Dimension>
+void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
+  PointSpan<Dimension> unitPoints, const Context& context)
+{
   double* point = unitPoints.data();
-  visitCells<Dimension>(size, unitPoints.size(), context, [&](const GridSize<Dimension>& cell) {
+  const auto write = [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
       *point++ = (static_cast<double>(cell[a]) + 0.5) / static_cast<double>(size[a]);
     }
-  });
+  };
+  visitCells<Dimension>(size, first, unitPoints.size(), context, write);
 }
 
 template <int Dimension>
 void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context)
 {
+  requireAllCells<Dimension>(size, unitPoints.size());
+  generateJitteredLatticeFrom<Dimension>(size, randomSeed, 0, unitPoints, context);
+}
+
+template <int Dimension>
+void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context)
+{
   double* point = unitPoints.data();
-  std::uint64_t counter = 0;
-  visitCells<Dimension>(size, unitPoints.size(), context, [&](const GridSize<Dimension>& cell) {
+  std::uint64_t counter = static_cast<std::uint64_t>(first) * Dimension;
+  const auto write = [&](const GridSize<Dimension>& cell) {
     for (int a = 0; a < Dimension; ++a)
     {
       const double jitter = unitReal(randomWord(randomSeed, counter++));
       *point++ = (static_cast<double>(cell[a]) + jitter) / static_cast<double>(size[a]);
     }
-  });
+  };
+  visitCells<Dimension>(size, first, unitPoints.size(), context, write);
 }
 
 template GridSize<1> latticeSize<1>(const Point<1>&, std::int64_t);
@@ -341,20 +402,38 @@ template GridSize<3> latticeSize<3>(const Point<3>&, std::int64_t);
 
 template void generateSeeds<1>(
   SeedPattern, const Point<1>&, std::uint64_t, PointSpan<1>, const Context&);
-template void generateSeeds<2>(
-  SeedPattern, const Point<2>&, std::uint64_t, PointSpan<2>, const Context&);
-template void generateSeeds<3>(
-  SeedPattern, const Point<3>&, std::uint64_t, PointSpan<3>, const Context&);
-
+template void generateSeedsFrom<1>(SeedPattern, const Point<1>&, std::int64_t, std::uint64_t,
+  std::int64_t, PointSpan<1>, const Context&);
 template void generateLattice<1>(const GridSize<1>&, PointSpan<1>, const Context&);
-template void generateLattice<2>(const GridSize<2>&, PointSpan<2>, const Context&);
-template void generateLattice<3>(const GridSize<3>&, PointSpan<3>, const Context&);
-
+template void generateLatticeFrom<1>(
+  const GridSize<1>&, std::int64_t, PointSpan<1>, const Context&);
 template void generateJitteredLattice<1>(
   const GridSize<1>&, std::uint64_t, PointSpan<1>, const Context&);
+template void generateJitteredLatticeFrom<1>(
+  const GridSize<1>&, std::uint64_t, std::int64_t, PointSpan<1>, const Context&);
+
+template void generateSeeds<2>(
+  SeedPattern, const Point<2>&, std::uint64_t, PointSpan<2>, const Context&);
+template void generateSeedsFrom<2>(SeedPattern, const Point<2>&, std::int64_t, std::uint64_t,
+  std::int64_t, PointSpan<2>, const Context&);
+template void generateLattice<2>(const GridSize<2>&, PointSpan<2>, const Context&);
+template void generateLatticeFrom<2>(
+  const GridSize<2>&, std::int64_t, PointSpan<2>, const Context&);
 template void generateJitteredLattice<2>(
   const GridSize<2>&, std::uint64_t, PointSpan<2>, const Context&);
+template void generateJitteredLatticeFrom<2>(
+  const GridSize<2>&, std::uint64_t, std::int64_t, PointSpan<2>, const Context&);
+
+template void generateSeeds<3>(
+  SeedPattern, const Point<3>&, std::uint64_t, PointSpan<3>, const Context&);
+template void generateSeedsFrom<3>(SeedPattern, const Point<3>&, std::int64_t, std::uint64_t,
+  std::int64_t, PointSpan<3>, const Context&);
+template void generateLattice<3>(const GridSize<3>&, PointSpan<3>, const Context&);
+template void generateLatticeFrom<3>(
+  const GridSize<3>&, std::int64_t, PointSpan<3>, const Context&);
 template void generateJitteredLattice<3>(
   const GridSize<3>&, std::uint64_t, PointSpan<3>, const Context&);
+template void generateJitteredLatticeFrom<3>(
+  const GridSize<3>&, std::uint64_t, std::int64_t, PointSpan<3>, const Context&);
 
 } // namespace RectifiedTransport

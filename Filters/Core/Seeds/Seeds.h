@@ -34,15 +34,30 @@ template <int Dimension>
 void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context = Context());
 
+// Of `count` points that generateSeeds makes, those from number `first` on, with the same bits.
+// Only blue noise takes time for the others, too; memory is for the part.
+template <int Dimension>
+void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
+  std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints,
+  const Context& context = Context());
+
 // The centres of a grid of cells on the unit box, axis 0 fastest, one for each.
 template <int Dimension>
 void generateLattice(const GridSize<Dimension>& size, PointSpan<Dimension> unitPoints,
   const Context& context = Context());
+// Those of the cells from number `first` on.
+template <int Dimension>
+void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
+  PointSpan<Dimension> unitPoints, const Context& context = Context());
 
 // One random point in each cell of a grid on the unit box, axis 0 fastest.
 template <int Dimension>
 void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context = Context());
+// Those of the cells from number `first` on.
+template <int Dimension>
+void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t randomSeed,
+  std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -2,9 +2,7 @@
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "Core/Geometry/CountText.h"
-#include "Core/Parallel/LargeBuffer.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -51,38 +49,27 @@ void UnitSeeds<Dimension>::Generate(PointSpan<Dimension> unitPoints, const Conte
     throw std::invalid_argument("there is memory for " + std::to_string(unitPoints.size()) +
       " seeds, there must be " + describeCount(this->Number));
   }
-  if (!this->OnGrid)
-  {
-    generateSeeds<Dimension>(this->Pattern, this->Lengths, this->RandomSeed, unitPoints, context);
-  }
-  else if (this->Pattern == SeedPattern::Lattice)
-  {
-    generateLattice<Dimension>(this->Grid, unitPoints, context);
-  }
-  else
-  {
-    generateJitteredLattice<Dimension>(this->Grid, this->RandomSeed, unitPoints, context);
-  }
+  this->GenerateFrom(0, unitPoints, context);
 }
 
 template <int Dimension>
 void UnitSeeds<Dimension>::GenerateFrom(
   std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context) const
 {
-  if (static_cast<double>(unitPoints.size()) == this->Number)
+  if (!this->OnGrid)
   {
-    this->Generate(unitPoints, context);
-    return;
+    generateSeedsFrom<Dimension>(this->Pattern, this->Lengths,
+      static_cast<std::int64_t>(this->Number), this->RandomSeed, first, unitPoints, context);
   }
-  const auto all = static_cast<std::int64_t>(this->Number);
-  if (first < 0 || unitPoints.size() > all - first)
+  else if (this->Pattern == SeedPattern::Lattice)
   {
-    throw std::invalid_argument("there are " + describeCount(this->Number) + " seeds, not " +
-      std::to_string(unitPoints.size()) + " from number " + std::to_string(first) + " on");
+    generateLatticeFrom<Dimension>(this->Grid, first, unitPoints, context);
   }
-  LargeBuffer<double> points(all * Dimension);
-  this->Generate({ points.data(), all }, context);
-  std::copy_n(points.data() + first * Dimension, unitPoints.size() * Dimension, unitPoints.data());
+  else
+  {
+    generateJitteredLatticeFrom<Dimension>(
+      this->Grid, this->RandomSeed, first, unitPoints, context);
+  }
 }
 
 template class UnitSeeds<1>;

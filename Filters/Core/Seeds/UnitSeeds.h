@@ -25,7 +25,8 @@ public:
   double Count() const { return this->Number; }
   // Makes Count() points. Throws std::bad_alloc and Cancelled.
   void Generate(PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
-  // Makes the points from number `first` on, in memory for all of them.
+  // Makes those from number `first` on, with the same bits. Throws std::invalid_argument where
+  // there are not as many.
   void GenerateFrom(
     std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
 

@@ -24,26 +24,69 @@ constexpr double relaxation = 1.5;
 // The least distance that moves leave, in mean spacings: 0.86 of the hexagonal lattice's,
 // sqrt(2 / sqrt(3)).
 constexpr double smallestSpacing = 0.86 * 1.0745699318235418;
+// Layers of bins, which are at least a mean spacing wide: of the seeds that move (a second layer
+// would cost as much again for a twentieth of what the first gains), and of these and the ones
+// inside of them that bound their cells.
+constexpr std::int64_t movedBins = 1;
+constexpr std::int64_t knownBins = 3;
+
+using Bin = std::array<std::int64_t, 2>;
+
+// Of the box, in mean spacings.
+Point<2> sidesOf(const Point<2>& lengths, std::int64_t count)
+{
+  Point<2> sides;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    sides[a] = std::sqrt(static_cast<double>(count) * (lengths[a] / lengths[1 - a]));
+  }
+  return sides;
+}
+
+Bin binsOf(const Point<2>& sides)
+{
+  Bin bins;
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    bins[a] = std::max(static_cast<std::int64_t>(sides[a]), std::int64_t{ 1 });
+  }
+  return bins;
+}
 
 // Lengths are in mean spacings. Seeds are found by bins, of which there are only those at the
 // faces: the grid has a hole.
 class WindowBorder
 {
 public:
-  WindowBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress)
-    : UnitPoints(unitPoints)
-    , Work(progress)
+  WindowBorder(const Point<2>& lengths, std::int64_t count, Progress& progress)
+    : Work(progress)
+    , Sides(sidesOf(lengths, count))
+    , Bins(binsOf(this->Sides))
   {
-    const auto count = static_cast<double>(unitPoints.size());
     for (std::size_t a = 0; a < 2; ++a)
     {
-      this->Sides[a] = std::sqrt(count * (lengths[a] / lengths[1 - a]));
-      this->Bins[a] = std::max(static_cast<std::int64_t>(this->Sides[a]), std::int64_t{ 1 });
       this->BinSides[a] = this->Sides[a] / static_cast<double>(this->Bins[a]);
       this->BinsPerSpacing[a] = static_cast<double>(this->Bins[a]) / this->Sides[a];
       this->Hole[a] = std::max(this->Bins[a] - 2 * knownBins, std::int64_t{ 0 });
     }
-    this->Collect();
+    const Bin last = { this->Bins[0] - 1, this->Bins[1] - 1 };
+    this->Heads.assign(static_cast<std::size_t>(this->IndexOf(last) + 1), -1);
+    const double area = this->BinSides[0] * this->BinSides[1];
+    const double expected = static_cast<double>(this->Heads.size()) * area;
+    this->Seeds.reserve(static_cast<std::size_t>(1.02 * expected + 32.0));
+  }
+
+  // In the order of their numbers; ones that are not at the border change nothing.
+  void Add(std::int64_t id, const double* x)
+  {
+    const Point<2> place = { x[0] * this->Sides[0], x[1] * this->Sides[1] };
+    const Bin bin = this->BinOf(place);
+    const std::int64_t depth = this->Depth(bin);
+    if (depth < knownBins) // not so for a seed next to the hole that rounding puts into it
+    {
+      this->Seeds.push_back({ place, id, this->Head(bin), depth < movedBins });
+      this->Head(bin) = static_cast<std::int64_t>(this->Seeds.size()) - 1;
+    }
   }
 
   void Relax()
@@ -58,13 +101,15 @@ public:
     }
   }
 
-  void Write() const
+  // To the seeds from number `first` on.
+  void Write(std::int64_t first, PointSpan<2> unitPoints) const
   {
     for (const Seed& seed : this->Seeds)
     {
-      for (std::size_t a = 0; a < 2 && seed.Moves; ++a)
+      const std::int64_t i = seed.Id - first;
+      for (std::size_t a = 0; a < 2 && seed.Moves && i >= 0 && i < unitPoints.size(); ++a)
       {
-        this->UnitPoints[seed.Id][a] = std::clamp(seed.X[a] / this->Sides[a], 0.0, 1.0);
+        unitPoints[i][a] = std::clamp(seed.X[a] / this->Sides[a], 0.0, 1.0);
       }
     }
   }
@@ -77,14 +122,6 @@ private:
     std::int64_t Next; // in the same bin; -1 for none
     bool Moves;
   };
-  using Bin = std::array<std::int64_t, 2>;
-
-  // Layers of bins, which are at least a mean spacing wide: of the seeds that move (a second layer
-  // would cost as much again for a twentieth of what the first gains), and of these and the ones
-  // inside of them that bound their cells.
-  static constexpr std::int64_t movedBins = 1;
-  static constexpr std::int64_t knownBins = 3;
-
   // How many bins are between it and the faces.
   std::int64_t Depth(const Bin& bin) const
   {
@@ -116,49 +153,6 @@ private:
       bin[a] = std::clamp(place, std::int64_t{ 0 }, this->Bins[a] - 1);
     }
     return bin;
-  }
-
-  void Collect()
-  {
-    const Bin last = { this->Bins[0] - 1, this->Bins[1] - 1 };
-    this->Heads.assign(static_cast<std::size_t>(this->IndexOf(last) + 1), -1);
-    auto expected = static_cast<double>(this->Heads.size());
-    Point<2> low;
-    Point<2> high;
-    for (std::size_t a = 0; a < 2; ++a)
-    {
-      expected *= this->BinSides[a];
-      low[a] = static_cast<double>(knownBins) / static_cast<double>(this->Bins[a]);
-      high[a] = 1.0 - low[a];
-    }
-    this->Seeds.reserve(static_cast<std::size_t>(1.02 * expected + 32.0));
-    constexpr std::int64_t slice = 1 << 12;
-    for (std::int64_t first = 0; first < this->UnitPoints.size(); first += slice)
-    {
-      const std::int64_t end = std::min(first + slice, this->UnitPoints.size());
-      for (std::int64_t i = first; i < end; ++i)
-      {
-        const double* x = this->UnitPoints[i];
-        if (x[0] < low[0] || x[0] > high[0] || x[1] < low[1] || x[1] > high[1])
-        {
-          this->Add(i);
-        }
-      }
-      this->Work.Add(end - first);
-    }
-  }
-
-  void Add(std::int64_t id)
-  {
-    const double* x = this->UnitPoints[id];
-    const Point<2> place = { x[0] * this->Sides[0], x[1] * this->Sides[1] };
-    const Bin bin = this->BinOf(place);
-    const std::int64_t depth = this->Depth(bin);
-    if (depth < knownBins) // not so for a seed next to the hole that rounding puts into it
-    {
-      this->Seeds.push_back({ place, id, this->Head(bin), depth < movedBins });
-      this->Head(bin) = static_cast<std::int64_t>(this->Seeds.size()) - 1;
-    }
   }
 
   void Move(std::size_t seed)
@@ -287,12 +281,11 @@ private:
     this->Head(after) = id;
   }
 
-  const PointSpan<2> UnitPoints;
   Progress& Work;
-  Point<2> Sides;
+  const Point<2> Sides;
+  const Bin Bins; // how many along each axis
   Point<2> BinSides;
   Point<2> BinsPerSpacing;
-  Bin Bins; // how many along each axis
   Bin Hole; // how many of these are in the hole
   std::vector<Seed> Seeds;
   std::vector<std::int64_t> Heads; // of each bin the first seed, -1 for none
@@ -301,11 +294,48 @@ private:
 
 } // namespace
 
+BorderBand::BorderBand(const Point<2>& lengths, std::int64_t count)
+{
+  const Bin bins = binsOf(sidesOf(lengths, count));
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    this->Low[a] = static_cast<double>(knownBins) / static_cast<double>(bins[a]);
+    this->High[a] = 1.0 - this->Low[a];
+  }
+}
+
 void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress)
 {
-  WindowBorder border(lengths, unitPoints, progress);
+  WindowBorder border(lengths, unitPoints.size(), progress);
+  const BorderBand band(lengths, unitPoints.size());
+  constexpr std::int64_t slice = 1 << 12;
+  for (std::int64_t first = 0; first < unitPoints.size(); first += slice)
+  {
+    const std::int64_t end = std::min(first + slice, unitPoints.size());
+    for (std::int64_t i = first; i < end; ++i)
+    {
+      if (band.Holds(unitPoints[i]))
+      {
+        border.Add(i, unitPoints[i]);
+      }
+    }
+    progress.Add(end - first);
+  }
   border.Relax();
-  border.Write();
+  border.Write(0, unitPoints);
+}
+
+void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,
+  std::int64_t first, PointSpan<2> unitPoints, Progress& progress)
+{
+  WindowBorder all(lengths, count, progress);
+  for (const BorderSeed& seed : border)
+  {
+    all.Add(seed.Number, seed.UnitPoint.data());
+  }
+  progress.Add(count);
+  all.Relax();
+  all.Write(first, unitPoints);
 }
 
 } // namespace RectifiedTransport

@@ -6,6 +6,9 @@
 
 #include "Core/Geometry/Points.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace RectifiedTransport
 {
 
@@ -23,6 +26,34 @@ class Progress;
 // in strips, where all are at the border. Adds to the progress the number of seeds, and that of
 // those that move. Throws Cancelled.
 void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress);
+
+// Where the seeds are that move or bound the cells of those that do, of `count` seeds.
+class BorderBand
+{
+public:
+  BorderBand(const Point<2>& lengths, std::int64_t count);
+
+  bool Holds(const double* unitPoint) const
+  {
+    return unitPoint[0] < this->Low[0] || unitPoint[0] > this->High[0] ||
+      unitPoint[1] < this->Low[1] || unitPoint[1] > this->High[1];
+  }
+
+private:
+  Point<2> Low;
+  Point<2> High;
+};
+
+struct BorderSeed
+{
+  std::int64_t Number;
+  Point<2> UnitPoint;
+};
+
+// Of `count` seeds, moves those from number `first` on that unitPoints has, with the same bits;
+// `border` are all seeds of the band, by their numbers.
+void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,
+  std::int64_t first, PointSpan<2> unitPoints, Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -29,10 +29,13 @@ Index firstLineFrom(double coordinate, Index lines)
 class TriangleLayers
 {
 public:
-  TriangleLayers(
-    const TriangleSurface& surface, Index layers, int supersampling, Progress& progress)
+  // Of `layers`, lists for those of [firstLayer, endLayer).
+  TriangleLayers(const TriangleSurface& surface, Index layers, Index firstLayer, Index endLayer,
+    int supersampling, Progress& progress)
     : Surface(surface)
     , Layers(layers)
+    , FirstLayer(firstLayer)
+    , EndLayer(endLayer)
     , Squares(supersampling)
     , First(layers + 2)
     , Work(progress)
@@ -92,8 +95,8 @@ private:
     const Index rows = this->Layers * this->Squares;
     const Index first = firstLineFrom(std::min({ z[0], z[1], z[2] }), rows);
     const Index end = firstLineFrom(std::max({ z[0], z[1], z[2] }), rows);
-    return { first / this->Squares,
-      first < end ? (end - 1) / this->Squares + 1 : first / this->Squares };
+    return { std::max(first / this->Squares, this->FirstLayer),
+      first < end ? std::min((end - 1) / this->Squares + 1, this->EndLayer) : 0 };
   }
 
   // Calls visit(triangle, range) for all, in order.
@@ -107,12 +110,14 @@ private:
       {
         visit(i, range);
       }
-      this->Work.Add(1 + range.End - range.First);
+      this->Work.Add(1 + std::max<Index>(0, range.End - range.First));
     }
   }
 
   TriangleSurface Surface;
   Index Layers;
+  Index FirstLayer;
+  Index EndLayer;
   int Squares;
   LargeBuffer<Index> First;
   LargeBuffer<Index> Triangles;
@@ -167,28 +172,33 @@ class CoverageRun
 {
 public:
   CoverageRun(const TriangleSurface& surface, const TriangleLayers& layers,
-    const GridSize<3>& cells, int supersampling, double* coverage, Progress& progress)
+    const GridSize<3>& cells, const LatticePart<3>& part, int supersampling, double* coverage,
+    Progress& progress)
     : Surface(surface)
     , Layers(layers)
     , Cells(cells)
+    , Part(part)
     , Squares(supersampling)
     , LinesPerCell(supersampling * supersampling)
+    , FirstLine(part.Low[1] * supersampling)
+    , EndLine((part.Low[1] + part.Cells[1]) * supersampling)
     , Lines(cells[1] * supersampling)
     , Coverage(coverage)
     , Work(progress)
   {
   }
 
-  // A range kernel.
+  // A range kernel, of the layers of the part.
   void CoverLayers(Index first, Index last)
   {
     LayerScratch scratch;
-    scratch.First.Reserve(this->Cells[1] * this->LinesPerCell + 1);
+    scratch.First.Reserve(this->Part.Cells[1] * this->LinesPerCell + 1);
     scratch.Parts.Reserve(this->Cells[0] + 1);
     scratch.Whole.Reserve(this->Cells[0] + 1);
+    scratch.Row.Reserve(this->Cells[0]);
     for (Index layer = first; layer < last && !this->Work.ShouldStop(); ++layer)
     {
-      this->FindCrossings(layer, scratch);
+      this->FindCrossings(this->Part.Low[2] + layer, scratch);
       if (this->Work.IsCancelled()) // then crossings may be missing
       {
         return;
@@ -207,12 +217,13 @@ private:
     Scratch<Crossing> Crossings;
     Scratch<double> Parts; // sums of the lengths that lines cover of grid cells partly
     Scratch<int> Whole;    // numbers of lines that cover a whole cell, as differences along the row
+    Scratch<double> Row;   // of all cells along axis 0
   };
 
   // The crossings of all lines of a layer, by lines.
   void FindCrossings(Index layer, LayerScratch& scratch)
   {
-    const Index lines = this->Cells[1] * this->LinesPerCell;
+    const Index lines = this->Part.Cells[1] * this->LinesPerCell;
     Index* first = scratch.First.data();
     std::fill_n(first, lines + 1, Index{ 0 });
     this->ForSegments(
@@ -251,6 +262,7 @@ private:
 
   Index LineOf(Index j, Index row) const
   {
+    j -= this->FirstLine;
     return j / this->Squares * this->LinesPerCell + row * this->Squares + j % this->Squares;
   }
 
@@ -277,8 +289,10 @@ private:
       {
         const double z = static_cast<double>(layer * this->Squares + row) + 0.5;
         this->CutTriangle(corners, z, [&](const PlanePoint& in, const PlanePoint& out) {
-          const Index from = firstLineFrom(std::min(in.Y, out.Y), this->Lines);
-          const Index end = firstLineFrom(std::max(in.Y, out.Y), this->Lines);
+          const Index from =
+            std::max(firstLineFrom(std::min(in.Y, out.Y), this->Lines), this->FirstLine);
+          const Index end =
+            std::min(firstLineFrom(std::max(in.Y, out.Y), this->Lines), this->EndLine);
           visit(in, out, from, end, row);
         });
       }
@@ -315,7 +329,7 @@ private:
   void CoverLayer(Index layer, LayerScratch& scratch)
   {
     const Index* first = scratch.First.data();
-    for (Index j = 0; j < this->Cells[1]; ++j)
+    for (Index j = 0; j < this->Part.Cells[1]; ++j)
     {
       if ((j & 0x1f) == 0x1f && this->Work.ShouldStop())
       {
@@ -323,10 +337,11 @@ private:
       }
       const Index begin = j * this->LinesPerCell;
       const Index end = begin + this->LinesPerCell;
-      double* row = this->Coverage + (layer * this->Cells[1] + j) * this->Cells[0];
+      const Index columns = this->Part.Cells[0];
+      double* row = this->Coverage + (layer * this->Part.Cells[1] + j) * columns;
       if (first[begin] == first[end])
       {
-        std::fill_n(row, this->Cells[0], 0.0);
+        std::fill_n(row, columns, 0.0);
         continue;
       }
       std::fill_n(scratch.Parts.data(), this->Cells[0] + 1, 0.0);
@@ -336,7 +351,13 @@ private:
         this->CoverLine(scratch.Crossings.data() + first[line], first[line + 1] - first[line],
           scratch.Parts.data(), scratch.Whole.data());
       }
-      this->WriteRow(scratch.Parts.data(), scratch.Whole.data(), row);
+      if (columns == this->Cells[0])
+      {
+        this->WriteRow(scratch.Parts.data(), scratch.Whole.data(), row);
+        continue;
+      }
+      this->WriteRow(scratch.Parts.data(), scratch.Whole.data(), scratch.Row.data());
+      std::copy_n(scratch.Row.data() + this->Part.Low[0], columns, row);
     }
   }
 
@@ -402,8 +423,11 @@ private:
   TriangleSurface Surface;
   const TriangleLayers& Layers;
   GridSize<3> Cells;
+  LatticePart<3> Part;
   Index Squares;
   int LinesPerCell;
+  Index FirstLine; // of the part, and past its last
+  Index EndLine;
   Index Lines; // of a row
   double* Coverage;
   Progress& Work;
@@ -415,13 +439,25 @@ private:
 CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
   int supersampling, double* coverage, const Context& context)
 {
+  return coverPartOfSolid(
+    surface, cells, LatticePart<3>::WholeOf(cells), supersampling, coverage, context);
+}
+
+CoverageReport coverPartOfSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, double* coverage, const Context& context)
+{
+  if (part.Count() == 0)
+  {
+    return {};
+  }
   Progress progress(context);
-  TriangleLayers layers(surface, cells[2], supersampling, progress);
+  TriangleLayers layers(
+    surface, cells[2], part.Low[2], part.Low[2] + part.Cells[2], supersampling, progress);
   layers.Build();
-  CoverageRun run(surface, layers, cells, supersampling, coverage, progress);
+  CoverageRun run(surface, layers, cells, part, supersampling, coverage, progress);
   progress.BeginStage(1.0);
   progress.For(
-    cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
+    part.Cells[2], 1, [&run](Index first, Index last) { run.CoverLayers(first, last); }, 1);
   return { run.OpenLines() };
 }
 

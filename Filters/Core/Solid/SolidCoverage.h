@@ -5,8 +5,9 @@
 #define RectifiedTransport_SolidCoverage_h
 
 #include "Core/Geometry/GridSize.h"
-#include "Core/Parallel/Context.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Mesh/TriangleSurface.h"
+#include "Core/Parallel/Context.h"
 
 #include <cstdint>
 
@@ -39,6 +40,11 @@ struct CoverageReport
 // each thread. Throws std::bad_alloc and Cancelled.
 CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
   int supersampling, double* coverage, const Context& context = Context());
+
+// Of a part of the grid, with the same bits; lines that meet the part alone are counted.
+CoverageReport coverPartOfSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+  const LatticePart<3>& part, int supersampling, double* coverage,
+  const Context& context = Context());
 
 } // namespace RectifiedTransport
 

@@ -52,6 +52,53 @@ TEST(UnitSeeds, ArePatterns)
   expectPatterns<3>({ 1.0, 5.0, 2.0 }, { 3, 5, 4 });
 }
 
+// The same bits as in the whole, whatever part is made.
+template <int Dimension>
+void expectParts(const UnitSeeds<Dimension>& seeds)
+{
+  const std::vector<double> whole = generate(seeds);
+  const auto count = static_cast<std::int64_t>(seeds.Count());
+  for (const std::int64_t parts : { 2, 3, 7 })
+  {
+    std::vector<double> joined;
+    for (std::int64_t part = 0; part < parts; ++part)
+    {
+      const std::int64_t first = count * part / parts;
+      const std::int64_t own = count * (part + 1) / parts - first;
+      std::vector<double> points(static_cast<std::size_t>(own * Dimension));
+      seeds.GenerateFrom(first, { points.data(), own });
+      joined.insert(joined.end(), points.begin(), points.end());
+    }
+    EXPECT_EQ(joined, whole) << parts << " parts";
+  }
+}
+
+template <int Dimension>
+void expectPartsOfPatterns(const Point<Dimension>& lengths, const GridSize<Dimension>& grid)
+{
+  for (const SeedPattern pattern : { SeedPattern::BlueNoise, SeedPattern::Jittered,
+         SeedPattern::LowDiscrepancy, SeedPattern::Random, SeedPattern::Lattice })
+  {
+    for (const std::int64_t count : { 1, 5, 1000, 2600 })
+    {
+      expectParts(UnitSeeds<Dimension>(pattern, lengths, count, 5));
+    }
+  }
+  expectParts(UnitSeeds<Dimension>(SeedPattern::Lattice, grid, 5));
+  expectParts(UnitSeeds<Dimension>(SeedPattern::Jittered, grid, 5));
+}
+
+TEST(UnitSeeds, PartsAreThoseOfTheWhole)
+{
+  expectPartsOfPatterns<1>({ 3.0 }, { 70 });
+  expectPartsOfPatterns<2>({ 4.0, 3.0 }, { 12, 7 });
+  expectPartsOfPatterns<2>({ 4000.0, 1.0 }, { 1, 9 });
+  expectPartsOfPatterns<2>({ 1.0, 9.0 }, { 5, 5 });
+  expectPartsOfPatterns<3>({ 1.0, 5.0, 2.0 }, { 3, 5, 4 });
+  expectPartsOfPatterns<3>({ 30.0, 0.1, 50.0 }, { 3, 1, 4 });
+  expectPartsOfPatterns<3>({ 5000.0, 0.1, 0.1 }, { 30, 1, 1 });
+}
+
 TEST(UnitSeeds, CountsPastIntegers)
 {
   const std::int64_t side = std::int64_t{ 1 } << 40;
@@ -68,6 +115,12 @@ TEST(UnitSeeds, Refused)
   std::vector<Point<2>> points(9);
   EXPECT_EQ(
     refusal([&]() { seeds.Generate(points); }), "there is memory for 9 seeds, there must be 10");
+  const std::string tooMany = "there are 10 seeds, not 9 from number 2 on";
+  EXPECT_EQ(refusal([&]() { seeds.GenerateFrom(2, points); }), tooMany);
+  EXPECT_EQ(refusal([&]() {
+    UnitSeeds<2>(SeedPattern::Lattice, { 2, 5 }, 1).GenerateFrom(2, points);
+  }),
+    tooMany);
 }
 
 } // namespace

@@ -125,11 +125,39 @@ void checkErrors(Checks& checks)
   test.Expect({ "Bounds are 3 to 3 in z", "the second greater" }, __LINE__);
 }
 
+// Pieces have together the points of one, in their order; there are no more than those asked for.
 void checkPieces(Checks& checks)
 {
-  vtkNew<vtkUniformSeedSource> source;
-  expectOnePiece(checks, source, __LINE__);
-  CHECK(checks, source->GetOutput()->GetNumberOfPoints() == 8192);
+  for (const int dimension : { 2, 3 })
+  {
+    for (int pattern = 0; pattern < 5; ++pattern)
+    {
+      vtkNew<vtkUniformSeedSource> source;
+      source->SetPattern(pattern);
+      source->SetDimension(dimension);
+      source->SetNumberOfPoints(1000);
+      source->Update();
+      vtkNew<vtkPoints> whole;
+      whole->DeepCopy(source->GetOutput()->GetPoints());
+      vtkIdType next = 0;
+      for (int piece = 0; piece < 4; ++piece)
+      {
+        source->UpdatePiece(piece, 3, 0);
+        vtkPolyData* part = source->GetOutput();
+        CHECK(checks, part->GetNumberOfVerts() == part->GetNumberOfPoints());
+        CHECK(checks, (part->GetNumberOfPoints() > 0) == (piece < 3));
+        for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i, ++next)
+        {
+          double x[3];
+          double expected[3];
+          part->GetPoint(i, x);
+          whole->GetPoint(next, expected);
+          CHECK(checks, std::equal(x, x + 3, expected));
+        }
+      }
+      CHECK(checks, next == whole->GetNumberOfPoints());
+    }
+  }
 }
 
 // While the pattern is made.

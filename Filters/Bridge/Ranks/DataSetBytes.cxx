@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/DataSetBytes.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkDataSet.h"
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "vtkAbstractArray.h"
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#endif
+
+namespace RectifiedTransport
+{
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+
+namespace
+{
+
+// What VTK's message has not: the geometry of images in full, and which arrays are active (its
+// format puts these first).
+struct Header
+{
+  bool IsImage = false;
+  std::array<int, 6> Extent{};
+  std::array<double, 15> Geometry{}; // origin, spacing, direction
+  std::array<std::array<int, vtkDataSetAttributes::NUM_ATTRIBUTES>, 2> Active{};
+};
+
+constexpr std::array<int, 2> owners = { vtkDataObject::POINT, vtkDataObject::CELL };
+
+Header headerOf(vtkDataSet* data)
+{
+  Header header;
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    header.IsImage = true;
+    image->GetExtent(header.Extent.data());
+    std::copy_n(image->GetOrigin(), 3, header.Geometry.begin());
+    std::copy_n(image->GetSpacing(), 3, header.Geometry.begin() + 3);
+    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, header.Geometry.begin() + 6);
+  }
+  for (std::size_t i = 0; i < owners.size(); ++i)
+  {
+    data->GetAttributes(owners[i])->GetAttributeIndices(header.Active[i].data());
+  }
+  return header;
+}
+
+} // namespace
+
+Bytes bytesOfDataSet(vtkDataSet* data)
+{
+  const Header header = headerOf(data);
+  const auto plain = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  plain->ShallowCopy(data);
+  for (const int owner : owners)
+  {
+    vtkDataSetAttributes* attributes = plain->GetAttributes(owner);
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      attributes->SetActiveAttribute(-1, type);
+    }
+  }
+  vtkNew<vtkCharArray> message;
+  if (!vtkCommunicator::MarshalDataObject(plain, message))
+  {
+    throw Failure("Data of the type " + std::string(data->GetClassName()) +
+      " cannot be gathered from several ranks; convert them to an unstructured grid before");
+  }
+  Bytes bytes = toBytes(&header, 1);
+  const char* text = message->GetPointer(0);
+  bytes.insert(bytes.end(), text, text + message->GetNumberOfValues());
+  return bytes;
+}
+
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes)
+{
+  Header header;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  vtkNew<vtkCharArray> message;
+  // VTK takes no constant memory, but only reads it.
+  message->SetArray(const_cast<char*>(bytes.data() + sizeof(header)),
+    static_cast<vtkIdType>(bytes.size() - sizeof(header)), 1);
+  const vtkSmartPointer<vtkDataObject> object = vtkCommunicator::UnMarshalDataObject(message);
+  vtkSmartPointer<vtkDataSet> made = vtkDataSet::SafeDownCast(object);
+  if (!made)
+  {
+    throw Failure("Data of another rank could not be read");
+  }
+  if (header.IsImage)
+  {
+    const auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetExtent(header.Extent.data());
+    image->SetOrigin(header.Geometry.data());
+    image->SetSpacing(header.Geometry.data() + 3);
+    image->GetDirectionMatrix()->DeepCopy(header.Geometry.data() + 6);
+    for (const int owner : owners)
+    {
+      image->GetAttributes(owner)->ShallowCopy(made->GetAttributes(owner));
+    }
+    image->GetFieldData()->ShallowCopy(made->GetFieldData());
+    made = image;
+  }
+  for (std::size_t i = 0; i < owners.size(); ++i)
+  {
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      made->GetAttributes(owners[i])->SetActiveAttribute(
+        header.Active[i][static_cast<std::size_t>(type)], type);
+    }
+  }
+  return made;
+}
+
+#else
+
+Bytes bytesOfDataSet(vtkDataSet*)
+{
+  throw Failure("This build has no MPI");
+}
+
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes&)
+{
+  throw Failure("This build has no MPI");
+}
+
+#endif
+
+} // namespace RectifiedTransport

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Data sets as bytes.
+#ifndef RectifiedTransport_DataSetBytes_h
+#define RectifiedTransport_DataSetBytes_h
+
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
+
+#include "vtkSmartPointer.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// With all arrays, in their order, which of them are active, and ghost arrays. Throws Failure for a
+// type of data sets that VTK cannot send.
+Bytes bytesOfDataSet(vtkDataSet* data);
+// Images come as vtkImageData.
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/DistributedImage.h"
+
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Ranks/DataSetBytes.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
+
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// As those of a data set without points.
+vtkSmartPointer<vtkDataSet> fieldsOfFirst(vtkFieldData* own, const Ranks& ranks)
+{
+  Bytes bytes;
+  if (ranks.Own() == 0)
+  {
+    vtkNew<vtkPolyData> fields;
+    fields->GetFieldData()->ShallowCopy(own);
+    bytes = bytesOfDataSet(fields);
+  }
+  return dataSetOfBytes(ranks.Gather(bytes).front());
+}
+
+} // namespace
+
+void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks)
+{
+  const ImagePieces pieces(image, ranks);
+  const vtkSmartPointer<vtkDataSet> fields = fieldsOfFirst(image->GetFieldData(), ranks);
+  if (isEmpty(pieces.Whole()))
+  {
+    return;
+  }
+  const ImageGrid grid = gridOf(pieces.MakeFrame(), false);
+  const Extent wanted = extentToGive(grid, output, ranks);
+  const vtkSmartPointer<vtkImageData> part = pieces.Gather(wanted);
+  image->ShallowCopy(part);
+  image->GetFieldData()->ShallowCopy(fields->GetFieldData());
+  announceGrid(grid, output);
+}
+
+} // namespace RectifiedTransport

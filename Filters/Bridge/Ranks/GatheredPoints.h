@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point set that lies on several ranks, as one.
+#ifndef RectifiedTransport_GatheredPoints_h
+#define RectifiedTransport_GatheredPoints_h
+
+#include "Bridge/Ranks/GatheredParts.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkPointSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// What counts of a point set: all of its points, or those of its cells.
+enum class PointSetKind
+{
+  Points,
+  Surface
+};
+
+// The points and cells of rank 0 first, with the arrays that all have. What is the same on several
+// ranks counts once, and duplicates that ghost arrays mark not at all: where Points are marked,
+// there are no cells but a vertex a point. Points of a Surface that several ranks have at one place
+// become one, so that it is whole.
+class GatheredPoints
+{
+public:
+  // Called by all ranks; `own` may be nullptr. Throws Failure for types that differ, and
+  // std::bad_alloc.
+  GatheredPoints(vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind);
+
+  // nullptr where this rank is no receiver, or no rank has points.
+  vtkPointSet* All() const { return this->Gathered; }
+  // What this rank gave, and the number of its first point among those of all; nullptr for none.
+  vtkPointSet* Own() const { return this->Given; }
+  std::int64_t First() const { return this->FirstPoint; }
+  // The points of all ranks.
+  std::int64_t Count() const { return this->Number; }
+
+private:
+  vtkSmartPointer<vtkPointSet> Gathered;
+  vtkSmartPointer<vtkPointSet> Given;
+  std::int64_t FirstPoint = 0;
+  std::int64_t Number = 0;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must be the same on all ranks, and what follows for an output.
+#ifndef RectifiedTransport_SameOnRanks_h
+#define RectifiedTransport_SameOnRanks_h
+
+#include "Bridge/Ranks/TupleBoxes.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <array>
+#include <string>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkInformation;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class ImageGrid;
+
+// Throws Failure where a text is not the same on all ranks; `what` begins the message. Called
+// by all ranks.
+void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what);
+
+// The bounds of those of all ranks; a lower bound above the upper one is of a rank without any.
+std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
+
+// The extent of an image that this rank is to give: the one that is requested, if all ranks have
+// announced this grid, else its piece of the grid, as requests are of another one then. Called by
+// all ranks.
+Extent extentToGive(const ImageGrid& grid, vtkInformation* output, const Ranks& ranks);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/SiteCells/LabelGrid.h"
+
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Run/Failure.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+
+#include <algorithm>
+#include <array>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Bounds = std::array<double, 6>;
+
+constexpr Bounds noBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+
+ImageGrid boxOf(vtkImageData* image, const Ranks* ranks)
+{
+  const bool isOnPoints =
+    !onAllRanks(ranks, image->GetNumberOfPoints() == 0 || !hasPointValues(image));
+  vtkSmartPointer<vtkImageData> whole = image;
+  if (ranks)
+  {
+    whole = ImagePieces(image, *ranks).MakeFrame();
+  }
+  const ImageGrid grid = gridOf(whole, false);
+  return !grid.IsEmpty() && isOnPoints ? grid.WithDualCells() : grid;
+}
+
+ImageGrid boxOf(Bounds bounds, const Ranks* ranks)
+{
+  if (ranks)
+  {
+    bounds = boundsOfAll(*ranks, bounds);
+  }
+  double box[6];
+  std::copy(bounds.begin(), bounds.end(), box);
+  return bounds[0] > bounds[1] ? ImageGrid() : gridOfBox(box);
+}
+
+} // namespace
+
+ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks* ranks) const
+{
+  ImageGrid box;
+  if (auto* image = vtkImageData::SafeDownCast(domain))
+  {
+    box = boxOf(image, ranks);
+  }
+  else
+  {
+    vtkBoundingBox all;
+    for (const DensityBlock& block : densityBlocks(domain))
+    {
+      double bounds[6];
+      block.Data->GetBounds(bounds);
+      all.AddBounds(bounds);
+    }
+    Bounds bounds = noBounds;
+    if (all.IsValid())
+    {
+      all.GetBounds(bounds.data());
+    }
+    box = boxOf(bounds, ranks);
+  }
+  return box.IsEmpty() ? box : this->On(box);
+}
+
+ImageGrid LabelGrid::On(const ImageGrid& density) const
+{
+  const ImageGrid box = density.IsOnPoints() ? density.WithDualCells() : density;
+  if (box.Dimension() == 0)
+  {
+    throw Failure("The Domain has one point along every axis; it needs at least one axis of two "
+                  "points or more");
+  }
+  return gridWithResolution(box, this->Resolution, "Resolution");
+}
+
+ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks* ranks) const
+{
+  constexpr double margin = 0.05; // on each side
+  Bounds found = noBounds;
+  if (sites && sites->GetNumberOfPoints() > 0)
+  {
+    findBounds(sites, found.data());
+  }
+  if (ranks)
+  {
+    found = boundsOfAll(*ranks, found);
+  }
+  double bounds[6];
+  std::copy(found.begin(), found.end(), bounds);
+  for (int a = 0; a < 3; ++a)
+  {
+    const double length = bounds[2 * a + 1] - bounds[2 * a];
+    bounds[2 * a] -= margin * length;
+    bounds[2 * a + 1] += margin * length;
+  }
+  const ImageGrid box = gridOfBox(bounds);
+  if (box.Dimension() == 0)
+  {
+    throw Failure("The input's sites are all at one point, about which there is no domain; connect "
+                  "an image as the Domain");
+  }
+  return gridWithResolution(box, this->Resolution, "Resolution");
+}
+
+} // namespace RectifiedTransport
