@@ -38,8 +38,15 @@
  * The result is the same to the last bit for every number of threads: the shares of a cell are
  * added in the order of the points.
  *
+ * Where ranks of MPI request a piece each, all of them run the filter together: each gives its part
+ * of points and Reference, and gets the extent that is requested of it, with the bits of one rank.
+ * The shares are then added in the order of the point array `SeedId` of integers, or else of the
+ * global ids, where all ranks have them; else of the ranks. A rank takes about 100 bytes for each
+ * point that it gives or that reaches its cells. Points that are the same on all ranks are one data
+ * set.
+ *
  * @warning Without a Reference the extent follows from the points, whose producer is therefore
- * updated in REQUEST_INFORMATION.
+ * updated in REQUEST_INFORMATION, where the ranks meet, too.
  *
  * \code{.cpp}
  * vtkNew<vtkMassSplatter> splatter;

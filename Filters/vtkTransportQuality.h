@@ -31,7 +31,11 @@
  *   the domain has a neighbour.
  *
  * An input without points, or of ghosts only, gives a table without rows, and so does every piece
- * but piece 0.
+ * but piece 0. Where ranks of MPI request a piece each, they run the filter together: each gives
+ * its part of particles and density, and the first one has the row of all, with the bits of one
+ * rank; sums are in the order of the point array `SeedId` of integers, or else of the global ids,
+ * where all ranks have them, else of the ranks. Particles that are the same on all ranks are one
+ * data set. Each rank makes all tables.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
  * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables
