@@ -26,11 +26,20 @@ void print(const std::string& name, double value)
   std::cout << ",\n\"" << name << "\": " << value;
 }
 
+double gradedNodesOf(const GridSize<3>& size, const TileLimits& limits)
+{
+  const GridSize<3> strides = gradedStrides<3>(size, limits);
+  double nodes = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    nodes *= static_cast<double>(gradedNodes(size[axis], strides[axis], gradedRatio).size());
+  }
+  return nodes;
+}
+
 void printPlan(std::int64_t side, int steps, const TileLimits& limits)
 {
   const TilePlan<3> plan(evenSize<3>(side), steps, FlowDirection::Forward, true, limits);
-  const std::int64_t stride = gradedStrides<3>(plan.Size, limits)[0];
-  const auto nodes = static_cast<double>(gradedNodes(side, stride, gradedRatio).size());
   double tileCells = 0.0; // of all tiles, with their halos
   for (std::int64_t tile = 0; tile < plan.Count(); ++tile)
   {
@@ -45,8 +54,8 @@ void printPlan(std::int64_t side, int steps, const TileLimits& limits)
     tileCells += cells;
   }
   print("possible", plan.IsPossible() ? 1.0 : 0.0);
-  print("graded_stride", static_cast<double>(stride));
-  print("graded_nodes", nodes * nodes * nodes);
+  print("graded_stride", static_cast<double>(gradedStrides<3>(plan.Size, limits)[0]));
+  print("graded_nodes", gradedNodesOf(plan.Size, limits));
   print("hand_over", plan.HandOver);
   print("tiles", static_cast<double>(plan.Count()));
   print("halo", static_cast<double>(plan.Halo[0]));
@@ -113,6 +122,11 @@ void measure(std::int64_t side, int steps, std::int64_t particles)
   std::vector<Point<3>> position(1);
   RectifiedFlow<3> flow(density, FlowTables::Tiled); // warms the memory up
   print("graded_seconds", seconds([&]() { flow = RectifiedFlow<3>(density, FlowTables::Tiled); }));
+  TileLimits few;
+  few.GradedNodes = std::int64_t{ 1 } << 20;
+  print("few_graded_nodes", gradedNodesOf(evenSize<3>(side), few));
+  print("few_graded_seconds",
+    seconds([&]() { const RectifiedFlow<3> other(density, FlowTables::Tiled, Context(), few); }));
   const double mapAndTile = seconds([&]() { flow.Forward(one, position, options); });
   const double tile = seconds([&]() { flow.Forward(one, position, options); });
   print("map_seconds", mapAndTile - tile);

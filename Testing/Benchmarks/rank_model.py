@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A model of the time and memory of several ranks under Tables Tiled, from times on one core and the
-latency and bandwidth of messages, both measured here:
+latency and bandwidth of messages, both measured here. No rank waits for a slower one in it: particles
+and tiles are divided evenly.
 
     python3 rank_model.py build/bin/RectifiedTransportRankPlan
 
@@ -28,6 +29,7 @@ class Machine:
     alpha: float  # a message
     beta: float  # a byte that arrives
     graded_cell: float  # a cell of the density, into the graded tables
+    graded_node: float  # a node of them, which every rank sums up
     evaluation: float  # a velocity of a node of the flow map
     tile_cell: float  # a cell of a tile's tables
     velocity: float  # a step of a particle after the hand-over, its interpolation counted as one
@@ -78,6 +80,7 @@ def phases(plan, job, ranks, machine):
         Phase("graded tables", machine.graded_cell * cells * own),
         # Records, bits and summaries of all layers, to all.
         Phase("graded tables to all", 0, 3, (NODE * plan["graded_nodes"] + BIT * cells) * others),
+        Phase("sums of graded tables", machine.graded_node * plan["graded_nodes"]),
         Phase("flow map", machine.evaluation * plan["map_evaluations"] * own),
         Phase("flow map to all", 0, plan["levels"], plan["map_bytes"] * others),
         # Of a tile with its halo others have all but this rank's share.
@@ -124,7 +127,10 @@ def compute_times(program):
     """The constants of computation, at 256³ on one thread."""
     found = ask(program, 256, 32, 0, 2000000)
     tiles = found["tile_seconds"] * found["tiles"]
-    return {"graded_cell": found["graded_seconds"] / found["side"] ** D,
+    node = max(0, (found["graded_seconds"] - found["few_graded_seconds"]) /
+               (found["graded_nodes"] - found["few_graded_nodes"]))
+    return {"graded_cell": (found["graded_seconds"] - node * found["graded_nodes"]) /
+            found["side"] ** D, "graded_node": node,
             "evaluation": found["map_seconds"] / found["map_evaluations"],
             "tile_cell": found["tile_seconds"] / found["most_tile_cells"],
             "velocity": (found["flow_seconds"] - tiles) / found["particles"] /
@@ -175,11 +181,12 @@ def main():
         beta=1 / arguments.bandwidth if arguments.bandwidth else measured["beta"], **times)
     print("Measured: a message %.3g µs, %.3g GB/s (all-gather %.3g GB/s)" % (
         1e6 * measured["alpha"], 1e-9 / measured["beta"], 1e-9 / measured["gather_beta"]))
-    print("Taken: a message %.3g µs, %.3g GB/s; a cell of graded tables %.3g ns, of a tile %.3g ns; a "
-          "velocity of a node %.3g ns, of a particle %.3g ns" % (
+    print("Taken: a message %.3g µs, %.3g GB/s; a cell of graded tables %.3g ns, a node %.3g ns; a "
+          "cell of a tile %.3g ns; a velocity of a node %.3g ns, of a particle %.3g ns" % (
               1e6 * machine.alpha, 1e-9 / machine.beta,
-              *(1e9 * value for value in (machine.graded_cell, machine.tile_cell,
-                                          machine.evaluation, machine.velocity))))
+              *(1e9 * value for value in (machine.graded_cell, machine.graded_node,
+                                          machine.tile_cell, machine.evaluation,
+                                          machine.velocity))))
     for side, steps, ranks, nodes in ((1024, 64, 8, 0), (8192, 64, 512, 0), (8192, 64, 512, 1 << 28),
                                       (8192, 64, 512, 1 << 31)):
         plan = ask(arguments.program, side, steps, nodes)

@@ -20,9 +20,9 @@ MPIRUN = shutil.which("mpirun")
 PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "rank_bytes_script.py")
 SIDE, STEPS = 128, 32
-IDLE = model.Machine(*[0] * 6)
-MACHINE = model.Machine(alpha=2e-6, beta=1e-10, graded_cell=1e-8, evaluation=8e-8, tile_cell=7e-9,
-                        velocity=1e-7)
+IDLE = model.Machine(*[0] * 7)
+MACHINE = model.Machine(alpha=2e-6, beta=1e-10, graded_cell=1e-8, graded_node=1e-8,
+                        evaluation=8e-8, tile_cell=7e-9, velocity=1e-7)
 
 
 def sent(maps):
