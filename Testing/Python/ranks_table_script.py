@@ -216,14 +216,14 @@ def give_data():
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
     cells = simple.PointDatatoCellData(Input=image, ProcessAllArrays=1)
     meshes = {
-        "structured": simple.ImageDataToPointSet(Input=image),
-        "structured cells": simple.ImageDataToPointSet(Input=cells),
+        "structured": simple.ImageDatatoPointSet(Input=image),
+        "structured cells": simple.ImageDatatoPointSet(Input=cells),
         "mesh": simple.Threshold(Input=cells, Scalars=["CELLS", "RTData"],
                                  LowerThreshold=0, UpperThreshold=1000),
         "ghost mesh": simple.GhostCellsGenerator(Input=simple.Threshold(
             Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0, UpperThreshold=1000),
             BuildIfRequired=0, MinimumNumberOfGhosts=1),
-        "block": simple.GroupDatasets(Input=[simple.ImageDataToPointSet(Input=cells)]),
+        "block": simple.GroupDatasets(Input=[simple.ImageDatatoPointSet(Input=cells)]),
     }
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8, DensityResolution=12)
     for name, density in meshes.items():
@@ -233,17 +233,15 @@ def give_data():
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
     give("warp mesh", simple.DensityEqualizingWarp(Input=shell, Density=meshes["mesh"], **usual))
-    sphere = simple.Sphere(ThetaResolution=24, PhiResolution=20)
-    for name, surface in (("source", sphere),
-                          ("apart", simple.RedistributeDataSet(Input=sphere)),
-                          ("whole", simple.RedistributeDataSet(Input=sphere,
-                                                               NumberOfPartitions=1))):
-        if name == "apart":
-            surface = simple.ExtractSurface(Input=surface)
-        give("solid " + name, simple.SolidDensity(Input=surface, Resolution=14))
-        give("solid cells " + name, simple.SolidDensity(Input=surface, Resolution=14,
-                                                        Association="Cells"))
-    give("solid slice", simple.Slice(Input=simple.SolidDensity(Input=sphere, Resolution=14)))
+    drum = simple.Cylinder(Resolution=24)  # VTK makes it on the first rank
+    for name, surface in (("drum", drum),
+                          ("drum apart", simple.ExtractSurface(
+                              Input=simple.RedistributeDataSet(Input=drum))),
+                          ("ball", simple.Sphere(ThetaResolution=24))):
+        for association in ("Points", "Cells"):
+            give("solid %s %s" % (name, association), simple.SolidDensity(
+                Input=surface, Resolution=14, Association=association))
+    give("solid slice", simple.Slice(Input=simple.SolidDensity(Input=drum, Resolution=14)))
     sites = simple.UniformSeeds(NumberOfPoints=40)
     relaxed = simple.UniformSeeds(NumberOfPoints=90, Dimension=3, Bounds=[-4, 8, 0, 7, 0, 10])
     give("relaxed", simple.RelaxBlueNoise(

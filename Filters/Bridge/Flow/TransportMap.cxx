@@ -87,6 +87,18 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   return { samples, all, sumOverRanks(ranks, report.MovedToMass) };
 }
 
+// Of an image that each rank has.
+vtkSmartPointer<vtkImageData> partOf(vtkImageData* image, const Extent& wanted)
+{
+  const auto part = vtkSmartPointer<vtkImageData>::New();
+  if (!isEmpty(wanted))
+  {
+    part->ShallowCopy(image);
+    part->Crop(wanted.data());
+  }
+  return part;
+}
+
 } // namespace
 
 ImageGrid TransportMap::SampleGrid(const DensityImage& density) const
@@ -106,6 +118,10 @@ TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& want
     if (density.Pieces())
     {
       image = density.Pieces()->Gather(part);
+    }
+    else if (progress.Group())
+    {
+      image = partOf(image, wanted);
     }
     output->GetPointData()->PassData(image->GetPointData());
     output->GetCellData()->PassData(image->GetCellData());

@@ -18,7 +18,6 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -72,7 +71,8 @@ std::vector<NewArray> newArrays(const ArraySource& source, bool ofCells, vtkPoin
       vtkAbstractArray* own = set == source.Sets.front()
         ? array
         : set->GetAttributes(type)->GetAbstractArray(name.c_str());
-      if (!own || std::strcmp(own->GetClassName(), array->GetClassName()) != 0 ||
+      // Those of other ranks may be of another class for the same type.
+      if (!own || own->GetDataType() != array->GetDataType() ||
         own->GetNumberOfComponents() != array->GetNumberOfComponents())
       {
         break;

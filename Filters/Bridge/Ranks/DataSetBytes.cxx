@@ -9,6 +9,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkCharArray.h"
 #include "vtkCommunicator.h"
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
@@ -19,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 #endif
 
 namespace RectifiedTransport
@@ -33,6 +35,7 @@ namespace
 // format puts these first).
 struct Header
 {
+  std::uint64_t Arrays = 0; // whose types follow
   bool IsImage = false;
   std::array<int, 6> Extent{};
   std::array<double, 15> Geometry{}; // origin, spacing, direction
@@ -59,11 +62,56 @@ Header headerOf(vtkDataSet* data)
   return header;
 }
 
+// The types of the arrays of numbers, which VTK may replace by others of the same size.
+std::vector<int> typesOf(vtkDataSet* data)
+{
+  std::vector<int> types;
+  for (const int owner : owners)
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      types.push_back(attributes->GetAbstractArray(i)->GetDataType());
+    }
+  }
+  return types;
+}
+
+void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
+{
+  std::size_t next = 0;
+  for (const int owner : owners)
+  {
+    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays() && next < types.size(); ++i, ++next)
+    {
+      vtkDataArray* array = attributes->GetArray(i);
+      if (!array || array->GetDataType() == types[next])
+      {
+        continue;
+      }
+      const auto made =
+        vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(types[next]));
+      if (made->GetDataTypeSize() != array->GetDataTypeSize())
+      {
+        continue;
+      }
+      made->SetName(array->GetName());
+      made->SetNumberOfComponents(array->GetNumberOfComponents());
+      made->SetNumberOfTuples(array->GetNumberOfTuples());
+      made->CopyComponentNames(array);
+      std::memcpy(made->GetVoidPointer(0), array->GetVoidPointer(0),
+        static_cast<std::size_t>(array->GetNumberOfValues()) *
+          static_cast<std::size_t>(array->GetDataTypeSize()));
+      attributes->AddArray(made); // in the place of the one of its name
+    }
+  }
+}
+
 } // namespace
 
 Bytes bytesOfDataSet(vtkDataSet* data)
 {
-  const Header header = headerOf(data);
   const auto plain = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
   plain->ShallowCopy(data);
   for (const int owner : owners)
@@ -80,7 +128,12 @@ Bytes bytesOfDataSet(vtkDataSet* data)
     throw Failure("Data of the type " + std::string(data->GetClassName()) +
       " cannot be gathered from several ranks; convert them to an unstructured grid before");
   }
+  const std::vector<int> types = typesOf(data);
+  Header header = headerOf(data);
+  header.Arrays = types.size();
   Bytes bytes = toBytes(&header, 1);
+  const Bytes kinds = toBytes(types);
+  bytes.insert(bytes.end(), kinds.begin(), kinds.end());
   const char* text = message->GetPointer(0);
   bytes.insert(bytes.end(), text, text + message->GetNumberOfValues());
   return bytes;
@@ -90,10 +143,13 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes)
 {
   Header header;
   std::memcpy(&header, bytes.data(), sizeof(header));
+  const std::size_t begin = sizeof(header) + header.Arrays * sizeof(int);
+  const std::vector<int> types = fromBytes<int>(
+    Bytes(bytes.begin() + sizeof(header), bytes.begin() + static_cast<std::ptrdiff_t>(begin)));
   vtkNew<vtkCharArray> message;
   // VTK takes no constant memory, but only reads it.
-  message->SetArray(const_cast<char*>(bytes.data() + sizeof(header)),
-    static_cast<vtkIdType>(bytes.size() - sizeof(header)), 1);
+  message->SetArray(
+    const_cast<char*>(bytes.data() + begin), static_cast<vtkIdType>(bytes.size() - begin), 1);
   const vtkSmartPointer<vtkDataObject> object = vtkCommunicator::UnMarshalDataObject(message);
   vtkSmartPointer<vtkDataSet> made = vtkDataSet::SafeDownCast(object);
   if (!made)
@@ -114,6 +170,7 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes)
     image->GetFieldData()->ShallowCopy(made->GetFieldData());
     made = image;
   }
+  restoreTypes(made, types);
   for (std::size_t i = 0; i < owners.size(); ++i)
   {
     for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)

@@ -9,6 +9,7 @@
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 namespace RectifiedTransport
@@ -17,13 +18,16 @@ namespace RectifiedTransport
 namespace
 {
 
-// As those of a data set without points.
+// As those of a data set.
 vtkSmartPointer<vtkDataSet> fieldsOfFirst(vtkFieldData* own, const Ranks& ranks)
 {
   Bytes bytes;
   if (ranks.Own() == 0)
   {
+    vtkNew<vtkPoints> point; // without any VTK sends text, which rounds
+    point->InsertNextPoint(0.0, 0.0, 0.0);
     vtkNew<vtkPolyData> fields;
+    fields->SetPoints(point);
     fields->GetFieldData()->ShallowCopy(own);
     bytes = bytesOfDataSet(fields);
   }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/JoinedSurface.h"
 
-#include "Bridge/Points/DoubleTuples.h"
-#include "Core/Mesh/MergePoints.h"
-#include "Core/Parallel/Progress.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
@@ -14,9 +10,12 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStaticPointLocator.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <limits>
 
 namespace RectifiedTransport
 {
@@ -24,23 +23,48 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of each point the one that it becomes.
-std::vector<std::int64_t> pointsToKeep(vtkPolyData* all, const std::vector<DataPart>& parts)
+// Places that differ by less are rounded differently on ranks.
+double roundingOf(vtkPolyData* all)
 {
-  const std::int64_t count = all->GetNumberOfPoints();
-  const SerialExecutor serial;
-  Progress progress{ Context(serial) };
-  const DoubleTuples points(all->GetPoints()->GetData(), progress);
-  std::vector<std::int64_t> becomes(static_cast<std::size_t>(count));
-  mergePoints({ points.data(), count }, becomes.data(), Context(serial));
-  std::int64_t first = 0;
+  double bounds[6];
+  all->GetPoints()->GetBounds(bounds);
+  double farthest = 0.0;
+  for (const double bound : bounds)
+  {
+    farthest = std::max(farthest, std::abs(bound));
+  }
+  constexpr double units = 4.0;
+  return units * farthest *
+    (all->GetPoints()->GetDataType() == VTK_FLOAT ? std::numeric_limits<float>::epsilon()
+                                                  : std::numeric_limits<double>::epsilon());
+}
+
+// Of each point the one that it becomes.
+std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart>& parts)
+{
+  std::vector<vtkIdType> becomes(static_cast<std::size_t>(all->GetNumberOfPoints()));
+  vtkNew<vtkStaticPointLocator> places;
+  places->SetDataSet(all);
+  places->BuildLocator();
+  const double rounding = roundingOf(all);
+  vtkNew<vtkIdList> near;
+  vtkIdType first = 0;
   for (const DataPart& part : parts)
   {
-    const std::int64_t end = first + part.Data->GetNumberOfPoints();
-    for (std::int64_t i = first; i < end; ++i)
+    const vtkIdType end = first + part.Data->GetNumberOfPoints();
+    for (vtkIdType i = first; i < end; ++i)
     {
-      std::int64_t& point = becomes[static_cast<std::size_t>(i)];
-      point = point < first ? point : i;
+      vtkIdType point = i;
+      double x[3];
+      all->GetPoint(i, x);
+      places->FindPointsWithinRadius(rounding, x, near);
+      for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+      {
+        const vtkIdType other = near->GetId(k);
+        point = other < first ? std::min(point, other) : point;
+      }
+      becomes[static_cast<std::size_t>(i)] =
+        point < i ? becomes[static_cast<std::size_t>(point)] : i;
     }
     first = end;
   }
@@ -69,7 +93,7 @@ vtkSmartPointer<vtkCellArray> withPoints(
 
 vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<DataPart>& parts)
 {
-  const std::vector<std::int64_t> becomes = pointsToKeep(all, parts);
+  const std::vector<vtkIdType> becomes = pointsToKeep(all, parts);
   vtkNew<vtkIdList> kept;
   vtkNew<vtkIdList> places;
   std::vector<vtkIdType> newPoints(becomes.size());

@@ -17,8 +17,9 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Points of different parts that have the same coordinates become that of the lowest part; those of
-// one part stay apart. `all` has the points and cells of the parts in their order.
+// Points of different parts whose coordinates differ by their rounding alone become that of the
+// lowest part; those of one part stay apart. `all` has the points and cells of the parts in their
+// order.
 vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<DataPart>& parts);
 
 } // namespace RectifiedTransport
