@@ -16,9 +16,9 @@ PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_table_script.py")
 MOST_RANKS = 4
 # Of other filters behind ours the cells may begin elsewhere.
-BEHIND = ("contour", "slice", "threshold")
+BEHIND = ("contour", "slice", "threshold", "morph contour", "morph slice", "morph threshold")
 # A slice rounds as its piece does; seeds that are divided otherwise have other numbers.
-PLACES_ALONE = ("slice", "seeds apart")
+PLACES_ALONE = ("slice", "morph slice", "seeds apart")
 
 
 def run(ranks):

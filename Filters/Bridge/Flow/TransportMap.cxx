@@ -74,7 +74,7 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const FlowReport report = map.Backward
     ? flow.BackwardLattice(lattice, field.Part(), field.Positions(), map.Flow, progress.Stage())
     : flow.ForwardLattice(
-        lattice, field.Part(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
+        lattice, { field.Part() }, cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
   if (map.Backward && ranks)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());

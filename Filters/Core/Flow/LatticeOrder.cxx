@@ -35,10 +35,17 @@ template <int Dimension>
 void LatticeOrder<Dimension>::Fill(
   std::int64_t first, int count, std::int64_t* index, double* points) const
 {
+  std::int64_t before = 0; // samples of the parts before
+  auto part = this->Parts.begin();
   while (count > 0)
   {
-    std::int64_t number = first;
-    LatticePart<Dimension> block = this->Part;
+    while (first - before >= part->Count())
+    {
+      before += part->Count();
+      ++part;
+    }
+    std::int64_t number = first - before;
+    LatticePart<Dimension> block = *part;
     narrow(block, tileSides[Dimension - 1], number);
     narrow(block, blockSides[Dimension - 1], number);
     const int taken = static_cast<int>(std::min<std::int64_t>(count, block.Count() - number));
@@ -57,9 +64,10 @@ void LatticeOrder<Dimension>::Fill(
       for (int axis = Dimension; axis-- > 0;)
       {
         const std::int64_t cell = block.Low[axis] + place[axis];
-        *index = *index * this->Part.Cells[axis] + (cell - this->Part.Low[axis]);
+        *index = *index * part->Cells[axis] + (cell - part->Low[axis]);
         points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
       }
+      *index += before;
       ++index;
       points += Dimension;
       for (int axis = 0; axis < Dimension && ++place[axis] == block.Cells[axis]; ++axis)

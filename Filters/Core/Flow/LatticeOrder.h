@@ -9,6 +9,8 @@
 #include "Core/Geometry/LatticePart.h"
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -22,21 +24,25 @@ public:
   // `lattice` cells an axis on the box [0, size]; `place` is the point in its cell, in [0, 1].
   LatticeOrder(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size,
     const Point<Dimension>& place = cellCentre<Dimension>())
-    : LatticeOrder(lattice, LatticePart<Dimension>::WholeOf(lattice), size, place)
+    : LatticeOrder(lattice, { LatticePart<Dimension>::WholeOf(lattice) }, size, place)
   {
   }
-  // Of a part of the lattice.
-  LatticeOrder(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
+  // Of parts of the lattice, one after another.
+  LatticeOrder(const GridSize<Dimension>& lattice, std::vector<LatticePart<Dimension>> parts,
     const GridSize<Dimension>& size, const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
-    , Part(part)
+    , Parts(std::move(parts))
     , Size(size)
     , Place(place)
   {
+    for (const LatticePart<Dimension>& part : this->Parts)
+    {
+      this->Samples += part.Count();
+    }
   }
 
-  std::int64_t Count() const { return this->Part.Count(); }
-  // The number of samples of all parts.
+  std::int64_t Count() const { return this->Samples; }
+  // The number of samples of the whole lattice.
   double CountOfAll(const Ranks* /*ranks*/) const
   {
     return numberOfCells<Dimension>(this->Lattice);
@@ -45,15 +51,16 @@ public:
   // The number of samples from `first` on: needs no preparation.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: their numbers in the part, axis 0 fastest, and
-  // their coordinates.
+  // Samples [first, first + count) of this order: their coordinates, and their numbers in the
+  // parts, within each axis 0 fastest.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
 private:
   GridSize<Dimension> Lattice;
-  LatticePart<Dimension> Part;
+  std::vector<LatticePart<Dimension>> Parts;
   GridSize<Dimension> Size;
   Point<Dimension> Place;
+  std::int64_t Samples = 0;
 };
 
 // A coordinate of the point at `place` in cell `cell` of `cells` on [0, size]; exact at the centre

@@ -68,12 +68,8 @@ void check(const GridSize<Dimension>& size, const char* what)
 }
 
 template <int Dimension>
-LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const Point<Dimension>& place,
-  const GridSize<Dimension>& size, std::int64_t positions)
+void check(const LatticePart<Dimension>& part, const GridSize<Dimension>& lattice)
 {
-  check<Dimension>(lattice, "a lattice");
-  checkCount(positions, numberOfCells<Dimension>(part.Cells));
   for (int axis = 0; axis < Dimension; ++axis)
   {
     if (part.Low[axis] < 0 || part.Cells[axis] < 0 ||
@@ -85,6 +81,21 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(lattice[axis]));
     }
   }
+}
+
+template <int Dimension>
+LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
+  const std::vector<LatticePart<Dimension>>& parts, const Point<Dimension>& place,
+  const GridSize<Dimension>& size, std::int64_t positions)
+{
+  check<Dimension>(lattice, "a lattice");
+  double count = 0.0;
+  for (const LatticePart<Dimension>& part : parts)
+  {
+    check<Dimension>(part, lattice);
+    count += numberOfCells<Dimension>(part.Cells);
+  }
+  checkCount(positions, count);
   for (const double coordinate : place)
   {
     if (!(coordinate >= 0.0 && coordinate <= 1.0))
@@ -93,7 +104,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(coordinate) + ", it must be from 0 to 1");
     }
   }
-  return LatticeOrder<Dimension>(lattice, part, size, place);
+  return LatticeOrder<Dimension>(lattice, parts, size, place);
 }
 
 template <int Dimension>
@@ -408,15 +419,15 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Context& context) const
 {
   return this->ForwardLattice(
-    lattice, LatticePart<Dimension>::WholeOf(lattice), place, positions, options, context);
+    lattice, { LatticePart<Dimension>::WholeOf(lattice) }, place, positions, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const Point<Dimension>& place, PointSpan<Dimension> positions,
-  const FlowOptions& options, const Context& context) const
+  const std::vector<LatticePart<Dimension>>& parts, const Point<Dimension>& place,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  const auto order = checkedOrder<Dimension>(lattice, part, place, this->Size(), positions.size());
+  const auto order = checkedOrder<Dimension>(lattice, parts, place, this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Forward, order, positions, options, context);
 }
 
@@ -433,8 +444,8 @@ FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& 
   const LatticePart<Dimension>& part, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context) const
 {
-  const auto order =
-    checkedOrder<Dimension>(lattice, part, cellCentre<Dimension>(), this->Size(), positions.size());
+  const auto order = checkedOrder<Dimension>(
+    lattice, { part }, cellCentre<Dimension>(), this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Backward, order, positions, options, context);
 }
 

@@ -115,9 +115,11 @@ public:
     const Context& context = Context()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
-  // The same for a part of a lattice: each position as if for all of it.
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options = {},
+  // The same for a part of a lattice, forwards for several ones after another: each position as if
+  // for all of it.
+  FlowReport ForwardLattice(const GridSize<Dimension>& lattice,
+    const std::vector<LatticePart<Dimension>>& parts, const Point<Dimension>& place,
+    PointSpan<Dimension> positions, const FlowOptions& options = {},
     const Context& context = Context()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
     PointSpan<Dimension> positions, const FlowOptions& options = {},
