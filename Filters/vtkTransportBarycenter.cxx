@@ -35,6 +35,7 @@ vtkTransportBarycenter::vtkTransportBarycenter()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(1);
+  this->ShareAmongRanks(0, false);
 }
 
 //------------------------------------------------------------------------------
@@ -101,9 +102,9 @@ int vtkTransportBarycenter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const BlendSettings settings = this->GetBlendSettings();
-  AlgorithmProgress progress(this, this->Threading);
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
-  // All data are in piece 0, whatever pieces are requested.
+  // On one rank all data are in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
   {
     return 1;

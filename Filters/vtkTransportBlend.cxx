@@ -11,6 +11,8 @@
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -22,6 +24,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -74,6 +77,49 @@ std::vector<GivenInput> gatherInputs(
     }
   }
   return inputs;
+}
+
+// How ranks read an input: together, where it is an image.
+enum class InputKind
+{
+  None,
+  Image,
+  Whole
+};
+
+InputKind kindOf(vtkDataObject* data)
+{
+  return !data                         ? InputKind::None
+    : vtkImageData::SafeDownCast(data) ? InputKind::Image
+                                       : InputKind::Whole;
+}
+
+void requireSameKinds(const std::vector<GivenInput>& inputs, const Ranks& ranks)
+{
+  std::vector<InputKind> own;
+  for (const GivenInput& input : inputs)
+  {
+    own.push_back(kindOf(input.Data));
+  }
+  const std::vector<Bytes> gathered = ranks.Gather(toBytes(own));
+  const auto first = fromBytes<InputKind>(gathered.front());
+  for (std::size_t rank = 1; rank < gathered.size(); ++rank)
+  {
+    const auto other = fromBytes<InputKind>(gathered[rank]);
+    if (other.size() != first.size())
+    {
+      throw Failure("The number of inputs is " + std::to_string(first.size()) + " on rank 0, but " +
+        std::to_string(other.size()) + " on rank " + std::to_string(rank) +
+        "; all ranks must have the same inputs and blocks");
+    }
+    const auto different = std::mismatch(first.begin(), first.end(), other.begin()).first;
+    if (different != first.end())
+    {
+      throw Failure("Input " + std::to_string(different - first.begin() + 1) +
+        " is no data set of the same kind on rank 0 and on rank " + std::to_string(rank) +
+        "; it must be an image on all ranks, or on none");
+    }
+  }
 }
 } // namespace
 
@@ -133,6 +179,7 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
 int vtkTransportBlend::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  announceSubExtents(outputVector->GetInformationObject(0));
   std::vector<NamedGrid> grids;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
@@ -175,9 +222,13 @@ int vtkTransportBlend::RequestInformation(
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
-  this->Separate->Update(this, inputVector);
+  this->Separate->Update(this, inputVector, this->GetRanks());
   const std::vector<GivenInput> allGiven =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
+  if (const Ranks* ranks = this->GetRanks())
+  {
+    requireSameKinds(allGiven, *ranks);
+  }
   std::vector<BlendInput> inputs;
   for (const GivenInput& given : allGiven)
   {
@@ -208,7 +259,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
 //------------------------------------------------------------------------------
 void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
 {
-  if (particles > 0)
+  if (particles > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
   {
     vtkWarningMacro(<< particles << (particles == 1 ? " particle" : " particles")
                     << " in empty cells moved to the nearest cell with mass (more "

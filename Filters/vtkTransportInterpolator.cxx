@@ -41,6 +41,8 @@ vtkTransportInterpolator::vtkTransportInterpolator()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(2);
+  this->ShareAmongRanks(0, false);
+  this->ShareAmongRanks(1, false);
   vtkTransportInterpolator::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
@@ -173,9 +175,9 @@ int vtkTransportInterpolator::RequestData(
   const double parameter = this->FindParameter(request, outputVector);
   BlendSettings settings = this->GetBlendSettings();
   settings.AddCost = true;
-  AlgorithmProgress progress(this, this->Threading);
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
-  // All data are in piece 0, whatever pieces are requested.
+  // On one rank all data are in piece 0, whatever pieces are requested.
   if (!this->IsLaterPiece(request, outputVector))
   {
     static const char* const names[] = { "Source", "Target" };

@@ -16,9 +16,9 @@ PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_table_script.py")
 MOST_RANKS = 4
 # Of other filters behind ours the cells may begin elsewhere.
-BEHIND = ("contour", "slice", "threshold", "splat contour", "splat slice", "splat threshold")
+BEHIND = ("contour", "slice", "threshold")
 # A slice rounds as its piece does; seeds that are divided otherwise have other numbers.
-PLACES_ALONE = ("slice", "seeds apart", "splat slice")
+PLACES_ALONE = ("slice", "apart")
 
 
 def run(ranks, script=SCRIPT, *arguments):

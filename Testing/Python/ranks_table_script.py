@@ -6,7 +6,7 @@ import sys
 import zlib
 
 import numpy as np
-from paraview import simple
+from paraview import servermanager, simple
 from rt_testing import load_plugin
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -267,6 +267,66 @@ def give_data():
     give("parameterization apart", simple.AreaPreservingParameterization(Input=cut, Resolution=24))
 
 
+def give_both(name, proxy):
+    give(name, proxy)
+    give(name + " particles", proxy, 1)
+
+
+def give_blends():
+    """Of densities on points and cells, of one geometry and of several."""
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    whole = [-4, 8, 0, 7, 0, 10]
+    image = simple.Wavelet(WholeExtent=whole)
+    other = simple.Wavelet(WholeExtent=whole, StandardDeviation=0.2, XFreq=20, Center=[4, 1, 2])
+    cells, other_cells = (simple.PointDatatoCellData(Input=density, ProcessAllArrays=1)
+                          for density in (image, other))
+    flat, other_flat = (simple.ExtractSubset(Input=density, VOI=[-4, 8, 3, 3, 0, 10])
+                        for density in (image, other))
+    long = simple.Wavelet(WholeExtent=[-2, 3, -2, 3, 0, 21], StandardDeviation=0.3)
+    smooth = simple.Gradient(Input=other, ScalarArray=["POINTS", "RTData"])
+    inputs = {"points": (image, other), "cells": (cells, other_cells),
+              "flat": (flat, other_flat), "geometries": (image, long), "mixed": (cells, long),
+              "twice": (image, image), "derived": (image, smooth), "derived first": (smooth, other)}
+    for name, (source, target) in inputs.items():
+        give_both("morph " + name, simple.MorphDensities(
+            Input=source, Target=target, Parameter=0.3, **usual))
+    for count in (2, 3, 4, 8):
+        give_both("morph of %d" % count, simple.MorphDensities(
+            Input=image, Target=long, ParticlesPerCell=count, **usual))
+    for mode in ("Geometric", "Source", "Normalize"):
+        give_both("morph " + mode, simple.MorphDensities(
+            Input=image, Target=other, MassMode=mode, **usual))
+    for tables in ("Tiled", "Whole"):
+        for count in (1, 3):
+            give_both("morph %s %d" % (tables, count), simple.MorphDensities(
+                Input=cells, Target=long, Tables=tables, ParticlesPerCell=count,
+                NegativeValues="Clamp", NumberOfSteps=32))
+    sparse = simple.Calculator(Input=other, Function="(RTData > 150) * RTData",
+                               ResultArrayName="RTData")
+    give_both("morph sparse", simple.MorphDensities(
+        Input=image, Target=sparse, NegativeValues="Clamp", NumberOfSteps=2, Integrator="Euler"))
+    give_both("morph coarse", simple.MorphDensities(
+        Input=image, Target=other, Dimensions=[5, 4, 3], Kernel="Gaussian", **usual))
+    series = simple.MorphDensities(Input=image, Target=long, PublishTime=1, NumberOfTimeSteps=4,
+                                   **usual)
+    for time in (0.0, 1 / 3, 1.0):
+        series.UpdatePipeline(time)
+        give_both("morph at %.2f" % time, series)
+    mean = simple.DensityBarycenter(Input=[image, other, long], Weights=[1, 2, 0.5], **usual)
+    give_both("barycenter", mean)
+    mean.Weights = [0, 2, 1]
+    give_both("barycenter again", mean)
+    give_both("barycenter blocks", simple.DensityBarycenter(
+        Input=simple.GroupDatasets(Input=[image, other, long]), ParticlesPerCell=2, **usual))
+    morph = simple.MorphDensities(Input=image, Target=other, **usual)
+    give("morph contour", simple.Contour(Input=morph, ContourBy=["POINTS", "Density"],
+                                         Isosurfaces=[120.0], ComputeNormals=0))
+    give("morph slice", simple.Slice(Input=morph))
+    give("morph threshold", simple.Threshold(
+        Input=servermanager.OutputPort(morph, 1), Scalars=["POINTS", "SourcePosition"],
+        LowerThreshold=1, UpperThreshold=1000))
+
+
 def main(path):
     load_plugin()
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
@@ -311,6 +371,7 @@ def main(path):
     give_splats(image, flat, ghosts)
     give_qualities(inputs)
     give_data()
+    give_blends()
     with open("%s.%d" % (path, RANK), "wb") as file:
         pickle.dump(gathered, file)
     print("WROTE", RANK, flush=True)

@@ -6,6 +6,9 @@
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Ranks/ParticleExchange.h"
+#include "Bridge/Ranks/PlaceOwners.h"
+#include "Bridge/Ranks/SharedSplat.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
@@ -14,6 +17,7 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -88,6 +92,24 @@ void reuseOrMake(
 
 } // namespace
 
+// The map of a density among others; the end if there is none. By times alone, or else by contents,
+// as the work of the current stage. On ranks, whose times and kept maps differ, all of them have it
+// or none.
+template <class Maps>
+auto findMap(const Maps& begin, const Maps& end, DensityImage& density,
+  const LinearizedMapSettings& settings, bool byContents, Progress& progress)
+{
+  Maps found =
+    std::find_if(begin, end, [&](const LinearizedMap& map) { return map.IsOf(density, settings); });
+  if (found == end && byContents)
+  {
+    const ContentHash content(density, progress);
+    found = std::find_if(begin, end,
+      [&](const LinearizedMap& map) { return map.IsOf(content, density.Grid(), settings); });
+  }
+  return onAllRanks(progress.Group(), found != end) ? found : end;
+}
+
 BlendOutput::BlendOutput(vtkInformationVector* outputs)
   : Announced(outputs->GetInformationObject(0))
   , Density(vtkImageData::GetData(outputs, 0))
@@ -95,16 +117,27 @@ BlendOutput::BlendOutput(vtkInformationVector* outputs)
 {
 }
 
+Extent BlendOutput::WantedPart(const ImageGrid& grid, const Ranks& ranks) const
+{
+  return announcedGrid(this->Announced, grid.IsOnPoints()).Extent() == grid.Extent()
+    ? requestedExtent(this->Announced)
+    : dividedExtent(grid.Extent(), ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+}
+
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
+  const Ranks* ranks = progress.Group();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
-  requireMemoryFor(numberOfValues(geometry) * settings.ParticlesPerCell, inputs.size());
+  const double all = numberOfValues(geometry) * settings.ParticlesPerCell;
+  requireMemoryFor(all / (ranks ? ranks->Count() : 1), inputs.size());
   requireCells(geometry);
+  const auto count = static_cast<std::int64_t>(all);
+  const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
+    settings.Tables, RankShare(count, ranks) };
+  const Extent wanted = ranks ? output.WantedPart(geometry, *ranks) : geometry.Extent();
   applyGrid(geometry, output.Density);
   announceGrid(geometry, output.Announced); // the association may not be known before the data
-  const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
-    settings.Tables };
 
   const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
   if (newMaps > 0)
@@ -118,29 +151,53 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
 
   progress.BeginStage(maps + partOfMean * (1.0 - maps));
   this->TakeMeans(inputs, progress);
-  const std::int64_t count = this->Means->GetNumberOfTuples();
   const double mass = this->TotalMass(inputs, settings.Mode);
   const SplatTarget target{ geometry, settings.Splat, true };
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
+  double cost = 0.0;
   if (settings.AddCost)
   {
     progress.BeginStage(maps + partOfCost * (1.0 - maps));
-    const double cost = this->CostBetweenEnds(geometry, progress);
-    addFieldValue(output.Density, "TransportCost", cost);
-    addFieldValue(output.Particles, "TransportCost", cost);
+    cost = this->CostBetweenEnds(geometry, count, progress);
   }
   const double particles = maps + partOfParticles * (1.0 - maps);
-  this->WriteParticles(inputs, massEach, progress, particles, output.Particles);
-  addFieldValue(output.Particles, "TotalMass", mass);
-
+  this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
   progress.BeginStage(1.0);
-  reuseOrMake(this->Density, "Density", 1, geometry.NumberOfCells());
-  splatPoints({ this->Means->GetPointer(0), count }, massEach, target, progress, this->Density);
-  output.Density->GetAttributes(geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL)
-    ->SetScalars(this->Density);
-  addFieldValue(output.Density, "TotalMass", mass);
-  return moved;
+  this->WriteDensity(target, massEach, wanted, progress, output.Density);
+  for (vtkDataObject* part :
+    { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
+  {
+    if (settings.AddCost)
+    {
+      addFieldValue(part, "TransportCost", cost);
+    }
+    addFieldValue(part, "TotalMass", mass);
+  }
+  return sumOverRanks(ranks, moved);
+}
+
+// As the work of the current stage.
+void DensityBlend::WriteDensity(const SplatTarget& target, double massEach, Extent wanted,
+  Progress& progress, vtkImageData* output)
+{
+  const ImageGrid& geometry = target.Geometry;
+  const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  if (const Ranks* ranks = progress.Group())
+  {
+    const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
+    output->SetExtent(wanted.data());
+    reuseOrMake(this->Density, "Density", 1, box.Count());
+    splatShared(
+      this->Means, nullptr, massEach, nullptr, target, box, *ranks, progress, this->Density);
+  }
+  else
+  {
+    reuseOrMake(this->Density, "Density", 1, geometry.NumberOfCells());
+    splatPoints({ this->Means->GetPointer(0), this->Means->GetNumberOfTuples() }, massEach, target,
+      progress, this->Density);
+  }
+  output->GetAttributes(owner)->SetScalars(this->Density);
 }
 
 // Assigns to each input the kept map of its density, whatever input had it before, or an empty one.
@@ -156,14 +213,9 @@ std::size_t DensityBlend::MatchMaps(
   {
     DensityImage& density = *input.Density;
     this->Maps.emplace_back();
-    auto match = std::find_if(before.begin(), before.end(),
-      [&](const LinearizedMap& map) { return map.IsOf(density, settings); });
-    if (match == before.end() && !before.empty())
-    {
-      const ContentHash content(density, progress);
-      match = std::find_if(before.begin(), before.end(),
-        [&](const LinearizedMap& map) { return map.IsOf(content, density.Grid(), settings); });
-    }
+    const bool byContents = !before.empty() || progress.Group();
+    const auto match =
+      findMap(before.begin(), before.end(), density, settings, byContents, progress);
     if (match == before.end())
     {
       ++missing;
@@ -194,9 +246,10 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
       continue;
     }
     // Several inputs may have the same density.
-    const auto made = std::find_if(this->Maps.begin(), this->Maps.begin() + i,
-      [&](const LinearizedMap& other) { return other.IsOf(density, settings); });
-    if (made != this->Maps.begin() + i)
+    const auto before = this->Maps.cbegin() + static_cast<std::ptrdiff_t>(i);
+    const auto made = findMap(
+      this->Maps.cbegin(), before, density, settings, progress.Group() != nullptr, progress);
+    if (made != before)
     {
       map = *made;
       continue;
@@ -231,13 +284,14 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
     [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
 }
 
-// The mean of |y - x|^2 over the particles' positions x and y in the two inputs. As the work of the
-// current stage, but where the maps are those of the last call.
-double DensityBlend::CostBetweenEnds(const ImageGrid& geometry, Progress& progress)
+// The mean of |y - x|^2 over the positions x and y of all particles in the two inputs. As the work
+// of the current stage, but where the maps are those of the last call.
+double DensityBlend::CostBetweenEnds(
+  const ImageGrid& geometry, std::int64_t particles, Progress& progress)
 {
   const std::array<vtkDoubleArray*, 2> ends = { this->Maps[0].Positions(),
     this->Maps[1].Positions() };
-  if (this->Ends[0] == ends[0] && this->Ends[1] == ends[1])
+  if (onAllRanks(progress.Group(), this->Ends[0] == ends[0] && this->Ends[1] == ends[1]))
   {
     return this->EndsCost;
   }
@@ -246,14 +300,15 @@ double DensityBlend::CostBetweenEnds(const ImageGrid& geometry, Progress& progre
   const ConstPointSpan<3> to(ends[1]->GetPointer(0), count);
   const LengthScale scale(geometry);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
-  const auto squares = sumExactly<ExactSum>(
+  const auto own = sumExactly<ExactSum>(
     progress, count, grain, [&](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)
       {
         sum.Add(scale.SquaredDistanceInUnits(to[i], from[i]));
       }
     });
-  this->EndsCost = scale.CostFromUnits(squares.Value() / static_cast<double>(count));
+  const ExactSum squares = sumOverRanks(progress.Group(), own);
+  this->EndsCost = scale.CostFromUnits(squares.Value() / static_cast<double>(particles));
   this->Ends = { ends[0], ends[1] };
   return this->EndsCost;
 }
@@ -274,21 +329,13 @@ double DensityBlend::TotalMass(const std::vector<BlendInput>& inputs, MassMode m
   return mode == MassMode::Linear ? sum : product;
 }
 
-void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double massEach,
-  Progress& progress, double end, vtkPolyData* output)
+void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
+  double massEach, Progress& progress, double end, vtkPolyData* output)
 {
-  const std::int64_t count = this->Means->GetNumberOfTuples();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetData(this->Means);
   output->SetPoints(points);
-  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
-  {
-    progress.BeginStage(0.5 * (progress.StageEnd() + end));
-    this->Vertices = newParticleCells(count, 1, progress);
-  }
-  output->SetVerts(this->Vertices);
-
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     if (!inputs[i].PositionName.empty())
@@ -300,6 +347,16 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
       output->GetPointData()->AddArray(named);
     }
   }
+  progress.BeginStage(0.5 * (progress.StageEnd() + end));
+  if (const Ranks* ranks = progress.Group())
+  {
+    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, *ranks), *ranks, progress);
+  }
+  else
+  {
+    this->WriteVertices(progress, output);
+  }
+  const std::int64_t count = output->GetNumberOfPoints();
   progress.BeginStage(end);
   reuseOrMake(this->Masses, "Mass", 1, count);
   double* mass = this->Masses->GetPointer(0);
@@ -307,6 +364,16 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, double 
   progress.For(count, grain,
     [=](std::int64_t first, std::int64_t last) { std::fill(mass + first, mass + last, massEach); });
   output->GetPointData()->AddArray(this->Masses);
+}
+
+void DensityBlend::WriteVertices(Progress& progress, vtkPolyData* output)
+{
+  const vtkIdType count = output->GetNumberOfPoints();
+  if (!this->Vertices || this->Vertices->GetNumberOfCells() != count)
+  {
+    this->Vertices = newParticleCells(count, 1, progress);
+  }
+  output->SetVerts(this->Vertices);
 }
 
 } // namespace RectifiedTransport

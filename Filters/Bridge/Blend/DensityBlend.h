@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interpolates densities by their maps from one pivot: the weighted means of the particles'
-// positions, as points and as a density (Sections 3.4, 5.2 and 5.3).
+// positions, as points and as a density (Sections 3.4, 5.2 and 5.3). Several ranks each map their
+// share of the particles, and keep it.
 #ifndef RectifiedTransport_DensityBlend_h
 #define RectifiedTransport_DensityBlend_h
 
 #include "Bridge/Blend/LinearizedMap.h"
+#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
@@ -27,6 +29,8 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+
+struct SplatTarget;
 
 // Of vtkTransportBlend.
 enum class MassMode
@@ -61,6 +65,10 @@ struct BlendOutput
 {
   explicit BlendOutput(vtkInformationVector* outputs);
 
+  // Of an image of the grid: what is requested, or the rank's piece where it was announced
+  // otherwise.
+  Extent WantedPart(const ImageGrid& grid, const Ranks& ranks) const;
+
   vtkInformation* Announced; // the pipeline information of the density
   vtkImageData* Density;
   vtkPolyData* Particles;
@@ -70,8 +78,9 @@ class DensityBlend
 {
 public:
   // Keeps the maps of these inputs for the next call. Tables are built in `tables` and released.
-  // Throws Failure, which names the input, and Cancelled. Returns how many particles of new maps
-  // were moved out of empty cells of the densities.
+  // On ranks, which call this together, the image is the part that each wants, and the particles
+  // are those whose places each has. Throws Failure, which names the input, and Cancelled. Returns
+  // how many particles of new maps, of all ranks, were moved out of empty cells of the densities.
   std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
     FlowCache& tables, Progress& progress, const BlendOutput& output);
 
@@ -80,11 +89,14 @@ private:
     const LinearizedMapSettings& settings, Progress& progress);
   std::int64_t MakeMaps(const std::vector<BlendInput>& inputs,
     const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
-  double CostBetweenEnds(const ImageGrid& geometry, Progress& progress);
+  double CostBetweenEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
-  void WriteParticles(const std::vector<BlendInput>& inputs, double massEach, Progress& progress,
-    double end, vtkPolyData* output);
+  void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
+    double massEach, Progress& progress, double end, vtkPolyData* output);
+  void WriteVertices(Progress& progress, vtkPolyData* output);
+  void WriteDensity(const SplatTarget& target, double massEach, Extent wanted, Progress& progress,
+    vtkImageData* output);
 
   std::vector<LinearizedMap> Maps;
   // Of the last CostBetweenEnds.

@@ -73,7 +73,7 @@ std::int64_t LinearizedMap::Move(
   GridSize<D> grid;
   std::copy_n(this->Settings.Grid.begin(), D, grid.begin());
   const PivotLattice<D> pivot = pivotLattice<D>(grid, this->Settings.PerCell);
-  const std::int64_t particles = pivot.NumberOfParticles();
+  const std::int64_t particles = this->Settings.Share.Count;
   const FlowOptions& options = this->Settings.Options;
   const FlowTables kind = chooseTables<D>(this->Settings.Tables, density.Grid().Size<D>(),
     { options, FlowDirection::Forward, static_cast<double>(particles), true, "" });
@@ -93,8 +93,8 @@ std::int64_t LinearizedMap::Move(
 
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
-  const FlowReport report =
-    transportPivot<D>(flow.Flow<D>(), pivot, { positions, particles }, options, progress.Stage());
+  const FlowReport report = transportPivot<D>(flow.Flow<D>(), pivot, this->Settings.Share.First,
+    { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
   toPhysical<D>(
     this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });

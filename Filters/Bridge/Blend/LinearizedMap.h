@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The positions in one density of the particles of the pivot, a unit box with equally many in each
-// cell of a grid (Section 3.4), kept until the density, the grid or the integration changes.
+// cell of a grid (Section 3.4), kept until the density, the grid or the integration changes. Each
+// of several ranks has its share of the particles.
 #ifndef RectifiedTransport_LinearizedMap_h
 #define RectifiedTransport_LinearizedMap_h
 
 #include "Bridge/Density/ContentHash.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Flow/FlowOptions.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -26,11 +28,13 @@ struct LinearizedMapSettings
   std::int64_t PerCell;
   FlowOptions Options;
   TableSettings Tables;
+  RankShare Share; // of the numbers of the particles
 
   bool operator==(const LinearizedMapSettings& other) const
   {
     return this->Grid == other.Grid && this->PerCell == other.PerCell &&
-      this->Options == other.Options && this->Tables.Tables == other.Tables.Tables;
+      this->Options == other.Options && this->Tables.Tables == other.Tables.Tables &&
+      this->Share.First == other.Share.First && this->Share.Count == other.Share.Count;
   }
 };
 
@@ -43,14 +47,14 @@ public:
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
   // Advects the particles to a density; progress then reaches `end`. The tables are built in
-  // `tables`. Throws Failure and Cancelled. Returns how many particles ended in an empty cell of
-  // the density and were moved to the nearest mass.
+  // `tables`. Called by all ranks of the progress. Throws Failure and Cancelled. Returns how many
+  // particles ended in an empty cell of the density and were moved to the nearest mass.
   std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.
   void SetTimes(const DensityImage& density) { this->Content.SetTimes(density); }
 
-  // Physical, 3 components; tuples in the order of PivotLattice. Read-only.
+  // Physical, 3 components; tuples in the order of PivotLattice, those of the share. Read-only.
   vtkDoubleArray* Positions() const { return this->Kept; }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
@@ -61,7 +65,7 @@ private:
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions
-  LinearizedMapSettings Settings{};
+  LinearizedMapSettings Settings{ {}, 0, {}, {}, { 0, nullptr } };
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;
 };

@@ -43,8 +43,8 @@ public:
   const GridSize<D>& Whole() const { return this->Lattice; }
   // The part that this rank computes.
   const LatticePart<D>& Part() const { return this->OwnPart; }
-  // The part that positions are kept of.
-  const LatticePart<D>& Within() const { return this->Kept; }
+  // The same, with the numbers of its positions.
+  LatticeParts<D> Parts() const { return { this->OwnPart, this->Kept }; }
   // The mapped samples, in index space.
   PointSpan<D> Positions();
 

@@ -72,10 +72,9 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
   const FlowReport report = map.Backward
-    ? flow.BackwardLattice(
-        lattice, field.Part(), field.Within(), field.Positions(), map.Flow, progress.Stage())
-    : flow.ForwardLattice(lattice, field.Part(), field.Within(), cellCentre<D>(), field.Positions(),
-        map.Flow, progress.Stage());
+    ? flow.BackwardLattice(lattice, field.Parts(), field.Positions(), map.Flow, progress.Stage())
+    : flow.ForwardLattice(
+        lattice, field.Parts(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
   if (map.Backward && ranks)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());

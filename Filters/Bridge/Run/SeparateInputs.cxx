@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SeparateInputs.h"
 
+#include "Core/Parallel/Ranks.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -162,11 +164,12 @@ void release(vtkAlgorithm* filter, int outputPort)
 
 } // namespace
 
-void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+void SeparateInputs::Update(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector, const Ranks* ranks)
 {
   const std::vector<Connection> connections = timedConnections(filter);
   const std::vector<std::uint64_t> shared = sharedArrays(connections, inputVector);
-  if (shared.empty() || shared == this->Shared)
+  if (onAllRanks(ranks, shared.empty() || shared == this->Shared))
   {
     return;
   }

@@ -18,14 +18,17 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class Ranks;
+
 // Of one filter.
 class SeparateInputs
 {
 public:
   // Makes the inputs that share arrays and come from a source with times through filters of their
   // own one after the other. From RequestData. What they share then is theirs; it is not tried
-  // again.
-  void Update(vtkAlgorithm* filter, vtkInformationVector** inputVector);
+  // again. On `ranks`, or nullptr, which call this together, all of them make the inputs where one
+  // has to.
+  void Update(vtkAlgorithm* filter, vtkInformationVector** inputVector, const Ranks* ranks);
 
 private:
   std::vector<std::uint64_t> Shared; // the addresses and times of the arrays shared after the last

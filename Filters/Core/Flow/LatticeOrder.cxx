@@ -35,36 +35,36 @@ template <int Dimension>
 void LatticeOrder<Dimension>::Fill(
   std::int64_t first, int count, std::int64_t* index, double* points) const
 {
+  std::int64_t before = 0; // samples of the parts before
+  auto part = this->Chosen.Parts.begin();
   while (count > 0)
   {
-    std::int64_t number = first;
-    LatticePart<Dimension> block = this->Part;
+    while (first - before >= part->Count())
+    {
+      before += part->Count();
+      ++part;
+    }
+    std::int64_t number = first - before;
+    LatticePart<Dimension> block = *part;
     narrow(block, tileSides[Dimension - 1], number);
     narrow(block, blockSides[Dimension - 1], number);
     const int taken = static_cast<int>(std::min<std::int64_t>(count, block.Count() - number));
     first += taken;
     count -= taken;
 
-    GridSize<Dimension> place;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      place[axis] = number % block.Cells[axis];
-      number /= block.Cells[axis];
-    }
+    GridSize<Dimension> cell = block.CellOf(number);
     for (int i = 0; i < taken; ++i)
     {
-      *index = 0;
-      for (int axis = Dimension; axis-- > 0;)
+      *index++ = this->Chosen.IndexOf(cell);
+      for (int axis = 0; axis < Dimension; ++axis)
       {
-        const std::int64_t cell = block.Low[axis] + place[axis];
-        *index = *index * this->Within.Cells[axis] + (cell - this->Within.Low[axis]);
-        points[axis] = latticePoint(cell, this->Place[axis], this->Lattice[axis], this->Size[axis]);
+        *points++ =
+          latticePoint(cell[axis], this->Place[axis], this->Lattice[axis], this->Size[axis]);
       }
-      ++index;
-      points += Dimension;
-      for (int axis = 0; axis < Dimension && ++place[axis] == block.Cells[axis]; ++axis)
+      for (int axis = 0; axis < Dimension && ++cell[axis] == block.Low[axis] + block.Cells[axis];
+           ++axis)
       {
-        place[axis] = 0;
+        cell[axis] = block.Low[axis];
       }
     }
   }

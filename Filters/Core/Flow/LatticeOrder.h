@@ -9,6 +9,7 @@
 #include "Core/Geometry/LatticePart.h"
 
 #include <cstdint>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -22,24 +23,25 @@ public:
   // `lattice` cells an axis on the box [0, size]; `place` is the point in its cell, in [0, 1].
   LatticeOrder(const GridSize<Dimension>& lattice, const GridSize<Dimension>& size,
     const Point<Dimension>& place = cellCentre<Dimension>())
-    : LatticeOrder(lattice, LatticePart<Dimension>::WholeOf(lattice),
-        LatticePart<Dimension>::WholeOf(lattice), size, place)
+    : LatticeOrder(lattice, LatticeParts<Dimension>::WholeOf(lattice), size, place)
   {
   }
-  // Of a part of the lattice, with the numbers of its cells in another part that contains it.
-  LatticeOrder(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const LatticePart<Dimension>& within, const GridSize<Dimension>& size,
-    const Point<Dimension>& place = cellCentre<Dimension>())
+  // Of parts of the lattice, one after another.
+  LatticeOrder(const GridSize<Dimension>& lattice, LatticeParts<Dimension> parts,
+    const GridSize<Dimension>& size, const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
-    , Part(part)
-    , Within(within)
+    , Chosen(std::move(parts))
     , Size(size)
     , Place(place)
   {
+    for (const LatticePart<Dimension>& part : this->Chosen.Parts)
+    {
+      this->Samples += part.Count();
+    }
   }
 
-  std::int64_t Count() const { return this->Part.Count(); }
-  // The number of samples of all parts.
+  std::int64_t Count() const { return this->Samples; }
+  // The number of samples of the whole lattice.
   double CountOfAll(const Ranks* /*ranks*/) const
   {
     return numberOfCells<Dimension>(this->Lattice);
@@ -48,16 +50,15 @@ public:
   // The number of samples from `first` on: needs no preparation.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: their numbers, axis 0 fastest, and their
-  // coordinates.
+  // Samples [first, first + count) of this order: where their results are, and their coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
 private:
   GridSize<Dimension> Lattice;
-  LatticePart<Dimension> Part;
-  LatticePart<Dimension> Within; // of the numbers
+  LatticeParts<Dimension> Chosen;
   GridSize<Dimension> Size;
   Point<Dimension> Place;
+  std::int64_t Samples = 0;
 };
 
 // A coordinate of the point at `place` in cell `cell` of `cells` on [0, size]; exact at the centre

@@ -8,6 +8,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -93,6 +94,21 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
     throw std::invalid_argument("there is memory for " + std::to_string(positions.size()) +
       " positions, but the pivot has " + std::to_string(particles) + " particles");
   }
+  return transportPivot(flow, pivot, 0, positions, options, context);
+}
+
+template <int Dimension>
+FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
+  const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,
+  const FlowOptions& options, const Context& context)
+{
+  const std::int64_t particles = pivot.NumberOfParticles();
+  const std::int64_t last = first + positions.size();
+  if (first < 0 || last > particles)
+  {
+    throw std::invalid_argument("there is memory for positions " + std::to_string(first) + " to " +
+      std::to_string(last - 1) + ", but the pivot has " + std::to_string(particles) + " particles");
+  }
   const auto places = static_cast<std::int64_t>(pivot.Places.size());
   const std::int64_t each = places > 0 ? particles / places : 0;
   // All places take the same way, as the particles of one run do.
@@ -104,12 +120,21 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   for (std::int64_t place = 0; place < places; ++place)
   {
     progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
-    const FlowReport part =
-      flow.ForwardLattice(pivot.Lattice, pivot.Places[static_cast<std::size_t>(place)],
-        positions.Part(place * each, each), same, progress.Stage());
-    report.Redone += part.Redone;
-    report.MovedToMass += part.MovedToMass;
-    report.Evaluations += part.Evaluations;
+    const std::int64_t low = std::clamp<std::int64_t>(first - place * each, 0, each);
+    const std::int64_t high = std::clamp<std::int64_t>(last - place * each, 0, each);
+    if (low == high && !progress.Group())
+    {
+      continue;
+    }
+    const PointSpan<Dimension> part =
+      positions.Part(low < high ? place * each + low - first : 0, high - low);
+    const FlowReport moved = flow.ForwardLattice(pivot.Lattice,
+      { partsOf<Dimension>(pivot.Lattice, low, high - low),
+        LatticePart<Dimension>::WholeOf(pivot.Lattice), low },
+      pivot.Places[static_cast<std::size_t>(place)], part, same, progress.Stage());
+    report.Redone += moved.Redone;
+    report.MovedToMass += moved.MovedToMass;
+    report.Evaluations += moved.Evaluations;
   }
   return report;
 }
@@ -120,9 +145,15 @@ template PivotLattice<3> pivotLattice<3>(const GridSize<3>&, std::int64_t);
 
 template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, PointSpan<1>,
   const FlowOptions&, const Context&);
+template FlowReport transportPivot<1>(const RectifiedFlow<1>&, const PivotLattice<1>&, std::int64_t,
+  PointSpan<1>, const FlowOptions&, const Context&);
 template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, PointSpan<2>,
   const FlowOptions&, const Context&);
+template FlowReport transportPivot<2>(const RectifiedFlow<2>&, const PivotLattice<2>&, std::int64_t,
+  PointSpan<2>, const FlowOptions&, const Context&);
 template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, PointSpan<3>,
   const FlowOptions&, const Context&);
+template FlowReport transportPivot<3>(const RectifiedFlow<3>&, const PivotLattice<3>&, std::int64_t,
+  PointSpan<3>, const FlowOptions&, const Context&);
 
 } // namespace RectifiedTransport

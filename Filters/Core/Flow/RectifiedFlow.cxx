@@ -68,17 +68,9 @@ void check(const GridSize<Dimension>& size, const char* what)
 }
 
 template <int Dimension>
-LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
-  const Point<Dimension>& place, const GridSize<Dimension>& size, std::int64_t positions)
+void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& part,
+  const GridSize<Dimension>& lattice, std::int64_t positions)
 {
-  check<Dimension>(lattice, "a lattice");
-  checkCount(positions, numberOfCells<Dimension>(within.Cells));
-  if (!within.Contains(part))
-  {
-    throw std::invalid_argument("the positions are those of a part of a lattice that does not "
-                                "contain the one that is advected, it must");
-  }
   for (int axis = 0; axis < Dimension; ++axis)
   {
     if (part.Low[axis] < 0 || part.Cells[axis] < 0 ||
@@ -90,6 +82,30 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(lattice[axis]));
     }
   }
+  if (part.Count() == 0)
+  {
+    return;
+  }
+  const std::int64_t first = parts.IndexOf(part.Low);
+  const std::int64_t last = parts.IndexOf(part.CellOf(part.Count() - 1));
+  if (!parts.Within.Contains(part) || first < 0 || last >= positions)
+  {
+    throw std::invalid_argument("a part of a lattice has positions from number " +
+      std::to_string(first) + " to " + std::to_string(last) + ", there is memory for " +
+      std::to_string(positions));
+  }
+}
+
+template <int Dimension>
+LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
+  const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
+  const GridSize<Dimension>& size, std::int64_t positions)
+{
+  check<Dimension>(lattice, "a lattice");
+  for (const LatticePart<Dimension>& part : parts.Parts)
+  {
+    check<Dimension>(parts, part, lattice, positions);
+  }
   for (const double coordinate : place)
   {
     if (!(coordinate >= 0.0 && coordinate <= 1.0))
@@ -98,7 +114,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(coordinate) + ", it must be from 0 to 1");
     }
   }
-  return LatticeOrder<Dimension>(lattice, part, within, size, place);
+  return LatticeOrder<Dimension>(lattice, parts, size, place);
 }
 
 template <int Dimension>
@@ -412,18 +428,17 @@ FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& l
   const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
   const Context& context) const
 {
-  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
-  return this->ForwardLattice(lattice, whole, whole, place, positions, options, context);
+  checkCount(positions.size(), numberOfCells<Dimension>(lattice));
+  return this->ForwardLattice(
+    lattice, LatticeParts<Dimension>::WholeOf(lattice), place, positions, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::ForwardLattice(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
-  const Point<Dimension>& place, PointSpan<Dimension> positions, const FlowOptions& options,
-  const Context& context) const
+  const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
+  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  const auto order =
-    checkedOrder<Dimension>(lattice, part, within, place, this->Size(), positions.size());
+  const auto order = checkedOrder<Dimension>(lattice, parts, place, this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Forward, order, positions, options, context);
 }
 
@@ -431,17 +446,18 @@ template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
   PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
 {
-  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
-  return this->BackwardLattice(lattice, whole, whole, positions, options, context);
+  checkCount(positions.size(), numberOfCells<Dimension>(lattice));
+  return this->BackwardLattice(
+    lattice, LatticeParts<Dimension>::WholeOf(lattice), positions, options, context);
 }
 
 template <int Dimension>
 FlowReport RectifiedFlow<Dimension>::BackwardLattice(const GridSize<Dimension>& lattice,
-  const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
-  PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) const
+  const LatticeParts<Dimension>& parts, PointSpan<Dimension> positions, const FlowOptions& options,
+  const Context& context) const
 {
   const auto order = checkedOrder<Dimension>(
-    lattice, part, within, cellCentre<Dimension>(), this->Size(), positions.size());
+    lattice, parts, cellCentre<Dimension>(), this->Size(), positions.size());
   return this->Data->Advect(AdvectionKind::Backward, order, positions, options, context);
 }
 

@@ -115,14 +115,13 @@ public:
     const Context& context = Context()) const;
   FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
-  // The same for a part of a lattice: each position as if for all of it, at the number of its cell
-  // in another part, `within`, which contains the first.
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const LatticePart<Dimension>& within, const Point<Dimension>& place,
+  // The same for parts of a lattice: each position as if for all of it.
+  FlowReport ForwardLattice(const GridSize<Dimension>& lattice,
+    const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
     PointSpan<Dimension> positions, const FlowOptions& options = {},
     const Context& context = Context()) const;
-  FlowReport BackwardLattice(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
-    const LatticePart<Dimension>& within, PointSpan<Dimension> positions,
+  FlowReport BackwardLattice(const GridSize<Dimension>& lattice,
+    const LatticeParts<Dimension>& parts, PointSpan<Dimension> positions,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
   // Forwards, but writes of each sample only the number, axis 0 fastest, of the density's cell with

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box of the cells of a lattice.
+// Boxes of the cells of a lattice.
 #ifndef RectifiedTransport_LatticePart_h
 #define RectifiedTransport_LatticePart_h
 
@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -97,6 +99,68 @@ struct LatticePart
     }
     return around;
   }
+};
+
+// The cells of `count` numbers of a lattice, axis 0 fastest, from `first` on: boxes whose cells
+// follow one another in this order.
+template <int Dimension>
+std::vector<LatticePart<Dimension>> partsOf(
+  const GridSize<Dimension>& lattice, std::int64_t first, std::int64_t count)
+{
+  std::vector<LatticePart<Dimension>> parts;
+  while (count > 0)
+  {
+    // As many whole layers as there are, of the most axes.
+    LatticePart<Dimension> part{ LatticePart<Dimension>::WholeOf(lattice).CellOf(first), {} };
+    part.Cells.fill(1);
+    int axis = 0;
+    std::int64_t layer = 1;
+    while (axis + 1 < Dimension && part.Low[axis] == 0 && count >= layer * lattice[axis])
+    {
+      part.Cells[axis] = lattice[axis];
+      layer *= lattice[axis];
+      ++axis;
+    }
+    part.Cells[axis] = std::min(lattice[axis] - part.Low[axis], count / layer);
+    first += part.Count();
+    count -= part.Count();
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+// Parts of a lattice, and where results for their cells are: at the number of the cell in a part
+// that contains them, axis 0 fastest, less `First`.
+template <int Dimension>
+struct LatticeParts
+{
+  // One part, with the numbers of another one.
+  LatticeParts(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within)
+    : Parts{ part }
+    , Within(within)
+  {
+  }
+  LatticeParts(std::vector<LatticePart<Dimension>> parts, const LatticePart<Dimension>& within,
+    std::int64_t first)
+    : Parts(std::move(parts))
+    , Within(within)
+    , First(first)
+  {
+  }
+  static LatticeParts WholeOf(const GridSize<Dimension>& lattice)
+  {
+    const auto whole = LatticePart<Dimension>::WholeOf(lattice);
+    return { whole, whole };
+  }
+
+  std::int64_t IndexOf(const GridSize<Dimension>& cell) const
+  {
+    return this->Within.NumberOf(cell) - this->First;
+  }
+
+  std::vector<LatticePart<Dimension>> Parts;
+  LatticePart<Dimension> Within;
+  std::int64_t First = 0;
 };
 
 } // namespace RectifiedTransport

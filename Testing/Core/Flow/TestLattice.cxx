@@ -53,6 +53,42 @@ void expectComplete(const GridSize<Dimension>& lattice, const GridSize<Dimension
   }
 }
 
+// The numbers of a row of cells, in their order, in as few boxes as may be.
+template <int Dimension>
+void expectParts(const GridSize<Dimension>& lattice)
+{
+  const auto whole = LatticePart<Dimension>::WholeOf(lattice);
+  const std::int64_t all = cellCount<Dimension>(lattice);
+  for (std::int64_t first = 0; first <= all; ++first)
+  {
+    for (std::int64_t count = 0; first + count <= all; ++count)
+    {
+      const auto parts = partsOf<Dimension>(lattice, first, count);
+      ASSERT_LE(parts.size(), 2U * Dimension - 1U);
+      std::int64_t number = first;
+      for (const LatticePart<Dimension>& part : parts)
+      {
+        for (std::int64_t i = 0; i < part.Count(); ++i, ++number)
+        {
+          ASSERT_EQ(whole.NumberOf(part.CellOf(i)), number);
+        }
+      }
+      ASSERT_EQ(number, first + count);
+    }
+  }
+  ASSERT_EQ(partsOf<Dimension>(lattice, 0, all).size(), 1U);
+}
+
+TEST(Lattice, PartsOfNumbers)
+{
+  expectParts<1>({ 9 });
+  expectParts<2>({ 5, 6 });
+  expectParts<2>({ 1, 6 });
+  expectParts<2>({ 6, 1 });
+  expectParts<3>({ 4, 3, 5 });
+  expectParts<3>({ 4, 1, 5 });
+}
+
 TEST(Lattice, OrderIsComplete)
 {
   expectComplete<1>({ 5000 }, { 300 });

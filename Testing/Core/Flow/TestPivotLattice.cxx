@@ -229,6 +229,46 @@ TEST(PivotLattice, ReportsOfAllPlaces)
   EXPECT_EQ(report.Evaluations, sum.Evaluations);
 }
 
+// Any numbers in a row, alone: as with all others.
+template <int Dimension>
+void expectShares(const TestDensity<Dimension>& density, const GridSize<Dimension>& grid)
+{
+  const RectifiedFlow<Dimension> flow = makeFlow(density);
+  for (const std::int64_t perCell : { 1, 3, 1 << Dimension })
+  {
+    const PivotLattice<Dimension> pivot = pivotLattice<Dimension>(grid, perCell);
+    const std::int64_t count = pivot.NumberOfParticles();
+    Points<Dimension> all(static_cast<std::size_t>(count));
+    transportPivot<Dimension>(flow, pivot, all);
+    for (const std::int64_t shares : { 2, 3, 7, 50 })
+    {
+      Points<Dimension> found(all.size());
+      for (std::int64_t share = 0; share < shares; ++share)
+      {
+        const std::int64_t first = count * share / shares;
+        const std::int64_t last = count * (share + 1) / shares;
+        transportPivot<Dimension>(
+          flow, pivot, first, PointSpan<Dimension>(found).Part(first, last - first));
+      }
+      EXPECT_TRUE(sameBits<Dimension>(found, all)) << perCell << " a cell, shares: " << shares;
+    }
+    transportPivot<Dimension>(flow, pivot, count, PointSpan<Dimension>());
+    EXPECT_NE(refusal([&]() {
+      transportPivot<Dimension>(flow, pivot, 1, all);
+    }).find("there is memory for positions 1 to " + std::to_string(count)),
+      std::string::npos);
+  }
+}
+
+TEST(PivotLattice, SharesAreParts)
+{
+  expectShares<1>(twoGaussians<1>({ 60 }), { 21 });
+  expectShares<2>(twoGaussians<2>({ 40, 30 }), { 40, 30 });
+  expectShares<2>(discWithHole<2>({ 24, 24 }), { 13, 7 });
+  expectShares<3>(twoGaussians<3>({ 12, 8, 10 }), { 5, 1, 12 });
+  expectShares<3>(twoGaussians<3>({ 12, 8, 10 }), { 5, 7, 4 });
+}
+
 TEST(PivotLattice, ProgressCancelAndSizes)
 {
   const RectifiedFlow<2> flow = makeFlow(twoGaussians<2>({ 120, 90 }));

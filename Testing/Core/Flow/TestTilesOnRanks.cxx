@@ -208,7 +208,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
       part.Low[last] = share.First;
       part.Cells[last] = share.Count;
       const std::int64_t layer = part.Count() / share.Count;
-      run.Flow.ForwardLattice(lattice, part, part, cellCentre<D>(),
+      run.Flow.ForwardLattice(lattice, { part, part }, cellCentre<D>(),
         { all.data()->data() + D * share.First * layer, part.Count() }, options, run.RankContext());
     });
     EXPECT_TRUE(sameBits<D>(expected, all));
