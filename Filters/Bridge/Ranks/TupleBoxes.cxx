@@ -187,6 +187,13 @@ void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks)
   }
 }
 
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  vtkDataArray* from, vtkDataArray* to)
+{
+  const BoxExchange boxes(held, wanted, ranks);
+  exchangeArrays({ { &boxes, from, held[static_cast<std::size_t>(ranks.Own())], to } }, ranks);
+}
+
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
   const Ranks& ranks, vtkDataArray* array)
 {

@@ -122,6 +122,9 @@ struct BoxArrays
 };
 // Of several arrays together. Called by all ranks, with as many and the same ones.
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
+// Of one array whose tuples are those that this rank holds.
+void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
+  vtkDataArray* from, vtkDataArray* to);
 // Within one array, whose tuples are those of the box `all`: of these this rank has those that it
 // holds, and gets the wanted ones.
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,

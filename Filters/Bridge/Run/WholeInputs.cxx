@@ -94,7 +94,7 @@ bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks)
   {
     own.push_back(data);
   }
-  const std::vector<std::uint64_t> all = gatherValues(ranks, fingerprintOf(own));
+  const std::vector<std::uint64_t> all = gatherValues(ranks, sampledFingerprint(own));
   return std::all_of(
     all.begin(), all.end(), [&all](std::uint64_t there) { return there == all.front(); });
 }
