@@ -43,7 +43,7 @@
  * The shares are then added in the order of the point array `SeedId` of integers, or else of the
  * global ids, where all ranks have them; else of the ranks. A rank takes about 100 bytes for each
  * point that it gives or that reaches its cells. Points that are the same on all ranks are one data
- * set.
+ * set, and those of a mesh that several ranks have count once.
  *
  * @warning Without a Reference the extent follows from the points, whose producer is therefore
  * updated in REQUEST_INFORMATION, where the ranks meet, too.

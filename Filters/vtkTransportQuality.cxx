@@ -115,11 +115,12 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  const CountedPoints counted(particles, "input point set");
-  if (counted.Count() == 0 && !ranks)
+  std::optional<CountedPoints> alone;
+  if (!ranks && alone.emplace(particles, "input point set").Count() == 0)
   {
     return 1;
   }
+  const CountedPoints& counted = shared ? shared->Counted() : *alone;
   const ParticleQuality quality = TransportQuality{ this->BlockSize }.Run(particles, counted,
     shared ? shared->Keys() : nullptr, *density, this->GetFlowCache(), progress);
   if (ranks && ranks->Own() > 0)

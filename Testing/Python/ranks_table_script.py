@@ -165,6 +165,13 @@ def give_splats(image, flat, ghosts):
     give("splat first", simple.SplatMass(Input=spread("rank == 0"), **small, **weight))
     give("splat last", simple.SplatMass(
         Input=spread("rank == ranks - 1"), Reference=image, **weight))
+    # Meshes, of whose points some are on several ranks: whole numbers for any order.
+    mesh = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
+                          ComputeNormals=0)
+    counts = dict(Kernel="NearestCell", DivideByVolume=0, **small)
+    give("splat mesh", simple.SplatMass(Input=mesh, **counts))
+    give("splat grid", simple.SplatMass(
+        Input=simple.Transform(Input=image), Reference=large, **counts))
     field = simple.SplatMass(Input=particles, **small, **weight)
     give("splat contour", simple.Contour(Input=field, ContourBy=["POINTS", "Density"],
                                          Isosurfaces=[10.0], ComputeNormals=0))

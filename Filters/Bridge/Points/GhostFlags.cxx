@@ -35,10 +35,14 @@ const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what)
 }
 
 CountedPoints::CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts)
-  : Number(points->GetNumberOfPoints())
+  : CountedPoints(
+      points->GetNumberOfPoints(), ghostFlags(points, vtkDataObject::POINT, what), ghosts)
 {
-  const unsigned char* flags = ghostFlags(points, vtkDataObject::POINT, what);
-  const std::int64_t all = this->Number;
+}
+
+CountedPoints::CountedPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts)
+  : Number(all)
+{
   const auto isGhost = [ghosts](unsigned char flag) { return (flag & ghosts) != 0; };
   if (!flags || std::none_of(flags, flags + all, isGhost))
   {

@@ -34,6 +34,8 @@ class CountedPoints
 public:
   // Throws Failure as above, and where memory is short.
   CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts = ghostPoint);
+  // Of `all` points, those with such a flag left out; `flags` may be nullptr.
+  CountedPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts);
 
   std::int64_t Count() const { return this->Number; }
   // The index of the point of a number.

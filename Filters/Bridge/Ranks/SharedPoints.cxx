@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/SharedPoints.h"
 
+#include "Bridge/Ranks/RepeatedPoints.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/WholeInputs.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
+#include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -72,11 +75,30 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
   return arrays;
 }
 
+// The points without these flags that are not those of a lower rank, too.
+CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& ranks)
+{
+  const unsigned char* flags = ghostFlags(points, vtkDataObject::POINT, "input point set");
+  std::vector<unsigned char> repeated;
+  // Particles, and their paths, have a number each.
+  if (!onAllRanks(&ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
+  {
+    withMemory("a comparison of the points of ranks",
+      100.0 * static_cast<double>(points->GetNumberOfPoints()),
+      [&]() { repeated = repeatedPoints(points, ranks); });
+  }
+  for (std::size_t i = 0; i < repeated.size(); ++i)
+  {
+    repeated[i] = repeated[i] != 0 || (flags && (flags[i] & ghosts) != 0) ? ghosts : 0;
+  }
+  return { points->GetNumberOfPoints(), repeated.empty() ? flags : repeated.data(), ghosts };
+}
+
 } // namespace
 
 SharedPoints::SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks)
   : Points(countedSet(own, ranks))
-  , Number(this->Points, "input point set", ghosts)
+  , Number(countedOf(this->Points, ghosts, ranks))
   , Total(sumOverRanks(&ranks, this->Number.Count()))
 {
   this->FindKeys(ranks);

@@ -20,9 +20,10 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Of a data set that is the same on all ranks the points of the first rank alone count. Particles
-// lie on ranks in another order than on one: their order is that of the integers in their point
-// array SeedId, or else of their global ids, where all ranks that have points have the array.
+// Of a data set that is the same on all ranks the points of the first rank alone count, and of the
+// points of a mesh that ranks share at the borders of their cells those of the lowest one.
+// Particles lie on ranks in another order than on one: their order is that of the integers in their
+// point array SeedId, or else of their global ids, where all ranks that have points have the array.
 class SharedPoints
 {
 public:
