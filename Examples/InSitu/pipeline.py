@@ -51,7 +51,8 @@ def catalyst_execute(info):
     if len(seeds):
         kept = seeds % FOLLOWED == 0
         positions = vtk_to_numpy(data.GetPoints().GetData())[kept]
-        followed.append(np.column_stack([seeds[kept], np.full(len(positions), info.time), positions]))
+        times = np.full(len(positions), info.time)
+        followed.append(np.column_stack([seeds[kept], times, positions]))
 
     come = len(np.setdiff1d(seeds, here)) if info.timestep > 0 else 0
     here = seeds.copy()

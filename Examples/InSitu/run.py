@@ -126,11 +126,11 @@ def main():
         __doc__, ranks=example.number(2, "ranks of MPI"),
         particles=example.number(4000, "number of particles", 16),
         panel=example.number(640, "width of each of the four pictures", 16)).parse_args()
-    missing = [name for name, there in (
-        ("mpirun (Debian's openmpi-bin)", shutil.which("mpirun")),
-        ("mpi4py (Debian's python3-mpi4py)", importlib.util.find_spec("mpi4py")),
-        ("ParaView's Catalyst for Python", importlib.util.find_spec("paraview.modules.vtkPVCatalyst")))
-        if not there]
+    find = importlib.util.find_spec
+    needed = {"mpirun (Debian's openmpi-bin)": shutil.which("mpirun"),
+              "mpi4py (Debian's python3-mpi4py)": find("mpi4py"),
+              "ParaView's Catalyst for Python": find("paraview.modules.vtkPVCatalyst")}
+    missing = [name for name, there in needed.items() if not there]
     if missing:
         print("Left out, for there is no " + " and no ".join(missing))
         return

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A model of the time and memory of several ranks under Tables Tiled, from times on one core and the
-latency and bandwidth of messages, both measured here. No rank waits for a slower one in it: particles
-and tiles are divided evenly.
+"""A model of the time and memory of several ranks under Tables Tiled, from times on one core and
+the latency and bandwidth of messages, both measured here. No rank waits for a slower one in it:
+particles and tiles are divided evenly.
 
     python3 rank_model.py build/bin/RectifiedTransportRankPlan
 
@@ -12,7 +12,6 @@ import dataclasses
 import json
 import math
 import os
-import shutil
 import subprocess
 import tempfile
 
@@ -59,8 +58,9 @@ def messages(ranks, exchanges, arriving, machine):
         return 0.0
     # Before each exchange all gather how each fares and what it sends to whom: P + 1 words of each.
     announced = 8 * ranks * (ranks + 1)
-    latency = math.ceil(math.log2(ranks)) + ranks - 1  # of the gathering; of a message of each other
-    return exchanges * (latency * machine.alpha + announced * machine.beta) + arriving * machine.beta
+    latency = math.ceil(math.log2(ranks)) + ranks - 1  # of the gathering; a message of each other
+    each = latency * machine.alpha + announced * machine.beta
+    return exchanges * each + arriving * machine.beta
 
 
 def phases(plan, job, ranks, machine):
@@ -88,7 +88,8 @@ def phases(plan, job, ranks, machine):
         Phase("tables of tiles", passes * machine.tile_cell * tile_cells),
         # Out: the seed, D doubles; back: the place and a byte, which says whether it is one. Of
         # particles that no map serves, few for smooth densities, four times as much goes out.
-        Phase("particles to tiles", 0, 2 * passes * rounds, particles * (8 * D + 8 * D + 1) * others),
+        Phase("particles to tiles", 0, 2 * passes * rounds,
+              particles * (8 * D + 8 * D + 1) * others),
         Phase("particles in tiles", machine.velocity * steps * particles),
         # A sample of a map at the lower faces of a piece; particles with their arrays.
         Phase("output", 0, 1, 40 * D * face if job.is_map and ranks > 1 else
@@ -141,8 +142,8 @@ def message_times():
     """alpha and beta of VTK's controller between two ranks here."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "times.json")
-        subprocess.run([shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "-np", "2",
-                        "pvbatch", "--sym", os.path.join(HERE, "rank_messages.py"), path],
+        subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "2", "pvbatch",
+                        "--sym", os.path.join(HERE, "rank_messages.py"), path],
                        check=True, timeout=300)
         with open(path, encoding="utf-8") as file:
             return json.load(file)
@@ -171,8 +172,8 @@ def report(title, plan, job, ranks, machine):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="RectifiedTransportRankPlan")
-    parser.add_argument("--alpha", type=float, help="seconds a message, in place of what is measured")
-    parser.add_argument("--bandwidth", type=float, help="bytes a second, in place of what is measured")
+    parser.add_argument("--alpha", type=float, help="seconds a message, instead of those measured")
+    parser.add_argument("--bandwidth", type=float, help="bytes a second, instead of those measured")
     arguments = parser.parse_args()
     times = compute_times(arguments.program)
     measured = message_times()
@@ -187,8 +188,8 @@ def main():
               *(1e9 * value for value in (machine.graded_cell, machine.graded_node,
                                           machine.tile_cell, machine.evaluation,
                                           machine.velocity))))
-    for side, steps, ranks, nodes in ((1024, 64, 8, 0), (8192, 64, 512, 0), (8192, 64, 512, 1 << 28),
-                                      (8192, 64, 512, 1 << 31)):
+    for side, steps, ranks, nodes in ((1024, 64, 8, 0), (8192, 64, 512, 0),
+                                      (8192, 64, 512, 1 << 28), (8192, 64, 512, 1 << 31)):
         plan = ask(arguments.program, side, steps, nodes)
         title = "Transport Map of %d³, %d steps, %d ranks, %s graded nodes" % (
             side, steps, ranks, "at most %d million" % (nodes >> 20) if nodes else "the usual")

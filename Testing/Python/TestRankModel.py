@@ -29,9 +29,10 @@ def sent(maps):
     """The bytes that a rank of two sends on average, or None where Open MPI does not count."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
-            [MPIRUN, "--allow-run-as-root", "--oversubscribe", "--mca", "pml_monitoring_enable", "2",
-             "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename",
-             os.path.join(folder, "sent"), "-np", "2", PVBATCH, "--sym", SCRIPT, str(SIDE), maps],
+            [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", "--mca",
+             "pml_monitoring_enable", "2", "--mca", "pml_monitoring_enable_output", "3", "--mca",
+             "pml_monitoring_filename", os.path.join(folder, "sent"), PVBATCH, "--sym", SCRIPT,
+             str(SIDE), maps],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
         if done.returncode != 0:
             raise AssertionError(done.stdout[-3000:])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Readers of files as densities on several ranks: an image in pieces that other numbers of ranks
-wrote, one file of a whole image, and raw numbers of which each rank reads its part. Filters give the
-bits of one rank; what ranks write of the filters' outputs is read back as it was."""
+wrote, one file of a whole image, and raw numbers of which each rank reads its part. Filters give
+the bits of one rank; what ranks write of the filters' outputs is read back as it was."""
 import os
 import sys
 import tempfile

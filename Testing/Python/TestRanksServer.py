@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A client on a pvserver of several processes is told, shown and given what it is by a server of one
-process, and goes on after errors, each of which is one message. Nothing may hang."""
+"""A client on a pvserver of several processes is told, shown and given what it is by a server of
+one process, and goes on after errors, each of which is one message. Nothing may hang."""
 import json
 import os
 import sys

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What TestRankModel.py runs on two ranks, of which Open MPI counts what they send: Sample Density of
-few particles, if any.
+"""What TestRankModel.py runs on two ranks, of which Open MPI counts what they send: Sample Density
+of few particles, if any.
 
 usage: rank_bytes_script.py SIDE none|On|Off"""
 import sys

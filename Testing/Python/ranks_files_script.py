@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What TestRanksFiles.py runs on some ranks: filters on images that readers of files give each rank
-a part of, or on the source of the files. Writes the outputs' digests and, where a name is given, the
-image and the outputs as files of that name.
+a part of, or on the source of the files. Writes the outputs' digests and, where a name is given,
+the image and the outputs as files of that name.
 
 usage: ranks_files_script.py PATH FOLDER NAME-OR-NONE FILE..."""
 import os

@@ -43,12 +43,13 @@ def end(server):
 
 
 def run_client(script, *arguments, processes=None, limit=200):
-    """Runs a client, a script of pvpython with the server's port and arguments. `processes` are those
-    of mpirun, or None for a server without. Returns what the client prints and what the server;
-    raises AssertionError where the client fails or the server does not end after it."""
+    """Runs a client, a script of pvpython with the server's port and arguments. `processes` are
+    those of mpirun, or None for a server without. Returns what the client prints and what the
+    server; raises AssertionError where the client fails or the server does not end after it."""
     command = [PVSERVER]
     if processes:
-        command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes), PVSERVER]
+        command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes),
+                   *command]
     port = free_port()
     with tempfile.NamedTemporaryFile() as log:
         server = subprocess.Popen([*command, "--server-port=%d" % port], stdout=log,
