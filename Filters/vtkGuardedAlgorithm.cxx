@@ -380,8 +380,9 @@ int vtkGuardedAlgorithm::RequestUpdateTime(
 
 //------------------------------------------------------------------------------
 int vtkGuardedAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->Whole->RequestOutputs(request, outputVector);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     if (this->Whole->IsNeeded(port))

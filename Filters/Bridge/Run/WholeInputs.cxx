@@ -12,6 +12,7 @@
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
@@ -176,6 +177,26 @@ void WholeInputs::RequestShared(int port, vtkInformationVector* inputs) const
     }
     input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Piece);
     input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->NumberOfPieces);
+  }
+}
+
+//------------------------------------------------------------------------------
+void WholeInputs::RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const
+{
+  if (this->Shared.empty() || !sharesWithRanks(this->Piece, this->NumberOfPieces))
+  {
+    return;
+  }
+  vtkInformation* requested =
+    outputs->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    for (vtkInformationIntegerKey* key : { Pipeline::UPDATE_PIECE_NUMBER(),
+           Pipeline::UPDATE_NUMBER_OF_PIECES(), Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS() })
+    {
+      output->Set(key, requested->Get(key));
+    }
   }
 }
 

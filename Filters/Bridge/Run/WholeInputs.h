@@ -53,6 +53,9 @@ public:
 
   // Requests the rank's own piece of what is shared.
   void RequestShared(int port, vtkInformationVector* inputs) const;
+  // Requests of all outputs the piece that is requested of one: the executive makes an image whole
+  // where it is not asked itself, and afterwards has all outputs for the piece of that one.
+  void RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const;
 
   // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
   // RankRun::Begin.
