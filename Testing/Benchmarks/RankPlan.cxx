@@ -3,7 +3,7 @@
 // what the parts of an advection take on one thread. Prints numbers by name as JSON.
 #include "BenchmarkInputs.h"
 #include "Core/Flow/Kernels/FlowMapView.h"
-#include "Core/Flow/TilePlan.h"
+#include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Tables/GradedTables.h"
 #include "Core/Tables/TileTables.h"
 
