@@ -255,21 +255,19 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
-  ConstPointSpan<3> places = particles.PhysicalPoints();
-  vtkSmartPointer<vtkDoubleArray> moved;
   if (ranks)
   {
     const PlaceOwners owners(grid, density.Pieces(), *ranks);
     moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, *ranks, progress);
-    moved = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
-    places = { moved->GetPointer(0), moved->GetNumberOfTuples() };
     report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
     report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
   }
   report.Particles = share.All;
   if (addsArrays)
   {
-    sampleArraysOf<D>(density, meshes, places, progress, output->GetPointData());
+    auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
+    sampleArraysOf<D>(density, meshes, { places->GetPointer(0), places->GetNumberOfTuples() },
+      progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

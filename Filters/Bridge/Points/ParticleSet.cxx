@@ -86,12 +86,6 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
   return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
-template <int D>
-ConstPointSpan<3> ParticleSet<D>::PhysicalPoints() const
-{
-  return { this->Points->GetPointer(0), this->NumberOfParticles * this->Times };
-}
-
 // The mean of particle(i).
 template <int D>
 template <class Particle>
@@ -134,11 +128,11 @@ void ParticleSet<D>::ToPhysical(
 }
 
 template <int D>
-void ParticleSet<D>::SetPoints(vtkPolyData* output) const
+void ParticleSet<D>::SetPoints(vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetData(this->Points);
+  points->SetData(std::exchange(this->Points, nullptr));
   output->SetPoints(points);
 }
 
@@ -183,7 +177,7 @@ double ParticleSet<D>::WriteParticles(
   this->SetPoints(output);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
-  data->AddArray(std::exchange(this->SeedPosition, nullptr)); // not to be kept in memory here
+  data->AddArray(std::exchange(this->SeedPosition, nullptr));
   data->SetVectors(displacements);
   data->AddArray(masses);
   return cost;

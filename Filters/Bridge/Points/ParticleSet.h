@@ -46,13 +46,13 @@ public:
   // In index space; the positions of a particle are consecutive.
   PointSpan<D> Seeds();
   PointSpan<D> Positions();
-  // In physical space; points are written with the output.
+  // In physical space.
   PointSpan<3> PhysicalSeeds();
-  ConstPointSpan<3> PhysicalPoints() const;
 
-  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass; positions are
-  // undefined afterwards. Returns the mean squared displacement of the particles of all ranks,
-  // which call this together. Progress reaches `end`. Throws Failure and Cancelled.
+  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass, which are not kept
+  // here; seeds and positions are undefined afterwards. Returns the mean squared displacement of
+  // the particles of all ranks, which call this together. Progress reaches `end`. Throws Failure
+  // and Cancelled.
   double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.
@@ -65,7 +65,7 @@ private:
   void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
   void ToPhysical(
     const double* index, const double* indexSeed, const double* seed, double* x) const;
-  void SetPoints(vtkPolyData* output) const;
+  void SetPoints(vtkPolyData* output);
 
   const ImageGrid& Geometry;
   std::int64_t NumberOfParticles;

@@ -130,16 +130,20 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   const auto sorted = sortByOwner(places, points, owners, ranks, progress);
   const std::vector<std::int64_t> counts = exchangeCounts(sorted, ranks);
   const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-  const vtkSmartPointer<vtkPoints> moved = particles->GetPoints();
-  std::vector<Bytes> parts = pack(places, points, sorted);
-  places->Initialize(); // of no other data set
-  parts = ranks.Exchange(std::move(parts));
-  places->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
-  unpack(std::move(parts), points, counts, places);
-
   vtkNew<vtkPolyData> arrays;
   arrays->ShallowCopy(particles);
   particles->Initialize();
+  const auto made = vtkSmartPointer<vtkDataArray>::Take(places->NewInstance());
+  made->SetName(places->GetName());
+  made->SetNumberOfComponents(3);
+  std::vector<Bytes> parts = pack(places, points, sorted);
+  arrays->SetPoints(nullptr);
+  parts = ranks.Exchange(std::move(parts));
+  made->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
+  unpack(std::move(parts), points, counts, made);
+  vtkNew<vtkPoints> moved;
+  moved->SetDataType(made->GetDataType());
+  moved->SetData(made);
   particles->SetPoints(moved);
   for (const ArrayKind& kind : kinds)
   {
