@@ -38,8 +38,8 @@ def digests(data, owner):
     return found, [(array.GetName(), array.GetNumberOfComponents()) for array in arrays]
 
 
-def give(name, proxy, port=0):
-    proxy.UpdatePipeline()
+def give(name, proxy, port=0, time=None):
+    proxy.UpdatePipeline(*([] if time is None else [time]))
     data = proxy.GetClientSideObject().GetOutputDataObject(port)
     fields = {array.GetName(): array.GetTuple(0) for array in (
         data.GetFieldData().GetArray(i) for i in range(data.GetFieldData().GetNumberOfArrays()))}
@@ -117,6 +117,27 @@ data.SetPoints(points)
 data.GetPointData().AddArray(masses)
 """
 
+# As many at each time, in another box, on all ranks.
+MOVING = """
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+controller = vtkMultiProcessController.GetGlobalController()
+time = self.GetOutputInformation(0).Get(Pipeline.UPDATE_TIME_STEP()) or 0
+points = vtkPoints()
+for i in range(controller.GetLocalProcessId(), 400, controller.GetNumberOfProcesses()):
+    points.InsertNextPoint((1 + time) * (i % 10), i % 7, i * 7 % 13)
+self.GetPolyDataOutput().SetPoints(points)
+"""
+TIMES = """
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+information = self.GetOutputInformation(0)
+for key in (Pipeline.TIME_STEPS(), Pipeline.TIME_RANGE()):
+    information.Remove(key)
+    for time in (0.0, 1.0):
+        information.Append(key, time)
+"""
+
 
 def spread(where):
     return simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SPREAD % where)
@@ -165,10 +186,17 @@ def give_splats(image, flat, ghosts):
     give("splat first", simple.SplatMass(Input=spread("rank == 0"), **small, **weight))
     give("splat last", simple.SplatMass(
         Input=spread("rank == ranks - 1"), Reference=image, **weight))
-    # Meshes, of whose points some are on several ranks: whole numbers for any order.
+    # Whole numbers for any order of the points.
+    counts = dict(Kernel="NearestCell", DivideByVolume=0, **small)
+    # An image whose place changes with time.
+    moving = simple.SplatMass(Input=simple.ProgrammableSource(
+        OutputDataSetType="vtkPolyData", Script=MOVING, ScriptRequestInformation=TIMES), **counts)
+    part = simple.ExtractSubset(Input=moving, VOI=[2, 13, 1, 9, 3, 8])
+    for time in (0.0, 1.0):
+        give("splat at %g" % time, part, time=time)
+    # Meshes, of whose points some are on several ranks.
     mesh = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                           ComputeNormals=0)
-    counts = dict(Kernel="NearestCell", DivideByVolume=0, **small)
     give("splat mesh", simple.SplatMass(Input=mesh, **counts))
     give("splat grid", simple.SplatMass(
         Input=simple.Transform(Input=image), Reference=large, **counts))

@@ -10,11 +10,15 @@
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <array>
+#include <cstddef>
 #include <new>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -77,6 +81,52 @@ bool visitConsumers(vtkInformation* output, const Visit& visit)
   return isComplete;
 }
 
+// The requested pieces of the structured outputs downstream of an output.
+struct PieceRequest
+{
+  vtkInformation* Output;
+  std::array<int, 3> Values; // of the keys
+};
+
+std::array<vtkInformationIntegerKey*, 3> pieceKeys()
+{
+  return { Pipeline::UPDATE_PIECE_NUMBER(), Pipeline::UPDATE_NUMBER_OF_PIECES(),
+    Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS() };
+}
+
+std::vector<PieceRequest> pieceRequests(vtkInformation* output)
+{
+  std::vector<PieceRequest> requests;
+  visitConsumers(output, [&requests](vtkInformation* next) {
+    if (next->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+    {
+      requests.push_back({ next, {} });
+      for (std::size_t i = 0; i < pieceKeys().size(); ++i)
+      {
+        requests.back().Values[i] = next->Get(pieceKeys()[i]);
+      }
+    }
+  });
+  return requests;
+}
+
+bool updateInformationOfConsumers(vtkInformation* output)
+{
+  const bool isComplete = visitConsumers(output, clearUpdateExtent);
+  const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    vtkExecutive* consumer = vtkExecutive::CONSUMERS()->GetExecutives(output)[i];
+    vtkInformationVector* outputs = consumer->GetOutputInformation();
+    consumer->UpdateInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      updateInformationOfConsumers(outputs->GetInformationObject(j));
+    }
+  }
+  return isComplete;
+}
+
 bool emptyOutputs(vtkInformationVector* outputs)
 {
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
@@ -116,16 +166,14 @@ bool announceEmptyExtents(vtkInformationVector* outputs)
 
 bool updateConsumerInformation(vtkInformation* output)
 {
-  const bool isComplete = visitConsumers(output, clearUpdateExtent);
-  const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
-  for (int i = 0; i < count; ++i)
+  // The executive would request piece 0 of 1, and on several ranks the request is another one.
+  const std::vector<PieceRequest> requests = pieceRequests(output);
+  const bool isComplete = updateInformationOfConsumers(output);
+  for (const PieceRequest& request : requests)
   {
-    vtkExecutive* consumer = vtkExecutive::CONSUMERS()->GetExecutives(output)[i];
-    vtkInformationVector* outputs = consumer->GetOutputInformation();
-    consumer->UpdateInformation();
-    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    for (std::size_t i = 0; i < pieceKeys().size(); ++i)
     {
-      updateConsumerInformation(outputs->GetInformationObject(j));
+      request.Output->Set(pieceKeys()[i], request.Values[i]);
     }
   }
   return isComplete;
