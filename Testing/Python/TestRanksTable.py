@@ -19,6 +19,8 @@ MOST_RANKS = 4
 BEHIND = ("contour", "slice", "threshold")
 # A slice rounds as its piece does; seeds that are divided otherwise have other numbers.
 PLACES_ALONE = ("slice", "seeds apart")
+# Of surfaces that are joined of pieces the points have other numbers, on which results depend.
+NUMBERS_ALONE = ("surface apart", "parameterization apart")
 
 
 def run(ranks):
@@ -66,7 +68,7 @@ class RanksTable(unittest.TestCase):
     def compare(self, name, expected, alone, those):
         for rank in those:
             for field, value in expected["fields"].items():
-                if rank[name]["points"][0]:
+                if rank[name]["points"][0] and name not in NUMBERS_ALONE:
                     self.assertEqual(rank[name]["fields"].get(field), value, field)
         for owner in ("points", "cells"):
             arrays = [rank[name][owner][1] for rank in those if rank[name][owner][0]]
@@ -74,7 +76,7 @@ class RanksTable(unittest.TestCase):
             if owner == "points" and name in PLACES_ALONE:
                 self.assertEqual(together(those, name, owner).keys(),
                                  together(alone, name, owner).keys())
-            elif owner == "points" or name not in BEHIND:
+            elif name not in NUMBERS_ALONE and (owner == "points" or name not in BEHIND):
                 self.assertEqual(together(those, name, owner), together(alone, name, owner))
             else:
                 self.assertEqual(sum(len(rank[name][owner][0]) for rank in those),
