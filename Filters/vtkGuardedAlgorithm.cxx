@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -89,6 +90,24 @@ void clearImages(vtkInformationVector* outputVector)
       image->GetPointData()->Initialize();
     }
   }
+}
+
+// A rank's own piece; where `ranks` is nullptr, what was requested last.
+void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks* ranks)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (!ranks)
+  {
+    producer->Update(port);
+    return;
+  }
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(producer->GetNumberOfOutputPorts());
+  vtkInformation* request = requests->GetInformationObject(port);
+  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->Own());
+  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->Count());
+  request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  producer->Update(port, requests);
 }
 } // namespace
 
@@ -292,6 +311,25 @@ int vtkGuardedAlgorithm::RequestInformation(
 void vtkGuardedAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
+  this->UpdateInputPiece(port, inputVector, outputVector, connection, nullptr);
+}
+
+//------------------------------------------------------------------------------
+const RectifiedTransport::Ranks* vtkGuardedAlgorithm::UpdateInputOnRanks(
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->Run)
+  {
+    this->Run = this->Whole->BeginWithoutPieces(this, port, inputVector);
+  }
+  this->UpdateInputPiece(port, inputVector, outputVector, 0, this->Run.get());
+  return this->Run.get();
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::UpdateInputPiece(int port, vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks)
+{
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* input = inputVector[port]->GetInformationObject(connection);
   if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
@@ -316,7 +354,7 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
   {
     return;
   }
-  producer->Update(outputPort);
+  updatePiece(producer, outputPort, ranks);
   this->Updated[{ port, connection }] = { producer, outputPort, pipeline->GetPipelineMTime() };
 }
 
@@ -365,21 +403,6 @@ void vtkGuardedAlgorithm::GatherOnFirstRank(int port, GatheredType type)
 {
   this->ShareAmongRanks(port, type != GATHERED_DENSITY);
   this->Gathered[port] = type;
-}
-
-//------------------------------------------------------------------------------
-const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanksForInformation(
-  int port, vtkInformationVector** inputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[port]->GetInformationObject(0);
-  if (input && !this->Run)
-  {
-    this->Run = RectifiedTransport::RankRun::Begin(
-      std::string(this->GetClassName()) + " information",
-      input->Get(Pipeline::UPDATE_PIECE_NUMBER()), input->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
-  }
-  return this->Run.get();
 }
 
 //------------------------------------------------------------------------------

@@ -114,6 +114,15 @@ protected:
     vtkInformationVector* outputVector, int connection = 0);
 
   /**
+   * The same on a port of ShareAmongRanks or GatherOnFirstRank: where there are several ranks, all
+   * of them meet here, and each updates its own piece. Returns the ranks, so that all announce the
+   * same; GetRanks returns them, too, until RequestInformation returns. nullptr where there is one
+   * rank, and where ranks do not meet in time, or execute blocks: then all data are updated.
+   */
+  const RectifiedTransport::Ranks* UpdateInputOnRanks(
+    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+
+  /**
    * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
    * filter needs all data: whole images, because a transport is global, and all points.
    */
@@ -162,14 +171,6 @@ protected:
   const RectifiedTransport::Ranks* GetRanks() const;
 
   /**
-   * For RequestInformation, after UpdateInputBeforeData: the ranks where this rank's piece of the
-   * input was requested of its producer, so that all ranks know of all data; else nullptr. All
-   * ranks must call it then. Until RequestInformation returns, GetRanks returns them, too.
-   */
-  const RectifiedTransport::Ranks* GetRanksForInformation(
-    int port, vtkInformationVector** inputVector);
-
-  /**
    * Choose the time to request from the inputs. By default it is the one that is requested
    * downstream.
    */
@@ -204,6 +205,8 @@ protected:
   int Threading;
 
 private:
+  void UpdateInputPiece(int port, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,

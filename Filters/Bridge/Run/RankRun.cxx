@@ -385,9 +385,35 @@ std::unique_ptr<RankRun> RankRun::Begin(const std::string& subject, int piece, i
   return std::make_unique<MpiRun>(mpiController());
 }
 
+std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string& subject)
+{
+  if (!haveSeveralRanks())
+  {
+    return nullptr;
+  }
+  vtkMPIController* controller = mpiController();
+  try
+  {
+    return Begin(subject, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+  }
+  catch (const Failure&)
+  {
+    return nullptr;
+  }
+  catch (const FailedElsewhere&)
+  {
+    return nullptr;
+  }
+}
+
 #else
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string&, int, int)
+{
+  return nullptr;
+}
+
+std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string&)
 {
   return nullptr;
 }

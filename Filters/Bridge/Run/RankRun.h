@@ -19,6 +19,8 @@ public:
   // pieces as there are ranks. Throws Failure, or FailedElsewhere on the ranks that need not report
   // it, where a rank does not come within a time (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds).
   static std::unique_ptr<RankRun> Begin(const std::string& subject, int piece, int pieces);
+  // The same before pieces are requested. Ranks that do not meet in time run alone: nullptr.
+  static std::unique_ptr<RankRun> BeginWithoutPieces(const std::string& subject);
 
   // To be called in place of any further exchange. Ends the runs of the others, if they have not
   // ended: by an exception of each. Returns what is to be reported here: the message of the first
