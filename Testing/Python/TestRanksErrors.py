@@ -39,7 +39,7 @@ GATHERED = {
     "sample mesh not a number": "has 1 value that is NaN or infinite",
     "map mesh not a number": "has 1 value that is NaN or infinite",
     "sample mesh array": "has no numeric cell array 'Density'",
-    "map mesh type": "The density is no image on rank 0, but an image on rank 1",
+    "sample mesh type": "The density is no image on rank 0, but an image on rank 1",
     "cells not finite": "has 1 point that is NaN or infinite",
     "relaxation not a number": "has 1 value that is NaN or infinite",
     "solid open": "The input surface is not closed: it has ",
