@@ -35,6 +35,8 @@
  * triangles without area, or points that are in no polygon, are errors that say which. No points
  * give an empty output.
  *
+ * On several ranks of MPI the surface is gathered on the first one, which has the output.
+ *
  * Cost: O(points^1.5) for the conformal map, O(points + Resolution^2) for the rest. Memory: up to
  * 1350 bytes a point, and 40 bytes a cell of the grid.
  *

@@ -14,7 +14,9 @@
  * dimensions (see vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). The
  * output is of the type of input 0: the same points and cells in the same order with all their
  * data, the points moved and double. Arrays are passed on as they are, also those that tell of the
- * points' places, such as `Displacement`. Where several pieces are requested, piece 0 holds all.
+ * points' places, such as `Displacement`. On several ranks of MPI
+ * all points and the density are gathered on the first one, which has the output; in other
+ * programs piece 0 holds all.
  *
  * Field data `Energy` (double) has the energy that the method lowers: the first value is that of
  * the points before the first iteration, and each iteration adds one, which is never greater than

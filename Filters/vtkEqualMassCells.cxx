@@ -140,10 +140,9 @@ int vtkEqualMassCells::RequestInformation(
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
     // The announced association of the values may be missing or wrong.
-    this->UpdateInputBeforeData(1, inputVector, outputVector);
+    const Ranks* ranks = this->UpdateInputOnRanks(1, inputVector, outputVector);
     vtkInformation* information = inputVector[1]->GetInformationObject(0);
     vtkDataObject* domain = vtkDataObject::GetData(information);
-    const Ranks* ranks = this->GetRanksForInformation(1, inputVector);
     if (this->Measure == DENSITY)
     {
       const ImageGrid density = this->AnnouncedDensityGrid(information);
@@ -161,9 +160,8 @@ int vtkEqualMassCells::RequestInformation(
   }
   else
   {
-    this->UpdateInputBeforeData(0, inputVector, outputVector);
+    const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
-    const Ranks* ranks = this->GetRanksForInformation(0, inputVector);
     const auto count = sumOverRanks<std::int64_t>(ranks, sites ? sites->GetNumberOfPoints() : 0);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };
     grid = count > 1 ? pixels.Around(sites, ranks)

@@ -66,6 +66,10 @@
  * very far from distributed like the density may have no cells of equal mass that are found, which
  * is an error.
  *
+ * On several ranks of MPI the first one has all sites and the domain, and does the work; Labels is
+ * divided among the ranks, each the extent that is requested of it, Sites and Outlines are on the
+ * first.
+ *
  * Cost: O(pixels * steps), and O(sites log sites). Fewer than 128 steps are doubled up to five
  * times, because most pixels would miss the sites. Memory: 8 bytes a pixel for the labels and while
  * they are made about 21, 34 and 33 more in 1D, 2D and 3D: 41 bytes a pixel or 0.7 GB at 256^3, 5.5

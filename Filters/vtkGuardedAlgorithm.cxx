@@ -92,6 +92,7 @@ void clearImages(vtkInformationVector* outputVector)
     }
   }
 }
+
 // A rank's own piece; where `ranks` is nullptr, what was requested last.
 void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks* ranks)
 {
@@ -315,28 +316,15 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::FindBoundsBeforeData(int port, vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector, double bounds[6])
+const RectifiedTransport::Ranks* vtkGuardedAlgorithm::UpdateInputOnRanks(
+  int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const std::unique_ptr<RectifiedTransport::RankRun> run =
-    this->Whole->BeginWithoutPieces(this, port, inputVector);
-  try
+  if (!this->Run)
   {
-    this->UpdateInputPiece(port, inputVector, outputVector, 0, run.get());
-    RectifiedTransport::findBounds(vtkPointSet::GetData(inputVector[port]), run.get(), bounds);
-    if (run)
-    {
-      run->End();
-    }
+    this->Run = this->Whole->BeginWithoutPieces(this, port, inputVector);
   }
-  catch (...)
-  {
-    if (run)
-    {
-      run->Fail(""); // it is reported here
-    }
-    throw;
-  }
+  this->UpdateInputPiece(port, inputVector, outputVector, 0, this->Run.get());
+  return this->Run.get();
 }
 
 //------------------------------------------------------------------------------
@@ -417,21 +405,6 @@ void vtkGuardedAlgorithm::GatherOnFirstRank(int port, GatheredType type)
 {
   this->ShareAmongRanks(port, type != GATHERED_DENSITY);
   this->Gathered[port] = type;
-}
-
-//------------------------------------------------------------------------------
-const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanksForInformation(
-  int port, vtkInformationVector** inputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[port]->GetInformationObject(0);
-  if (input && !this->Run)
-  {
-    this->Run = RectifiedTransport::RankRun::Begin(
-      std::string(this->GetClassName()) + " information",
-      input->Get(Pipeline::UPDATE_PIECE_NUMBER()), input->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
-  }
-  return this->Run.get();
 }
 
 //------------------------------------------------------------------------------

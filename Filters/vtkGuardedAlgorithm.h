@@ -114,13 +114,13 @@ protected:
     vtkInformationVector* outputVector, int connection = 0);
 
   /**
-   * The same for points on a port that ShareAmongRanks names, and their bounds; the first lower
-   * bound is above the upper one where there are no points. Where there are several ranks, all of
-   * them meet here, each updates its own piece, and the bounds are those of all. Ranks that do not
-   * meet in time, or execute blocks, update all data alone.
+   * The same on a port of ShareAmongRanks or GatherOnFirstRank: where there are several ranks, all
+   * of them meet here, and each updates its own piece. Returns the ranks, so that all announce the
+   * same; GetRanks returns them, too, until RequestInformation returns. nullptr where there is one
+   * rank, and where ranks do not meet in time, or execute blocks: then all data are updated.
    */
-  void FindBoundsBeforeData(int port, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, double bounds[6]);
+  const RectifiedTransport::Ranks* UpdateInputOnRanks(
+    int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
    * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
@@ -169,14 +169,6 @@ protected:
    * failure all of them come to the same exchanges.
    */
   const RectifiedTransport::Ranks* GetRanks() const;
-
-  /**
-   * For RequestInformation, after UpdateInputBeforeData: the ranks where this rank's piece of the
-   * input was requested of its producer, so that all ranks know of all data; else nullptr. All
-   * ranks must call it then. Until RequestInformation returns, GetRanks returns them, too.
-   */
-  const RectifiedTransport::Ranks* GetRanksForInformation(
-    int port, vtkInformationVector** inputVector);
 
   /**
    * Choose the time to request from the inputs. By default it is the one that is requested

@@ -124,7 +124,8 @@ int vtkMassSplatter::RequestInformation(
   else
   {
     double bounds[6];
-    this->FindBoundsBeforeData(0, inputVector, outputVector, bounds);
+    const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
+    findBounds(vtkPointSet::GetData(inputVector[0]), ranks, bounds);
     requireDimensions(this->Dimensions);
     if (bounds[0] <= bounds[1])
     {

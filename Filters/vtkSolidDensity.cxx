@@ -66,11 +66,10 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->UpdateInputBeforeData(0, inputVector, outputVector);
+  const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
     this->GetAssociationSettings().IsOnPoints() };
-  const ImageGrid grid = solid.GridAround(
-    vtkPolyData::GetData(inputVector[0]), this->GetRanksForInformation(0, inputVector));
+  const ImageGrid grid = solid.GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
   announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;

@@ -29,6 +29,9 @@
  * point, 72 a triangle (81 where polygons do not agree) and 8 more for each layer of cells that a
  * triangle has a part in.
  *
+ * On several ranks of MPI the surface is gathered on each, which has the extent of the image that
+ * is requested of it.
+ *
  * @warning The extent follows from the surface, whose producer is therefore updated in
  * REQUEST_INFORMATION.
  *

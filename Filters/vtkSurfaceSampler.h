@@ -40,7 +40,8 @@
  * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle
  * and the arrays that are passed.
  *
- * The output is in one piece: where several are requested, piece 0 holds all particles.
+ * The output is in one piece: where several are requested, piece 0 holds all particles. On
+ * several ranks of MPI the surface is gathered on the first one, which has the output.
  *
  * @warning The flow stretches the pattern where the conformal map is very uneven, as on a neck that
  * the map wraps around a head. Where it squeezes much of the surface into few cells of the grid, as

@@ -76,8 +76,7 @@ int vtkTransportMap::RequestInformation(
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
   if (!vtkImageData::GetData(inputInformation))
   {
-    this->UpdateInputBeforeData(0, inputVector, outputVector);
-    this->GetRanksForInformation(0, inputVector);
+    this->UpdateInputOnRanks(0, inputVector, outputVector);
   }
   announceSubExtents(outputInformation);
   const ImageGrid inputGrid = this->AnnouncedDensityGrid(inputInformation);

@@ -38,7 +38,8 @@
  * and all SampleDimensions, and O(samples * steps) for the flow. Memory: 40 bytes a sample for the
  * output, and while it runs 16 more in 2D, beside the tables (see vtkTransportAlgorithm).
  *
- * The output is in one piece: where several are requested, piece 0 holds all data.
+ * On several ranks of MPI each has the extent that is requested of it; in other programs piece 0
+ * holds all data.
  *
  * @warning A sample where the density is 0 has no inverse. Backward it keeps its relative position
  * in the box of its possible destinations until this box has mass, so that the map is not one to

@@ -27,7 +27,8 @@
  * for the flow. Memory: 104 bytes a particle for the output, and while it runs 32 more in 2D,
  * beside the tables (see vtkTransportAlgorithm).
  *
- * The output is in one piece: where several are requested, piece 0 holds all particles.
+ * On several ranks of MPI each has the particles of its places; in other programs piece 0 holds all
+ * of them.
  *
  * @warning Particles of seeds that are not uniform in the domain do not follow the density.
  *

@@ -51,6 +51,30 @@ POINT_MESSAGES = {
     "splat wrong on one": "Rank 1: Dimensions is 5 5 -1",
     "splat missing": "Rank 1 has not run this filter within 3 seconds of this one",
 }
+# Of densities that are no images, and of filters that gather.
+GATHERED = {
+    "sample mesh not a number": "has 1 value that is NaN or infinite",
+    "map mesh not a number": "has 1 value that is NaN or infinite",
+    "sample mesh array": "has no numeric cell array 'Density'",
+    "sample mesh type": "The density is no image on rank 0, but an image on rank 1",
+    "cells not finite": "has 1 point that is NaN or infinite",
+    "relaxation not a number": "has 1 value that is NaN or infinite",
+    "solid open": "The input surface is not closed: it has ",
+    "disk apart": "The input surface has 2 components",
+}
+# The points of each rank's output.
+GIVEN = {
+    "cells right": None,
+    "cells on one": None,
+    "cells mass": None,
+    "cells none has any": [0, 0, 0],
+    "relaxation right": [12, 0, 0],
+    "relaxation mesh": [12, 0, 0],
+    "solid on one": None,
+    "solid whole": None,
+    "solid none has any": [0, 0, 0],
+    "disk right": [65, 0, 0],
+}
 # Points of a map on each rank, and of 60 particles where they lie on one.
 RIGHT = {
     "right": None,
@@ -87,7 +111,8 @@ class RanksErrors(unittest.TestCase):
 
     def test_one_message_ends_all(self):
         for name, text in [*((kind + name, text) for name, text in MESSAGES.items()
-                             for kind in ("sample ", "map ")), *OTHERS.items()]:
+                             for kind in ("sample ", "map ")), *OTHERS.items(),
+                           *GATHERED.items()]:
             with self.subTest(name):
                 self.assertEqual(self.points(name), [0] * RANKS)
                 first, *others = self.errors(name)
@@ -150,8 +175,30 @@ class RanksErrors(unittest.TestCase):
         self.assertEqual(sum(self.points("splat afterwards")), 6 * 5 * 12)
         self.assertEqual(self.given[0]["splat alone"][0], 6 * 5 * 12)
 
+    def test_densities_that_are_no_images(self):
+        """In pieces, whole on each rank, or on one alone: all of it, counted once."""
+        expected = sum(1 + i % 120 % 7 for i in range(360))
+        for name in ("right", "whole", "on first", "on one"):
+            for kind in ("sample ", "map "):
+                with self.subTest(kind + name):
+                    self.assertEqual(self.errors(kind + "mesh " + name), [[]] * RANKS)
+                    for rank in self.given:
+                        if rank[kind + "mesh " + name][0]:
+                            self.assertAlmostEqual(rank[kind + "mesh " + name][2], expected, 9)
+            self.assertEqual(sum(self.points("sample mesh " + name)), 60)
+            self.assertEqual(self.points("map mesh " + name), [7 * 6 * 5] * RANKS)
+
+    def test_filters_that_gather(self):
+        for name, points in GIVEN.items():
+            with self.subTest(name):
+                self.assertEqual(self.errors(name), [[]] * RANKS)
+                if points:
+                    self.assertEqual(self.points(name), points)
+                else:
+                    self.assertTrue(all(self.points(name)), self.points(name))
+
     def test_no_data_anywhere(self):
-        for kind in ("sample ", "map "):
+        for kind in ("sample ", "map ", "sample mesh ", "map mesh "):
             self.assertEqual(self.points(kind + "none has any"), [0] * RANKS)
             self.assertEqual(self.errors(kind + "none has any"), [[]] * RANKS)
 

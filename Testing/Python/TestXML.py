@@ -12,7 +12,10 @@ from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
 # What ParaView offers on servers of several processes.
-ON_RANKS = ("Splat Mass", "Transport Quality")
+ON_RANKS = ("Area-Preserving Parameterization", "Density Barycenter", "Density-Equalizing Warp",
+            "Equal-Mass Cells", "Morph Densities", "Relax Blue Noise", "Sample Density",
+            "Sample Surface", "Solid Density", "Splat Mass", "Transport Map", "Transport Quality",
+            "Uniform Seeds")
 # The public names, which no version changes: class, inputs by port, outputs if there are several.
 PUBLIC = {
     "Sample Density": ("vtkTransportSampler", ["Input", "Seeds"], []),

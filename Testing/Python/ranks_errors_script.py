@@ -5,13 +5,16 @@ import json
 import sys
 
 import numpy as np
-from rectifiedtransport import (vtkMassSplatter, vtkTransportMap, vtkTransportQuality,
+from rectifiedtransport import (vtkAreaPreservingParameterization, vtkBlueNoiseRelaxation,
+                                vtkEqualMassCells, vtkMassSplatter, vtkSolidDensity,
+                                vtkTransportMap, vtkTransportQuality,
                                 vtkTransportSampler)
 from rt_testing import Listener
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkRectilinearGrid
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 RANKS = vtkMultiProcessController.GetGlobalController()
@@ -83,10 +86,16 @@ def report(name, algorithm, source):
     errors = Listener(algorithm).errors
     algorithm.SetInputConnection(source.GetOutputPort())
     algorithm.SetNumberOfSteps(8)
+    finish(name, algorithm, errors)
+
+
+def finish(name, algorithm, errors):
     algorithm.UpdatePiece(RANK, RANKS.GetNumberOfProcesses(), 0)
-    output = algorithm.GetOutput()
+    output = algorithm.GetOutputDataObject(0)
+    mass = output.GetFieldData().GetArray("TotalMass")
     own = [error.splitlines() for error in errors if "returned failure for request" not in error]
-    results[name] = [output.GetNumberOfPoints(), [" ".join(lines) for lines in own]]
+    results[name] = [output.GetNumberOfPoints(), [" ".join(lines) for lines in own],
+                     mass.GetValue(0) if mass else 0.0]
     RANKS.Barrier()
 
 
@@ -109,6 +118,131 @@ for name, wrong in (("wrong property", lambda: -1), ("wrong on one", lambda: on(
     algorithm = vtkTransportSampler()
     algorithm.SetNumberOfParticles(wrong())
     report(name, algorithm, source)
+
+def rectilinear(image):
+    """The same cells as no image."""
+    grid = vtkRectilinearGrid()
+    grid.SetExtent(image.GetExtent())
+    low = image.GetExtent()[::2]
+    for axis, count in enumerate(image.GetDimensions()):
+        coordinates = numpy_to_vtk(np.arange(low[axis], low[axis] + count, dtype=float), deep=1)
+        getattr(grid, "Set%sCoordinates" % "XYZ"[axis])(coordinates)
+    grid.GetCellData().ShallowCopy(image.GetCellData())
+    return grid
+
+
+def nothing():
+    return vtkRectilinearGrid()
+
+
+MESHES = {
+    "right": lambda: rectilinear(piece()),
+    "whole": lambda: rectilinear(whole()),
+    "on first": lambda: on(0, lambda: rectilinear(whole()), nothing),
+    "on one": lambda: on(FAULTY, lambda: rectilinear(whole()), nothing),
+    "none has any": nothing,
+    "not a number": lambda: rectilinear(with_value(np.nan)),
+    "array": lambda: on(FAULTY, lambda: rectilinear(piece(name="Other")),
+                        lambda: rectilinear(piece())),
+    "type": lambda: on(FAULTY, piece, lambda: rectilinear(piece())),
+}
+
+
+def whole():
+    """What the ranks' pieces are together."""
+    image = piece(0, 12)
+    array = image.GetCellData().GetArray(0)
+    for i in range(array.GetNumberOfTuples()):
+        array.SetTuple1(i, 1.0 + i % 120 % 7)
+    return image
+
+
+def producer(data):
+    source = vtkTrivialProducer()
+    source.SetOutput(data)
+    source.SetWholeExtent(WHOLE)
+    return source
+
+
+for name, make in MESHES.items():
+    for kind in (vtkTransportSampler, vtkTransportMap):
+        algorithm = kind()
+        algorithm.SetDensityResolution(12)
+        if kind is vtkTransportSampler:
+            algorithm.SetNumberOfParticles(60)
+        report("%s mesh %s" % ("sample" if kind is vtkTransportSampler else "map", name), algorithm,
+               producer(make()))
+
+
+def points(count, value=None):
+    """Of each rank others."""
+    made = vtkPoints()
+    for i in range(count):
+        made.InsertNextPoint(0.5 + RANK + 0.1 * i, 0.3 * i, 0.0)
+    if value is not None:
+        made.SetPoint(0, value, 0.0, 0.0)
+    cloud = vtkPolyData()
+    cloud.SetPoints(made)
+    return cloud
+
+
+def gather(name, algorithm, *data):
+    errors = Listener(algorithm).errors
+    producers = [producer(given) for given in data]
+    for port, source in enumerate(producers):
+        algorithm.SetInputConnection(port, source.GetOutputPort())
+    finish(name, algorithm, errors)
+
+
+def cells():
+    algorithm = vtkEqualMassCells()
+    algorithm.SetResolution(20)
+    return algorithm
+
+
+def solid():
+    algorithm = vtkSolidDensity()
+    algorithm.SetResolution(10)
+    return algorithm
+
+
+def relaxation():
+    algorithm = vtkBlueNoiseRelaxation()
+    algorithm.SetMaximumIterations(2)
+    return algorithm
+
+
+def sphere(phi=180.0):
+    source = vtkSphereSource()
+    source.SetThetaResolution(12)
+    source.SetEndPhi(phi)
+    source.Update()
+    return source.GetOutput()
+
+
+def plane():
+    source = vtkPlaneSource()
+    source.SetResolution(4, 4)
+    source.SetCenter(0.5 + RANK, 0.0, 0.0)
+    source.Update()
+    return source.GetOutput()
+
+
+gather("cells right", cells(), points(4))
+gather("cells not finite", cells(), on(FAULTY, lambda: points(4, np.nan), lambda: points(4)))
+gather("cells on one", cells(), on(FAULTY, lambda: points(4), vtkPolyData))
+gather("cells none has any", cells(), vtkPolyData())
+gather("cells mass", cells(), points(4), piece())
+gather("relaxation right", relaxation(), points(4), piece())
+gather("relaxation mesh", relaxation(), points(4), rectilinear(piece()))
+gather("relaxation not a number", relaxation(), points(4), with_value(np.nan))
+gather("solid on one", solid(), on(FAULTY, sphere, vtkPolyData))
+gather("solid whole", solid(), sphere())
+gather("solid open", solid(), on(FAULTY, lambda: sphere(120.0), vtkPolyData))
+gather("solid none has any", solid(), vtkPolyData())
+gather("disk right", vtkAreaPreservingParameterization(), plane())
+gather("disk apart", vtkAreaPreservingParameterization(), on(
+    FAULTY, vtkPolyData, plane))
 
 # An abort on one rank.
 source = vtkTrivialProducer()

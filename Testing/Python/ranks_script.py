@@ -18,8 +18,8 @@ def shared_points():
     return simple.RedistributeDataSet(Input=simple.Sphere(ThetaResolution=20))
 
 
-def shared_surface():
-    return simple.ExtractSurface(Input=shared_points())
+def shared_surface(of):
+    return simple.ExtractSurface(Input=simple.RedistributeDataSet(Input=of))
 
 
 def gathered_points():
@@ -63,6 +63,11 @@ run("warp", simple.DensityEqualizingWarp(Input=shared_points(), Density=image(),
 run("solid", simple.SolidDensity(Input=simple.Sphere(), Resolution=12))
 run("parameterization", simple.AreaPreservingParameterization(Input=simple.Plane(), Resolution=12))
 run("surface", simple.SampleSurface(Input=simple.Plane(), Resolution=12))
-run("surface shared", simple.SampleSurface(Input=shared_surface(), Resolution=12))
+plane = simple.Plane(XResolution=8, YResolution=8)
+run("surface shared", simple.SampleSurface(Input=shared_surface(plane), Resolution=12))
 run("parameterization shared", simple.AreaPreservingParameterization(
-    Input=shared_surface(), Resolution=12))
+    Input=shared_surface(plane), Resolution=12))
+run("solid shared", simple.SolidDensity(
+    Input=shared_surface(simple.Contour(Input=simple.Wavelet(WholeExtent=[-7, 7] * 3),
+                                        ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0],
+                                        ComputeNormals=0)), Resolution=12))

@@ -268,10 +268,12 @@ def give_data():
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
     give("warp mesh", simple.DensityEqualizingWarp(Input=shell, Density=meshes["mesh"], **usual))
-    drum = simple.Cylinder(Resolution=24)  # VTK makes it on the first rank
-    for name, surface in (("drum", drum),
-                          ("drum apart", simple.ExtractSurface(
-                              Input=simple.RedistributeDataSet(Input=drum))),
+    drum = simple.Cylinder(Resolution=24)  # whole on each rank
+    hill = simple.Contour(Input=simple.Wavelet(WholeExtent=[-7, 7] * 3), ComputeNormals=0,
+                          ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0])
+    for name, surface in (("drum", drum), ("hill", hill),
+                          ("hill apart", simple.ExtractSurface(
+                              Input=simple.RedistributeDataSet(Input=hill))),
                           ("ball", simple.Sphere(ThetaResolution=24))):
         for association in ("Points", "Cells"):
             give("solid %s %s" % (name, association), simple.SolidDensity(

@@ -113,12 +113,16 @@ void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
   }
   this->Piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
   this->NumberOfPieces = pieces;
+  this->Iterates = false;
   this->Composites.assign(static_cast<std::size_t>(filter->GetNumberOfInputPorts()), {});
   for (std::size_t port = 0; port < this->Composites.size(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       this->Composites[port].emplace_back(vtkCompositeDataSet::GetData(inputVector[port], i));
+      const auto shared = this->Shared.find(static_cast<int>(port));
+      const bool takesAny = shared != this->Shared.end() && !shared->second;
+      this->Iterates = this->Iterates || (this->Composites[port].back() && !takesAny);
     }
   }
 }
@@ -155,12 +159,12 @@ bool WholeInputs::IsIteratingOverBlocks(
 bool WholeInputs::IsShared(int port, vtkInformation* input) const
 {
   const auto shared = this->Shared.find(port);
-  if (shared == this->Shared.end() || !sharesWithRanks(this->Piece, this->NumberOfPieces))
+  if (shared == this->Shared.end() || this->Iterates ||
+    !sharesWithRanks(this->Piece, this->NumberOfPieces))
   {
     return false;
   }
   vtkDataObject* data = vtkDataObject::GetData(input);
-  // Over the blocks of composite points the executive iterates.
   return !shared->second || vtkImageData::SafeDownCast(data) || vtkPointSet::SafeDownCast(data);
 }
 
@@ -215,8 +219,11 @@ std::unique_ptr<RankRun> WholeInputs::BeginRun(
 std::unique_ptr<RankRun> WholeInputs::BeginWithoutPieces(
   vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const
 {
-  // A composite data set is executed by blocks, of which ranks may have different numbers.
-  if (!vtkPointSet::GetData(inputVector[port]) || this->IsIteratingOverBlocks(filter, inputVector))
+  const auto shared = this->Shared.find(port);
+  // A composite data set of points is executed by blocks, of which ranks may have different
+  // numbers.
+  if (shared == this->Shared.end() || this->IsIteratingOverBlocks(filter, inputVector) ||
+    (shared->second && !vtkPointSet::GetData(inputVector[port])))
   {
     return nullptr;
   }

@@ -64,6 +64,10 @@ public:
   std::unique_ptr<RankRun> BeginWithoutPieces(
     vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
 
+  // The same in REQUEST_INFORMATION, for a port that is shared.
+  std::unique_ptr<RankRun> BeginWithoutPieces(
+    vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
+
   // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
   // not the same on all ranks; warns where other ranks do not answer. Of the needed ports.
   void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run);
@@ -79,6 +83,7 @@ private:
 
   std::set<int> Excepted;
   std::map<int, bool> Shared; // whether points alone
+  bool Iterates = false;      // the executive over blocks, for each of which a rank runs alone
   int Piece = 0;
   int NumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port

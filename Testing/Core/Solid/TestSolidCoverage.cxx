@@ -407,6 +407,28 @@ TEST(SolidCoverage, OpenSurfacesAreTold)
   EXPECT_EQ(open, 0);
 }
 
+// The same bits as of the whole, whichever boxes of the grid are covered.
+TEST(SolidCoverage, PartsAreThoseOfTheWhole)
+{
+  const Mesh mesh = makeSphere({ 6.3, 5.1, 7.2 }, 4.7, 30);
+  const GridSize<3> cells{ 13, 11, 15 };
+  const std::vector<double> whole = cover(mesh, cells, 3, SerialExecutor());
+  const LatticePart<3> parts[] = { { {}, cells }, { { 0, 0, 7 }, { 13, 11, 8 } },
+    { { 0, 4, 0 }, { 13, 3, 15 } }, { { 5, 0, 0 }, { 6, 11, 15 } }, { { 2, 3, 4 }, { 7, 5, 6 } },
+    { { 12, 10, 14 }, { 1, 1, 1 } }, { { 3, 3, 3 }, { 0, 4, 4 } } };
+  for (const LatticePart<3>& part : parts)
+  {
+    std::vector<double> coverage(static_cast<std::size_t>(part.Count()), -1.0);
+    coverPartOfSolid(mesh.Surface(), cells, part, 3, coverage.data());
+    for (std::int64_t i = 0; i < part.Count(); ++i)
+    {
+      const GridSize<3> cell = part.CellOf(i);
+      const std::int64_t number = cell[0] + cells[0] * (cell[1] + cells[1] * cell[2]);
+      EXPECT_EQ(coverage[static_cast<std::size_t>(i)], whole[static_cast<std::size_t>(number)]);
+    }
+  }
+}
+
 TEST(SolidCoverage, ProgressAndCancel)
 {
   const Mesh mesh = makeSphere({ 40, 40, 40 }, 35.0, 200);
