@@ -60,10 +60,6 @@ public:
   // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
   // RankRun::Begin.
   std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
-  // The same in REQUEST_INFORMATION, for points on a port.
-  std::unique_ptr<RankRun> BeginWithoutPieces(
-    vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
-
   // The same in REQUEST_INFORMATION, for a port that is shared.
   std::unique_ptr<RankRun> BeginWithoutPieces(
     vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
