@@ -75,6 +75,18 @@ GIVEN = {
     "solid none has any": [0, 0, 0],
     "disk right": [65, 0, 0],
 }
+# Of Morph Densities and Density Barycenter.
+BLENDS = {
+    **{"morph " + name: text for name, text in MESSAGES.items()},
+    "morph direction": "Target: The images of the ranks are not parts of one: the direction "
+                       "matrix is 1 0 0 0 1 0 0 0 1 on rank 0, but 0 -1 0 1 0 0 0 0 1 on rank 1",
+    "morph wrong on one": "Rank 1: Parameter is 2",
+    "barycenter number": "The number of inputs is 2 on rank 0, but 1 on rank 1",
+    "barycenter kind": "Input 2 is no data set of the same kind on rank 0 and on rank 1",
+    "blocks in pieces": "The data on input port 0 are not the same on rank 0 and on rank 1",
+}
+RIGHT_BLENDS = ("barycenter right", "blocks right", "morph put right", "morph without maps on one",
+                "morph after an abort")
 # Points of a map on each rank, and of 60 particles where they lie on one.
 RIGHT = {
     "right": None,
@@ -196,6 +208,24 @@ class RanksErrors(unittest.TestCase):
                     self.assertEqual(self.points(name), points)
                 else:
                     self.assertTrue(all(self.points(name)), self.points(name))
+
+    def test_blends(self):
+        for name, text in BLENDS.items():
+            with self.subTest(name):
+                self.assertEqual([rank[name][::2] for rank in self.given], [[0, 0]] * RANKS)
+                first, *others = self.errors(name)
+                self.assertEqual(others, [[]] * (RANKS - 1))
+                self.assertEqual(len(first), 1)
+                self.assertIn(text, first[0])
+                if name[6:] in MESSAGES:
+                    self.assertIn("Target: ", first[0])
+        for name in (*("morph " + name for name in RIGHT), *RIGHT_BLENDS):
+            with self.subTest(name):
+                self.assertEqual(self.errors(name), [[]] * RANKS)
+                self.assertEqual(sum(self.points(name)), 6 * 5 * 12)
+                self.assertEqual(sum(rank[name][2] for rank in self.given), 6 * 5 * 12)
+        for name in ("morph none has any", "morph abort"):
+            self.assertEqual([rank[name] for rank in self.given], [[0, [], 0]] * RANKS)
 
     def test_no_data_anywhere(self):
         for kind in ("sample ", "map ", "sample mesh ", "map mesh "):

@@ -7,12 +7,13 @@ import sys
 import numpy as np
 from rectifiedtransport import (vtkAreaPreservingParameterization, vtkBlueNoiseRelaxation,
                                 vtkEqualMassCells, vtkMassSplatter, vtkSolidDensity,
-                                vtkTransportMap, vtkTransportQuality,
-                                vtkTransportSampler)
+                                vtkTransportBarycenter, vtkTransportInterpolator,
+                                vtkTransportMap, vtkTransportQuality, vtkTransportSampler)
 from rt_testing import Listener
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkRectilinearGrid
+from vtkmodules.vtkCommonDataModel import (vtkImageData, vtkMultiBlockDataSet, vtkPolyData,
+                                           vtkRectilinearGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -82,21 +83,107 @@ for wide in ("one has none", "first has none", "one has all", "all have all", "o
     IMAGES[wide] = with_own_values
 
 
-def report(name, algorithm, source):
+def update(algorithm):
+    """Returns the messages."""
     errors = Listener(algorithm).errors
-    algorithm.SetInputConnection(source.GetOutputPort())
     algorithm.SetNumberOfSteps(8)
     finish(name, algorithm, errors)
 
 
-def finish(name, algorithm, errors):
+def update(algorithm, errors):
+    """Returns the messages."""
     algorithm.UpdatePiece(RANK, RANKS.GetNumberOfProcesses(), 0)
+    own = [error.splitlines() for error in errors if "returned failure for request" not in error]
+    return [" ".join(lines) for lines in own]
+
+
+def finish(name, algorithm, errors):
+    messages = update(algorithm, errors)
     output = algorithm.GetOutputDataObject(0)
     mass = output.GetFieldData().GetArray("TotalMass")
-    own = [error.splitlines() for error in errors if "returned failure for request" not in error]
-    results[name] = [output.GetNumberOfPoints(), [" ".join(lines) for lines in own],
-                     mass.GetValue(0) if mass else 0.0]
+    results[name] = [output.GetNumberOfPoints(), messages, mass.GetValue(0) if mass else 0.0]
     RANKS.Barrier()
+
+
+def produce(data):
+    source = vtkTrivialProducer()
+    source.SetOutput(data)
+    if data.IsA("vtkImageData"):
+        source.SetWholeExtent(WHOLE)
+    return source
+
+
+def report_blend(name, algorithm):
+    """Of the particles; the cells of the density, too."""
+    errors = Listener(algorithm).errors
+    algorithm.SetNumberOfSteps(8)
+    messages = update(algorithm, errors)
+    results[name] = [algorithm.GetParticles().GetNumberOfPoints(), messages,
+                     algorithm.GetDensity().GetNumberOfCells()]
+    RANKS.Barrier()
+
+
+def morph(source, target):
+    algorithm = vtkTransportInterpolator()
+    for port, producer in enumerate((produce(source), produce(target))):
+        algorithm.SetInputConnection(port, producer.GetOutputPort())
+    return algorithm
+
+
+def barycenter(*inputs):
+    algorithm = vtkTransportBarycenter()
+    for producer in [produce(data) for data in inputs]:
+        algorithm.AddInputConnection(0, producer.GetOutputPort())
+    return algorithm
+
+
+def blocks(*inputs):
+    made = vtkMultiBlockDataSet()
+    for i, data in enumerate(inputs):
+        made.SetBlock(i, data)
+    return made
+
+
+def turned():
+    image = piece()
+    if RANK == FAULTY:
+        image.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+    return image
+
+
+def report_blends():
+    for name, make in IMAGES.items():
+        report_blend("morph " + name, morph(piece(), make()))
+    report_blend("morph direction", morph(piece(), turned()))
+    whole = IMAGES["all have all"]
+    report_blend("barycenter right", barycenter(piece(), piece(), whole()))
+    report_blend("barycenter number", barycenter(piece(), *([] if RANK == FAULTY else [piece()])))
+    report_blend("barycenter kind", barycenter(
+        piece(), on(FAULTY, vtkPolyData, piece)))
+    report_blend("blocks right", barycenter(blocks(whole(), piece(0, 12))))
+    report_blend("blocks in pieces", barycenter(blocks(piece(), piece())))
+
+    algorithm = morph(piece(), whole())
+    algorithm.SetParameter(on(FAULTY, lambda: 2.0, lambda: 0.5))
+    report_blend("morph wrong on one", algorithm)
+    algorithm.SetParameter(0.5)
+    algorithm.Modified()  # on all, as the extents are empty after an error
+    report_blend("morph put right", algorithm)
+    # The others have maps.
+    algorithm = on(FAULTY, lambda: morph(piece(), whole()), lambda: algorithm)
+    algorithm.SetParameter(0.25)
+    report_blend("morph without maps on one", algorithm)
+    observer = None
+    if RANK == FAULTY:
+        observer = algorithm.AddObserver(
+            "ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
+    algorithm.SetMassModeToSource()
+    report_blend("morph abort", algorithm)
+    if observer:
+        algorithm.RemoveObserver(observer)
+        algorithm.SetAbortExecute(0)
+    algorithm.Modified()
+    report_blend("morph after an abort", algorithm)
 
 
 for name, make in IMAGES.items():
@@ -253,6 +340,8 @@ algorithm.SetNumberOfParticles(60)
 if RANK == FAULTY:
     algorithm.AddObserver("ProgressEvent", lambda caller, _event: caller.SetAbortExecute(1))
 report("abort", algorithm, source)
+
+report_blends()
 
 # A rank that does not come; afterwards all do.
 algorithm = vtkTransportSampler()
