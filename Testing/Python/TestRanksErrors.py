@@ -83,10 +83,9 @@ BLENDS = {
     "morph wrong on one": "Rank 1: Parameter is 2",
     "barycenter number": "The number of inputs is 2 on rank 0, but 1 on rank 1",
     "barycenter kind": "Input 2 is no data set of the same kind on rank 0 and on rank 1",
-    "blocks in pieces": "The data on input port 0 are not the same on rank 0 and on rank 1",
 }
-RIGHT_BLENDS = ("barycenter right", "blocks right", "morph put right", "morph without maps on one",
-                "morph after an abort")
+RIGHT_BLENDS = ("barycenter right", "blocks right", "blocks in pieces", "morph put right",
+                "morph without maps on one", "morph after an abort")
 # Points of a map on each rank, and of 60 particles where they lie on one.
 RIGHT = {
     "right": None,

@@ -83,9 +83,9 @@ for wide in ("one has none", "first has none", "one has all", "all have all", "o
     IMAGES[wide] = with_own_values
 
 
-def update(algorithm):
-    """Returns the messages."""
+def report(name, algorithm, source):
     errors = Listener(algorithm).errors
+    algorithm.SetInputConnection(source.GetOutputPort())
     algorithm.SetNumberOfSteps(8)
     finish(name, algorithm, errors)
 
