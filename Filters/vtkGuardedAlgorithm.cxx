@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/SameProperties.h"
 #include "Bridge/Resampling/GatheredInputs.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
@@ -209,6 +210,10 @@ int vtkGuardedAlgorithm::ProcessData(
 {
   clearImages(outputVector);
   this->Run = this->Whole->BeginRun(this, inputVector);
+  if (this->Run)
+  {
+    RectifiedTransport::requireSameProperties(this, *this->Run);
+  }
   this->Whole->Require(this, inputVector, this->Run.get());
   const int result = this->Run && !this->Gathered.empty()
     ? this->GatherAndRun(request, inputVector, outputVector)

@@ -31,7 +31,8 @@ MESSAGES = {
 }
 OTHERS = {
     "wrong property": "NumberOfParticles is -1",
-    "wrong on one": "Rank 1: NumberOfParticles is -1",
+    "wrong on one": "The property NumberOfParticles is 60 on rank 0, but -1 on rank 1",
+    "different seeds": "The property RandomSeed is 0 on rank 0, but 1 on rank 1; it must be the same",
     "missing": "Rank 1 has not run this filter within 3 seconds of this one",
 }
 POINT_MESSAGES = {
@@ -48,7 +49,7 @@ POINT_MESSAGES = {
                          "rank 0, but 1 1 2 on rank 1",
     "reference gap": "The images of the ranks do not fill their common extent",
     "splat wrong property": "Dimensions is 5 5 -1; it must be at least 1 along every axis",
-    "splat wrong on one": "Rank 1: Dimensions is 5 5 -1",
+    "splat wrong on one": "The property Dimensions is 5 5 5 on rank 0, but 5 5 -1 on rank 1",
     "splat missing": "Rank 1 has not run this filter within 3 seconds of this one",
 }
 # Of densities that are no images, and of filters that gather.
@@ -80,7 +81,7 @@ BLENDS = {
     **{"morph " + name: text for name, text in MESSAGES.items()},
     "morph direction": "Target: The images of the ranks are not parts of one: the direction "
                        "matrix is 1 0 0 0 1 0 0 0 1 on rank 0, but 0 -1 0 1 0 0 0 0 1 on rank 1",
-    "morph wrong on one": "Rank 1: Parameter is 2",
+    "morph wrong on one": "The property Parameter is 0.5 on rank 0, but 2 on rank 1",
     "barycenter number": "The number of inputs is 2 on rank 0, but 1 on rank 1",
     "barycenter kind": "Input 2 is no data set of the same kind on rank 0 and on rank 1",
 }

@@ -331,6 +331,14 @@ gather("disk right", vtkAreaPreservingParameterization(), plane())
 gather("disk apart", vtkAreaPreservingParameterization(), on(
     FAULTY, vtkPolyData, plane))
 
+source = vtkTrivialProducer()
+source.SetOutput(piece())
+source.SetWholeExtent(WHOLE)
+algorithm = vtkTransportSampler()
+algorithm.SetNumberOfParticles(60)
+algorithm.SetRandomSeed(RANK)
+report("different seeds", algorithm, source)
+
 # An abort on one rank.
 source = vtkTrivialProducer()
 source.SetOutput(piece())
