@@ -105,10 +105,13 @@ int vtkSolidDensity::RequestData(
   }
   const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
     this->GetAssociationSettings().IsOnPoints() };
-  const ImageGrid grid = solid.GridAround(surface);
   vtkInformation* information = outputVector->GetInformationObject(0);
-  const Extent wanted = ranks ? extentToGive(grid, information, *ranks) : grid.Extent();
-  solid.Run(surface, wanted, progress, vtkImageData::GetData(outputVector, 0));
+  const ImageGrid grid = solid.Run(
+    surface,
+    [=](const ImageGrid& all) {
+      return ranks ? extentToGive(all, information, *ranks) : all.Extent();
+    },
+    progress, vtkImageData::GetData(outputVector, 0));
   // The extent may change with time.
   announceGrid(grid, information);
   return 1;

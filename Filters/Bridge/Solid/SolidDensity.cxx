@@ -82,12 +82,14 @@ ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks* ranks) con
   return this->OnPoints ? cells.AtCellCentres() : cells;
 }
 
-void SolidDensity::Run(
-  vtkPolyData* surface, const Extent& wanted, Progress& progress, vtkImageData* output) const
+ImageGrid SolidDensity::Run(vtkPolyData* surface,
+  const std::function<Extent(const ImageGrid&)>& chooseExtent, Progress& progress,
+  vtkImageData* output) const
 {
   ClosedSurface closed(surface, progress, 0.4);
   const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
+  const Extent wanted = chooseExtent(grid);
   const TriangleSurface triangles = closed.InCells(cells, progress, 0.5);
   const vtkSmartPointer<vtkDoubleArray> density =
     cover(triangles, cells.Size<3>(), partOf(wanted, grid), this->Supersampling, progress);
@@ -96,6 +98,7 @@ void SolidDensity::Run(
   output->SetExtent(extent.data());
   output->GetAttributes(this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
     ->SetScalars(density);
+  return grid;
 }
 
 } // namespace RectifiedTransport

@@ -7,6 +7,7 @@
 #include "Core/Geometry/ImageGrid.h"
 
 #include <array>
+#include <functional>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -31,9 +32,11 @@ struct SolidDensity
   // points around none. Throws Failure.
   ImageGrid GridAround(vtkPolyData* surface, const Ranks* ranks = nullptr) const;
 
-  // Writes the fraction of each image cell that a closed surface encloses, of the cells of an
-  // extent of the image. Throws Failure and Cancelled.
-  void Run(vtkPolyData* surface, const std::array<int, 6>& wanted, Progress& progress,
+  // Writes the fraction of each image cell that a closed surface encloses, of the cells of the
+  // extent that is chosen for an image. Returns the whole image's grid. Throws Failure and
+  // Cancelled.
+  ImageGrid Run(vtkPolyData* surface,
+    const std::function<std::array<int, 6>(const ImageGrid&)>& chooseExtent, Progress& progress,
     vtkImageData* output) const;
 };
 

@@ -138,6 +138,7 @@ void checkPieces(Checks& checks)
       source->SetNumberOfPoints(1000);
       source->Update();
       vtkNew<vtkPoints> whole;
+      whole->SetDataTypeToDouble();
       whole->DeepCopy(source->GetOutput()->GetPoints());
       vtkIdType next = 0;
       for (int piece = 0; piece < 4; ++piece)
