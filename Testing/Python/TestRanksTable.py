@@ -26,7 +26,7 @@ def run(ranks):
         path = os.path.join(folder, "given")
         done = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), PVBATCH, "--sym",
-             SCRIPT, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+             SCRIPT, path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
         if done.returncode != 0 or done.stdout.count("WROTE") != ranks:
             raise AssertionError(done.stdout[-2000:] + done.stderr[-4000:])
         given = []
