@@ -309,6 +309,16 @@ def give_both(name, proxy):
     give(name + " particles", proxy, 1)
 
 
+def morph(**properties):
+    simple.SetActiveSource(None)  # whose arrays would be the defaults of a new filter
+    return simple.MorphDensities(**properties)
+
+
+def barycenter(**properties):
+    simple.SetActiveSource(None)
+    return simple.DensityBarycenter(**properties)
+
+
 def give_blends():
     """Of densities on points and cells, of one geometry and of several."""
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
@@ -320,47 +330,52 @@ def give_blends():
     flat, other_flat = (simple.ExtractSubset(Input=density, VOI=[-4, 8, 3, 3, 0, 10])
                         for density in (image, other))
     long = simple.Wavelet(WholeExtent=[-2, 3, -2, 3, 0, 21], StandardDeviation=0.3)
-    smooth = simple.Gradient(Input=other, ScalarArray=["POINTS", "RTData"])
+    # A source that is asked for two pieces.
+    wider = simple.GhostCellsGenerator(Input=other, BuildIfRequired=0, MinimumNumberOfGhosts=2)
     inputs = {"points": (image, other), "cells": (cells, other_cells),
               "flat": (flat, other_flat), "geometries": (image, long), "mixed": (cells, long),
-              "twice": (image, image), "derived": (image, smooth), "derived first": (smooth, other)}
+              "twice": (image, image), "wider": (other, wider), "wider first": (wider, other)}
     for name, (source, target) in inputs.items():
-        give_both("morph " + name, simple.MorphDensities(
-            Input=source, Target=target, Parameter=0.3, **usual))
+        give_both("morph " + name, morph(Input=source, Target=target, Parameter=0.3, **usual))
     for count in (2, 3, 4, 8):
-        give_both("morph of %d" % count, simple.MorphDensities(
+        give_both("morph of %d" % count, morph(
             Input=image, Target=long, ParticlesPerCell=count, **usual))
     for mode in ("Geometric", "Source", "Normalize"):
-        give_both("morph " + mode, simple.MorphDensities(
-            Input=image, Target=other, MassMode=mode, **usual))
+        give_both("morph " + mode, morph(Input=image, Target=other, MassMode=mode, **usual))
     for tables in ("Tiled", "Whole"):
         for count in (1, 3):
-            give_both("morph %s %d" % (tables, count), simple.MorphDensities(
+            give_both("morph %s %d" % (tables, count), morph(
                 Input=cells, Target=long, Tables=tables, ParticlesPerCell=count,
                 NegativeValues="Clamp", NumberOfSteps=32))
+    far = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
+                         StandardDeviation=2)
+    near = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[100, 10, 10])
+    for maps in ("On", "Off"):
+        give_both("morph tiles maps " + maps, morph(
+            Input=far, Target=near, Tables="Tiled", FlowMaps=maps, Dimensions=[60, 6, 7],
+            ParticlesPerCell=2, NegativeValues="Clamp"))
     sparse = simple.Calculator(Input=other, Function="(RTData > 150) * RTData",
                                ResultArrayName="RTData")
-    give_both("morph sparse", simple.MorphDensities(
+    give_both("morph sparse", morph(
         Input=image, Target=sparse, NegativeValues="Clamp", NumberOfSteps=2, Integrator="Euler"))
-    give_both("morph coarse", simple.MorphDensities(
+    give_both("morph coarse", morph(
         Input=image, Target=other, Dimensions=[5, 4, 3], Kernel="Gaussian", **usual))
-    series = simple.MorphDensities(Input=image, Target=long, PublishTime=1, NumberOfTimeSteps=4,
-                                   **usual)
+    series = morph(Input=image, Target=long, PublishTime=1, NumberOfTimeSteps=4, **usual)
     for time in (0.0, 1 / 3, 1.0):
         series.UpdatePipeline(time)
         give_both("morph at %.2f" % time, series)
-    mean = simple.DensityBarycenter(Input=[image, other, long], Weights=[1, 2, 0.5], **usual)
+    mean = barycenter(Input=[image, other, long], Weights=[1, 2, 0.5], **usual)
     give_both("barycenter", mean)
     mean.Weights = [0, 2, 1]
     give_both("barycenter again", mean)
-    give_both("barycenter blocks", simple.DensityBarycenter(
+    give_both("barycenter blocks", barycenter(
         Input=simple.GroupDatasets(Input=[image, other, long]), ParticlesPerCell=2, **usual))
-    morph = simple.MorphDensities(Input=image, Target=other, **usual)
-    give("morph contour", simple.Contour(Input=morph, ContourBy=["POINTS", "Density"],
+    behind = morph(Input=image, Target=other, **usual)
+    give("morph contour", simple.Contour(Input=behind, ContourBy=["POINTS", "Density"],
                                          Isosurfaces=[120.0], ComputeNormals=0))
-    give("morph slice", simple.Slice(Input=morph))
+    give("morph slice", simple.Slice(Input=behind))
     give("morph threshold", simple.Threshold(
-        Input=servermanager.OutputPort(morph, 1), Scalars=["POINTS", "SourcePosition"],
+        Input=servermanager.OutputPort(behind, 1), Scalars=["POINTS", "SourcePosition"],
         LowerThreshold=1, UpperThreshold=1000))
 
 
