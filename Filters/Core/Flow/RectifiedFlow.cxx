@@ -2,11 +2,11 @@
 #include "Core/Flow/RectifiedFlow.h"
 
 #include "Core/Flow/AdvectionRun.h"
+#include "Core/Flow/FlowArguments.h"
 #include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/SortedPoints.h"
 #include "Core/Flow/Tiles/TiledFlow.h"
-#include "Core/Geometry/CountText.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Tables/BoxShare.h"
@@ -26,96 +26,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-void check(const std::vector<double>& times)
-{
-  if (times.empty())
-  {
-    throw std::invalid_argument("no times are given, there must be at least one");
-  }
-  double before = 0.0;
-  for (const double time : times)
-  {
-    if (!(time >= before && time <= 1.0))
-    {
-      throw std::invalid_argument("time " + std::to_string(time) + " is given after " +
-        std::to_string(before) + ", times must ascend and be from 0 to 1");
-    }
-    before = time;
-  }
-}
-
-void checkCount(std::int64_t positions, double expected)
-{
-  if (static_cast<double>(positions) != expected)
-  {
-    throw std::invalid_argument("there is memory for " + std::to_string(positions) +
-      " positions, there must be " + describeCount(expected));
-  }
-}
-
-template <int Dimension>
-void check(const GridSize<Dimension>& size, const char* what)
-{
-  for (const std::int64_t cells : size)
-  {
-    if (cells < 1 || cells > MaximumResolution)
-    {
-      throw std::invalid_argument(std::string(what) + " has " + std::to_string(cells) +
-        " cells along an axis, it must have from 1 to 2^30");
-    }
-  }
-}
-
-template <int Dimension>
-void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& part,
-  const GridSize<Dimension>& lattice, std::int64_t positions)
-{
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    if (part.Low[axis] < 0 || part.Cells[axis] < 0 ||
-      part.Cells[axis] > lattice[axis] - part.Low[axis])
-    {
-      throw std::invalid_argument("a part of a lattice has the cells from " +
-        std::to_string(part.Low[axis]) + " to " +
-        std::to_string(part.Low[axis] + part.Cells[axis] - 1) + " along an axis, there are " +
-        std::to_string(lattice[axis]));
-    }
-  }
-  if (part.Count() == 0)
-  {
-    return;
-  }
-  const std::int64_t first = parts.IndexOf(part.Low);
-  const std::int64_t last = parts.IndexOf(part.CellOf(part.Count() - 1));
-  if (!parts.Within.Contains(part) || first < 0 || last >= positions)
-  {
-    throw std::invalid_argument("a part of a lattice has positions from number " +
-      std::to_string(first) + " to " + std::to_string(last) + ", there is memory for " +
-      std::to_string(positions));
-  }
-}
-
-template <int Dimension>
-LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
-  const GridSize<Dimension>& size, std::int64_t positions)
-{
-  check<Dimension>(lattice, "a lattice");
-  for (const LatticePart<Dimension>& part : parts.Parts)
-  {
-    check<Dimension>(parts, part, lattice, positions);
-  }
-  for (const double coordinate : place)
-  {
-    if (!(coordinate >= 0.0 && coordinate <= 1.0))
-    {
-      throw std::invalid_argument("a place in a lattice's cells has the coordinate " +
-        std::to_string(coordinate) + ", it must be from 0 to 1");
-    }
-  }
-  return LatticeOrder<Dimension>(lattice, parts, size, place);
-}
 
 template <int Dimension>
 SummedAreaTables<Dimension> build(
