@@ -43,7 +43,7 @@ SURVIVED = [
     E("Filters/vtkTransportSampler.cxx", "report.ParticlesMoved > 0", "report.ParticlesMoved > 1"),
     E("Filters/vtkEqualMassCells.cxx", "report.Outside > 0", "report.Outside > 1"),
     E("Filters/vtkDensityEqualizingWarp.cxx", "if («outside > 0» &&", "outside > 1"),
-    E("Filters/vtkMassSplatter.cxx", "if («report.Outside > 0»)", "report.Outside > 1"),
+    E("Filters/vtkMassSplatter.cxx", "if («report.Outside > 0» &&", "report.Outside > 1"),
     E(BRIDGE + "Density/DensityImage.cxx", "SetBlanks(this->CellFlags, «ghostCell»)",
       "ghostCell & ~vtkDataSetAttributes::REFINEDCELL"),
     E(BRIDGE + "Density/DensityImage.cxx", "time(this->Sources[0]), «time(this->Sources[1])»",
