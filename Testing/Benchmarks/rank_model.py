@@ -19,6 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 D = 3
 VALUE = 4  # bytes of a value of the density, float
 NODE = 32  # bytes of a node of the graded tables: four doubles
+TABLE_CELL = 0.02  # what a cell of a tile's tables costs, in particles
 BIT = 1 / 8  # bytes of a cell's bit that says whether it has mass
 
 
@@ -68,11 +69,16 @@ def phases(plan, job, ranks, machine):
     cells = plan["side"] ** D
     own = 1 / ranks  # a rank's share of what is divided evenly
     others = (ranks - 1) / ranks  # of what all get, or what goes anywhere: what others have
-    passes = 2 if plan["levels"] else 1  # those that the flow map serves, and the others
-    units = max(plan["tiles"], ranks)  # a tile may be divided: each makes its tables then
-    rounds = math.ceil(units / ranks)  # units that one rank works through
-    tile_cells = rounds * plan["tile_cells"] / plan["tiles"]  # of those of a rank, with halos
     particles = job.particles * own
+    units = max(plan["tiles"], ranks)  # a tile may be divided: each makes its tables then
+    # Tables that a rank makes in a pass: of all tiles where its own particles pay for them
+    # (TileSchedule.cxx), else of its share, for the particles of all ranks.
+    shared = math.ceil(units / ranks)
+    keeps = particles / plan["tiles"] >= 4 * TABLE_CELL * plan["most_tile_cells"]
+    rounds = plan["tiles"] if keeps else shared
+    if plan["levels"]:
+        rounds += shared  # another pass, of the few particles that the flow map does not serve
+    tile_cells = rounds * plan["tile_cells"] / plan["tiles"]  # with halos
     steps = plan["hand_over"] + 1  # of a particle: the interpolation at the hand-over and the rest
     face = (cells * own) ** (1 - 1 / D)  # samples in a face of a rank's piece
     return [
@@ -84,12 +90,12 @@ def phases(plan, job, ranks, machine):
         Phase("flow map", machine.evaluation * plan["map_evaluations"] * own),
         Phase("flow map to all", 0, plan["levels"], plan["map_bytes"] * others),
         # Of a tile with its halo others have all but this rank's share.
-        Phase("density of tiles", 0, passes * rounds, passes * VALUE * tile_cells * others),
-        Phase("tables of tiles", passes * machine.tile_cell * tile_cells),
+        Phase("density of tiles", 0, rounds, VALUE * tile_cells * others),
+        Phase("tables of tiles", machine.tile_cell * tile_cells),
         # Out: the seed, D doubles; back: the place and a byte, which says whether it is one. Of
         # particles that no map serves, few for smooth densities, four times as much goes out.
-        Phase("particles to tiles", 0, 2 * passes * rounds,
-              particles * (8 * D + 8 * D + 1) * others),
+        Phase("particles to tiles", 0, 2 * (shared if keeps else rounds),
+              0 if keeps else particles * (8 * D + 8 * D + 1) * others),
         Phase("particles in tiles", machine.velocity * steps * particles),
         # A sample of a map at the lower faces of a piece; particles with their arrays.
         Phase("output", 0, 1, 40 * D * face if job.is_map and ranks > 1 else
@@ -105,8 +111,9 @@ def memory(plan, job, ranks):
             "bits of cells": BIT * cells,
             "flow map": plan["map_bytes"],
             "a tile": plan["tile_table_bytes"] + VALUE * plan["most_tile_cells"],
-            # Positions; then Displacement and two numbers, or the arrays of a particle.
-            "particles and output": (24 + (40 if job.is_map else 104)) * job.particles / ranks}
+            # Displacement, in whose memory positions are, and two numbers; seeds and the arrays of a
+            # particle.
+            "particles and output": (40 if job.is_map else 24 + 104) * job.particles / ranks}
 
 
 def efficiency(plan, job, ranks, machine):
