@@ -25,9 +25,12 @@
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
  * weights costs O(particles + cells). Memory: 24 bytes a particle for each input and 48 for the
  * output, 8 bytes a cell, and while a map is made the tables of one density (see
- * Tables).
+ * Tables). Several ranks share particles and cells.
  *
- * The outputs are in one piece: where several are requested, piece 0 holds all data.
+ * Images may lie on several ranks of MPI, and each rank gets its piece of the outputs: the image by
+ * the extent that is requested, the particles whose places it has. On one rank the outputs are in one
+ * piece: where several are requested, piece 0 holds all data. Composite inputs and data that are no
+ * images are needed whole on every rank.
  *
  * @warning The pivot makes this a linearized transport: the results resemble the displacement
  * interpolation and the barycenters of optimal transport, but are not them.
