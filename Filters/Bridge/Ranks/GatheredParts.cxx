@@ -78,7 +78,8 @@ std::vector<Bytes> exchange(const Bytes& own, const Ranks& ranks, Receivers rece
 
 } // namespace
 
-GatheredParts gatherParts(const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers)
+GatheredParts gatherDataParts(
+  const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers)
 {
   Keys keys;
   for (const DataPart& part : own)

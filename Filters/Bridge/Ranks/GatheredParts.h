@@ -47,7 +47,7 @@ struct GatheredParts
 // What several ranks have of one number and is the same, as of data that are whole on each, counts
 // once, as that of the lowest rank. `own` are sorted by number. Called by all ranks. Throws Failure
 // for types that cannot be sent, and std::bad_alloc.
-GatheredParts gatherParts(
+GatheredParts gatherDataParts(
   const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers);
 
 } // namespace RectifiedTransport

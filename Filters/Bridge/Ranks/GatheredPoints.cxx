@@ -178,7 +178,7 @@ GatheredPoints::GatheredPoints(
   {
     parts.push_back({ 0, "input", points });
   }
-  const GatheredParts gathered = gatherParts(parts, ranks, receivers);
+  const GatheredParts gathered = gatherDataParts(parts, ranks, receivers);
   if (!parts.empty() && gathered.OwnCount.front())
   {
     this->Given = vtkPointSet::SafeDownCast(parts.front().Data);

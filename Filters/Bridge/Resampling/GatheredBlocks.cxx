@@ -52,7 +52,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   {
     parts.push_back({ block.Number, block.Name, block.Data });
   }
-  const GatheredParts gathered = gatherParts(parts, ranks, Receivers::All);
+  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::All);
   for (const DataPart& part : gathered.Parts)
   {
     for (DensityBlock block : densityBlocks(part.Data))

@@ -36,7 +36,7 @@ vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ran
   {
     parts.push_back({ block.Number, block.Name, block.Data });
   }
-  const GatheredParts gathered = gatherParts(parts, ranks, Receivers::First);
+  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::First);
   if (gathered.AreWhole)
   {
     return own;
