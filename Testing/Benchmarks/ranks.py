@@ -33,7 +33,8 @@ last = SIZE - 1
 simple.SampleDensity(Input=simple.Wavelet(), NumberOfParticles=100,
                      NegativeValues="Clamp").UpdatePipeline()
 idle = peak()
-source = simple.Wavelet(WholeExtent=[0, last, 0, last, 0, last])
+# Mass about the middle: as many particles come to lie on each rank.
+source = simple.Wavelet(WholeExtent=[0, last, 0, last, 0, last], Center=[last / 2] * 3)
 source.UpdatePipeline()
 RANKS.Barrier()
 start = time.perf_counter()
