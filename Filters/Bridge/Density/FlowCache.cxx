@@ -17,7 +17,8 @@ const SharedFlow& FlowCache::Update(
   {
     this->Kept.reset();
   }
-  if (!this->IsOutdated(density))
+  // Times are local: a rank on which the last run failed may be alone in having to build.
+  if (onAllRanks(progress.Group(), !this->IsOutdated(density)))
   {
     this->Kept->Attach(density, progress);
     return *this->Kept;
