@@ -29,8 +29,8 @@
  *
  * Images may lie on several ranks of MPI, and each rank gets its piece of the outputs: the image by
  * the extent that is requested, the particles whose places it has. On one rank the outputs are in one
- * piece: where several are requested, piece 0 holds all data. Composite inputs and data that are no
- * images are needed whole on every rank.
+ * piece: where several are requested, piece 0 holds all data. Data that are no images are gathered
+ * on every rank.
  *
  * @warning The pivot makes this a linearized transport: the results resemble the displacement
  * interpolation and the barycenters of optimal transport, but are not them.
