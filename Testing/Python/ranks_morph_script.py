@@ -53,7 +53,7 @@ def behind_particles(proxy):
 
 
 def save(name, proxy):
-    simple.SaveData(os.path.join(FOLDER, name), proxy=proxy)
+    simple.SaveData(os.path.join(FOLDER, name), proxy=proxy, DataMode="Binary")
 
 
 def give_runs():

@@ -68,6 +68,6 @@ run("surface shared", simple.SampleSurface(Input=shared_surface(plane), Resoluti
 run("parameterization shared", simple.AreaPreservingParameterization(
     Input=shared_surface(plane), Resolution=12))
 run("solid shared", simple.SolidDensity(
-    Input=shared_surface(simple.Contour(Input=simple.Wavelet(WholeExtent=[-7, 7] * 3),
-                                        ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0],
-                                        ComputeNormals=0)), Resolution=12))
+    Input=simple.Contour(Input=simple.Wavelet(WholeExtent=[-7, 7] * 3),
+                         ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0], ComputeNormals=0),
+    Resolution=12))

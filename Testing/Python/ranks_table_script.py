@@ -7,7 +7,7 @@ import zlib
 
 import numpy as np
 from paraview import servermanager, simple
-from rt_testing import load_plugin
+from rt_testing import load_plugin, reads_appended_data
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -15,6 +15,14 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 GHOSTS = "vtkGhostType"
 RANK = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
 gathered = {}
+
+
+REDISTRIBUTES = reads_appended_data()
+
+
+def redistributed(Input):
+    """On other ranks, where ParaView's own filter works; else where they are."""
+    return simple.RedistributeDataSet(Input=Input) if REDISTRIBUTES else Input
 
 
 def digests(data, owner):
@@ -229,7 +237,7 @@ def give_qualities(inputs):
                                Function="0.1 + coordsX * coordsX + 0.01 * SeedId")
     give_row("quality masses", simple.TransportQuality(Input=masses, Density=image, **clamp))
     # Where others are, and not all inside.
-    moved = simple.Transform(Input=simple.RedistributeDataSet(Input=masses))
+    moved = simple.Transform(Input=redistributed(Input=masses))
     moved.Transform.Translate = [1.5, -0.7, 0.2]
     give_row("quality moved", simple.TransportQuality(Input=moved, Density=image, **clamp))
     give_row("quality whole", simple.TransportQuality(
@@ -273,7 +281,7 @@ def give_data():
                           ContourBy=["POINTS", "RTData"], Isosurfaces=[220.0])
     for name, surface in (("drum", drum), ("hill", hill),
                           ("hill apart", simple.ExtractSurface(
-                              Input=simple.RedistributeDataSet(Input=hill))),
+                              Input=redistributed(Input=hill))),
                           ("ball", simple.Sphere(ThetaResolution=24))):
         for association in ("Points", "Cells"):
             give("solid %s %s" % (name, association), simple.SolidDensity(
@@ -299,7 +307,7 @@ def give_data():
     plane = simple.Plane(XResolution=9, YResolution=7)
     give("surface", simple.SampleSurface(Input=plane, Resolution=24, NumberOfParticles=200))
     give("parameterization", simple.AreaPreservingParameterization(Input=plane, Resolution=24))
-    cut = simple.ExtractSurface(Input=simple.RedistributeDataSet(Input=plane))
+    cut = simple.ExtractSurface(Input=redistributed(Input=plane))
     give("surface apart", simple.SampleSurface(Input=cut, Resolution=24, NumberOfParticles=200))
     give("parameterization apart", simple.AreaPreservingParameterization(Input=cut, Resolution=24))
 
@@ -411,7 +419,7 @@ def main(path):
     give("warp", simple.DensityEqualizingWarp(Input=shell, Density=image, **usual))
     give("warp cells", simple.DensityEqualizingWarp(Input=shell, Density=cells, **usual))
     give("seeds apart", simple.SampleDensity(
-        Input=image, Seeds=simple.RedistributeDataSet(Input=seeds), **usual))
+        Input=image, Seeds=redistributed(Input=seeds), **usual))
     field = simple.TransportMap(Input=image, **usual)
     give("contour", simple.Contour(Input=field, ContourBy=["POINTS", "Divergence"],
                                    Isosurfaces=[0.0], ComputeNormals=0))

@@ -3,6 +3,7 @@
 import hashlib
 import os
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -164,3 +165,32 @@ def producer(simple, data):
 def output_of(proxy):
     proxy.UpdatePipeline()
     return proxy.GetClientSideObject().GetOutputDataObject(0)
+
+
+def reads_appended_data():
+    """Whether VTK's XML readers take raw data, by which ParaView's Redistribute DataSet and its servers
+    send data sets: Debian's libexpat 2.5.0-1+deb12u2 keeps ParaView 5.11 from it."""
+    from vtkmodules.vtkCommonCore import vtkOutputWindow
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
+    points = vtkPoints()
+    for i in range(1000):
+        points.InsertNextPoint(i / 7, i / 11, i / 13)
+    data = vtkPolyData()
+    data.SetPoints(points)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "points.vtp")
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputData(data)
+        writer.SetFileName(path)
+        writer.SetDataModeToAppended()
+        writer.EncodeAppendedDataOff()
+        writer.SetCompressorTypeToNone()
+        writer.Write()
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(path)
+        window = vtkOutputWindow.GetInstance()
+        mode = window.GetDisplayMode()
+        window.SetDisplayModeToNever()
+        reader.Update()
+        window.SetDisplayMode(mode)
+        return reader.GetOutput().GetNumberOfPoints() == points.GetNumberOfPoints()
