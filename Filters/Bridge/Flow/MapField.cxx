@@ -85,7 +85,7 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
     }
     this->Held.push_back(this->BoxOf(part));
   }
-  this->Wanted = this->PartOf(wanted);
+  this->Wanted = latticePartOf<D>(wanted, samples);
   this->Kept = this->Wanted.Around(this->Lattice).With(this->OwnPart);
   // Displacements are written layer by layer where positions of layers before were.
   const int last = D - 1;
@@ -93,19 +93,6 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
   {
     this->Ahead = this->Wanted.Count() / this->Wanted.Cells[last];
   }
-}
-
-template <int D>
-LatticePart<D> MapField<D>::PartOf(const TupleBox& box) const
-{
-  LatticePart<D> part{ {}, {} };
-  for (int a = 0; a < D && !box.IsEmpty(); ++a)
-  {
-    const auto along = static_cast<std::size_t>(this->Axes[static_cast<std::size_t>(a)]);
-    part.Low[a] = box.Low[along] - this->Start[along];
-    part.Cells[a] = box.High[along] - box.Low[along];
-  }
-  return part;
 }
 
 template <int D>

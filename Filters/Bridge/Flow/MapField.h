@@ -57,7 +57,6 @@ public:
 
 private:
   void FindParts(const ImageGrid& samples, const TupleBox& wanted, const Ranks& ranks);
-  LatticePart<D> PartOf(const TupleBox& box) const;
   TupleBox BoxOf(const LatticePart<D>& part) const;
   void Complete();
   void WriteSamples(const MapDerivatives<D>& derivatives, const MapDisplacement<D>& moves,

@@ -27,27 +27,38 @@ void findBounds(vtkPointSet* points, double bounds[6])
   vtkBoundingBox::ComputeBounds(points->GetPoints(), bounds);
 }
 
+std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own)
+{
+  std::array<double, 6> all = own;
+  for (const std::array<double, 6>& bounds : gatherValues(ranks, own))
+  {
+    if (bounds[0] > bounds[1])
+    {
+      continue;
+    }
+    const bool isFirst = all[0] > all[1];
+    for (std::size_t i = 0; i < 6; i += 2)
+    {
+      all[i] = isFirst ? bounds[i] : std::min(all[i], bounds[i]);
+      all[i + 1] = isFirst ? bounds[i + 1] : std::max(all[i + 1], bounds[i + 1]);
+    }
+  }
+  return all;
+}
+
 void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 6> own{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  std::array<double, 6> found{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
   if (points && points->GetNumberOfPoints() > 0)
   {
-    findBounds(points, own.data());
+    findBounds(points, found.data());
   }
-  std::copy_n(own.begin(), 6, bounds);
-  if (!ranks)
+  if (ranks)
   {
-    return;
+    found = boundsOfAll(*ranks, found);
   }
-  for (const std::array<double, 6>& there : gatherValues(*ranks, own))
-  {
-    for (std::size_t i = 0; i < 6; i += 2)
-    {
-      bounds[i] = std::min(bounds[i], there[i]);
-      bounds[i + 1] = std::max(bounds[i + 1], there[i + 1]);
-    }
-  }
+  std::copy_n(found.begin(), 6, bounds);
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)

@@ -12,6 +12,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -31,6 +32,8 @@ vtkPointSet* pointSetOf(vtkInformationVector* port);
 // The bounds of all points of a set, also of those that no vtkCell uses. vtkPointSet::GetBounds
 // caches its result, which is outdated where coordinates were changed without Modified().
 void findBounds(vtkPointSet* points, double bounds[6]);
+// The bounds of those of all ranks; a lower bound above the upper one is of a rank without any.
+std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 // Those of the points of all ranks, which call this together; of this rank's where `ranks` is
 // nullptr. `points` may be nullptr. Without points lower bounds are above the upper ones.
 void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6]);

@@ -4,7 +4,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,25 +23,6 @@ void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::s
         "; it must be of one type on all");
     }
   }
-}
-
-std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own)
-{
-  std::array<double, 6> all = own;
-  for (const std::array<double, 6>& bounds : gatherValues(ranks, own))
-  {
-    if (bounds[0] > bounds[1])
-    {
-      continue;
-    }
-    const bool isFirst = all[0] > all[1];
-    for (std::size_t i = 0; i < 6; i += 2)
-    {
-      all[i] = isFirst ? bounds[i] : std::min(all[i], bounds[i]);
-      all[i + 1] = isFirst ? bounds[i + 1] : std::max(all[i + 1], bounds[i + 1]);
-    }
-  }
-  return all;
 }
 
 Extent extentToGive(const ImageGrid& grid, vtkInformation* output, const Ranks& ranks)

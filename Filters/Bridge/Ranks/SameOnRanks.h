@@ -7,7 +7,6 @@
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
-#include <array>
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -22,9 +21,6 @@ class ImageGrid;
 // Throws Failure where a text is not the same on all ranks; `what` begins the message. Called
 // by all ranks.
 void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what);
-
-// The bounds of those of all ranks; a lower bound above the upper one is of a rank without any.
-std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
 // The extent of an image that this rank is to give: the one that is requested, if all ranks have
 // announced this grid, else its piece of the grid, as requests are of another one then. Called by

@@ -67,23 +67,6 @@ Agreement agreementOf(const Part& own, const Ranks& ranks)
   return all;
 }
 
-template <int D>
-LatticePart<D> partOf(const TupleBox& box, const ImageGrid& grid)
-{
-  LatticePart<D> part{ {}, {} };
-  int axis = 0;
-  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
-  {
-    if (grid.IsAxis(a))
-    {
-      part.Low[axis] = box.Low[a] - grid.Extent()[2 * a];
-      part.Cells[axis] = box.High[a] - box.Low[a];
-      ++axis;
-    }
-  }
-  return part;
-}
-
 // Points as records of their coordinates, and where all have them their masses and keys.
 template <class Real>
 class PointRecords
@@ -155,7 +138,7 @@ public:
       this->Masses.data(), this->All.MassEach, this->Own.ToIndex };
     const auto own = static_cast<std::size_t>(this->Processes.Own());
     splatMass<D, Real>(received, this->Target.Geometry.template Size<D>(),
-      partOf<D>(this->All.Wanted[own], this->Target.Geometry), this->Target.Options,
+      latticePartOf<D>(this->All.Wanted[own], this->Target.Geometry), this->Target.Options,
       this->Target.Scale(), cells, this->Work.Stage());
     return sumOverRanks(&this->Processes, outside);
   }
@@ -170,7 +153,7 @@ private:
     std::vector<LatticePart<D>> boxes;
     for (const TupleBox& wanted : this->All.Wanted)
     {
-      boxes.push_back(partOf<D>(wanted, this->Target.Geometry));
+      boxes.push_back(latticePartOf<D>(wanted, this->Target.Geometry));
     }
     this->Parts.resize(boxes.size());
     std::vector<std::int32_t> cells(3 * block);

@@ -5,6 +5,8 @@
 
 #include "Bridge/Ranks/SharedArrays.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/Ranks.h"
 
 #include "vtkSmartPointer.h"
@@ -80,6 +82,23 @@ struct TupleBox
 // The tuples of the points or cells, by `owner`, of an extent in a whole one. Along an axis without
 // cells in the whole image there is one layer of them.
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole);
+// The cells, or dual cells, of a grid that have the tuples of a box.
+template <int D>
+LatticePart<D> latticePartOf(const TupleBox& box, const ImageGrid& grid)
+{
+  LatticePart<D> part{ {}, {} };
+  int axis = 0;
+  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
+  {
+    if (grid.IsAxis(a))
+    {
+      part.Low[axis] = box.Low[a] - grid.Extent()[2 * a];
+      part.Cells[axis] = box.High[a] - box.Low[a];
+      ++axis;
+    }
+  }
+  return part;
+}
 // Removes a box from those that boxes cover.
 void subtract(const TupleBox& box, std::vector<TupleBox>& from);
 // "[0, 4] x [2, 2] x [0, 9]".

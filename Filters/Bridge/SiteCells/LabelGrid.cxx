@@ -5,7 +5,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Run/Failure.h"
 
