@@ -88,7 +88,10 @@ parallel_tests="Invariance*:FlowMap*:SplatOrder*:SplatContext*:Context*:Progress
 parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*:SiteCells*"
 parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
+parallel_tests="$parallel_tests:Tiles*:TilesOnRanks*:TileSchedule*:PartTables*:Ranks*:RankOrder*:SplatPart*"
 parallel_tests="$parallel_tests:PowerDiagram*:EqualMassPartition*:PowerSiteCells*:Repulsion*"
+# Limits the memory of its process, which the sanitizer needs more of.
+parallel_tests="$parallel_tests:-*.TakeTheMemoryForetold"
 
 # run_tests FOLDER CTEST-ARGUMENT...
 run_tests()

@@ -19,6 +19,7 @@ SIDE = 256  # points along an axis, of float
 # bits of the cells with mass, lattices and the tables of a tile are on every rank. With a particle for
 # eight cells they are more than a quarter.
 RUNS = {"Transport Map, a sample a cell": ("map", 0.25),
+        "Sample Density, 8 million particles": ("8000000", 0.25),
         "Sample Density, 2 million particles": ("2000000", 0.4)}
 LIMIT = 300  # seconds for a run; it takes ten on an idle machine
 NEEDED = 6 << 30  # bytes of memory for four ranks

@@ -12,10 +12,12 @@
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -29,9 +31,8 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-// The particles of each rank, as runs of particles.
-std::vector<std::vector<TupleRun>> sortByOwner(vtkDataArray* points, std::int64_t each,
-  const PlaceOwners& owners, const Ranks& ranks, Progress& progress)
+std::vector<int> findOwners(
+  vtkDataArray* points, std::int64_t each, const PlaceOwners& owners, Progress& progress)
 {
   const std::int64_t count = points->GetNumberOfTuples() / each;
   std::vector<int> owner(static_cast<std::size_t>(count));
@@ -43,65 +44,56 @@ std::vector<std::vector<TupleRun>> sortByOwner(vtkDataArray* points, std::int64_
       owner[static_cast<std::size_t>(i)] = owners.OwnerOf(place);
     }
   });
-  std::vector<std::vector<TupleRun>> runs(static_cast<std::size_t>(ranks.Count()));
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    std::vector<TupleRun>& those =
-      runs[static_cast<std::size_t>(owner[static_cast<std::size_t>(i)])];
-    if (!those.empty() && those.back().First + those.back().Count == i)
-    {
-      ++those.back().Count;
-    }
-    else
-    {
-      those.push_back({ static_cast<vtkIdType>(i), 1 });
-    }
-  }
-  return runs;
+  return owner;
 }
 
-std::vector<TupleRun> runsOfPoints(const std::vector<TupleRun>& particles, std::int64_t each)
+std::vector<std::int64_t> countOfEach(const std::vector<int>& owner, const Ranks& ranks)
 {
-  std::vector<TupleRun> points;
-  points.reserve(particles.size());
-  for (const TupleRun& run : particles)
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.Count()));
+  for (const int rank : owner)
   {
-    points.push_back(
-      { static_cast<vtkIdType>(run.First * each), static_cast<vtkIdType>(run.Count * each) });
+    ++counts[static_cast<std::size_t>(rank)];
   }
-  return points;
+  return counts;
 }
 
 // How many particles each rank sends here, of those that this rank sends to each.
-std::vector<std::int64_t> exchangeCounts(
-  const std::vector<std::vector<TupleRun>>& sorted, const Ranks& ranks)
+std::vector<std::int64_t> exchangeCounts(const std::vector<std::int64_t>& sent, const Ranks& ranks)
 {
-  std::vector<Bytes> sent;
-  for (const std::vector<TupleRun>& runs : sorted)
+  std::vector<Bytes> parts;
+  for (const std::int64_t& count : sent)
   {
-    std::int64_t count = 0;
-    for (const TupleRun& run : runs)
-    {
-      count += run.Count;
-    }
-    sent.push_back(toBytes(&count, 1));
+    parts.push_back(toBytes(&count, 1));
   }
   std::vector<std::int64_t> counts;
-  for (const Bytes& bytes : ranks.Exchange(std::move(sent)))
+  for (const Bytes& bytes : ranks.Exchange(std::move(parts)))
   {
     counts.push_back(fromBytes<std::int64_t>(bytes).front());
   }
   return counts;
 }
 
-// The tuples of an array, `each` a particle, for their ranks.
-std::vector<Bytes> pack(
-  vtkDataArray* array, std::int64_t each, const std::vector<std::vector<TupleRun>>& sorted)
+// The tuples of a contiguous array, `each` a particle, for their ranks; zeros of one byte for
+// nullptr.
+std::vector<Bytes> pack(vtkDataArray* array, std::int64_t each, const std::vector<int>& owner,
+  const std::vector<std::int64_t>& sent)
 {
-  std::vector<Bytes> parts(sorted.size());
-  for (std::size_t rank = 0; rank < sorted.size(); ++rank)
+  const auto size = static_cast<std::size_t>(each) *
+    (array ? static_cast<std::size_t>(array->GetNumberOfComponents()) *
+          static_cast<std::size_t>(array->GetDataTypeSize())
+           : 1);
+  std::vector<Bytes> parts;
+  std::vector<char*> next;
+  for (const std::int64_t count : sent)
   {
-    appendTuples(array, runsOfPoints(sorted[rank], each), parts[rank]);
+    parts.emplace_back(static_cast<std::size_t>(count) * size);
+    next.push_back(parts.back().data());
+  }
+  const auto* from = array ? static_cast<const char*>(array->GetVoidPointer(0)) : nullptr;
+  for (std::size_t i = 0; from && i < owner.size(); ++i)
+  {
+    char*& to = next[static_cast<std::size_t>(owner[i])];
+    to = std::copy_n(from + i * size, size, to);
   }
   return parts;
 }
@@ -121,23 +113,25 @@ void unpack(std::vector<Bytes> received, std::int64_t each, const std::vector<st
 
 } // namespace
 
-// Array by array, as each is in memory twice meanwhile.
+// Array by array, as each is in memory twice meanwhile; the cells are made anew.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress)
 {
   const std::vector<ArrayKind> kinds = sharedArrays(particles, ranks);
-  vtkDataArray* places = particles->GetPoints()->GetData();
-  const auto sorted = sortByOwner(places, points, owners, ranks, progress);
-  const std::vector<std::int64_t> counts = exchangeCounts(sorted, ranks);
+  vtkSmartPointer<vtkDataArray> places = particles->GetPoints()->GetData();
+  const std::vector<int> owner = findOwners(places, points, owners, progress);
+  const std::vector<std::int64_t> sent = countOfEach(owner, ranks);
+  const std::vector<std::int64_t> counts = exchangeCounts(sent, ranks);
   const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
   vtkNew<vtkPolyData> arrays;
-  arrays->ShallowCopy(particles);
+  arrays->GetPointData()->ShallowCopy(particles->GetPointData());
+  arrays->GetCellData()->ShallowCopy(particles->GetCellData());
   particles->Initialize();
   const auto made = vtkSmartPointer<vtkDataArray>::Take(places->NewInstance());
   made->SetName(places->GetName());
   made->SetNumberOfComponents(3);
-  std::vector<Bytes> parts = pack(places, points, sorted);
-  arrays->SetPoints(nullptr);
+  std::vector<Bytes> parts = pack(places, points, owner, sent);
+  places = nullptr;
   parts = ranks.Exchange(std::move(parts));
   made->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
   unpack(std::move(parts), points, counts, made);
@@ -148,7 +142,7 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   for (const ArrayKind& kind : kinds)
   {
     const std::int64_t each = kind.Owner == vtkDataObject::POINT ? points : 1;
-    parts = pack(kind.Find(arrays), each, sorted);
+    parts = pack(kind.Find(arrays), each, owner, sent);
     arrays->GetAttributes(kind.Owner)->RemoveArray(kind.Name.c_str());
     parts = ranks.Exchange(std::move(parts));
     unpack(

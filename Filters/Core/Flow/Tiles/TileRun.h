@@ -184,9 +184,9 @@ private:
       while (visitors.HaveMore())
       {
         const int values = TileLanes<Dimension>::valuesOf(stage.FromStates);
-        const std::vector<Bytes> received = ranks.Exchange(visitors.Leave(values, giveAll));
-        visitors.Return(
-          ranks.Exchange(this->AdvectReceived(stage, received)), stage.IsKept, positions, left);
+        std::vector<Bytes> received = ranks.Exchange(visitors.Leave(values, giveAll));
+        std::vector<Bytes> ends = this->AdvectReceived(stage, std::move(received));
+        visitors.Return(ranks.Exchange(std::move(ends)), stage.IsKept, positions, left);
       }
     }
   }
@@ -234,13 +234,14 @@ private:
   // Of the particles that each rank sent, on this rank's tile: where they end, then a byte for each
   // that says whether it is unresolved.
   std::vector<Bytes> AdvectReceived(
-    const TileStage<Dimension>& stage, const std::vector<Bytes>& received)
+    const TileStage<Dimension>& stage, std::vector<Bytes> received)
   {
     const int each = TileLanes<Dimension>::valuesOf(stage.FromStates);
     std::vector<Bytes> replies;
-    for (const Bytes& bytes : received)
+    for (Bytes& bytes : received)
     {
       const std::vector<double> values = fromBytes<double>(bytes);
+      bytes = {};
       const auto count = static_cast<std::int64_t>(values.size()) / each;
       std::vector<double> ends(static_cast<std::size_t>(count * Dimension));
       ParticleMask unresolved(count);

@@ -32,7 +32,7 @@ public:
     , Runs(units.size())
     // Bounds what one rank may receive at a time.
     , Most(std::max<std::int64_t>(
-        1, (std::int64_t{ 1 } << 18) / ParticlesOfItem / static_cast<std::int64_t>(units.size())))
+        1, (std::int64_t{ 1 } << 16) / ParticlesOfItem / static_cast<std::int64_t>(units.size())))
   {
     for (std::size_t rank = 0; rank < units.size(); ++rank)
     {
