@@ -186,9 +186,8 @@ int vtkMassSplatter::RequestData(
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
   const MassSplatter::Report report = ranks
     ? splatter.RunOnRanks(input, masses, reference,
-        { inputVector[1]->GetNumberOfInformationObjects() > 0,
-          announcedGrid(outputInformation, true).Extent(), requestedExtent(outputInformation) },
-        progress, output)
+        { inputVector[1]->GetNumberOfInformationObjects() > 0, outputInformation }, progress,
+        output)
     : splatter.Run(input, masses, reference, progress, output);
   // Without a Reference the extent may not be known before the data.
   if (!report.Grid.IsEmpty())

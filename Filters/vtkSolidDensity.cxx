@@ -109,7 +109,7 @@ int vtkSolidDensity::RequestData(
   const ImageGrid grid = solid.Run(
     surface,
     [=](const ImageGrid& all) {
-      return ranks ? extentToGive(all, information, *ranks) : all.Extent();
+      return ranks ? extentToGive(all.Extent(), information, *ranks) : all.Extent();
     },
     progress, vtkImageData::GetData(outputVector, 0));
   // The extent may change with time.

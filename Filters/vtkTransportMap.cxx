@@ -125,8 +125,9 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const Extent wanted = ranks ? extentToGive(map.SampleGrid(*density), outputInformation, *ranks)
-                              : requestedExtent(outputInformation);
+  const Extent wanted = ranks
+    ? extentToGive(map.SampleGrid(*density).Extent(), outputInformation, *ranks)
+    : requestedExtent(outputInformation);
   const TransportMap::Report result =
     map.Run(*density, wanted, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.

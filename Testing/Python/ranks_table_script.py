@@ -197,11 +197,21 @@ def give_splats(image, flat, ghosts):
     # Whole numbers for any order of the points.
     counts = dict(Kernel="NearestCell", DivideByVolume=0, **small)
     # An image whose place changes with time.
-    moving = simple.SplatMass(Input=simple.ProgrammableSource(
-        OutputDataSetType="vtkPolyData", Script=MOVING, ScriptRequestInformation=TIMES), **counts)
+    moving, early = (simple.SplatMass(Input=simple.ProgrammableSource(
+        OutputDataSetType="vtkPolyData", Script=MOVING, ScriptRequestInformation=times), **counts)
+        for times in (TIMES, ""))
     part = simple.ExtractSubset(Input=moving, VOI=[2, 13, 1, 9, 3, 8])
-    for time in (0.0, 1.0):
-        give("splat at %g" % time, part, time=time)
+    steps = dict(usual, NumberOfSteps=32)
+    for name, proxy in (
+            ("splat", part), ("splat map", simple.TransportMap(Input=part, **steps)),
+            ("splat tiled", simple.TransportMap(Input=moving, Tables="Tiled", **steps)),
+            ("splat morph", simple.MorphDensities(Input=moving, Target=early, **steps)),
+            ("splat labels", simple.EqualMassCells(
+                Input=simple.UniformSeeds(NumberOfPoints=40, Bounds=[0, 9, 0, 6, 0, 0]),
+                Domain=simple.ExtractSubset(Input=moving, VOI=[0, 18, 0, 13, 0, 0]),
+                Resolution=32))):
+        for time in (0.0, 1.0):
+            give("%s at %g" % (name, time), proxy, time=time)
     # Meshes, of whose points some are on several ranks.
     mesh = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                           ComputeNormals=0)

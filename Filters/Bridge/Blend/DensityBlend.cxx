@@ -8,6 +8,7 @@
 #include "Bridge/Points/ParticleCells.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Ranks/SharedSplat.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
@@ -117,13 +118,6 @@ BlendOutput::BlendOutput(vtkInformationVector* outputs)
 {
 }
 
-Extent BlendOutput::WantedPart(const ImageGrid& grid, const Ranks& ranks) const
-{
-  return announcedGrid(this->Announced, grid.IsOnPoints()).Extent() == grid.Extent()
-    ? requestedExtent(this->Announced)
-    : dividedExtent(grid.Extent(), ranks.Count())[static_cast<std::size_t>(ranks.Own())];
-}
-
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
@@ -135,7 +129,8 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   const auto count = static_cast<std::int64_t>(all);
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
     settings.Tables, RankShare(count, ranks) };
-  const Extent wanted = ranks ? output.WantedPart(geometry, *ranks) : geometry.Extent();
+  const Extent wanted =
+    ranks ? extentToGive(geometry.Extent(), output.Announced, *ranks) : geometry.Extent();
   applyGrid(geometry, output.Density);
   announceGrid(geometry, output.Announced); // the association may not be known before the data
 

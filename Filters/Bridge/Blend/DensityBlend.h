@@ -65,10 +65,6 @@ struct BlendOutput
 {
   explicit BlendOutput(vtkInformationVector* outputs);
 
-  // Of an image of the grid: what is requested, or the rank's piece where it was announced
-  // otherwise.
-  Extent WantedPart(const ImageGrid& grid, const Ranks& ranks) const;
-
   vtkInformation* Announced; // the pipeline information of the density
   vtkImageData* Density;
   vtkPolyData* Particles;

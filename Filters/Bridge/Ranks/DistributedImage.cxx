@@ -45,7 +45,7 @@ void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& r
     return;
   }
   const ImageGrid grid = gridOf(pieces.MakeFrame(), false);
-  const Extent wanted = extentToGive(grid, output, ranks);
+  const Extent wanted = extentToGive(grid.Extent(), output, ranks);
   const vtkSmartPointer<vtkImageData> part = pieces.Gather(wanted);
   image->ShallowCopy(part);
   image->GetFieldData()->ShallowCopy(fields->GetFieldData());

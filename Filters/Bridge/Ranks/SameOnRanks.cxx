@@ -25,14 +25,14 @@ void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::s
   }
 }
 
-Extent extentToGive(const ImageGrid& grid, vtkInformation* output, const Ranks& ranks)
+Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks)
 {
-  const bool isKnown = announcedGrid(output, grid.IsOnPoints()) == grid;
+  const bool isKnown = announcedGrid(output, true).Extent() == whole;
   if (onAllRanks(&ranks, isKnown))
   {
     return requestedExtent(output);
   }
-  return dividedExtent(grid.Extent(), ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+  return dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
 }
 
 } // namespace RectifiedTransport

@@ -16,16 +16,14 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class ImageGrid;
-
 // Throws Failure where a text is not the same on all ranks; `what` begins the message. Called
 // by all ranks.
 void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what);
 
-// The extent of an image that this rank is to give: the one that is requested, if all ranks have
-// announced this grid, else its piece of the grid, as requests are of another one then. Called by
-// all ranks.
-Extent extentToGive(const ImageGrid& grid, vtkInformation* output, const Ranks& ranks);
+// The part of an image that this rank is to give: the one that is requested, if all ranks have
+// announced the whole extent, wherever it lies, else its piece of it, as requests are of another
+// one then. Called by all ranks.
+Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport
 

@@ -6,6 +6,7 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
@@ -161,9 +162,7 @@ MassSplatter::Report MassSplatter::RunOnRanks(vtkPointSet* points, vtkDataArray*
   requireAxis(cells, share.HasReference);
   const ImageGrid grid = this->GridOf(cells, share.HasReference);
   applyGrid(grid, output);
-  Extent wanted = grid.Extent() == share.Announced
-    ? share.Wanted
-    : dividedExtent(grid.Extent(), ranks.Count())[static_cast<std::size_t>(ranks.Own())];
+  Extent wanted = extentToGive(grid.Extent(), share.Output, ranks);
   output->SetExtent(wanted.data());
   requireCells(cells);
   double sizes = 0.0;

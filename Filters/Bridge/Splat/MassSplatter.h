@@ -13,6 +13,7 @@
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
 
@@ -39,8 +40,7 @@ struct MassSplatter
   struct Share
   {
     bool HasReference;
-    std::array<int, 6> Announced; // the whole extent
-    std::array<int, 6> Wanted;    // of the image, by this rank
+    vtkInformation* Output; // of the pipeline
   };
 
   // The grid of the output on the points' bounds, without a reference. Throws Failure.
@@ -52,8 +52,8 @@ struct MassSplatter
     vtkImageData* output) const;
 
   // The same of the points of the progress's ranks, which call this together. Each gives its part
-  // of points and reference, which may be nullptr, and gets the part of the image that it wants: of
-  // what VTK would divide the image into where that is not what was announced.
+  // of points and reference, which may be nullptr, and gets the part of the image that extentToGive
+  // says.
   Report RunOnRanks(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
     const Share& share, Progress& progress, vtkImageData* output) const;
 
