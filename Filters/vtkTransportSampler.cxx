@@ -4,6 +4,7 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Flow/TransportSampler.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/FlowSettings.h"
@@ -11,11 +12,13 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
 
@@ -109,6 +112,12 @@ int vtkTransportSampler::RequestData(
   if (!density || (seeds && seeds->GetNumberOfPoints() == 0 && !ranks))
   {
     return 1;
+  }
+  vtkSmartPointer<vtkPointSet> counted;
+  if (ranks && inputVector[1]->GetNumberOfInformationObjects() > 0)
+  {
+    counted = SharedPoints(seeds, vtkDataSetAttributes::DUPLICATEPOINT, *ranks).MakeCountedSet();
+    seeds = counted;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =

@@ -18,9 +18,9 @@ MOST_RANKS = 4
 # Of other filters behind ours the cells may begin elsewhere.
 BEHIND = ("contour", "slice", "threshold")
 # A slice rounds as its piece does; seeds that are divided otherwise have other numbers.
-PLACES_ALONE = ("seeds apart",)
+PLACES_ALONE = ("seeds apart", "seeds of a mesh")
 # Of surfaces that are joined of pieces the points have other numbers, on which results depend.
-NUMBERS_ALONE = ("surface apart", "parameterization apart")
+NUMBERS_ALONE = ("surface apart", "parameterization apart", "sites of a mesh")
 
 
 def run(ranks, script=SCRIPT, *arguments):

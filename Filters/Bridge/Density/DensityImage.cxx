@@ -34,17 +34,26 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
 
-// One hash of those of all ranks; 0 where one has none.
-std::uint64_t joinFingerprints(const Ranks& ranks, std::uint64_t own)
+// One hash of those of all ranks, and of which part each has; 0 where one has no hash.
+std::uint64_t joinFingerprints(
+  const Ranks& ranks, const std::vector<Extent>& parts, std::uint64_t own)
 {
   std::uint64_t joined = 0xcbf29ce484222325; // as FNV-1a, by words
+  const auto add = [&joined](std::uint64_t bits) { joined = (joined ^ bits) * 0x100000001b3; };
   for (const std::uint64_t bits : gatherValues(ranks, own))
   {
     if (bits == 0)
     {
       return 0;
     }
-    joined = (joined ^ bits) * 0x100000001b3;
+    add(bits);
+  }
+  for (const Extent& part : parts)
+  {
+    for (const int bound : part)
+    {
+      add(static_cast<std::uint64_t>(bound));
+    }
   }
   return joined;
 }
@@ -151,7 +160,9 @@ const DensityImage::Content& DensityImage::GetContent(Progress& progress)
   if (this->Distribution)
   {
     const bool hasNone = this->Distribution->OwnImage()->GetNumberOfPoints() == 0;
-    bits = joinFingerprints(this->Distribution->Group(), hasNone ? 1 : bits);
+    bits = joinFingerprints(this->Distribution->Group(),
+      this->Geometry.IsOnPoints() ? this->Distribution->Points() : this->Distribution->Cells(),
+      hasNone ? 1 : bits);
   }
   this->Hashed = this->Reading;
   this->Hashed[0] = bits;
@@ -183,6 +194,11 @@ void DensityImage::Prepare(Progress& progress)
   this->PrepareWith(this->NeedsWhite() ? this->FindWhite(progress) : 0.0, progress);
 }
 
+void DensityImage::ReleaseGathered()
+{
+  this->Gathered.reset();
+}
+
 void DensityImage::PrepareShared(Progress& progress)
 {
   if (!this->NeedsWhite())
@@ -190,7 +206,7 @@ void DensityImage::PrepareShared(Progress& progress)
     return;
   }
   const auto own = static_cast<std::size_t>(this->Distribution->Group().Own());
-  double largest = 0.0;
+  double largest = -std::numeric_limits<double>::infinity(); // of no values
   if (const auto piece =
         this->GatherPart(this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
                                                      : this->Distribution->Cells()[own]))
@@ -199,7 +215,8 @@ void DensityImage::PrepareShared(Progress& progress)
     largest = piece->FindWhite(progress);
   }
   const std::vector<double> all = gatherValues(this->Distribution->Group(), largest);
-  this->White = *std::max_element(all.begin(), all.end());
+  const double white = *std::max_element(all.begin(), all.end());
+  this->White = std::isfinite(white) ? white : 0.0;
 }
 
 bool DensityImage::NeedsWhite() const

@@ -71,6 +71,9 @@ public:
     return this->Gathered ? this->Gathered->Values() : *this->Reader;
   }
 
+  // Gives up what Prepare gathered; Source needs it.
+  void ReleaseGathered();
+
   // In place of Prepare, for an image on several ranks: none of them gets all of it.
   void PrepareShared(Progress& progress);
   // The part of it in an extent, after PrepareShared; each rank may want another one.

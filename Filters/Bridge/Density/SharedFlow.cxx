@@ -121,6 +121,7 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
   const auto build = dispatchDimension(density.Grid().Dimension(), &SharedFlow::Build<1>,
     &SharedFlow::Build<2>, &SharedFlow::Build<3>);
   ((*made).*build)(density, std::move(old), progress);
+  density.ReleaseGathered(); // whole tables need no values
   if (isShared)
   {
     registry.Insert(content, made);

@@ -27,6 +27,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -99,10 +100,9 @@ void makeSeeds(const UnitSeeds<D>& pattern, const GridSize<D>& size, const std::
 }
 
 // What values at this rank's places depend on: between its points and the next ones.
-Extent extentAround(const ImagePieces& pieces, const ImageGrid& grid)
+Extent extentAround(const PlaceOwners& owners, const ImageGrid& grid)
 {
-  const auto own = static_cast<std::size_t>(pieces.Group().Own());
-  Extent extent = grid.IsOnPoints() ? pieces.Points()[own] : pieces.Cells()[own];
+  Extent extent = owners.OwnExtent();
   if (!isEmpty(extent) && grid.IsOnPoints())
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -111,17 +111,19 @@ Extent extentAround(const ImagePieces& pieces, const ImageGrid& grid)
       extent[2 * axis + 1] += 1;
     }
   }
-  return intersectionOf(extent, pieces.Whole());
+  return intersectionOf(extent, grid.Extent());
 }
 
-// The arrays of the data that the density was read from.
+// The arrays of the data that the density was read from; `owners` where there are pieces.
 template <int D>
 void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>* meshes,
-  ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
+  const std::optional<PlaceOwners>& owners, ConstPointSpan<3> particles, Progress& progress,
+  vtkPointData* output)
 {
-  if (const ImagePieces* pieces = density.Pieces())
+  const ImagePieces* pieces = density.Pieces();
+  if (owners && pieces)
   {
-    const Extent part = extentAround(*pieces, density.Grid());
+    const Extent part = extentAround(*owners, density.Grid());
     const vtkSmartPointer<vtkImageData> image = pieces->Gather(part);
     sampleArrays({ { image }, "input image", false },
       PlacesInImage<D>(density.Grid(), part, particles), progress, 1.0, output);
@@ -255,10 +257,11 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
+  std::optional<PlaceOwners> owners;
   if (ranks)
   {
-    const PlaceOwners owners(grid, density.Pieces(), *ranks);
-    moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, *ranks, progress);
+    owners.emplace(grid, density.Pieces(), *ranks);
+    moveToOwners(output, static_cast<std::int64_t>(times.size()), *owners, *ranks, progress);
     report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
     report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
   }
@@ -266,8 +269,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   if (addsArrays)
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
-    sampleArraysOf<D>(density, meshes, { places->GetPointer(0), places->GetNumberOfTuples() },
-      progress, output->GetPointData());
+    sampleArraysOf<D>(density, meshes, owners,
+      { places->GetPointer(0), places->GetNumberOfTuples() }, progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

@@ -139,17 +139,15 @@ Bytes bytesOfDataSet(vtkDataSet* data)
   return bytes;
 }
 
-vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes)
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
 {
   Header header;
-  std::memcpy(&header, bytes.data(), sizeof(header));
+  std::memcpy(&header, bytes, sizeof(header));
   const std::size_t begin = sizeof(header) + header.Arrays * sizeof(int);
-  const std::vector<int> types = fromBytes<int>(
-    Bytes(bytes.begin() + sizeof(header), bytes.begin() + static_cast<std::ptrdiff_t>(begin)));
+  const std::vector<int> types = fromBytes<int>(Bytes(bytes + sizeof(header), bytes + begin));
   vtkNew<vtkCharArray> message;
   // VTK takes no constant memory, but only reads it.
-  message->SetArray(
-    const_cast<char*>(bytes.data() + begin), static_cast<vtkIdType>(bytes.size() - begin), 1);
+  message->SetArray(const_cast<char*>(bytes + begin), static_cast<vtkIdType>(count - begin), 1);
   const vtkSmartPointer<vtkDataObject> object = vtkCommunicator::UnMarshalDataObject(message);
   vtkSmartPointer<vtkDataSet> made = vtkDataSet::SafeDownCast(object);
   if (!made)
@@ -189,7 +187,7 @@ Bytes bytesOfDataSet(vtkDataSet*)
   throw Failure("This build has no MPI");
 }
 
-vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes&)
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char*, std::size_t)
 {
   throw Failure("This build has no MPI");
 }

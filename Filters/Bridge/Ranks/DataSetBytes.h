@@ -8,6 +8,8 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
 VTK_ABI_NAMESPACE_END
@@ -19,7 +21,7 @@ namespace RectifiedTransport
 // type of data sets that VTK cannot send.
 Bytes bytesOfDataSet(vtkDataSet* data);
 // Images come as vtkImageData.
-vtkSmartPointer<vtkDataSet> dataSetOfBytes(const Bytes& bytes);
+vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count);
 
 } // namespace RectifiedTransport
 

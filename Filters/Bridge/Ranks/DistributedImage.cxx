@@ -31,7 +31,8 @@ vtkSmartPointer<vtkDataSet> fieldsOfFirst(vtkFieldData* own, const Ranks& ranks)
     fields->GetFieldData()->ShallowCopy(own);
     bytes = bytesOfDataSet(fields);
   }
-  return dataSetOfBytes(ranks.Gather(bytes).front());
+  const Bytes first = ranks.Gather(bytes).front();
+  return dataSetOfBytes(first.data(), first.size());
 }
 
 } // namespace

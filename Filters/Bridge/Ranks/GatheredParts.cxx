@@ -49,30 +49,30 @@ void append(const DataPart& part, Bytes& to)
 std::vector<DataPart> partsFrom(const Bytes& bytes)
 {
   std::vector<DataPart> parts;
-  for (auto at = bytes.begin(); at != bytes.end();)
+  for (const char* at = bytes.data(); at != bytes.data() + bytes.size();)
   {
-    constexpr std::ptrdiff_t head = 2 * sizeof(std::uint64_t);
+    constexpr std::size_t head = 2 * sizeof(std::uint64_t);
     const auto lengths = fromBytes<std::uint64_t>(Bytes(at, at + head));
     at += head;
     DataPart part;
-    part.Name.assign(at, at + static_cast<std::ptrdiff_t>(lengths[0]));
-    at += static_cast<std::ptrdiff_t>(lengths[0]);
-    part.Data = dataSetOfBytes(Bytes(at, at + static_cast<std::ptrdiff_t>(lengths[1])));
-    at += static_cast<std::ptrdiff_t>(lengths[1]);
+    part.Name.assign(at, at + lengths[0]);
+    at += lengths[0];
+    part.Data = dataSetOfBytes(at, lengths[1]);
+    at += lengths[1];
     parts.push_back(std::move(part));
   }
   return parts;
 }
 
 // Sends the parts of this rank that count.
-std::vector<Bytes> exchange(const Bytes& own, const Ranks& ranks, Receivers receivers)
+std::vector<Bytes> exchange(Bytes own, const Ranks& ranks, Receivers receivers)
 {
   if (receivers == Receivers::All)
   {
     return ranks.Gather(own);
   }
   std::vector<Bytes> parts(static_cast<std::size_t>(ranks.Count()));
-  parts.front() = own;
+  parts.front() = std::move(own);
   return ranks.Exchange(std::move(parts));
 }
 
@@ -93,10 +93,6 @@ GatheredParts gatherDataParts(
   }
   const auto self = static_cast<std::size_t>(ranks.Own());
   GatheredParts gathered;
-  for (const Key& key : keys)
-  {
-    gathered.OwnCount.push_back(isFirst(all, self, key));
-  }
   const bool receives = receivers == Receivers::All || self == 0;
   gathered.AreWhole =
     std::all_of(all.begin(), all.end(), [&](const Keys& keysThere) { return keysThere == all[0]; });
@@ -108,15 +104,16 @@ GatheredParts gatherDataParts(
   Bytes sent;
   for (std::size_t i = 0; i < own.size() && (self > 0 || receivers == Receivers::All); ++i)
   {
-    if (gathered.OwnCount[i])
+    if (isFirst(all, self, keys[i]))
     {
       append(own[i], sent);
     }
   }
-  const std::vector<Bytes> received = exchange(sent, ranks, receivers);
+  std::vector<Bytes> received = exchange(std::move(sent), ranks, receivers);
   for (std::size_t rank = 0; rank < received.size() && receives; ++rank)
   {
     std::vector<DataPart> parts = rank == self ? own : partsFrom(received[rank]);
+    received[rank] = Bytes();
     std::size_t next = 0;
     for (std::size_t i = 0; i < all[rank].size(); ++i)
     {

@@ -38,8 +38,6 @@ struct GatheredParts
   // Those of all ranks by their numbers, and of one number by rank; none where this rank is no
   // receiver.
   std::vector<DataPart> Parts;
-  // Of this rank's own parts, whether they are among them.
-  std::vector<bool> OwnCount;
   // Whether every rank has all parts itself.
   bool AreWhole = false;
 };

@@ -3,18 +3,14 @@
 
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Ranks/JoinedSurface.h"
+#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/Failure.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkAppendPolyData.h"
-#include "vtkCellArray.h"
-#include "vtkCellType.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStructuredGrid.h"
 #include "vtkStructuredGridAppend.h"
@@ -29,17 +25,13 @@ namespace RectifiedTransport
 namespace
 {
 
-bool hasDuplicates(vtkPointSet* set, int owner, unsigned char mask)
-{
-  const unsigned char* flags = ghostFlags(set, owner, "input point set");
-  const vtkIdType count = set->GetNumberOfElements(owner);
-  return flags &&
-    std::any_of(flags, flags + count, [mask](unsigned char flag) { return (flag & mask) != 0; });
-}
-
 vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
 {
-  if (!hasDuplicates(set, vtkDataObject::CELL, vtkDataSetAttributes::DUPLICATECELL))
+  const unsigned char* flags = ghostFlags(set, vtkDataObject::CELL, "input point set");
+  const bool hasDuplicates = flags &&
+    std::any_of(flags, flags + set->GetNumberOfCells(),
+      [](unsigned char flag) { return (flag & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+  if (!hasDuplicates)
   {
     return set;
   }
@@ -56,65 +48,19 @@ vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
   return copy;
 }
 
-// The points that are no duplicates.
-vtkSmartPointer<vtkPointSet> ownPoints(vtkPointSet* set)
+// What counts of this rank's set; nullptr for nothing.
+vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, const Ranks& ranks)
 {
-  const unsigned char* flags = ghostFlags(set, vtkDataObject::POINT, "input point set");
-  vtkNew<vtkIdList> kept;
-  for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i)
+  vtkSmartPointer<vtkPointSet> part;
+  if (kind == PointSetKind::Points)
   {
-    if ((flags[i] & vtkDataSetAttributes::DUPLICATEPOINT) == 0)
-    {
-      kept->InsertNextId(i);
-    }
+    part = SharedPoints(own, vtkDataSetAttributes::DUPLICATEPOINT, ranks).MakeCountedSet();
   }
-  const vtkIdType count = kept->GetNumberOfIds();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(set->GetPoints()->GetDataType());
-  set->GetPoints()->GetPoints(kept, points);
-  vtkSmartPointer<vtkPointSet> own;
-  vtkNew<vtkCellArray> vertices;
-  for (vtkIdType i = 0; i < count; ++i)
+  else if (own && own->GetNumberOfPoints() > 0)
   {
-    vertices->InsertNextCell(1, &i);
+    part = withoutGhostCells(own);
   }
-  if (vtkPolyData::SafeDownCast(set))
-  {
-    const auto surface = vtkSmartPointer<vtkPolyData>::New();
-    surface->SetVerts(vertices);
-    own = surface;
-  }
-  else
-  {
-    const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetCells(VTK_VERTEX, vertices);
-    own = grid;
-  }
-  own->SetPoints(points);
-  own->GetPointData()->CopyAllOn();
-  own->GetPointData()->CopyAllocate(set->GetPointData(), count);
-  vtkNew<vtkIdList> places;
-  places->SetNumberOfIds(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    places->SetId(i, i);
-  }
-  own->GetPointData()->CopyData(set->GetPointData(), kept, places);
-  own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  own->GetFieldData()->ShallowCopy(set->GetFieldData());
-  return own;
-}
-
-vtkSmartPointer<vtkPointSet> withoutDuplicates(vtkPointSet* set, PointSetKind kind)
-{
-  if (!set || set->GetNumberOfPoints() == 0)
-  {
-    return nullptr;
-  }
-  const bool hasPoints = kind == PointSetKind::Points &&
-    hasDuplicates(set, vtkDataObject::POINT, vtkDataSetAttributes::DUPLICATEPOINT);
-  vtkSmartPointer<vtkPointSet> own = hasPoints ? ownPoints(set) : withoutGhostCells(set);
-  return own->GetNumberOfPoints() > 0 ? own : nullptr;
+  return part && part->GetNumberOfPoints() > 0 ? part : nullptr;
 }
 
 template <class AppendT>
@@ -174,23 +120,11 @@ GatheredPoints::GatheredPoints(
   vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind)
 {
   std::vector<DataPart> parts;
-  if (const vtkSmartPointer<vtkPointSet> points = withoutDuplicates(own, kind))
+  if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))
   {
     parts.push_back({ 0, "input", points });
   }
-  const GatheredParts gathered = gatherDataParts(parts, ranks, receivers);
-  if (!parts.empty() && gathered.OwnCount.front())
-  {
-    this->Given = vtkPointSet::SafeDownCast(parts.front().Data);
-  }
-  const std::vector<std::int64_t> counts =
-    gatherValues<std::int64_t>(ranks, this->Given ? this->Given->GetNumberOfPoints() : 0);
-  for (std::size_t rank = 0; rank < counts.size(); ++rank)
-  {
-    this->FirstPoint += rank < static_cast<std::size_t>(ranks.Own()) ? counts[rank] : 0;
-    this->Number += counts[rank];
-  }
-  this->Gathered = joinParts(gathered.Parts, kind);
+  this->Gathered = joinParts(gatherDataParts(parts, ranks, receivers).Parts, kind);
 }
 
 } // namespace RectifiedTransport

@@ -9,9 +9,6 @@
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
-#include <vector>
-
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
 VTK_ABI_NAMESPACE_END
@@ -27,9 +24,9 @@ enum class PointSetKind
 };
 
 // The points and cells of rank 0 first, with the arrays that all have. What is the same on several
-// ranks counts once, and duplicates that ghost arrays mark not at all: where Points are marked,
-// there are no cells but a vertex a point. Points of a Surface that several ranks have at one place
-// become one, so that it is whole.
+// ranks counts once, and duplicates that ghost arrays mark not at all; of Points those that
+// SharedPoints counts. Points of a Surface that several ranks have at one place become one, so that
+// it is whole.
 class GatheredPoints
 {
 public:
@@ -39,17 +36,9 @@ public:
 
   // nullptr where this rank is no receiver, or no rank has points.
   vtkPointSet* All() const { return this->Gathered; }
-  // What this rank gave, and the number of its first point among those of all; nullptr for none.
-  vtkPointSet* Own() const { return this->Given; }
-  std::int64_t First() const { return this->FirstPoint; }
-  // The points of all ranks.
-  std::int64_t Count() const { return this->Number; }
 
 private:
   vtkSmartPointer<vtkPointSet> Gathered;
-  vtkSmartPointer<vtkPointSet> Given;
-  std::int64_t FirstPoint = 0;
-  std::int64_t Number = 0;
 };
 
 } // namespace RectifiedTransport

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -216,7 +216,16 @@ vtkSmartPointer<vtkImageData> ImagePieces::Gather(
     arrays.push_back({ kind.Owner == vtkDataObject::POINT ? &points : &cells, kind.Find(this->Own),
       tuplesOf(own, kind.Owner, this->WholeExtent), kind.Make(image, tuples) });
   }
-  exchangeArrays(arrays, this->Processes);
+  if (!names.empty())
+  {
+    exchangeArrays(arrays, this->Processes);
+    return image;
+  }
+  // One by one, as each is in memory twice meanwhile.
+  for (const BoxArrays& array : arrays)
+  {
+    exchangeArrays({ array }, this->Processes);
+  }
   return image;
 }
 

@@ -60,15 +60,15 @@ std::vector<std::int64_t> countOfEach(const std::vector<int>& owner, const Ranks
 // How many particles each rank sends here, of those that this rank sends to each.
 std::vector<std::int64_t> exchangeCounts(const std::vector<std::int64_t>& sent, const Ranks& ranks)
 {
-  std::vector<Bytes> parts;
-  for (const std::int64_t& count : sent)
+  std::vector<std::vector<std::int64_t>> parts;
+  for (const std::int64_t count : sent)
   {
-    parts.push_back(toBytes(&count, 1));
+    parts.push_back({ count });
   }
   std::vector<std::int64_t> counts;
-  for (const Bytes& bytes : ranks.Exchange(std::move(parts)))
+  for (const std::vector<std::int64_t>& count : exchangeValues(ranks, std::move(parts)))
   {
-    counts.push_back(fromBytes<std::int64_t>(bytes).front());
+    counts.push_back(count.front());
   }
   return counts;
 }

@@ -26,6 +26,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const
   {
     extents = dividedExtent(grid.Extent(), ranks.Count());
   }
+  this->Own = extents[static_cast<std::size_t>(ranks.Own())];
   const bool onPoints = grid.IsOnPoints();
   for (const Extent& extent : extents)
   {

@@ -26,6 +26,8 @@ public:
 
   // Of a physical place, or the nearest one of the domain.
   int OwnerOf(const double* place) const;
+  // The points, or the corners of the cells, between which this rank has the places.
+  const Extent& OwnExtent() const { return this->Own; }
 
 private:
   template <int D>
@@ -40,6 +42,7 @@ private:
   };
 
   const ImageGrid& Grid;
+  Extent Own;
   std::vector<Box> Boxes;                       // of grid cells, of each rank
   std::array<std::vector<std::int64_t>, 3> Cut; // where boxes begin and end along an axis
   std::vector<int> Owners;                      // of the parts between cuts

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/RepeatedPoints.h"
 
+#include "Bridge/Points/GhostFlags.h"
+
+#include "vtkCellType.h"
+#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
@@ -40,6 +45,20 @@ Identity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
   points->GetPoint(i, place);
   std::memcpy(identity.data(), place, sizeof place);
   return identity;
+}
+
+bool connectsPoints(vtkPointSet* set)
+{
+  vtkNew<vtkCellTypes> types;
+  set->GetCellTypes(types);
+  bool connects = false;
+  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  {
+    const unsigned char type = types->GetCellType(i);
+    connects =
+      connects || (type != VTK_EMPTY_CELL && type != VTK_VERTEX && type != VTK_POLY_VERTEX);
+  }
+  return connects;
 }
 
 // Which rank compares a point with those of all.
@@ -81,20 +100,20 @@ std::vector<std::vector<unsigned char>> compare(const std::vector<std::vector<Id
 
 } // namespace
 
-std::vector<unsigned char> repeatedPoints(vtkPointSet* own, const Ranks& ranks)
+std::vector<unsigned char> repeatedPoints(
+  vtkPointSet* own, const CountedPoints& counted, const Ranks& ranks)
 {
-  const vtkIdType count = own->GetNumberOfPoints();
-  if (onAllRanks(&ranks, own->GetNumberOfCells() == 0 || own->GetMaxCellSize() <= 1))
+  if (onAllRanks(&ranks, !connectsPoints(own)))
   {
     return {};
   }
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
-  ids = onAllRanks(&ranks, ids || count == 0) ? ids : nullptr;
+  ids = onAllRanks(&ranks, ids || counted.Count() == 0) ? ids : nullptr;
   std::vector<std::vector<Identity>> given(static_cast<std::size_t>(ranks.Count()));
   std::vector<std::size_t> comparers;
-  for (vtkIdType i = 0; i < count; ++i)
+  for (std::int64_t i = 0; i < counted.Count(); ++i)
   {
-    const Identity identity = identityOf(own, i, ids);
+    const Identity identity = identityOf(own, static_cast<vtkIdType>(counted.Point(i)), ids);
     comparers.push_back(comparerOf(identity, ranks.Count()));
     given[comparers.back()].push_back(identity);
   }

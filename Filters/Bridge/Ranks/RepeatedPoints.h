@@ -15,10 +15,14 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// For each point of this rank whether a lower rank has it, too: one of its global id, or else one
-// at the same place. Empty for points that no cell of several points connects on any rank: these
-// are particles, of which two may be at one place. Called by all ranks. Throws std::bad_alloc.
-std::vector<unsigned char> repeatedPoints(vtkPointSet* own, const Ranks& ranks);
+class CountedPoints;
+
+// For each counted point of this rank whether a lower rank counts it, too: one of its global id, or
+// else one at the same place. Empty for points that no line, face or cell connects on any rank:
+// these are particles, of which two may be at one place. Called by all ranks. Throws
+// std::bad_alloc.
+std::vector<unsigned char> repeatedPoints(
+  vtkPointSet* own, const CountedPoints& counted, const Ranks& ranks);
 
 } // namespace RectifiedTransport
 

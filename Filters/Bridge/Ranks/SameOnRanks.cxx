@@ -25,12 +25,32 @@ void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::s
   }
 }
 
+namespace
+{
+
+// A layer of points has no cells in an image that has some along its axis: with those next to it.
+Extent withCells(const Extent& extent, const Extent& whole)
+{
+  Extent grown = extent;
+  for (std::size_t low = 0; low < grown.size() && !isEmpty(extent); low += 2)
+  {
+    if (extent[low] == extent[low + 1] && whole[low] < whole[low + 1])
+    {
+      grown[low] -= extent[low + 1] == whole[low + 1] ? 1 : 0;
+      grown[low + 1] = grown[low] + 1;
+    }
+  }
+  return grown;
+}
+
+} // namespace
+
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks)
 {
   const bool isKnown = announcedGrid(output, true).Extent() == whole;
   if (onAllRanks(&ranks, isKnown))
   {
-    return requestedExtent(output);
+    return withCells(requestedExtent(output), whole);
   }
   return dividedExtent(whole, ranks.Count())[static_cast<std::size_t>(ranks.Own())];
 }

@@ -20,9 +20,9 @@ namespace RectifiedTransport
 // by all ranks.
 void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what);
 
-// The part of an image that this rank is to give: the one that is requested, if all ranks have
-// announced the whole extent, wherever it lies, else its piece of it, as requests are of another
-// one then. Called by all ranks.
+// The part of an image that this rank is to give: the one that is requested, with a layer of cells
+// at least, if all ranks have announced the whole extent, wherever it lies, else its piece of it,
+// as requests are of another one then. Called by all ranks.
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport

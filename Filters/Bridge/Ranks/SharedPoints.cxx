@@ -6,16 +6,20 @@
 #include "Bridge/Run/WholeInputs.h"
 
 #include "vtkArrayDispatch.h"
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
 #include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -78,20 +82,29 @@ std::array<vtkDataArray*, 2> keyArrays(vtkPointSet* points)
 // The points without these flags that are not those of a lower rank, too.
 CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& ranks)
 {
-  const unsigned char* flags = ghostFlags(points, vtkDataObject::POINT, "input point set");
-  std::vector<unsigned char> repeated;
+  CountedPoints counted(points, "input point set", ghosts);
   // Particles, and their paths, have a number each.
-  if (!onAllRanks(&ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
+  if (onAllRanks(&ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
   {
-    withMemory("a comparison of the points of ranks",
-      100.0 * static_cast<double>(points->GetNumberOfPoints()),
-      [&]() { repeated = repeatedPoints(points, ranks); });
+    return counted;
   }
-  for (std::size_t i = 0; i < repeated.size(); ++i)
+  std::vector<unsigned char> left;
+  withMemory("a comparison of the points of ranks",
+    100.0 * static_cast<double>(points->GetNumberOfPoints()), [&]() {
+      const std::vector<unsigned char> repeated = repeatedPoints(points, counted, ranks);
+      left.assign(
+        repeated.empty() ? 0 : static_cast<std::size_t>(points->GetNumberOfPoints()), ghosts);
+      for (std::size_t i = 0; i < repeated.size(); ++i)
+      {
+        const std::int64_t point = counted.Point(static_cast<std::int64_t>(i));
+        left[static_cast<std::size_t>(point)] = repeated[i] != 0 ? ghosts : 0;
+      }
+    });
+  if (left.empty())
   {
-    repeated[i] = repeated[i] != 0 || (flags && (flags[i] & ghosts) != 0) ? ghosts : 0;
+    return counted;
   }
-  return { points->GetNumberOfPoints(), repeated.empty() ? flags : repeated.data(), ghosts };
+  return { points->GetNumberOfPoints(), left.data(), ghosts };
 }
 
 } // namespace
@@ -121,6 +134,56 @@ void SharedPoints::FindKeys(const Ranks& ranks)
       return;
     }
   }
+}
+
+vtkSmartPointer<vtkPointSet> SharedPoints::MakeCountedSet() const
+{
+  vtkPointSet* set = this->Points;
+  const auto count = static_cast<vtkIdType>(this->Number.Count());
+  if (count == set->GetNumberOfPoints())
+  {
+    return set;
+  }
+  vtkNew<vtkIdList> kept;
+  kept->SetNumberOfIds(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    kept->SetId(i, static_cast<vtkIdType>(this->Number.Point(i)));
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(set->GetPoints()->GetDataType());
+  set->GetPoints()->GetPoints(kept, points);
+  vtkSmartPointer<vtkPointSet> own;
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    vertices->InsertNextCell(1, &i);
+  }
+  if (vtkPolyData::SafeDownCast(set))
+  {
+    const auto surface = vtkSmartPointer<vtkPolyData>::New();
+    surface->SetVerts(vertices);
+    own = surface;
+  }
+  else
+  {
+    const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->SetCells(VTK_VERTEX, vertices);
+    own = grid;
+  }
+  own->SetPoints(points);
+  own->GetPointData()->CopyAllOn();
+  own->GetPointData()->CopyAllocate(set->GetPointData(), count);
+  vtkNew<vtkIdList> places;
+  places->SetNumberOfIds(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    places->SetId(i, i);
+  }
+  own->GetPointData()->CopyData(set->GetPointData(), kept, places);
+  own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
+  own->GetFieldData()->ShallowCopy(set->GetFieldData());
+  return own;
 }
 
 vtkSmartPointer<vtkDataArray> SharedPoints::TuplesOf(vtkDataArray* array) const

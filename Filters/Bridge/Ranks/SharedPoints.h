@@ -34,6 +34,9 @@ public:
   // Of this rank; without points where none count.
   vtkPointSet* Set() const { return this->Points; }
   const CountedPoints& Counted() const { return this->Number; }
+  // The counted points with their arrays: the set itself where all of them count, else points with
+  // a vertex each.
+  vtkSmartPointer<vtkPointSet> MakeCountedSet() const;
   // The number of points of all ranks.
   std::int64_t All() const { return this->Total; }
   // One for each counted point; nullptr where the order is that of the ranks and their points.

@@ -16,6 +16,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <new>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -236,8 +237,16 @@ private:
       this->Announce(state, message, {});
     }
   }
+  // What arrives from each rank, and the most that arrives on any.
+  struct Arrivals
+  {
+    std::vector<long long> Here;
+    long long Most = 0;
+  };
+
   std::vector<Bytes> Transfer(const std::vector<const Bytes*>& parts) const;
-  std::vector<long long> Announce(
+  std::vector<Bytes> AllocateFor(const Arrivals& arrivals) const;
+  Arrivals Announce(
     State state, const std::string& message, const std::vector<const Bytes*>& parts) const;
   void CollectReports(const std::string& message) const;
 
@@ -248,7 +257,7 @@ private:
 
 // Precedes every exchange: how each rank fares, and what it will send. Returns the sizes of what
 // arrives here, and throws where others have failed, unless this rank has, too.
-std::vector<long long> MpiRun::Announce(
+MpiRun::Arrivals MpiRun::Announce(
   State state, const std::string& message, const std::vector<const Bytes*>& parts) const
 {
   const auto ranks = static_cast<std::size_t>(this->Count());
@@ -261,12 +270,19 @@ std::vector<long long> MpiRun::Announce(
   std::vector<long long> all(ranks * own.size());
   this->Controller->AllGather(own.data(), all.data(), static_cast<vtkIdType>(own.size()));
   State worst = State::Runs;
-  std::vector<long long> arriving(ranks);
+  Arrivals arriving{ std::vector<long long>(ranks) };
+  std::vector<long long> sums(ranks);
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
-    worst = std::max(worst, static_cast<State>(all[rank * own.size()]));
-    arriving[rank] = all[rank * own.size() + 1 + static_cast<std::size_t>(this->Own())];
+    const long long* const there = all.data() + rank * own.size();
+    worst = std::max(worst, static_cast<State>(there[0]));
+    arriving.Here[rank] = there[1 + static_cast<std::size_t>(this->Own())];
+    for (std::size_t to = 0; to < ranks; ++to)
+    {
+      sums[to] += there[1 + to];
+    }
   }
+  arriving.Most = *std::max_element(sums.begin(), sums.end());
   if (worst == State::Runs)
   {
     return arriving;
@@ -334,10 +350,42 @@ std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
   return received;
 }
 
+// Ranks agree that all have the memory, where it is much: they would wait for the messages of one
+// that has not.
+std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
+{
+  constexpr long long much = 1 << 24;
+  std::vector<Bytes> received(arrivals.Here.size());
+  bool fits = true;
+  try
+  {
+    for (std::size_t rank = 0; rank < received.size(); ++rank)
+    {
+      const bool isOwn = rank == static_cast<std::size_t>(this->Own());
+      received[rank].resize(isOwn ? 0 : static_cast<std::size_t>(arrivals.Here[rank]));
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    fits = false;
+    received.clear();
+  }
+  if (arrivals.Most > much)
+  {
+    this->Announce(
+      fits ? State::Runs : State::Failed, "Not enough memory for what other ranks send", {});
+  }
+  if (!fits)
+  {
+    throw std::bad_alloc();
+  }
+  return received;
+}
+
 // Without this rank's own part.
 std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) const
 {
-  const std::vector<long long> sizes = this->Announce(State::Runs, "", parts);
+  std::vector<Bytes> received = this->AllocateFor(this->Announce(State::Runs, "", parts));
   const auto own = static_cast<std::size_t>(this->Own());
   constexpr std::size_t most = std::size_t{ 1 } << 30; // bytes of a message
   const auto forMessages = [=](std::size_t rank, std::size_t bytes, const auto& start) {
@@ -346,11 +394,9 @@ std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) cons
       start(first, static_cast<int>(std::min(most, bytes - first)), static_cast<int>(rank));
     }
   };
-  std::vector<Bytes> received(parts.size());
   std::list<vtkMPICommunicator::Request> requests;
   for (std::size_t rank = 0; rank < parts.size(); ++rank)
   {
-    received[rank].resize(rank == own ? 0 : static_cast<std::size_t>(sizes[rank]));
     forMessages(rank, received[rank].size(), [&](std::size_t first, int length, int remote) {
       requests.emplace_back();
       this->Controller->NoBlockReceive(

@@ -91,17 +91,8 @@ ImageGrid LabelGrid::On(const ImageGrid& density) const
 ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks* ranks) const
 {
   constexpr double margin = 0.05; // on each side
-  Bounds found = noBounds;
-  if (sites && sites->GetNumberOfPoints() > 0)
-  {
-    findBounds(sites, found.data());
-  }
-  if (ranks)
-  {
-    found = boundsOfAll(*ranks, found);
-  }
   double bounds[6];
-  std::copy(found.begin(), found.end(), bounds);
+  findBounds(sites, ranks, bounds);
   for (int a = 0; a < 3; ++a)
   {
     const double length = bounds[2 * a + 1] - bounds[2 * a];

@@ -46,20 +46,6 @@ vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const Grid
   return density;
 }
 
-// The cells of an extent of the grid, or those about its points.
-LatticePart<3> partOf(const Extent& wanted, const ImageGrid& grid)
-{
-  LatticePart<3> part{ {}, {} };
-  const int owner = grid.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
-  const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
-  for (std::size_t a = 0; a < 3 && !box.IsEmpty(); ++a)
-  {
-    part.Low[a] = box.Low[a] - grid.Extent()[2 * a];
-    part.Cells[a] = box.High[a] - box.Low[a];
-  }
-  return part;
-}
-
 } // namespace
 
 ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks* ranks) const
@@ -92,13 +78,15 @@ ImageGrid SolidDensity::Run(vtkPolyData* surface,
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
   const TriangleSurface triangles = closed.InCells(cells, progress, 0.5);
+  const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  // The values are those of cells, or of the points at their centres.
+  const auto part = latticePartOf<3>(tuplesOf(wanted, owner, grid.Extent()), cells);
   const vtkSmartPointer<vtkDoubleArray> density =
-    cover(triangles, cells.Size<3>(), partOf(wanted, grid), this->Supersampling, progress);
+    cover(triangles, cells.Size<3>(), part, this->Supersampling, progress);
   applyGrid(grid, output);
   Extent extent = wanted; // VTK takes no constant one
   output->SetExtent(extent.data());
-  output->GetAttributes(this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
-    ->SetScalars(density);
+  output->GetAttributes(owner)->SetScalars(density);
   return grid;
 }
 
