@@ -2,6 +2,7 @@
 """Three ranks with a fault on one of them: all end, with one message, or the result is right."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from rt_testing import SKIPPED, main
 MPIRUN = shutil.which("mpirun")
 PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_errors_script.py")
+LIMIT = os.path.join(os.path.dirname(__file__), "ranks_limit_script.py")
 RANKS = 3
 
 # What the one message, on the first rank, has.
@@ -131,6 +133,16 @@ class RanksErrors(unittest.TestCase):
                 self.assertEqual(others, [[]] * (RANKS - 1))
                 self.assertEqual(len(first), 1)
                 self.assertIn(text, first[0])
+
+    def test_no_memory_on_one(self):
+        """The others would wait for its messages."""
+        done = subprocess.run(
+            [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", PVBATCH, "--sym", LIMIT],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+        given = sorted(json.loads(line) for line in re.findall("GIVEN (.*)", done.stdout))
+        self.assertEqual([cells for _, cells, _ in given], [0, 0], done.stderr[-2000:])
+        self.assertEqual([len(errors) for *_, errors in given], [1, 0])
+        self.assertIn("Rank 1: Not enough memory for what other ranks send", given[0][2][0])
 
     def test_array_that_one_has_not(self):
         for kind in ("sample ", "map "):
