@@ -9,7 +9,7 @@ import pickle
 import sys
 
 from paraview import simple
-from ranks_table_script import RANK, gathered, give
+from ranks_rows import RANK, gathered, give
 from rt_testing import load_plugin
 
 EXTENT = [0, 12, 0, 7, 0, 10]  # ParaView reads raw numbers on several ranks from 0 on only

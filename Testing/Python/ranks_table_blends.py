@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of TestRanksTable.py: filters that take several densities."""
+from paraview import servermanager, simple
+from ranks_rows import give, give_both
+
+
+def morph(**properties):
+    simple.SetActiveSource(None)  # whose arrays would be the defaults of a new filter
+    return simple.MorphDensities(**properties)
+
+
+def barycenter(**properties):
+    simple.SetActiveSource(None)
+    return simple.DensityBarycenter(**properties)
+
+
+def give_blends():
+    """Of densities on points and cells, of one geometry and of several."""
+    usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
+    whole = [-4, 8, 0, 7, 0, 10]
+    image = simple.Wavelet(WholeExtent=whole)
+    other = simple.Wavelet(WholeExtent=whole, StandardDeviation=0.2, XFreq=20, Center=[4, 1, 2])
+    cells, other_cells = (simple.PointDatatoCellData(Input=density, ProcessAllArrays=1)
+                          for density in (image, other))
+    flat, other_flat = (simple.ExtractSubset(Input=density, VOI=[-4, 8, 3, 3, 0, 10])
+                        for density in (image, other))
+    long = simple.Wavelet(WholeExtent=[-2, 3, -2, 3, 0, 21], StandardDeviation=0.3)
+    # A source that is asked for two pieces.
+    wider = simple.GhostCellsGenerator(Input=other, BuildIfRequired=0, MinimumNumberOfGhosts=2)
+    inputs = {"points": (image, other), "cells": (cells, other_cells),
+              "flat": (flat, other_flat), "geometries": (image, long), "mixed": (cells, long),
+              "twice": (image, image), "wider": (other, wider), "wider first": (wider, other)}
+    for name, (source, target) in inputs.items():
+        give_both("morph " + name, morph(Input=source, Target=target, Parameter=0.3, **usual))
+    for count in (2, 3, 4, 8):
+        give_both("morph of %d" % count, morph(
+            Input=image, Target=long, ParticlesPerCell=count, **usual))
+    for mode in ("Geometric", "Source", "Normalize"):
+        give_both("morph " + mode, morph(Input=image, Target=other, MassMode=mode, **usual))
+    for tables in ("Tiled", "Whole"):
+        for count in (1, 3):
+            give_both("morph %s %d" % (tables, count), morph(
+                Input=cells, Target=long, Tables=tables, ParticlesPerCell=count,
+                NegativeValues="Clamp", NumberOfSteps=32))
+    far = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[200, 10, 10],
+                         StandardDeviation=2)
+    near = simple.Wavelet(WholeExtent=[0, 400, 0, 28, 0, 31], Center=[100, 10, 10])
+    for maps in ("On", "Off"):
+        give_both("morph tiles maps " + maps, morph(
+            Input=far, Target=near, Tables="Tiled", FlowMaps=maps, Dimensions=[60, 6, 7],
+            ParticlesPerCell=2, NegativeValues="Clamp"))
+    sparse = simple.Calculator(Input=other, Function="(RTData > 150) * RTData",
+                               ResultArrayName="RTData")
+    give_both("morph sparse", morph(
+        Input=image, Target=sparse, NegativeValues="Clamp", NumberOfSteps=2, Integrator="Euler"))
+    give_both("morph coarse", morph(
+        Input=image, Target=other, Dimensions=[5, 4, 3], Kernel="Gaussian", **usual))
+    series = morph(Input=image, Target=long, PublishTime=1, NumberOfTimeSteps=4, **usual)
+    for time in (0.0, 1 / 3, 1.0):
+        series.UpdatePipeline(time)
+        give_both("morph at %.2f" % time, series)
+    mean = barycenter(Input=[image, other, long], Weights=[1, 2, 0.5], **usual)
+    give_both("barycenter", mean)
+    mean.Weights = [0, 2, 1]
+    give_both("barycenter again", mean)
+    give_both("barycenter blocks", barycenter(
+        Input=simple.GroupDatasets(Input=[image, other, long]), ParticlesPerCell=2, **usual))
+    behind = morph(Input=image, Target=other, **usual)
+    give("morph contour", simple.Contour(Input=behind, ContourBy=["POINTS", "Density"],
+                                         Isosurfaces=[120.0], ComputeNormals=0))
+    give("morph slice", simple.Slice(Input=behind))
+    give("morph threshold", simple.Threshold(
+        Input=servermanager.OutputPort(behind, 1), Scalars=["POINTS", "SourcePosition"],
+        LowerThreshold=1, UpperThreshold=1000))
