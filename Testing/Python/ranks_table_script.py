@@ -114,6 +114,9 @@ def main(path):
     give("few", simple.SampleDensity(Input=image, NumberOfParticles=2, **usual))
     give("paths", simple.SampleDensity(
         Input=cells, NumberOfParticles=60, OutputPaths=1, SampleArrays=0, **usual))
+    give("paths of seeds", simple.SampleDensity(
+        Input=image, Seeds=simple.Calculator(Input=seeds, Function="coordsX + coordsY",
+                                             ResultArrayName="Begin"), OutputPaths=1, **usual))
     give("early", simple.SampleDensity(Input=image, NumberOfParticles=300, FlowTime=0.5, **usual))
     give("cell grid", simple.SampleDensity(
         Input=cells, SamplesPerCell=1, SeedPattern="Jittered", **usual))
