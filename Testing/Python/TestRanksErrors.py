@@ -150,7 +150,7 @@ class RanksErrors(unittest.TestCase):
             self.assertIn("but the cell array Other on rank 1", self.errors(kind + "array")[0][0])
 
     def test_right_results(self):
-        for name, particles in RIGHT.items():
+        for name, particles in [*RIGHT.items(), ("kept by others", None)]:
             with self.subTest(name):
                 for kind in ("sample ", "map "):
                     self.assertEqual(self.errors(kind + name), [[]] * RANKS)

@@ -197,6 +197,18 @@ for name, make in IMAGES.items():
         report("%s %s" % ("sample" if kind is vtkTransportSampler else "map", name), algorithm,
                source)
 
+# One rank has given up the tables that the others keep.
+for kind in (vtkTransportSampler, vtkTransportMap):
+    first, second = kind(), kind()
+    if kind is vtkTransportSampler:
+        first.SetNumberOfParticles(60)
+        second.SetNumberOfParticles(60)
+    name = "sample " if kind is vtkTransportSampler else "map "
+    report(name + "before", first, produce(piece()))
+    if RANK == FAULTY:
+        first = None
+    report(name + "kept by others", second, produce(piece()))
+
 for name, wrong in (("wrong property", lambda: -1), ("wrong on one", lambda: on(
         FAULTY, lambda: -1, lambda: 60))):
     source = vtkTrivialProducer()
