@@ -99,7 +99,7 @@ def phases(plan, job, ranks, machine):
         Phase("particles in tiles", machine.velocity * steps * particles),
         # A sample of a map at the lower faces of a piece; particles with their arrays.
         Phase("output", 0, 1, 40 * D * face if job.is_map and ranks > 1 else
-              104 * particles * others if not job.is_map else 0)]
+              88 * particles * others if not job.is_map else 0)]
 
 
 def memory(plan, job, ranks):
