@@ -12,7 +12,6 @@
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
 
-#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -116,7 +115,7 @@ int vtkTransportSampler::RequestData(
   vtkSmartPointer<vtkPointSet> counted;
   if (ranks && inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    counted = SharedPoints(seeds, vtkDataSetAttributes::DUPLICATEPOINT, *ranks).MakeCountedSet();
+    counted = countedPoints(seeds, *ranks);
     seeds = counted;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);

@@ -27,7 +27,6 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -114,16 +113,13 @@ Extent extentAround(const PlaceOwners& owners, const ImageGrid& grid)
   return intersectionOf(extent, grid.Extent());
 }
 
-// The arrays of the data that the density was read from; `owners` where there are pieces.
+// The arrays of the data that the density was read from; of pieces their `part`.
 template <int D>
 void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>* meshes,
-  const std::optional<PlaceOwners>& owners, ConstPointSpan<3> particles, Progress& progress,
-  vtkPointData* output)
+  const Extent& part, ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
 {
-  const ImagePieces* pieces = density.Pieces();
-  if (owners && pieces)
+  if (const ImagePieces* pieces = density.Pieces())
   {
-    const Extent part = extentAround(*owners, density.Grid());
     const vtkSmartPointer<vtkImageData> image = pieces->Gather(part);
     sampleArrays({ { image }, "input image", false },
       PlacesInImage<D>(density.Grid(), part, particles), progress, 1.0, output);
@@ -257,11 +253,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
-  std::optional<PlaceOwners> owners;
+  Extent part = grid.Extent();
   if (ranks)
   {
-    owners.emplace(grid, density.Pieces(), *ranks);
-    moveToOwners(output, static_cast<std::int64_t>(times.size()), *owners, *ranks, progress);
+    const PlaceOwners owners(grid, density.Pieces(), *ranks);
+    part = extentAround(owners, grid);
+    moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, *ranks, progress);
     report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
     report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
   }
@@ -269,8 +266,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   if (addsArrays)
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
-    sampleArraysOf<D>(density, meshes, owners,
-      { places->GetPointer(0), places->GetNumberOfTuples() }, progress, output->GetPointData());
+    sampleArraysOf<D>(density, meshes, part, { places->GetPointer(0), places->GetNumberOfTuples() },
+      progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

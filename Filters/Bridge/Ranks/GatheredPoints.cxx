@@ -54,7 +54,7 @@ vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, co
   vtkSmartPointer<vtkPointSet> part;
   if (kind == PointSetKind::Points)
   {
-    part = SharedPoints(own, vtkDataSetAttributes::DUPLICATEPOINT, ranks).MakeCountedSet();
+    part = countedPoints(own, ranks);
   }
   else if (own && own->GetNumberOfPoints() > 0)
   {

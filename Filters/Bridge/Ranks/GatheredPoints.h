@@ -25,7 +25,7 @@ enum class PointSetKind
 
 // The points and cells of rank 0 first, with the arrays that all have. What is the same on several
 // ranks counts once, and duplicates that ghost arrays mark not at all; of Points those that
-// SharedPoints counts. Points of a Surface that several ranks have at one place become one, so that
+// countedPoints gives. Points of a Surface that several ranks have at one place become one, so that
 // it is whole.
 class GatheredPoints
 {

@@ -109,37 +109,11 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
 
 } // namespace
 
-SharedPoints::SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks)
-  : Points(countedSet(own, ranks))
-  , Number(countedOf(this->Points, ghosts, ranks))
-  , Total(sumOverRanks(&ranks, this->Number.Count()))
+vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks)
 {
-  this->FindKeys(ranks);
-}
-
-void SharedPoints::FindKeys(const Ranks& ranks)
-{
-  for (vtkDataArray* array : keyArrays(this->Points))
-  {
-    if (onAllRanks(&ranks, array != nullptr || this->Number.Count() == 0))
-    {
-      const std::int64_t count = this->Number.Count();
-      withMemory("the order of points", sizeof(std::int64_t) * static_cast<double>(count),
-        [&]() { this->Order = LargeBuffer<std::int64_t>(count); });
-      CopyIntegers copy;
-      if (count > 0)
-      {
-        Integers::Execute(array, copy, this->Number, this->Order.data());
-      }
-      return;
-    }
-  }
-}
-
-vtkSmartPointer<vtkPointSet> SharedPoints::MakeCountedSet() const
-{
-  vtkPointSet* set = this->Points;
-  const auto count = static_cast<vtkIdType>(this->Number.Count());
+  const vtkSmartPointer<vtkPointSet> set = countedSet(given, ranks);
+  const CountedPoints counted = countedOf(set, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+  const auto count = static_cast<vtkIdType>(counted.Count());
   if (count == set->GetNumberOfPoints())
   {
     return set;
@@ -148,7 +122,7 @@ vtkSmartPointer<vtkPointSet> SharedPoints::MakeCountedSet() const
   kept->SetNumberOfIds(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    kept->SetId(i, static_cast<vtkIdType>(this->Number.Point(i)));
+    kept->SetId(i, static_cast<vtkIdType>(counted.Point(i)));
   }
   vtkNew<vtkPoints> points;
   points->SetDataType(set->GetPoints()->GetDataType());
@@ -184,6 +158,33 @@ vtkSmartPointer<vtkPointSet> SharedPoints::MakeCountedSet() const
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   own->GetFieldData()->ShallowCopy(set->GetFieldData());
   return own;
+}
+
+SharedPoints::SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks)
+  : Points(countedSet(own, ranks))
+  , Number(countedOf(this->Points, ghosts, ranks))
+  , Total(sumOverRanks(&ranks, this->Number.Count()))
+{
+  this->FindKeys(ranks);
+}
+
+void SharedPoints::FindKeys(const Ranks& ranks)
+{
+  for (vtkDataArray* array : keyArrays(this->Points))
+  {
+    if (onAllRanks(&ranks, array != nullptr || this->Number.Count() == 0))
+    {
+      const std::int64_t count = this->Number.Count();
+      withMemory("the order of points", sizeof(std::int64_t) * static_cast<double>(count),
+        [&]() { this->Order = LargeBuffer<std::int64_t>(count); });
+      CopyIntegers copy;
+      if (count > 0)
+      {
+        Integers::Execute(array, copy, this->Number, this->Order.data());
+      }
+      return;
+    }
+  }
 }
 
 vtkSmartPointer<vtkDataArray> SharedPoints::TuplesOf(vtkDataArray* array) const

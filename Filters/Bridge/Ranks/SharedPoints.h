@@ -34,9 +34,6 @@ public:
   // Of this rank; without points where none count.
   vtkPointSet* Set() const { return this->Points; }
   const CountedPoints& Counted() const { return this->Number; }
-  // The counted points with their arrays: the set itself where all of them count, else points with
-  // a vertex each.
-  vtkSmartPointer<vtkPointSet> MakeCountedSet() const;
   // The number of points of all ranks.
   std::int64_t All() const { return this->Total; }
   // One for each counted point; nullptr where the order is that of the ranks and their points.
@@ -52,6 +49,11 @@ private:
   std::int64_t Total;
   LargeBuffer<std::int64_t> Order;
 };
+
+// The points of this rank that count, with their arrays, where duplicates that the ghost array
+// marks do not: the set itself where all of them do, else points with a vertex each. Called by all
+// ranks; `given` may be nullptr. Throws Failure.
+vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks);
 
 } // namespace RectifiedTransport
 
