@@ -41,11 +41,11 @@ void printPlan(std::int64_t side, int steps, const TileLimits& limits)
 {
   const TilePlan<3> plan(evenSize<3>(side), steps, FlowDirection::Forward, true, limits);
   double tileCells = 0.0; // of all tiles, with their halos
-  for (std::int64_t tile = 0; tile < plan.Count(); ++tile)
+  for (std::int64_t tile = 0; tile < plan.Tiles.Count(); ++tile)
   {
     GridSize<3> low;
     GridSize<3> high;
-    plan.FindCells(tile, low, high);
+    plan.Tiles.FindCells(tile, low, high);
     double cells = 1.0;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -57,11 +57,11 @@ void printPlan(std::int64_t side, int steps, const TileLimits& limits)
   print("graded_stride", static_cast<double>(gradedStrides<3>(plan.Size, limits)[0]));
   print("graded_nodes", gradedNodesOf(plan.Size, limits));
   print("hand_over", plan.HandOver);
-  print("tiles", static_cast<double>(plan.Count()));
-  print("halo", static_cast<double>(plan.Halo[0]));
+  print("tiles", static_cast<double>(plan.Tiles.Count()));
+  print("halo", static_cast<double>(plan.Tiles.Halo()[0]));
   print("tile_cells", tileCells);
-  print("most_tile_cells", numberOfCells<3>(plan.MostCells()));
-  print("tile_table_bytes", TileTables<3>::MemoryFor(plan.MostCells()));
+  print("most_tile_cells", numberOfCells<3>(plan.Tiles.MostCells()));
+  print("tile_table_bytes", TileTables<3>::MemoryFor(plan.Tiles.MostCells()));
   print("levels", static_cast<double>(plan.Shape.Levels.size()));
   print("map_bytes", plan.Shape.MemorySize());
   print("map_evaluations", plan.Shape.Cost);

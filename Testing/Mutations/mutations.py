@@ -291,7 +291,7 @@ OTHERS = [
     E(CORE + "Flow/Tiles/TileSchedule.cxx", "own = «own < this->Least» ? 0 : own;", "false"),
     E(CORE + "Flow/Tiles/TileSchedule.cxx", "Give(rank, tile, { visit.From, visit.First, «visit.First + taken» })",
       "visit.End"),
-    E(CORE + "Flow/Tiles/TileVisitors.h", "if («*unresolved != 0»)", "false"),
+    E(CORE + "Flow/Tiles/TileRun.h", "if («isUnresolved»)", "false"),
     S(CORE + "Flow/FlowMap.cxx",
       "gatherParts(*ranks, shareStarts(nodes, 1, *ranks), this->Marks.data());", ""),
     E(CORE + "Flow/MapDisplacement.cxx", "if («counted.Contains(cell)»)", "true"),

@@ -72,14 +72,14 @@ TYPED_TEST(Tiles, CoverTheDomain)
   {
     const TilePlan<D> plan(size, 32, direction, false, smallTiles<D>());
     ASSERT_TRUE(plan.IsPossible());
-    EXPECT_GE(plan.Count(), 1 << D);
+    EXPECT_GE(plan.Tiles.Count(), 1 << D);
     GridSize<D> most{};
     GridSize<D> end{};
-    for (std::int64_t tile = 0; tile < plan.Count(); ++tile)
+    for (std::int64_t tile = 0; tile < plan.Tiles.Count(); ++tile)
     {
       GridSize<D> low;
       GridSize<D> high;
-      plan.FindCells(tile, low, high);
+      plan.Tiles.FindCells(tile, low, high);
       for (int axis = 0; axis < D; ++axis)
       {
         EXPECT_GE(low[axis], 0);
@@ -88,17 +88,17 @@ TYPED_TEST(Tiles, CoverTheDomain)
         end[axis] = std::max(end[axis], high[axis]);
       }
     }
-    EXPECT_EQ(most, plan.MostCells());
+    EXPECT_EQ(most, plan.Tiles.MostCells());
     EXPECT_EQ(end, size);
     const double time = direction == FlowDirection::Forward ? 1.0 - plan.TimeLeft : 1.0;
     for (const Point<D>& point : randomPoints<D>(size, 1000))
     {
       const std::int64_t tile = plan.TileOf(point.data());
       ASSERT_GE(tile, 0);
-      ASSERT_LT(tile, plan.Count());
+      ASSERT_LT(tile, plan.Tiles.Count());
       GridSize<D> low;
       GridSize<D> high;
-      plan.FindCells(tile, low, high);
+      plan.Tiles.FindCells(tile, low, high);
       for (int axis = 0; axis < D; ++axis)
       {
         const double length = static_cast<double>(size[axis]);

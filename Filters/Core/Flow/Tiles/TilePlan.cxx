@@ -29,11 +29,6 @@ std::int64_t nearestPowerOfTwo(double value)
   return power;
 }
 
-std::int64_t tileStart(std::int64_t tile, std::int64_t count, std::int64_t size)
-{
-  return tile * (size / count) + std::min(tile, size % count);
-}
-
 } // namespace
 
 template <int Dimension>
@@ -57,6 +52,19 @@ GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLim
       return strides;
     }
   }
+}
+
+template <int Dimension>
+double gradedMemory(const GridSize<Dimension>& size, const GridSize<Dimension>& strides)
+{
+  double nodes = 1.0;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    nodes *= static_cast<double>(gradedNodes(size[axis], strides[axis], gradedRatio).size());
+  }
+  constexpr double bits = 1.0 / 8.0;
+  return nodes * TableView<Dimension>::Record * sizeof(double) +
+    bits * numberOfCells<Dimension>(size);
 }
 
 template <int Dimension>
@@ -135,119 +143,35 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   }
   this->HandOver = this->Shape.Levels.empty() ? handOver : this->Shape.Levels.back().HandOver;
   this->TimeLeft = timeLeft(direction, this->HandOver, steps);
-  this->ChooseTiles(limits);
+  this->InverseTime = direction == FlowDirection::Forward ? 1.0 / (1.0 - this->TimeLeft) : 1.0;
+  this->Tiles = this->ChooseTiles(limits);
 }
 
 template <int Dimension>
-void TilePlan<Dimension>::ChooseTiles(const TileLimits& limits)
+GridTiles<Dimension> TilePlan<Dimension>::ChooseTiles(const TileLimits& limits) const
 {
-  constexpr std::int64_t usualWidth = Dimension == 3 ? 64 : 1024;
-  constexpr double usualHalos = 2.5; // a tile, of both sides
   const bool isForward = this->Shape.Direction == FlowDirection::Forward;
-  this->InverseTime = isForward ? 1.0 / (1.0 - this->TimeLeft) : 1.0;
-  GridSize<Dimension> widths;
+  GridSize<Dimension> halo;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     const double box =
       static_cast<double>(this->Size[axis]) * this->TimeLeft / (1.0 - this->TimeLeft);
     // Rounding and the steps' errors let boxes leave the one before a little.
-    this->Halo[axis] =
-      static_cast<std::int64_t>(std::ceil(isForward ? 0.5 * box + 2.0 : box + 4.0));
-    widths[axis] = limits.Width > 0
-      ? limits.Width
-      : std::max(usualWidth,
-          static_cast<std::int64_t>(usualHalos * 2.0 * static_cast<double>(this->Halo[axis])));
-    this->Counts[axis] =
-      std::max<std::int64_t>(1, (this->Size[axis] + widths[axis] / 2) / widths[axis]);
+    halo[axis] = static_cast<std::int64_t>(std::ceil(isForward ? 0.5 * box + 2.0 : box + 4.0));
   }
-  const auto mostCells = [this](int axis) {
-    const std::int64_t width = (this->Size[axis] + this->Counts[axis] - 1) / this->Counts[axis];
-    return std::min(this->Size[axis], width + 2 * this->Halo[axis]);
-  };
-  for (;;)
-  {
-    double cells = 1.0;
-    int widest = 0;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      cells *= static_cast<double>(mostCells(axis));
-      widest = this->Size[axis] * this->Counts[widest] > this->Size[widest] * this->Counts[axis]
-        ? axis
-        : widest;
-    }
-    if (cells <= static_cast<double>(limits.Cells) ||
-      this->Size[widest] < 2 * this->Halo[widest] * this->Counts[widest])
-    {
-      break;
-    }
-    ++this->Counts[widest];
-  }
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    const std::int64_t count = this->Counts[axis];
-    for (std::int64_t tile = 0; tile < count; ++tile)
-    {
-      const std::int64_t end = tileStart(tile + 1, count, this->Size[axis]);
-      this->TileBelow[axis].resize(static_cast<std::size_t>(end), static_cast<std::int32_t>(tile));
-    }
-  }
-}
-
-template <int Dimension>
-std::int64_t TilePlan<Dimension>::Count() const
-{
-  std::int64_t count = 1;
-  for (const std::int64_t along : this->Counts)
-  {
-    count *= along;
-  }
-  return count;
+  return { this->Size, halo, limits };
 }
 
 template <int Dimension>
 std::int64_t TilePlan<Dimension>::TileOf(const double* position) const
 {
-  std::int64_t tile = 0;
-  for (int axis = Dimension; axis-- > 0;)
-  {
-    const double size = static_cast<double>(this->Size[axis]);
-    const double centre = 0.5 * size + (position[axis] - 0.5 * size) * this->InverseTime;
-    const double cell = std::min(std::max(centre, 0.0), size - 1.0);
-    tile = tile * this->Counts[axis] + this->TileBelow[axis][static_cast<std::size_t>(cell)];
-  }
-  return tile;
-}
-
-template <int Dimension>
-void TilePlan<Dimension>::FindCells(
-  std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const
-{
+  Point<Dimension> centre;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const std::int64_t count = this->Counts[axis];
-    const std::int64_t size = this->Size[axis];
-    const std::int64_t along = tile % count;
-    tile /= count;
-    low[axis] = std::max<std::int64_t>(0, tileStart(along, count, size) - this->Halo[axis]);
-    high[axis] = std::min(size, tileStart(along + 1, count, size) + this->Halo[axis]);
+    const double middle = 0.5 * static_cast<double>(this->Size[axis]);
+    centre[axis] = middle + (position[axis] - middle) * this->InverseTime;
   }
-}
-
-template <int Dimension>
-GridSize<Dimension> TilePlan<Dimension>::MostCells() const
-{
-  GridSize<Dimension> most{};
-  for (std::int64_t tile = 0; tile < this->Count(); ++tile)
-  {
-    GridSize<Dimension> low;
-    GridSize<Dimension> high;
-    this->FindCells(tile, low, high);
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      most[axis] = std::max(most[axis], high[axis] - low[axis]);
-    }
-  }
-  return most;
+  return this->Tiles.TileOf(centre);
 }
 
 template <int Dimension>
@@ -283,28 +207,16 @@ double TilePlan<Dimension>::MemorySize(double particles, bool isLattice) const
       nodes *= static_cast<double>(cells + 1);
     }
   }
-  return this->GradedMemory() + this->Shape.MemorySize() + node * nodes +
-    TileTables<Dimension>::MemoryFor(this->MostCells()) + 2.0 * bits * chunk +
+  return gradedMemory<Dimension>(this->Size, this->Strides) + this->Shape.MemorySize() +
+    node * nodes + TileTables<Dimension>::MemoryFor(this->Tiles.MostCells()) + 2.0 * bits * chunk +
     (isLattice ? 0.0 : sorted * chunk) +
     std::max(entries * chunk / BlockSize, (record + noted) * extra);
 }
 
-template <int Dimension>
-double TilePlan<Dimension>::GradedMemory() const
-{
-  double nodes = 1.0;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    nodes *=
-      static_cast<double>(gradedNodes(this->Size[axis], this->Strides[axis], gradedRatio).size());
-  }
-  constexpr double bits = 1.0 / 8.0;
-  return nodes * TableView<Dimension>::Record * sizeof(double) +
-    bits * numberOfCells<Dimension>(this->Size);
-}
-
 template GridSize<2> gradedStrides<2>(const GridSize<2>&, const TileLimits&);
 template GridSize<3> gradedStrides<3>(const GridSize<3>&, const TileLimits&);
+template double gradedMemory<2>(const GridSize<2>&, const GridSize<2>&);
+template double gradedMemory<3>(const GridSize<3>&, const GridSize<3>&);
 template bool servesTiles<1>(
   const GridSize<1>&, const FlowOptions&, FlowDirection, const TileLimits&);
 template bool servesTiles<2>(

@@ -8,10 +8,10 @@
 
 #include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/FlowTables.h"
+#include "Core/Flow/Tiles/GridTiles.h"
 #include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace RectifiedTransport
 {
@@ -24,6 +24,9 @@ constexpr double gradedRatio = 11.5;
 // The strides of the graded tables of a grid, in proportion to its sizes; powers of two.
 template <int Dimension>
 GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLimits& limits = {});
+// The bytes of graded tables.
+template <int Dimension>
+double gradedMemory(const GridSize<Dimension>& size, const GridSize<Dimension>& strides);
 
 template <int Dimension>
 struct TilePlan
@@ -34,12 +37,8 @@ struct TilePlan
     bool hasMaps, const TileLimits& limits = {});
 
   bool IsPossible() const { return this->HandOver > 0; }
-  std::int64_t Count() const;
   // The tile of a particle: by its place at the hand-over forwards, at time 1 backwards.
   std::int64_t TileOf(const double* position) const;
-  // The grid cells of a tile's tables.
-  void FindCells(std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const;
-  GridSize<Dimension> MostCells() const; // of the tables of any tile
   // The most bytes that an advection of so many particles, samples of a lattice or points in any
   // order, takes besides positions: tables, maps and what is noted of particles.
   double MemorySize(double particles, bool isLattice) const;
@@ -52,16 +51,13 @@ struct TilePlan
   FlowMapShape<Dimension> Shape;
   int HandOver = 0; // steps between it and time 1
   double TimeLeft = 0.0;
-  GridSize<Dimension> Counts; // of tiles
-  GridSize<Dimension> Halo;   // cells around a tile that boxes reach
+  GridTiles<Dimension> Tiles; // their halo is what boxes reach
 
 private:
-  double GradedMemory() const;
-  void ChooseTiles(const TileLimits& limits);
+  GridTiles<Dimension> ChooseTiles(const TileLimits& limits) const;
 
-  GridSize<Dimension> Strides;                    // of the graded tables
-  double InverseTime = 1.0;                       // of box centres
-  std::vector<std::int32_t> TileBelow[Dimension]; // of each grid cell
+  GridSize<Dimension> Strides; // of the graded tables
+  double InverseTime = 1.0;    // of box centres
 };
 
 } // namespace RectifiedTransport

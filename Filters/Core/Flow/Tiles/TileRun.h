@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of one tile after another, and the particles that are advected on them (TilePlan.h).
-// On several ranks each of them makes the tables of some tiles, for its own particles and those of
-// others.
+// The particles that are advected on the tables of tiles (TilePlan.h).
 #ifndef RectifiedTransport_TileRun_h
 #define RectifiedTransport_TileRun_h
 
@@ -9,17 +7,12 @@
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TileLanes.h"
 #include "Core/Flow/Tiles/TilePlan.h"
-#include "Core/Flow/Tiles/TileSchedule.h"
-#include "Core/Flow/Tiles/TileVisitors.h"
-#include "Core/Parallel/Ranks.h"
-#include "Core/Tables/GradedTables.h"
-#include "Core/Tables/SharedDensity.h"
-#include "Core/Tables/TileTables.h"
+#include "Core/Flow/Tiles/TileRounds.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <cstring>
 #include <vector>
 
 namespace RectifiedTransport
@@ -46,21 +39,15 @@ public:
   TileRun(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
     const GradedTables<Dimension>& graded, const TilePlan<Dimension>& plan,
     const FlowJob<Dimension>& wide, Counters& counters, Progress& progress)
-    : Density(density)
-    , OfRanks(sharedDensity)
-    , Plan(plan)
-    , Wide(wide)
+    : Wide(wide)
     , Count(counters)
     , Work(progress)
-    , Tile(graded.View(), graded.Scaling())
+    , Rounds(density, sharedDensity, graded, plan.Tiles, progress)
   {
   }
 
   // Whether a condition holds here or on another rank.
-  bool HasAnyRank(bool condition) const
-  {
-    return !onAllRanks(this->OfRanks ? this->Work.Group() : nullptr, !condition);
-  }
+  bool HasAnyRank(bool condition) const { return this->Rounds.HasAnyRank(condition); }
 
   // Makes the tables of each tile with items, and advects the particles that giveAll(item, give)
   // gives.
@@ -69,37 +56,74 @@ public:
     PointSpan<Dimension> positions, ParticleMask& left, double begin, double end,
     const GiveAll& giveAll)
   {
-    if (this->OfRanks)
-    {
-      this->RunTilesOfRanks(items, stage, positions, left, begin, end, giveAll);
-      return;
-    }
-    for (std::int64_t tile = 0; tile < this->Plan.Count(); ++tile)
-    {
-      const std::int64_t first = items.Start(tile);
-      const std::int64_t count = items.Start(tile + 1) - first;
-      if (count == 0)
-      {
-        continue;
-      }
-      const double all = static_cast<double>(items.Count());
-      const double from = begin + (end - begin) * static_cast<double>(first) / all;
-      const double to = begin + (end - begin) * static_cast<double>(first + count) / all;
-      GridSize<Dimension> low;
-      GridSize<Dimension> high;
-      this->Plan.FindCells(tile, low, high);
-      this->BuildTile(*this->Density, low, high, from, to);
-      this->AdvectItems(items, first, first + count, stage, positions, left, giveAll);
-    }
+    this->Rounds.Run(
+      items, Advection<Item, GiveAll>{ *this, items, stage, positions, left, giveAll }, begin, end);
   }
 
 private:
   static constexpr std::int64_t grain = 32; // entries or blocks a range
 
+  // What TileRounds does with the tables of a tile.
+  template <class Item, class GiveAll>
+  struct Advection
+  {
+    static constexpr double Cell = 0.02; // measured
+
+    void Run(std::int64_t first, std::int64_t last)
+    {
+      const FlowJob<Dimension> job = this->Parent.TileJob(this->Stage);
+      this->Parent.Work.For(
+        last - first, grain,
+        [&](std::int64_t b, std::int64_t e) {
+          TileLanes<Dimension> lanes(job, this->Stage.Pass, this->Stage.IsKept, this->Positions,
+            this->Left, this->Parent.Count.Evaluations);
+          for (std::int64_t item = first + b; item < first + e && !this->Parent.Work.ShouldStop();
+               ++item)
+          {
+            this->Give(this->Items[item],
+              [&](const double* values, std::int64_t index, std::int64_t particle) {
+                std::copy_n(values, lanes.ValuesEach(), lanes.Next());
+                lanes.Add(index, particle);
+              });
+          }
+          lanes.Advance();
+        },
+        grain);
+    }
+    int ValuesEach() const { return TileLanes<Dimension>::valuesOf(this->Stage.FromStates); }
+    template <class GiveOne>
+    void Give(const Item& item, const GiveOne& give) const
+    {
+      this->GiveItem(item, give);
+    }
+    Bytes Serve(Bytes visitors) { return this->Parent.AdvectVisitors(this->Stage, visitors); }
+    // Unresolved ones are written only if they are kept.
+    void Take(const char* reply, std::int64_t index, std::int64_t particle)
+    {
+      constexpr std::size_t bytes = sizeof(double) * Dimension;
+      const bool isUnresolved = reply[bytes] != 0;
+      if (!isUnresolved || this->Stage.IsKept)
+      {
+        std::memcpy(this->Positions[index], reply, bytes);
+      }
+      if (isUnresolved)
+      {
+        this->Left.Add(particle);
+      }
+    }
+
+    TileRun& Parent;
+    const ByTile<Item>& Items;
+    const TileStage<Dimension>& Stage;
+    const PointSpan<Dimension> Positions;
+    ParticleMask& Left;
+    const GiveAll& GiveItem;
+  };
+
   FlowJob<Dimension> TileJob(const TileStage<Dimension>& stage) const
   {
     FlowJob<Dimension> job = this->Wide;
-    job.Tables = this->Tile.View();
+    job.Tables = this->Rounds.Tables();
     job.Sparse = false;
     job.Map = &stage.Map;
     job.FromStates = stage.FromStates;
@@ -107,177 +131,47 @@ private:
     return job;
   }
 
-  // One of a chunk's stages, as shares of it.
-  void BeginStage(double begin, double end, double share, std::int64_t units = 1)
+  // Of the particles that a rank sent: where each ends, and a byte that says whether it is
+  // unresolved.
+  Bytes AdvectVisitors(const TileStage<Dimension>& stage, Bytes& visitors)
   {
-    this->Work.BeginStage(begin + (end - begin) * share, units);
-  }
-
-  void BuildTile(const DensityValues& density, const GridSize<Dimension>& low,
-    const GridSize<Dimension>& high, double from, double to)
-  {
-    constexpr double partOfTables = 0.1;
-    this->BeginStage(from, to, partOfTables, high[Dimension - 1] - low[Dimension - 1]);
-    this->Tile.Build(density, low, high, this->Work);
-    this->BeginStage(from, to, 1.0);
-  }
-
-  // Advects the particles of the items [first, last).
-  template <class Item, class GiveAll>
-  void AdvectItems(const ByTile<Item>& items, std::int64_t first, std::int64_t last,
-    const TileStage<Dimension>& stage, PointSpan<Dimension> positions, ParticleMask& left,
-    const GiveAll& giveAll)
-  {
+    const int each = TileLanes<Dimension>::valuesOf(stage.FromStates);
+    const std::vector<double> values = fromBytes<double>(visitors);
+    visitors = {};
+    const auto count = static_cast<std::int64_t>(values.size()) / each;
+    std::vector<double> ends(static_cast<std::size_t>(count * Dimension));
+    ParticleMask unresolved(count);
+    const PointSpan<Dimension> places(ends.data(), count);
+    constexpr std::int64_t particles = grain * BlockSize;
     const FlowJob<Dimension> job = this->TileJob(stage);
     this->Work.For(
-      last - first, grain,
-      [&](std::int64_t b, std::int64_t e) {
+      count, particles,
+      [&](std::int64_t first, std::int64_t last) {
         TileLanes<Dimension> lanes(
-          job, stage.Pass, stage.IsKept, positions, left, this->Count.Evaluations);
-        for (std::int64_t item = first + b; item < first + e && !this->Work.ShouldStop(); ++item)
+          job, stage.Pass, true, places, unresolved, this->Count.Evaluations);
+        for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
         {
-          giveAll(
-            items[item], [&](const double* values, std::int64_t index, std::int64_t particle) {
-              std::copy_n(values, lanes.ValuesEach(), lanes.Next());
-              lanes.Add(index, particle);
-            });
+          std::copy_n(values.data() + i * each, each, lanes.Next());
+          lanes.Add(i, i);
         }
         lanes.Advance();
       },
-      grain);
+      particles);
+    constexpr std::size_t bytes = sizeof(double) * Dimension;
+    Bytes reply(static_cast<std::size_t>(count) * (bytes + 1));
+    char* next = reply.data();
+    for (std::int64_t i = 0; i < count; ++i, next += bytes + 1)
+    {
+      std::memcpy(next, places[i], bytes);
+      next[bytes] = unresolved.Has(i) ? 1 : 0;
+    }
+    return reply;
   }
 
-  // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
-  // those of others that visit it, which are sent back.
-  template <class Item, class GiveAll>
-  void RunTilesOfRanks(const ByTile<Item>& items, const TileStage<Dimension>& stage,
-    PointSpan<Dimension> positions, ParticleMask& left, double begin, double end,
-    const GiveAll& giveAll)
-  {
-    const Ranks& ranks = *this->Work.Group();
-    const std::vector<std::vector<TileUnit>> units = this->Schedule(items, ranks);
-    const auto own = static_cast<std::size_t>(ranks.Own());
-    std::size_t rounds = 0;
-    for (const std::vector<TileUnit>& those : units)
-    {
-      rounds = std::max(rounds, those.size());
-    }
-    for (std::size_t round = 0; round < rounds; ++round)
-    {
-      const double each = (end - begin) / static_cast<double>(rounds);
-      const double from = begin + each * static_cast<double>(round);
-      const bool hasTile = round < units[own].size();
-      this->MakeTile(hasTile ? &units[own][round] : nullptr, from, from + each);
-      if (hasTile)
-      {
-        const std::int64_t start = items.Start(units[own][round].Tile);
-        for (const TileVisit& visit : units[own][round].Visits)
-        {
-          if (visit.From == ranks.Own())
-          {
-            this->AdvectItems(
-              items, start + visit.First, start + visit.End, stage, positions, left, giveAll);
-          }
-        }
-      }
-      TileVisitors<Dimension, Item> visitors(items, units, round, ranks);
-      while (visitors.HaveMore())
-      {
-        const int values = TileLanes<Dimension>::valuesOf(stage.FromStates);
-        std::vector<Bytes> received = ranks.Exchange(visitors.Leave(values, giveAll));
-        std::vector<Bytes> ends = this->AdvectReceived(stage, std::move(received));
-        visitors.Return(ranks.Exchange(std::move(ends)), stage.IsKept, positions, left);
-      }
-    }
-  }
-
-  template <class Item>
-  std::vector<std::vector<TileUnit>> Schedule(const ByTile<Item>& items, const Ranks& ranks) const
-  {
-    std::vector<TileCount> own;
-    for (std::int64_t tile = 0; tile < this->Plan.Count(); ++tile)
-    {
-      const std::int64_t count = items.Start(tile + 1) - items.Start(tile);
-      if (count > 0)
-      {
-        own.push_back({ tile, count });
-      }
-    }
-    std::vector<std::vector<TileCount>> all;
-    for (const Bytes& bytes : ranks.Gather(toBytes(own)))
-    {
-      all.push_back(fromBytes<TileCount>(bytes));
-    }
-    // Measured: a cell of a tile's tables takes about 1/50 of the time of a particle.
-    constexpr double cell = 0.02;
-    const double particlesOfItem = TileVisitors<Dimension, Item>::ParticlesOfItem;
-    return scheduleTiles(
-      all, cell * numberOfCells<Dimension>(this->Plan.MostCells()) / particlesOfItem);
-  }
-
-  // nullptr where this rank needs none: others may need its part of the density.
-  void MakeTile(const TileUnit* unit, double from, double to)
-  {
-    GridSize<Dimension> low{};
-    GridSize<Dimension> high{};
-    if (unit)
-    {
-      this->Plan.FindCells(unit->Tile, low, high);
-    }
-    const auto values = this->OfRanks->Gather(low, high);
-    if (unit)
-    {
-      this->BuildTile(*values, low, high, from, to);
-    }
-  }
-
-  // Of the particles that each rank sent, on this rank's tile: where they end, then a byte for each
-  // that says whether it is unresolved.
-  std::vector<Bytes> AdvectReceived(
-    const TileStage<Dimension>& stage, std::vector<Bytes> received)
-  {
-    const int each = TileLanes<Dimension>::valuesOf(stage.FromStates);
-    std::vector<Bytes> replies;
-    for (Bytes& bytes : received)
-    {
-      const std::vector<double> values = fromBytes<double>(bytes);
-      bytes = {};
-      const auto count = static_cast<std::int64_t>(values.size()) / each;
-      std::vector<double> ends(static_cast<std::size_t>(count * Dimension));
-      ParticleMask unresolved(count);
-      const PointSpan<Dimension> places(ends.data(), count);
-      constexpr std::int64_t particles = grain * BlockSize;
-      const FlowJob<Dimension> job = this->TileJob(stage);
-      this->Work.For(
-        count, particles,
-        [&](std::int64_t first, std::int64_t last) {
-          TileLanes<Dimension> lanes(
-            job, stage.Pass, true, places, unresolved, this->Count.Evaluations);
-          for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
-          {
-            std::copy_n(values.data() + i * each, each, lanes.Next());
-            lanes.Add(i, i);
-          }
-          lanes.Advance();
-        },
-        particles);
-      Bytes reply = toBytes(ends);
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        reply.push_back(unresolved.Has(i) ? 1 : 0);
-      }
-      replies.push_back(std::move(reply));
-    }
-    return replies;
-  }
-
-  const DensityValues* const Density;
-  const SharedDensity<Dimension>* const OfRanks;
-  const TilePlan<Dimension>& Plan;
   const FlowJob<Dimension>& Wide;
   Counters& Count;
   Progress& Work;
-  TileTables<Dimension> Tile;
+  TileRounds<Dimension> Rounds;
 };
 
 } // namespace RectifiedTransport

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_TileVisitors_h
 #define RectifiedTransport_TileVisitors_h
 
+#include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TileSchedule.h"
-#include "Core/Geometry/Points.h"
 #include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace RectifiedTransport
 {
 
-template <int Dimension, class Item>
+template <class Item>
 class TileVisitors
 {
 public:
@@ -92,29 +92,19 @@ public:
     return parts;
   }
 
-  // Writes where they ended, which is followed by a byte for each that says whether it is
-  // unresolved: those are added to what is left, and written only if they are kept.
-  void Return(const std::vector<Bytes>& ends, bool isKept, PointSpan<Dimension> positions,
-    ParticleMask& left) const
+  // Calls take(bytes, index, particle) for each with what came back for it: as many bytes for all.
+  template <class Take>
+  void Return(const std::vector<Bytes>& replies, const Take& take) const
   {
-    constexpr std::size_t bytes = sizeof(double) * Dimension;
-    for (std::size_t rank = 0; rank < ends.size(); ++rank)
+    for (std::size_t rank = 0; rank < replies.size(); ++rank)
     {
       const std::vector<Place>& places = this->Places[rank];
-      const char* end = ends[rank].data();
-      const char* unresolved = end + places.size() * bytes;
+      const char* reply = replies[rank].data();
+      const std::size_t each = places.empty() ? 0 : replies[rank].size() / places.size();
       for (const Place& place : places)
       {
-        if (*unresolved == 0 || isKept)
-        {
-          std::memcpy(positions[place.Index], end, bytes);
-        }
-        if (*unresolved != 0)
-        {
-          left.Add(place.Particle);
-        }
-        end += bytes;
-        ++unresolved;
+        take(reply, place.Index, place.Particle);
+        reply += each;
       }
     }
   }

@@ -194,7 +194,7 @@ private:
         }
       },
       grain);
-    return ByTile<Entry>(found, this->Plan.Count(), [](const Entry& entry) { return entry.Tile; });
+    return ByTile<Entry>(found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
   }
 
   TileStage<Dimension> StageOfEntries() const
@@ -338,7 +338,7 @@ private:
         numbers[0].push_back(i);
       }
     }
-    const ByTile<std::int64_t> byTile(numbers, this->Plan.Count(), [&](std::int64_t number) {
+    const ByTile<std::int64_t> byTile(numbers, this->Plan.Tiles.Count(), [&](std::int64_t number) {
       double place[Dimension];
       std::copy_n(level.Records + number * record, Dimension, place);
       return this->Plan.TileOf(place);

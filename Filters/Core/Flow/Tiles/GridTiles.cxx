@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Flow/Tiles/GridTiles.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::int64_t tileStart(std::int64_t tile, std::int64_t count, std::int64_t size)
+{
+  return tile * (size / count) + std::min(tile, size % count);
+}
+
+} // namespace
+
+template <int Dimension>
+GridTiles<Dimension>::GridTiles(
+  const GridSize<Dimension>& size, const GridSize<Dimension>& halo, const TileLimits& limits)
+  : Size(size)
+  , HaloCells(halo)
+{
+  constexpr std::int64_t usualWidth = Dimension == 3 ? 64 : 1024;
+  constexpr double usualHalos = 2.5; // a tile, of both sides
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t width = limits.Width > 0
+      ? limits.Width
+      : std::max(usualWidth,
+          static_cast<std::int64_t>(usualHalos * 2.0 * static_cast<double>(halo[axis])));
+    this->Counts[axis] = std::max<std::int64_t>(1, (size[axis] + width / 2) / width);
+  }
+  for (;;)
+  {
+    double cells = 1.0;
+    int widest = 0;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      cells *= static_cast<double>(this->MostCellsAlong(axis));
+      widest =
+        size[axis] * this->Counts[widest] > size[widest] * this->Counts[axis] ? axis : widest;
+    }
+    if (cells <= static_cast<double>(limits.Cells) ||
+      size[widest] < 2 * halo[widest] * this->Counts[widest])
+    {
+      break;
+    }
+    ++this->Counts[widest];
+  }
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t count = this->Counts[axis];
+    for (std::int64_t tile = 0; tile < count; ++tile)
+    {
+      const std::int64_t end = tileStart(tile + 1, count, size[axis]);
+      this->TileBelow[axis].resize(static_cast<std::size_t>(end), static_cast<std::int32_t>(tile));
+    }
+  }
+}
+
+template <int Dimension>
+std::int64_t GridTiles<Dimension>::MostCellsAlong(int axis) const
+{
+  const std::int64_t width = (this->Size[axis] + this->Counts[axis] - 1) / this->Counts[axis];
+  return std::min(this->Size[axis], width + 2 * this->HaloCells[axis]);
+}
+
+template <int Dimension>
+std::int64_t GridTiles<Dimension>::Count() const
+{
+  std::int64_t count = 1;
+  for (const std::int64_t along : this->Counts)
+  {
+    count *= along;
+  }
+  return count;
+}
+
+template <int Dimension>
+std::int64_t GridTiles<Dimension>::TileOf(const Point<Dimension>& place) const
+{
+  std::int64_t tile = 0;
+  for (int axis = Dimension; axis-- > 0;)
+  {
+    const double cell =
+      std::min(std::max(place[axis], 0.0), static_cast<double>(this->Size[axis]) - 1.0);
+    tile = tile * this->Counts[axis] + this->TileBelow[axis][static_cast<std::size_t>(cell)];
+  }
+  return tile;
+}
+
+template <int Dimension>
+void GridTiles<Dimension>::FindCells(
+  std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const
+{
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const std::int64_t count = this->Counts[axis];
+    const std::int64_t size = this->Size[axis];
+    const std::int64_t halo = this->HaloCells[axis];
+    const std::int64_t along = tile % count;
+    tile /= count;
+    low[axis] = std::max<std::int64_t>(0, tileStart(along, count, size) - halo);
+    high[axis] = std::min(size, tileStart(along + 1, count, size) + halo);
+  }
+}
+
+template <int Dimension>
+GridSize<Dimension> GridTiles<Dimension>::MostCells() const
+{
+  GridSize<Dimension> most{};
+  for (std::int64_t tile = 0; tile < this->Count(); ++tile)
+  {
+    GridSize<Dimension> low;
+    GridSize<Dimension> high;
+    this->FindCells(tile, low, high);
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      most[axis] = std::max(most[axis], high[axis] - low[axis]);
+    }
+  }
+  return most;
+}
+
+template class GridTiles<2>;
+template class GridTiles<3>;
+
+} // namespace RectifiedTransport

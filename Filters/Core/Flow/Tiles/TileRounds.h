@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tables of one tile after another, and what is computed on them. On several ranks each of them
+// makes the tables of some tiles, for its own particles and those of others.
+#ifndef RectifiedTransport_TileRounds_h
+#define RectifiedTransport_TileRounds_h
+
+#include "Core/Flow/Tiles/GridTiles.h"
+#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TileSchedule.h"
+#include "Core/Flow/Tiles/TileVisitors.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
+#include "Core/Tables/GradedTables.h"
+#include "Core/Tables/SharedDensity.h"
+#include "Core/Tables/TileTables.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class TileRounds
+{
+public:
+  // Of the two densities one is given, the second where the progress has ranks, which then run this
+  // together.
+  TileRounds(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
+    const GradedTables<Dimension>& graded, const GridTiles<Dimension>& tiles, Progress& progress)
+    : Density(density)
+    , OfRanks(sharedDensity)
+    , Tiles(tiles)
+    , Work(progress)
+    , Tile(graded.View(), graded.Scaling())
+  {
+  }
+
+  // Whether a condition holds here or on another rank.
+  bool HasAnyRank(bool condition) const
+  {
+    return !onAllRanks(this->OfRanks ? this->Work.Group() : nullptr, !condition);
+  }
+
+  // Of the tile that is worked on.
+  const TableView<Dimension>& Tables() const { return this->Tile.View(); }
+
+  // Makes the tables of each tile with items, and lets `task` do what is to be done on them. A task
+  // has
+  //   Cell                            the time of a cell of the tables, in that of a particle
+  //   Run(first, last)                for the items of these numbers
+  //   ValuesEach()                    how many doubles a particle has that visits another rank
+  //   Give(item, give)                calls give(values, index, particle) for each of an item
+  //   Serve(bytes)                    what visitors that came from one rank get: as many bytes each
+  //   Take(bytes, index, particle)    of one that comes back
+  template <class Item, class Task>
+  void Run(const ByTile<Item>& items, Task&& task, double begin, double end)
+  {
+    if (this->OfRanks)
+    {
+      this->RunOnRanks(items, task, begin, end);
+      return;
+    }
+    for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
+    {
+      const std::int64_t first = items.Start(tile);
+      const std::int64_t count = items.Start(tile + 1) - first;
+      if (count == 0)
+      {
+        continue;
+      }
+      const double all = static_cast<double>(items.Count());
+      const double from = begin + (end - begin) * static_cast<double>(first) / all;
+      const double to = begin + (end - begin) * static_cast<double>(first + count) / all;
+      GridSize<Dimension> low;
+      GridSize<Dimension> high;
+      this->Tiles.FindCells(tile, low, high);
+      this->BuildTile(*this->Density, low, high, from, to);
+      task.Run(first, first + count);
+    }
+  }
+
+private:
+  void BuildTile(const DensityValues& density, const GridSize<Dimension>& low,
+    const GridSize<Dimension>& high, double from, double to)
+  {
+    constexpr double partOfTables = 0.1;
+    this->Work.BeginStage(
+      from + (to - from) * partOfTables, high[Dimension - 1] - low[Dimension - 1]);
+    this->Tile.Build(density, low, high, this->Work);
+    this->Work.BeginStage(to);
+  }
+
+  // In rounds: in each, every rank has the tables of one tile at most, for its own particles and
+  // those of others that visit it, which are sent back.
+  template <class Item, class Task>
+  void RunOnRanks(const ByTile<Item>& items, Task& task, double begin, double end)
+  {
+    const Ranks& ranks = *this->Work.Group();
+    const std::vector<std::vector<TileUnit>> units = this->Schedule(items, Task::Cell, ranks);
+    const auto own = static_cast<std::size_t>(ranks.Own());
+    std::size_t rounds = 0;
+    for (const std::vector<TileUnit>& those : units)
+    {
+      rounds = std::max(rounds, those.size());
+    }
+    for (std::size_t round = 0; round < rounds; ++round)
+    {
+      const double each = (end - begin) / static_cast<double>(rounds);
+      const double from = begin + each * static_cast<double>(round);
+      const bool hasTile = round < units[own].size();
+      this->MakeTile(hasTile ? &units[own][round] : nullptr, from, from + each);
+      if (hasTile)
+      {
+        const std::int64_t start = items.Start(units[own][round].Tile);
+        for (const TileVisit& visit : units[own][round].Visits)
+        {
+          if (visit.From == ranks.Own())
+          {
+            task.Run(start + visit.First, start + visit.End);
+          }
+        }
+      }
+      TileVisitors<Item> visitors(items, units, round, ranks);
+      while (visitors.HaveMore())
+      {
+        std::vector<Bytes> parts = ranks.Exchange(visitors.Leave(task.ValuesEach(),
+          [&task](const Item& item, const auto& give) { task.Give(item, give); }));
+        for (Bytes& part : parts)
+        {
+          part = task.Serve(std::move(part));
+        }
+        visitors.Return(ranks.Exchange(std::move(parts)),
+          [&task](const char* reply, std::int64_t index, std::int64_t particle) {
+            task.Take(reply, index, particle);
+          });
+      }
+    }
+  }
+
+  template <class Item>
+  std::vector<std::vector<TileUnit>> Schedule(
+    const ByTile<Item>& items, double cell, const Ranks& ranks) const
+  {
+    std::vector<TileCount> own;
+    for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
+    {
+      const std::int64_t count = items.Start(tile + 1) - items.Start(tile);
+      if (count > 0)
+      {
+        own.push_back({ tile, count });
+      }
+    }
+    std::vector<std::vector<TileCount>> all;
+    for (const Bytes& bytes : ranks.Gather(toBytes(own)))
+    {
+      all.push_back(fromBytes<TileCount>(bytes));
+    }
+    const double particlesOfItem = TileVisitors<Item>::ParticlesOfItem;
+    return scheduleTiles(
+      all, cell * numberOfCells<Dimension>(this->Tiles.MostCells()) / particlesOfItem);
+  }
+
+  // nullptr where this rank needs none: others may need its part of the density.
+  void MakeTile(const TileUnit* unit, double from, double to)
+  {
+    GridSize<Dimension> low{};
+    GridSize<Dimension> high{};
+    if (unit)
+    {
+      this->Tiles.FindCells(unit->Tile, low, high);
+    }
+    const auto values = this->OfRanks->Gather(low, high);
+    if (unit)
+    {
+      this->BuildTile(*values, low, high, from, to);
+    }
+  }
+
+  const DensityValues* const Density;
+  const SharedDensity<Dimension>* const OfRanks;
+  const GridTiles<Dimension>& Tiles;
+  Progress& Work;
+  TileTables<Dimension> Tile;
+};
+
+} // namespace RectifiedTransport
+
+#endif
