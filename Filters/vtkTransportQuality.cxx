@@ -9,6 +9,7 @@
 #include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
 
 #include "vtkDoubleArray.h"
@@ -24,6 +25,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportQuality);
+vtkImplementTablesPropertiesMacro(vtkTransportQuality);
 
 namespace
 {
@@ -96,6 +98,7 @@ int vtkTransportQuality::RequestData(
 {
   requireThat(this->BlockSize >= 0, "BlockSize", this->BlockSize,
     "at least 1, or 0 for blocks of about 64 particles");
+  this->GetTableSettings().Check();
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   // The row is in piece 0, whatever pieces are requested.
@@ -121,8 +124,9 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   const CountedPoints& counted = shared ? shared->Counted() : *alone;
-  const ParticleQuality quality = TransportQuality{ this->BlockSize }.Run(particles, counted,
-    shared ? shared->Keys() : nullptr, *density, this->GetFlowCache(), progress);
+  const ParticleQuality quality =
+    TransportQuality{ this->BlockSize, this->GetTableSettings() }.Run(particles, counted,
+      shared ? shared->Keys() : nullptr, *density, this->GetFlowCache(), progress);
   if (ranks && ranks->Own() > 0)
   {
     return 1;
@@ -144,6 +148,7 @@ int vtkTransportQuality::RequestData(
 void vtkTransportQuality::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  this->GetTableSettings().Print(os, indent);
   os << indent << "BlockSize: " << this->BlockSize << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -35,13 +35,15 @@
  * its part of particles and density, and the first one has the row of all, with the bits of one
  * rank; sums are in the order of the point array `SeedId` of integers, or else of the global ids,
  * where all ranks have them, else of the ranks. Particles that are the same on all ranks are one
- * data set. Each rank makes all tables.
+ * data set. With Tables Tiled no rank has the density or the tables of all.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
- * particles. Memory: about 100 bytes a particle and 16 a block while it runs, beside the tables
- * (see vtkTransportAlgorithm). Where there are ghosts or values that are not double, copies of the
- * points, of Mass and of Displacement take 24, 8 and 24 more. The numbers are the same to the last
- * bit for every number of threads.
+ * particles. Tables Tiled takes 2D and 3D densities and any particles; those of tiles are made in
+ * each run. The V of a particle is then interpolated where its cube is wider than the rim of a tile
+ * (11.5 strides of the tables of few nodes), else it differs by rounding. Memory: about 100 bytes a
+ * particle and 16 a block while it runs, beside the tables (see vtkTransportAlgorithm). Where there
+ * are ghosts or values that are not double, copies of the points, of Mass and of Displacement take
+ * 24, 8 and 24 more. The numbers are the same to the last bit for every number of threads.
  *
  * @warning With fewer than several particles a block, DensityError measures their noise: about
  * 1 / sqrt(particles a block) for independent ones.
@@ -60,6 +62,7 @@
 #define vtkTransportQuality_h
 
 #include "vtkDensityAlgorithm.h"
+#include "vtkTransportProperties.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -97,6 +100,8 @@ public:
    * The table of one row.
    */
   vtkTable* GetOutput();
+
+  vtkTablesPropertiesMacro();
 
 protected:
   vtkTransportQuality();

@@ -17,13 +17,15 @@ namespace
 constexpr int automatic = 0;
 constexpr int tiled = 2;
 
+constexpr const char* oneAxis = "takes densities of two or three axes";
+
 // Why tiles do not serve; empty if they do.
 template <int D>
 std::string refusal(const GridSize<D>& size, const TableUse& use)
 {
   if (D == 1)
   {
-    return "takes densities of two or three axes";
+    return oneAxis;
   }
   if (!takesFlowMaps(use.Options))
   {
@@ -39,10 +41,10 @@ std::string refusal(const GridSize<D>& size, const TableUse& use)
       " for a density of " + describeSize<D>(size) + " cells";
 }
 
-} // namespace
-
-template <int D>
-FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, const TableUse& use)
+// findRefusal() is why tiles do not serve, empty if they do; findMemory() what they take.
+template <int D, class FindRefusal, class FindMemory>
+FlowTables choose(const TableSettings& settings, const GridSize<D>& size,
+  const FindRefusal& findRefusal, const FindMemory& findMemory)
 {
   constexpr double large = 1 << 26; // grid cells: 2.1 GB of whole tables in 3D
   const bool isAsked = settings.Tables == tiled;
@@ -50,7 +52,7 @@ FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, 
   {
     return FlowTables::Whole;
   }
-  const std::string reason = refusal<D>(size, use);
+  const std::string reason = findRefusal();
   if (!reason.empty())
   {
     if (isAsked)
@@ -59,14 +61,40 @@ FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, 
     }
     return FlowTables::Whole;
   }
-  requireMemory("the tiles of a density of " + describeSize<D>(size) + " cells",
-    RectifiedFlow<D>::TiledMemoryFor(
-      size, use.Options, use.Direction, use.Particles, use.IsLattice));
+  requireMemory("the tiles of a density of " + describeSize<D>(size) + " cells", findMemory());
   return FlowTables::Tiled;
+}
+
+} // namespace
+
+template <int D>
+FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, const TableUse& use)
+{
+  return choose<D>(
+    settings, size, [&]() { return refusal<D>(size, use); },
+    [&]() {
+      return RectifiedFlow<D>::TiledMemoryFor(
+        size, use.Options, use.Direction, use.Particles, use.IsLattice);
+    });
+}
+
+template <int D>
+FlowTables chooseTablesForShares(
+  const TableSettings& settings, const GridSize<D>& size, const Point<D>& aspect, double boxes)
+{
+  return choose<D>(
+    settings, size, []() { return std::string(D == 1 ? oneAxis : ""); },
+    [&]() { return RectifiedFlow<D>::TiledSharesMemoryFor(size, aspect, boxes); });
 }
 
 template FlowTables chooseTables<1>(const TableSettings&, const GridSize<1>&, const TableUse&);
 template FlowTables chooseTables<2>(const TableSettings&, const GridSize<2>&, const TableUse&);
 template FlowTables chooseTables<3>(const TableSettings&, const GridSize<3>&, const TableUse&);
+template FlowTables chooseTablesForShares<1>(
+  const TableSettings&, const GridSize<1>&, const Point<1>&, double);
+template FlowTables chooseTablesForShares<2>(
+  const TableSettings&, const GridSize<2>&, const Point<2>&, double);
+template FlowTables chooseTablesForShares<3>(
+  const TableSettings&, const GridSize<3>&, const Point<3>&, double);
 
 } // namespace RectifiedTransport

@@ -5,6 +5,7 @@
 
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Flow/FlowTables.h"
+#include "Core/Geometry/Points.h"
 
 #include <string>
 
@@ -26,6 +27,11 @@ struct TableUse
 template <int D>
 FlowTables chooseTables(
   const TableSettings& settings, const GridSize<D>& size, const TableUse& use);
+
+// The same for MeasuresOfShares of so many boxes.
+template <int D>
+FlowTables chooseTablesForShares(
+  const TableSettings& settings, const GridSize<D>& size, const Point<D>& aspect, double boxes);
 
 } // namespace RectifiedTransport
 

@@ -4,6 +4,7 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
@@ -11,6 +12,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Ranks.h"
+#include "Core/Quality/GridBlocks.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -193,7 +195,7 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
     blockSize =
       blockSizeFor<D>(grid.Size<D>(), sumOverRanks(progress.Group(), count), usualParticles);
   }
-  const double blocks = numberOfCells<D>(numberOfBlocks<D>(grid.Size<D>(), blockSize));
+  const double blocks = GridBlocks<D>(grid.Size<D>(), blockSize).Count();
   const std::string purpose = "the comparison of " + std::to_string(count) + " particles with " +
     std::to_string(static_cast<std::int64_t>(blocks)) + " blocks (see BlockSize)";
   const double bytes = static_cast<double>(count) * eachParticle + blocks * eachBlock;
@@ -201,6 +203,13 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
   return withMemory(purpose, bytes, [&]() {
     return measureQuality<D>(particles, flow.Flow<D>(), grid, blockSize, progress.Stage());
   });
+}
+
+template <int D>
+FlowTables choose(const TableSettings& settings, const ImageGrid& grid, std::int64_t particles)
+{
+  return chooseTablesForShares<D>(
+    settings, grid.Size<D>(), boxAspect<D>(grid), static_cast<double>(particles));
 }
 
 } // namespace
@@ -212,14 +221,17 @@ ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoint
   const double all = Cost::Comparison * static_cast<double>(counted.Count());
   const auto ends =
     stageEnds({ Cost::tables(cache, density), partOfReading * all, (1.0 - partOfReading) * all });
-  const SharedFlow& flow = cache.Update(density, progress, ends[0]);
+  const ImageGrid& grid = density.Grid();
+  const FlowTables tables = dispatchDimension(grid.Dimension(), choose<1>, choose<2>, choose<3>)(
+    this->Tables, grid, counted.Count());
+  const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   progress.BeginStage(ends[1]);
   ParticleArrays arrays(particles, counted, progress);
   ParticleSample sample = arrays.Read();
   sample.Order = order;
   progress.BeginStage(1.0);
-  return dispatchDimension(density.Grid().Dimension(), measure<1>, measure<2>, measure<3>)(
-    sample, density.Grid(), this->BlockSize, flow, progress);
+  return dispatchDimension(grid.Dimension(), measure<1>, measure<2>, measure<3>)(
+    sample, grid, this->BlockSize, flow, progress);
 }
 
 } // namespace RectifiedTransport

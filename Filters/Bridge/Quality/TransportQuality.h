@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_TransportQuality_h
 #define RectifiedTransport_TransportQuality_h
 
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Quality/ParticleQuality.h"
@@ -22,6 +23,7 @@ class FlowCache;
 struct TransportQuality
 {
   int BlockSize;
+  TableSettings Tables;
 
   // Compares the particles that are no ghosts, at least one, with a density, whose tables are kept
   // in the cache. Those of all ranks of the progress together, in the order of a key for each, or

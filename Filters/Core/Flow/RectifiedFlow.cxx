@@ -244,6 +244,13 @@ double RectifiedFlow<Dimension>::TiledMemoryFor(const GridSize<Dimension>& size,
 }
 
 template <int Dimension>
+double RectifiedFlow<Dimension>::TiledSharesMemoryFor(const GridSize<Dimension>& size,
+  const Point<Dimension>& aspect, double boxes, const TileLimits& limits)
+{
+  return TiledFlow<Dimension>::MemoryForShares(size, aspect, boxes, limits);
+}
+
+template <int Dimension>
 void RectifiedFlow<Dimension>::SetDensity(const DensityValues& values)
 {
   if (this->Data->Tiles)
@@ -291,6 +298,32 @@ double RectifiedFlow<Dimension>::MeasureOfShare(
 {
   return measureOfShare<Dimension>(
     this->Data->WholeTables("MeasureOfShare"), centre, aspect, share);
+}
+
+template <int Dimension>
+void RectifiedFlow<Dimension>::MeasuresOfShares(ConstPointSpan<Dimension> centres,
+  const Point<Dimension>& aspect, const double* shares, double* measures,
+  const Context& context) const
+{
+  Progress progress(context);
+  if (this->Data->Tiles)
+  {
+    this->Data->Tiles->MeasuresOfShares(centres, aspect, shares, measures, progress);
+    return;
+  }
+  constexpr std::int64_t grain = 256;
+  progress.BeginStage(1.0);
+  progress.For(
+    centres.size(), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        Point<Dimension> centre;
+        std::copy_n(centres[i], Dimension, centre.begin());
+        measures[i] = measureOfShare<Dimension>(this->Data->View(), centre, aspect, shares[i]);
+      }
+    },
+    16 * grain);
 }
 
 template <int Dimension>

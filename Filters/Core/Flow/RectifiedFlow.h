@@ -75,6 +75,9 @@ public:
   // lattice or an array of points, besides the positions; options for which tiles serve.
   static double TiledMemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, bool isLattice, const TileLimits& limits = {});
+  // The same while it computes MeasuresOfShares of so many boxes.
+  static double TiledSharesMemoryFor(const GridSize<Dimension>& size,
+    const Point<Dimension>& aspect, double boxes, const TileLimits& limits = {});
   // For flows with tiles: the values are now at another place in memory.
   void SetDensity(const DensityValues& values);
   void SetDensity(const SharedDensity<Dimension>& density);
@@ -88,6 +91,12 @@ public:
   // holds a share of the mass; the sides of the box are in proportion to `aspect`.
   double MeasureOfShare(
     const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
+  // The same for many points and their shares, which may be in the memory of the measures. Of a
+  // flow with tiles, too: the measures of boxes that reach far beyond a tile are interpolated.
+  // Those on ranks call this together, each for its own points. Throws std::bad_alloc and
+  // Cancelled.
+  void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
+    const double* shares, double* measures, const Context& context = Context()) const;
 
   // Advects points of time 0 (uniform) to time 1 (distributed like the density). There are as many
   // positions as seeds, and both may be in the same memory. Points outside the box are clamped to

@@ -6,6 +6,8 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankOrder.h"
+#include "Core/Quality/BlockShares.h"
+#include "Core/Quality/GridBlocks.h"
 #include "Core/Quality/NearestNeighbours.h"
 
 #include <algorithm>
@@ -51,12 +53,10 @@ public:
     , Flow(flow)
     , Grid(grid)
     , Scale(grid)
-    , Size(grid.Size<Dimension>())
-    , BlockSize(blockSize)
-    , BlockCounts(numberOfBlocks<Dimension>(this->Size, blockSize))
-    , Blocks(static_cast<std::int64_t>(numberOfCells<Dimension>(this->BlockCounts)))
+    , Blocks(grid.Size<Dimension>(), blockSize)
+    , NumberOfBlocks(static_cast<std::int64_t>(this->Blocks.Count()))
     , Group(context.Group)
-    , OwnBlocks(this->Blocks, this->Group)
+    , OwnBlocks(this->NumberOfBlocks, this->Group)
     , Count(particles.Points.size())
     , Work(context)
     , Points(3 * this->Count)
@@ -85,7 +85,6 @@ public:
     this->Work.BeginStage(2.0 / 3.0);
     nearestDistances(
       { this->Points.data(), this->Count }, this->Spacing.data(), this->Work.Stage());
-    this->Work.BeginStage(0.95);
     this->RelateSpacings();
     this->Work.BeginStage(1.0);
     this->AverageSpacings();
@@ -152,22 +151,11 @@ private:
         {
           ++inEmpty;
         }
-        this->Block.data()[i] = this->BlockAt(index);
+        this->Block.data()[i] = this->Blocks.At(index);
       }
     });
     this->Quality.Outside = sumOverRanks(this->Group, outside.load());
     this->Quality.InEmptyCells = sumOverRanks(this->Group, inEmpty.load());
-  }
-
-  std::int64_t BlockAt(const Point<Dimension>& index) const
-  {
-    std::int64_t block = 0;
-    for (int axis = Dimension; axis-- > 0;)
-    {
-      const auto cell = std::min(static_cast<std::int64_t>(index[axis]), this->Size[axis] - 1);
-      block = block * this->BlockCounts[axis] + cell / this->BlockSize;
-    }
-    return block;
   }
 
   void AddMasses()
@@ -232,8 +220,8 @@ private:
     {
       if (term.Block != noBlock)
       {
-        given[static_cast<std::size_t>(RankShare::Of(term.Block, this->Blocks, ranks))].push_back(
-          term);
+        given[static_cast<std::size_t>(RankShare::Of(term.Block, this->NumberOfBlocks, ranks))]
+          .push_back(term);
       }
     }
     for (const std::vector<BlockTerm>& terms : exchangeValues(*this->Group, std::move(given)))
@@ -251,15 +239,9 @@ private:
     this->Work.BeginStage(0.3);
     this->AddShares();
     const double* found = this->Found.data();
-    double* expected = this->Expected.data();
-    this->Work.BeginStage(0.35);
-    this->Work.For(this->OwnBlocks.Count, grain, [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-      {
-        const auto [low, high] = this->BlockBox(this->OwnBlocks.First + i);
-        expected[i] = this->Flow.Share(low, high);
-      }
-    });
+    const double* expected = this->Expected.data();
+    findBlockShares<Dimension>(this->Flow, this->Blocks, this->OwnBlocks.First,
+      this->OwnBlocks.Count, this->Expected.data(), this->Work, 0.35);
     this->Work.BeginStage(0.4);
     struct Squares
     {
@@ -268,12 +250,7 @@ private:
     };
     const Squares squares = sumInTurn(this->Group, Squares(), [&](Squares& sums) {
       this->InOrder(this->OwnBlocks.Count, [&](std::int64_t i) {
-        const auto [low, high] = this->BlockBox(this->OwnBlocks.First + i);
-        double measure = 1.0;
-        for (int axis = 0; axis < Dimension; ++axis)
-        {
-          measure *= high[axis] - low[axis];
-        }
+        const double measure = this->Blocks.Box(this->OwnBlocks.First + i).Cells();
         const double off = found[i] - expected[i];
         sums.Difference += off * off / measure;
         sums.Norm += expected[i] * expected[i] / measure;
@@ -282,50 +259,39 @@ private:
     this->Quality.DensityError = std::sqrt(squares.Difference / squares.Norm);
   }
 
-  std::pair<Point<Dimension>, Point<Dimension>> BlockBox(std::int64_t block) const
-  {
-    Point<Dimension> low;
-    Point<Dimension> high;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      const std::int64_t first = block % this->BlockCounts[axis] * this->BlockSize;
-      low[axis] = static_cast<double>(first);
-      high[axis] = static_cast<double>(std::min(first + this->BlockSize, this->Size[axis]));
-      block /= this->BlockCounts[axis];
-    }
-    return { low, high };
-  }
-
   // Divides the distance of each nearest neighbour by the largest spacing at the density of that
   // place; -1 where it is not defined.
   void RelateSpacings()
   {
-    Point<Dimension> aspect = this->Grid.template Lengths<Dimension>();
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      aspect[axis] = static_cast<double>(this->Size[axis]) / this->Scale.ToUnits(aspect[axis]);
-    }
-    const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
     double* spacing = this->Spacing.data();
-    constexpr std::int64_t smallGrain = 256;
-    this->Work.For(
-      this->Count, smallGrain,
-      [=](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i)
-        {
-          const double share = this->Share(i);
-          if (this->Block.data()[i] == noBlock || !(share > 0.0) || std::isinf(spacing[i]))
-          {
-            spacing[i] = -1.0;
-            continue;
-          }
-          Point<Dimension> index;
-          this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index.data());
-          const double measure = this->Flow.MeasureOfShare(index, aspect, share);
-          spacing[i] /= largestSpacing<Dimension>(measure) * side;
-        }
-      },
-      16 * smallGrain);
+    // The points in units are no longer needed.
+    const PointSpan<Dimension> index(this->Points.data(), this->Count);
+    LargeBuffer<double> measures(this->Count);
+    double* measure = measures.data();
+    this->Work.BeginStage(0.7);
+    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const double share = this->Share(i);
+        const bool isDefined =
+          this->Block.data()[i] != noBlock && share > 0.0 && !std::isinf(spacing[i]);
+        spacing[i] = isDefined ? spacing[i] : -1.0;
+        measure[i] = isDefined ? share : 0.0;
+        this->Grid.template NearestIndex<Dimension>(this->Particles.Points[i], index[i]);
+      }
+    });
+    this->Work.BeginStage(0.95);
+    this->Flow.MeasuresOfShares(
+      index, boxAspect<Dimension>(this->Grid), measure, measure, this->Work.Stage());
+    const double side = this->Scale.ToUnits(root<Dimension>(this->Grid.CellMeasure()));
+    this->Work.BeginStage(0.97);
+    this->Work.For(this->Count, grain, [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        spacing[i] = spacing[i] < 0.0 ? spacing[i]
+                                      : spacing[i] / (largestSpacing<Dimension>(measure[i]) * side);
+      }
+    });
   }
 
   void AverageSpacings()
@@ -367,10 +333,8 @@ private:
   const RectifiedFlow<Dimension>& Flow;
   const ImageGrid& Grid;
   const LengthScale Scale;
-  const GridSize<Dimension> Size;
-  const std::int64_t BlockSize;
-  const GridSize<Dimension> BlockCounts;
-  const std::int64_t Blocks;
+  const GridBlocks<Dimension> Blocks;
+  const std::int64_t NumberOfBlocks;
   const Ranks* const Group; // nullptr for one rank
   const RankShare OwnBlocks;
   const std::int64_t Count;
@@ -388,6 +352,19 @@ private:
 } // namespace
 
 template <int Dimension>
+Point<Dimension> boxAspect(const ImageGrid& grid)
+{
+  const LengthScale scale(grid);
+  const GridSize<Dimension> size = grid.Size<Dimension>();
+  Point<Dimension> aspect = grid.Lengths<Dimension>();
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    aspect[axis] = static_cast<double>(size[axis]) / scale.ToUnits(aspect[axis]);
+  }
+  return aspect;
+}
+
+template <int Dimension>
 ParticleQuality measureQuality(const ParticleSample& particles,
   const RectifiedFlow<Dimension>& flow, const ImageGrid& grid, std::int64_t blockSize,
   const Context& context)
@@ -400,6 +377,9 @@ ParticleQuality measureQuality(const ParticleSample& particles,
   return QualityRun<Dimension>(particles, flow, grid, blockSize, context).Measure();
 }
 
+template Point<1> boxAspect<1>(const ImageGrid&);
+template Point<2> boxAspect<2>(const ImageGrid&);
+template Point<3> boxAspect<3>(const ImageGrid&);
 template ParticleQuality measureQuality<1>(
   const ParticleSample&, const RectifiedFlow<1>&, const ImageGrid&, std::int64_t, const Context&);
 template ParticleQuality measureQuality<2>(

@@ -65,17 +65,10 @@ std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, do
   return large;
 }
 
-// Blocks of `blockSize` grid cells along each axis; the last one may have fewer.
+// The sides of boxes about a particle, of equal length in physical space, in grid cells; up to a
+// common factor.
 template <int Dimension>
-GridSize<Dimension> numberOfBlocks(const GridSize<Dimension>& cells, std::int64_t blockSize)
-{
-  GridSize<Dimension> blocks;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    blocks[axis] = (cells[axis] - 1) / blockSize + 1;
-  }
-  return blocks;
-}
+Point<Dimension> boxAspect(const ImageGrid& grid);
 
 // Compares particles with the density of a flow, which lies on `grid` in physical space. Where the
 // context has ranks, the particles are those of all ranks, which call this together, each with its

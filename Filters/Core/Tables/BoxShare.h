@@ -11,7 +11,7 @@ namespace RectifiedTransport
 {
 
 // The share of the mass in the part of a box that is in the domain, exactly up to the rounding of
-// the sums (2e-16 of the whole).
+// the sums (2e-16 of the whole); interpolated on graded tables.
 template <int Dimension>
 double boxShare(
   const TableView<Dimension>& tables, const Point<Dimension>& low, const Point<Dimension>& high);
@@ -22,6 +22,11 @@ double boxShare(
 template <int Dimension>
 double measureOfShare(const TableView<Dimension>& tables, const Point<Dimension>& centre,
   const Point<Dimension>& aspect, double share);
+// The same by the tables of a tile that `centre` is in, where the box ends in them, and by the
+// graded tables that the tile was made with elsewhere.
+template <int Dimension>
+double measureOfShare(const TableView<Dimension>& graded, const TableView<Dimension>& tile,
+  const Point<Dimension>& centre, const Point<Dimension>& aspect, double share);
 
 } // namespace RectifiedTransport
 

@@ -47,6 +47,20 @@ private:
   const GridSize<Dimension>& Cells;
 };
 
+std::int64_t wordsPerRow(std::int64_t cells)
+{
+  return (cells + 63) / 64;
+}
+
+template <int Dimension>
+GridSize<Dimension> nodesOf(const GridSize<Dimension>& cells)
+{
+  GridSize<Dimension> nodes;
+  std::transform(
+    cells.begin(), cells.end(), nodes.begin(), [](std::int64_t along) { return along + 1; });
+  return nodes;
+}
+
 } // namespace
 
 template <int Dimension>
@@ -64,31 +78,40 @@ TileTables<Dimension>::TileTables(const TableView<Dimension>& whole, int scaling
 }
 
 template <int Dimension>
-void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<Dimension>& low,
-  const GridSize<Dimension>& high, Progress& progress)
+void TileTables<Dimension>::Reserve(const GridSize<Dimension>& cells)
 {
-  // As if the part were the domain; what is summed but for the nodes is not used.
-  TableView<Dimension> part = this->Tables;
-  GridSize<Dimension> nodes;
-  std::int64_t rows = 1;
-  for (int axis = 0; axis < Dimension; ++axis)
+  std::int64_t stride[Dimension];
+  const std::int64_t doubles = layOutNodes<Dimension>(nodesOf<Dimension>(cells), stride);
+  std::int64_t words = wordsPerRow(cells[0]);
+  for (int axis = 1; axis < Dimension; ++axis)
   {
-    part.Cells[axis] = high[axis] - low[axis];
-    nodes[axis] = part.Cells[axis] + 1;
-    rows *= axis > 0 ? part.Cells[axis] : 1;
+    words *= cells[axis];
   }
-  part.WordsPerRow = (part.Cells[0] + 63) / 64;
-  const std::int64_t doubles = layOutNodes<Dimension>(nodes, part.Levels[0].Stride);
-  const std::int64_t words = part.WordsPerRow * rows;
   if (this->Nodes.size() < doubles || this->Occupied.size() < words)
   {
     this->Nodes = {};
     this->Nodes = LargeBuffer<double>(doubles);
     this->Occupied = LargeBuffer<std::uint64_t>(words);
   }
-  part.Levels[0].Nodes = this->Nodes.data();
+}
+
+template <int Dimension>
+void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<Dimension>& low,
+  const GridSize<Dimension>& high, Progress& progress)
+{
+  // As if the part were the domain; what is summed but for the nodes is not used.
+  TableView<Dimension> part = this->Tables;
   GridSize<Dimension> cells;
-  std::copy_n(part.Cells, Dimension, cells.begin());
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    cells[axis] = high[axis] - low[axis];
+    part.Cells[axis] = cells[axis];
+  }
+  this->Reserve(cells);
+  part.WordsPerRow = wordsPerRow(cells[0]);
+  const std::int64_t doubles =
+    layOutNodes<Dimension>(nodesOf<Dimension>(cells), part.Levels[0].Stride);
+  part.Levels[0].Nodes = this->Nodes.data();
   GridSize<Dimension> size;
   std::copy_n(this->Tables.Cells, Dimension, size.begin());
   const PartOfDensity<Dimension> values({ size, density }, low, cells);
@@ -116,14 +139,10 @@ void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<D
 template <int Dimension>
 double TileTables<Dimension>::MemoryFor(const GridSize<Dimension>& cells)
 {
-  GridSize<Dimension> nodes;
-  for (int axis = 0; axis < Dimension; ++axis)
-  {
-    nodes[axis] = cells[axis] + 1;
-  }
   std::int64_t stride[Dimension];
   constexpr double bits = 1.0 / 8.0;
-  return static_cast<double>(layOutNodes<Dimension>(nodes, stride)) * sizeof(double) +
+  return static_cast<double>(layOutNodes<Dimension>(nodesOf<Dimension>(cells), stride)) *
+    sizeof(double) +
     bits * numberOfCells<Dimension>(cells);
 }
 

@@ -24,6 +24,10 @@ public:
   // which must outlive this object; values are scaled by 2^scaling in them.
   TileTables(const TableView<Dimension>& whole, int scaling);
 
+  // Takes the memory of the tables of so many cells now: that of small ones after another would be
+  // in pieces. Throws std::bad_alloc.
+  void Reserve(const GridSize<Dimension>& cells);
+
   // Builds the tables of the grid cells from `low` up to `high` of the whole density, as the work
   // of the progress's current stage, which has a unit for each of their cells along the last axis.
   // Throws Cancelled and std::bad_alloc.

@@ -9,6 +9,7 @@
 #include "TestDimensions.h"
 #include "TestFlow.h"
 #include "TestRefusal.h"
+#include "TestTiles.h"
 #include "ThreadsExecutor.h"
 
 #include <gtest/gtest.h>
@@ -40,25 +41,6 @@ GridSize<Dimension> oddSize()
 {
   return sizeFor<Dimension>({ 100 }, { 231, 187 }, { 97, 91, 83 });
 }
-
-// The values outlive the flow, which reads them in every advection.
-template <int Dimension>
-class TiledRun
-{
-public:
-  explicit TiledRun(const TestDensity<Dimension>& density, const Context& context = Context(),
-    const TileLimits& limits = smallTiles<Dimension>())
-    : Source(density.Source())
-    , Flow(Source, FlowTables::Tiled, context, limits)
-  {
-  }
-
-private:
-  const DensityArray<Dimension, double> Source;
-
-public:
-  const RectifiedFlow<Dimension> Flow;
-};
 
 template <class T>
 using Tiles = DimensionTest<T>;
@@ -139,7 +121,7 @@ TYPED_TEST(Tiles, AreAsExactAsWholeTables)
   const Points<D> backward = runBackward(whole, forward, exact);
   for (const TileLimits& limits : { smallTiles<D>(), allNodes })
   {
-    const TiledRun<D> run(density, Context(), limits);
+    const TiledRun<D> run(density, limits);
     for (const FlowMaps maps : OffAndOn)
     {
       SCOPED_TRACE(nameOf(maps) + ", nodes " + std::to_string(limits.GradedNodes));
@@ -156,7 +138,7 @@ TYPED_TEST(Tiles, LatticesAndOrdersAreTheSamePoints)
 {
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
-  const TiledRun<D> run(density);
+  const TiledRun<D> run(density, smallTiles<D>());
   const RectifiedFlow<D>& flow = run.Flow;
   const GridSize<D> lattice = evenSize<D>(D == 3 ? 17 : 63);
   Points<D> seeds = latticePoints<D>(density.Size, lattice);
@@ -200,7 +182,7 @@ TYPED_TEST(Tiles, SameBitsOnAnyThreads)
       { static_cast<const Executor*>(&serial), static_cast<const Executor*>(&threads) })
     {
       const Context context(*executor);
-      const TiledRun<D> tiled(density, context);
+      const TiledRun<D> tiled(density, smallTiles<D>(), context);
       const RectifiedFlow<D>& flow = tiled.Flow;
       forward[run] = runForward(flow, seeds, options, context);
       backward[run] = runBackward(flow, seeds, options, context);
@@ -223,7 +205,7 @@ TYPED_TEST(Tiles, RedoWhatMeetsEmptyBoxes)
   for (std::size_t i = 0; i < densities.size(); ++i)
   {
     const RectifiedFlow<D> whole = makeFlow(densities[i]);
-    const TiledRun<D> run(densities[i]);
+    const TiledRun<D> run(densities[i], smallTiles<D>());
     const RectifiedFlow<D>& tiled = run.Flow;
     for (const FlowMaps maps : OffAndOn)
     {
@@ -264,9 +246,9 @@ TYPED_TEST(Tiles, TakeValuesOfAnySize)
     value = std::ldexp(value, 900);
   }
   const Points<D> seeds = randomPoints<D>(density.Size, 500);
-  const TiledRun<D> run(density);
+  const TiledRun<D> run(density, smallTiles<D>());
   const RectifiedFlow<D>& flow = run.Flow;
-  const TiledRun<D> hugeRun(huge);
+  const TiledRun<D> hugeRun(huge, smallTiles<D>());
   const RectifiedFlow<D>& hugeFlow = hugeRun.Flow;
   EXPECT_EQ(std::ldexp(flow.Total(), 900), hugeFlow.Total());
   EXPECT_LT(largestDistance<D>(runForward(flow, seeds), runForward(hugeFlow, seeds)), 1e-6);
@@ -277,7 +259,7 @@ TYPED_TEST(Tiles, SayWhatWholeTablesSay)
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = randomCells<D>(oddSize<D>());
   const RectifiedFlow<D> whole = makeFlow(density);
-  const TiledRun<D> run(density);
+  const TiledRun<D> run(density, smallTiles<D>());
   const RectifiedFlow<D>& tiled = run.Flow;
   EXPECT_NEAR(tiled.Total(), whole.Total(), 1e-12 * whole.Total());
   for (int axis = 0; axis < D; ++axis)
@@ -310,7 +292,7 @@ TYPED_TEST(Tiles, Refuse)
 {
   constexpr int D = TypeParam::value;
   const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
-  const TiledRun<D> run(density);
+  const TiledRun<D> run(density, smallTiles<D>());
   const RectifiedFlow<D>& flow = run.Flow;
   const Points<D> seeds = randomPoints<D>(density.Size, 10);
   for (const Integrator method :
@@ -352,7 +334,7 @@ TYPED_TEST(Tiles, NameInvalidValues)
   density.Values[9000] = std::nan("");
   try
   {
-    const TiledRun<D> run(density);
+    const TiledRun<D> run(density, smallTiles<D>());
     ADD_FAILURE();
   }
   catch (const InvalidDensity& invalid)
@@ -362,7 +344,7 @@ TYPED_TEST(Tiles, NameInvalidValues)
     EXPECT_EQ(invalid.Summary().NotFinite, 1);
     EXPECT_EQ(invalid.Summary().FirstNotFinite, 9000);
   }
-  EXPECT_THROW(TiledRun<D>(uniformDensity<D>(oddSize<D>(), 0.0)), InvalidDensity);
+  EXPECT_THROW(TiledRun<D>(uniformDensity<D>(oddSize<D>(), 0.0), smallTiles<D>()), InvalidDensity);
 }
 
 TYPED_TEST(Tiles, ReportAndStop)
@@ -378,7 +360,7 @@ TYPED_TEST(Tiles, ReportAndStop)
     {
       RecordingContext recording(serial);
       const auto run = [&]() {
-        const TiledRun<D> tiled(density, recording.Context());
+        const TiledRun<D> tiled(density, smallTiles<D>(), recording.Context());
         const RectifiedFlow<D>& flow = tiled.Flow;
         recording.Reported.clear();
         const FlowOptions options = with(maps, steps(24));
@@ -424,7 +406,7 @@ TYPED_TEST(Tiles, TakeTheMemoryForetold)
         const FlowOptions options = with(maps, steps(16));
         const auto run = [&](double bytes) {
           const MemoryLimit limit(static_cast<std::int64_t>(bytes));
-          const TiledRun<D> tiled(density, context, limits);
+          const TiledRun<D> tiled(density, limits, context);
           const RectifiedFlow<D>& flow = tiled.Flow;
           isLattice&& isForward ? flow.ForwardLattice(lattice, positions, options, context)
             : isLattice         ? flow.BackwardLattice(lattice, positions, options, context)
@@ -459,7 +441,7 @@ TEST(TilesOfASlab, AreAsExactAsWholeTables)
     TileLimits limits;
     limits.GradedNodes = 40000;
     limits.Width = 40;
-    const TiledRun<3> run(density, Context(), limits);
+    const TiledRun<3> run(density, limits);
     const RectifiedFlow<3>& tiled = run.Flow;
     const Points<3> seeds = randomPoints<3>(size, 1000);
     const RectifiedFlow<3> whole = makeFlow(density);

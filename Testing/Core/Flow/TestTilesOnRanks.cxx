@@ -2,10 +2,10 @@
 // Flows with tiles that several ranks compute together have the bits of one rank.
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/Ranks.h"
-#include "Core/Tables/SharedDensity.h"
 
 #include "TestDimensions.h"
 #include "TestFlow.h"
+#include "TestTiles.h"
 #include "ThreadRanks.h"
 
 #include <gtest/gtest.h>
@@ -37,93 +37,6 @@ GridSize<Dimension> oddSize()
   return sizeFor<Dimension>({ 100 }, { 171, 127 }, { 77, 71, 67 });
 }
 
-// Boxes of a density that is in memory once. What lies outside of a box is not read.
-template <int Dimension>
-class BoxesOfDensity final : public SharedDensity<Dimension>
-{
-public:
-  BoxesOfDensity(const TestDensity<Dimension>& density, const Ranks& ranks)
-    : Size(density.Size)
-    , Whole(density.Source())
-    , Group(ranks)
-  {
-  }
-
-  std::unique_ptr<const DensityValues> Gather(
-    const GridSize<Dimension>& low, const GridSize<Dimension>& high) const override
-  {
-    EXPECT_TRUE(onAllRanks(&this->Group, true)); // all of them come
-    return std::make_unique<Box>(this->Size, this->Whole, low, high);
-  }
-
-private:
-  class Box final : public DensityValues
-  {
-  public:
-    Box(const GridSize<Dimension>& size, const DensityArray<Dimension, double>& whole,
-      const GridSize<Dimension>& low, const GridSize<Dimension>& high)
-      : Size(size)
-      , Whole(whole)
-      , Low(low)
-      , High(high)
-    {
-    }
-    void Read(std::int64_t first, std::int64_t count, double* values) const override
-    {
-      std::int64_t rest = first;
-      for (int axis = 0; axis < Dimension; ++axis)
-      {
-        const std::int64_t along = rest % this->Size[axis];
-        rest /= this->Size[axis];
-        const std::int64_t length = axis == 0 ? count : 1;
-        if (along < this->Low[axis] || along + length > this->High[axis])
-        {
-          throw std::logic_error("cells outside of the box are read");
-        }
-      }
-      this->Whole.Read(first, count, values);
-    }
-
-  private:
-    const GridSize<Dimension> Size;
-    const DensityArray<Dimension, double>& Whole;
-    const GridSize<Dimension> Low;
-    const GridSize<Dimension> High;
-  };
-
-  const GridSize<Dimension> Size;
-  const DensityArray<Dimension, double> Whole;
-  const Ranks& Group;
-};
-
-// A flow on one rank, and what it gives there.
-template <int Dimension>
-class RankFlow
-{
-public:
-  RankFlow(const TestDensity<Dimension>& density, const Ranks& ranks)
-    : Group(ranks)
-    , Density(density, ranks)
-    , Flow(density.Size, Density, this->RankContext(), smallTiles<Dimension>())
-  {
-  }
-
-  Context RankContext() const
-  {
-    Context context(this->Serial);
-    context.Group = &this->Group;
-    return context;
-  }
-
-private:
-  const SerialExecutor Serial;
-  const Ranks& Group;
-  const BoxesOfDensity<Dimension> Density;
-
-public:
-  const RectifiedFlow<Dimension> Flow;
-};
-
 // Each rank's share of the seeds, moved by move(flow, seeds, context); together.
 template <int Dimension, class Shares, class Move>
 Points<Dimension> runShares(const TestDensity<Dimension>& density, const Points<Dimension>& seeds,
@@ -131,7 +44,7 @@ Points<Dimension> runShares(const TestDensity<Dimension>& density, const Points<
 {
   Points<Dimension> all(seeds.size());
   runOnRanks(count, [&](const Ranks& ranks) {
-    const RankFlow<Dimension> run(density, ranks);
+    const RankFlow<Dimension> run(density, ranks, smallTiles<Dimension>());
     const std::int64_t first = shares(ranks.Own());
     const std::int64_t last = shares(ranks.Own() + 1);
     Points<Dimension> own(seeds.begin() + first, seeds.begin() + last);
@@ -202,7 +115,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
   {
     Points<D> all(expected.size());
     runOnRanks(count, [&](const Ranks& ranks) {
-      const RankFlow<D> run(density, ranks);
+      const RankFlow<D> run(density, ranks, smallTiles<D>());
       const RankShare share(lattice[last], &ranks);
       LatticePart<D> part = LatticePart<D>::WholeOf(lattice);
       part.Low[last] = share.First;
@@ -228,8 +141,8 @@ TYPED_TEST(TilesOnRanks, AgreeOnKeptMaps)
   const Points<D> expected = runForward(alone, seeds, options);
   std::atomic<int> same{ 0 };
   runOnRanks(2, [&](const Ranks& ranks) {
-    const RankFlow<D> first(density, ranks);
-    const RankFlow<D> second(density, ranks);
+    const RankFlow<D> first(density, ranks, smallTiles<D>());
+    const RankFlow<D> second(density, ranks, smallTiles<D>());
     Points<D> found = runForward(first.Flow, seeds, options, first.RankContext());
     // Flows whose histories differ by rank, as after a failure.
     runForward(second.Flow, seeds, others, second.RankContext());

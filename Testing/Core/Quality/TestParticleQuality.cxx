@@ -4,6 +4,7 @@
 
 #include "TestDensities.h"
 #include "TestGrid.h"
+#include "TestTiles.h"
 #include "ThreadRanks.h"
 
 #include "Core/Geometry/ReproducibleMath.h"
@@ -189,14 +190,20 @@ struct RankParticles
   std::vector<std::int64_t> Order;
 };
 
-// Particles divided by place, or without regard to it; the last rank has none.
-template <int Dimension>
-void checkOnRanks(const GridSize<Dimension>& size, int ranks, bool byPlace, bool hasMasses)
+// All of them, and those of the ranks: divided by place, or without regard to it; the last rank has
+// none.
+struct DividedParticles
 {
-  const auto grid = makeGrid<Dimension>(size, { 0.5, 0.7, 1.3 }, { 8.0, -1.0, 0.0 });
-  const auto density = randomCells<Dimension>(size, 0.0, 5);
-  RankParticles all;
-  std::vector<RankParticles> of(static_cast<std::size_t>(ranks));
+  RankParticles All;
+  std::vector<RankParticles> Of;
+};
+
+template <int Dimension>
+DividedParticles makeParticles(
+  const GridSize<Dimension>& size, const ImageGrid& grid, int ranks, bool byPlace)
+{
+  DividedParticles divided;
+  divided.Of.resize(static_cast<std::size_t>(ranks));
   for (std::int64_t i = 0; i < 1500; ++i)
   {
     const auto word = [i](std::uint64_t seed) {
@@ -213,8 +220,8 @@ void checkOnRanks(const GridSize<Dimension>& size, int ranks, bool byPlace, bool
     const int owner = byPlace
       ? static_cast<int>(std::clamp(index[0] / static_cast<double>(size[0]), 0.0, 0.999) * ranks)
       : static_cast<int>(i * 7 % 11 % ranks);
-    RankParticles& own = of[static_cast<std::size_t>(owner + 1 == ranks ? 0 : owner)];
-    for (RankParticles* particles : { &all, &own })
+    RankParticles& own = divided.Of[static_cast<std::size_t>(owner + 1 == ranks ? 0 : owner)];
+    for (RankParticles* particles : { &divided.All, &own })
     {
       particles->Points.push_back(i % 500 == 499 ? Point<3>{ 9.0, 0.0, 0.0 } : point);
       particles->Masses.push_back(word(7) + 0.1);
@@ -222,33 +229,59 @@ void checkOnRanks(const GridSize<Dimension>& size, int ranks, bool byPlace, bool
       particles->Order.push_back(5 * i - 700);
     }
   }
-  const RectifiedFlow<Dimension> flow(density.Source());
-  const auto sampleOf = [&](const RankParticles& particles) {
-    return ParticleSample{ particles.Points, hasMasses ? particles.Masses.data() : nullptr,
-      particles.Displacements, particles.Order.data() };
-  };
-  const ParticleQuality expected = measureQuality<Dimension>(sampleOf(all), flow, grid, 3);
-  EXPECT_GT(expected.MeanSpacing, 0.0);
-  EXPECT_GT(expected.Outside, 0);
-  runOnRanks(ranks, [&](const Ranks& group) {
-    RankParticles own = of[static_cast<std::size_t>(group.Own())];
-    // As moved, those of a rank are in no order.
+  // As moved, those of a rank are in no order.
+  for (RankParticles& own : divided.Of)
+  {
     std::reverse(own.Points.begin(), own.Points.end());
     std::reverse(own.Masses.begin(), own.Masses.end());
     std::reverse(own.Displacements.begin(), own.Displacements.end());
     std::reverse(own.Order.begin(), own.Order.end());
+  }
+  return divided;
+}
+
+ParticleSample sampleOf(const RankParticles& particles, bool hasMasses)
+{
+  return { particles.Points, hasMasses ? particles.Masses.data() : nullptr, particles.Displacements,
+    particles.Order.data() };
+}
+
+void expectSame(const ParticleQuality& found, const ParticleQuality& expected)
+{
+  EXPECT_EQ(found.Particles, expected.Particles);
+  EXPECT_EQ(found.TotalMass, expected.TotalMass);
+  EXPECT_EQ(found.Outside, expected.Outside);
+  EXPECT_EQ(found.InEmptyCells, expected.InEmptyCells);
+  EXPECT_EQ(found.DensityError, expected.DensityError);
+  EXPECT_EQ(found.TransportCost, expected.TransportCost);
+  EXPECT_EQ(found.SmallestSpacing, expected.SmallestSpacing);
+  EXPECT_EQ(found.MeanSpacing, expected.MeanSpacing);
+}
+
+template <int Dimension>
+ImageGrid unevenGrid(const GridSize<Dimension>& size)
+{
+  return makeGrid<Dimension>(size, { 0.5, 0.7, 1.3 }, { 8.0, -1.0, 0.0 });
+}
+
+template <int Dimension>
+void checkOnRanks(const GridSize<Dimension>& size, int ranks, bool byPlace, bool hasMasses)
+{
+  const auto grid = unevenGrid<Dimension>(size);
+  const auto density = randomCells<Dimension>(size, 0.0, 5);
+  const DividedParticles particles = makeParticles<Dimension>(size, grid, ranks, byPlace);
+  const RectifiedFlow<Dimension> flow(density.Source());
+  const ParticleQuality expected =
+    measureQuality<Dimension>(sampleOf(particles.All, hasMasses), flow, grid, 3);
+  EXPECT_GT(expected.MeanSpacing, 0.0);
+  EXPECT_GT(expected.Outside, 0);
+  runOnRanks(ranks, [&](const Ranks& group) {
+    const RankParticles& own = particles.Of[static_cast<std::size_t>(group.Own())];
     const SerialExecutor serial;
     Context context(serial);
     context.Group = &group;
-    const ParticleQuality found = measureQuality<Dimension>(sampleOf(own), flow, grid, 3, context);
-    EXPECT_EQ(found.Particles, expected.Particles);
-    EXPECT_EQ(found.TotalMass, expected.TotalMass);
-    EXPECT_EQ(found.Outside, expected.Outside);
-    EXPECT_EQ(found.InEmptyCells, expected.InEmptyCells);
-    EXPECT_EQ(found.DensityError, expected.DensityError);
-    EXPECT_EQ(found.TransportCost, expected.TransportCost);
-    EXPECT_EQ(found.SmallestSpacing, expected.SmallestSpacing);
-    EXPECT_EQ(found.MeanSpacing, expected.MeanSpacing);
+    expectSame(
+      measureQuality<Dimension>(sampleOf(own, hasMasses), flow, grid, 3, context), expected);
   });
 }
 
@@ -266,6 +299,45 @@ TEST(ParticleQuality, TheSameBitsOnRanks)
       }
     }
   }
+}
+
+// A density that no rank has as a whole, in blocks that are narrow and that cover all of it.
+template <int Dimension>
+void checkOnTiles(const GridSize<Dimension>& size, std::int64_t blockSize)
+{
+  TileLimits limits;
+  limits.GradedNodes = Dimension == 3 ? 40000 : 8000;
+  limits.Width = 20;
+  const auto grid = unevenGrid<Dimension>(size);
+  const auto density = randomCells<Dimension>(size, 0.0, 5);
+  const RectifiedFlow<Dimension> whole(density.Source());
+  const TiledRun<Dimension> tiled(density, limits);
+  for (const int ranks : { 2, 3, 5 })
+  {
+    const DividedParticles particles = makeParticles<Dimension>(size, grid, ranks, ranks == 3);
+    const ParticleSample all = sampleOf(particles.All, ranks != 2);
+    const ParticleQuality expected = measureQuality<Dimension>(all, tiled.Flow, grid, blockSize);
+    const ParticleQuality byWhole = measureQuality<Dimension>(all, whole, grid, blockSize);
+    EXPECT_EQ(expected.Outside, byWhole.Outside);
+    EXPECT_EQ(expected.InEmptyCells, byWhole.InEmptyCells);
+    EXPECT_NEAR(expected.DensityError, byWhole.DensityError, 1e-12);
+    EXPECT_NEAR(expected.MeanSpacing, byWhole.MeanSpacing, 1e-6);
+    EXPECT_NEAR(expected.SmallestSpacing, byWhole.SmallestSpacing, 1e-6);
+    runOnRanks(ranks, [&](const Ranks& group) {
+      const RankParticles& own = particles.Of[static_cast<std::size_t>(group.Own())];
+      const RankFlow<Dimension> run(density, group, limits);
+      expectSame(measureQuality<Dimension>(
+                   sampleOf(own, ranks != 2), run.Flow, grid, blockSize, run.RankContext()),
+        expected);
+    });
+  }
+}
+
+TEST(ParticleQuality, ByTilesOnRanks)
+{
+  checkOnTiles<2>({ 131, 97 }, 5);
+  checkOnTiles<2>({ 131, 97 }, 200);
+  checkOnTiles<3>({ 51, 43, 47 }, 6);
 }
 
 } // namespace

@@ -59,6 +59,10 @@ public:
   template <class Item, class Task>
   void Run(const ByTile<Item>& items, Task&& task, double begin, double end)
   {
+    if (this->HasAnyRank(items.Count() > 0))
+    {
+      this->Tile.Reserve(this->Tiles.MostCells());
+    }
     if (this->OfRanks)
     {
       this->RunOnRanks(items, task, begin, end);

@@ -194,7 +194,8 @@ private:
         }
       },
       grain);
-    return ByTile<Entry>(found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
+    return ByTile<Entry>(
+      found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
   }
 
   TileStage<Dimension> StageOfEntries() const

@@ -5,6 +5,7 @@
 
 #include "Core/Flow/KeptFlowMap.h"
 #include "Core/Flow/Tiles/TiledAdvection.h"
+#include "Core/Flow/Tiles/TiledShares.h"
 #include "Core/Tables/DensityShare.h"
 
 #include <cstdint>
@@ -58,9 +59,23 @@ public:
     requireTiles<Dimension>(size, options, direction, limits);
     return PlanFor(size, options, direction, particles, limits).MemorySize(particles, isLattice);
   }
+  static double MemoryForShares(const GridSize<Dimension>& size, const Point<Dimension>& aspect,
+    double boxes, const TileLimits& limits)
+  {
+    return gradedMemory<Dimension>(size, gradedStrides<Dimension>(size, limits)) +
+      TiledShares<Dimension>::MemoryFor(tilesForShares<Dimension>(size, aspect, limits), boxes);
+  }
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
   {
     return densityIn<Dimension>({ this->Size, *this->Values }, low, high) / this->Summary().Total;
+  }
+
+  void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
+    const double* shares, double* measures, Progress& progress)
+  {
+    const GridTiles<Dimension> tiles = tilesForShares<Dimension>(this->Size, aspect, this->Limits);
+    TiledShares<Dimension>(this->Values, this->OfRanks, this->Graded, tiles, aspect, progress)
+      .Run(centres, shares, measures);
   }
 
   // Throws std::invalid_argument where tiles do not serve the options, NoMemoryForFlowMap,
@@ -146,6 +161,13 @@ public:
     const GridSize<1>&, const FlowOptions&, FlowDirection, double, bool, const TileLimits&)
   {
     throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
+  }
+  static double MemoryForShares(const GridSize<1>&, const Point<1>&, double, const TileLimits&)
+  {
+    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
+  }
+  void MeasuresOfShares(ConstPointSpan<1>, const Point<1>&, const double*, double*, const Progress&)
+  {
   }
   double Share(const Point<1>&, const Point<1>&) const { return 0.0; }
   template <class Source>

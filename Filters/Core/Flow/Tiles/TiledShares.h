@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes that hold given shares of a large density's mass: narrow ones by the tables of tiles, whose
+// halo holds every box that is too narrow for the graded tables (GradedTables.h).
+#ifndef RectifiedTransport_TiledShares_h
+#define RectifiedTransport_TiledShares_h
+
+#include "Core/Flow/Tiles/GridTiles.h"
+#include "Core/Flow/Tiles/TileEntries.h"
+#include "Core/Flow/Tiles/TilePlan.h"
+#include "Core/Flow/Tiles/TileRounds.h"
+#include "Core/Tables/BoxShare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// For boxes whose sides are in proportion to `aspect`.
+template <int Dimension>
+GridTiles<Dimension> tilesForShares(
+  const GridSize<Dimension>& size, const Point<Dimension>& aspect, const TileLimits& limits)
+{
+  const GridSize<Dimension> strides = gradedStrides<Dimension>(size, limits);
+  double half = 0.0; // of the sides of the boxes that are wide enough, over the aspect
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    if (strides[axis] > 1)
+    {
+      const double width = gradedRatio * static_cast<double>(strides[axis]);
+      half = std::max(half, 0.5 * width / aspect[axis]);
+    }
+  }
+  GridSize<Dimension> halo;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    const double reached = std::ceil(half * aspect[axis]) + 1.0;
+    halo[axis] = static_cast<std::int64_t>(std::min(reached, static_cast<double>(size[axis])));
+  }
+  return { size, halo, limits };
+}
+
+template <int Dimension>
+class TiledShares
+{
+public:
+  // Of the two densities one is given, the second where the progress has ranks, which then run this
+  // together.
+  TiledShares(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
+    const GradedTables<Dimension>& graded, const GridTiles<Dimension>& tiles,
+    const Point<Dimension>& aspect, Progress& progress)
+    : Graded(graded.View())
+    , Tiles(tiles)
+    , Aspect(aspect)
+    , Work(progress)
+    , Rounds(density, sharedDensity, graded, tiles, progress)
+  {
+  }
+
+  void Run(ConstPointSpan<Dimension> centres, const double* shares, double* measures)
+  {
+    constexpr double partOfSort = 0.05;
+    this->Work.BeginStage(partOfSort);
+    const ByTile<std::int64_t> items = this->FindTiles(centres, shares, measures);
+    this->Rounds.Run(items, Solution{ *this, items, centres, shares, measures }, partOfSort, 1.0);
+    this->Work.BeginStage(1.0);
+    this->Work.EndSlice(1);
+  }
+
+  // The most bytes that it takes besides the graded tables and its arguments.
+  static double MemoryFor(const GridTiles<Dimension>& tiles, double boxes)
+  {
+    constexpr double numbers = 2.0 * sizeof(std::int64_t);
+    return TileTables<Dimension>::MemoryFor(tiles.MostCells()) + numbers * boxes;
+  }
+
+private:
+  static constexpr std::int64_t grain = 256;        // boxes a range
+  static constexpr std::int64_t units = 16 * grain; // of the first slice
+
+  // What TileRounds does with the tables of a tile.
+  struct Solution
+  {
+    static constexpr double Cell = 0.0025; // measured
+    static constexpr std::size_t Values = Dimension + 1;
+
+    void Run(std::int64_t first, std::int64_t last)
+    {
+      this->Parent.Work.For(
+        last - first, grain,
+        [&](std::int64_t b, std::int64_t e) {
+          for (std::int64_t item = first + b; item < first + e; ++item)
+          {
+            const std::int64_t i = this->Items[item];
+            this->Measures[i] = this->Parent.MeasureOf(this->Centres[i], this->Shares[i]);
+          }
+        },
+        units);
+    }
+    int ValuesEach() const { return Values; }
+    template <class GiveOne>
+    void Give(std::int64_t item, const GiveOne& give) const
+    {
+      double values[Values];
+      std::copy_n(this->Centres[item], Dimension, values);
+      values[Dimension] = this->Shares[item];
+      give(values, item, item);
+    }
+    Bytes Serve(Bytes visitors)
+    {
+      const std::vector<double> values = fromBytes<double>(visitors);
+      std::vector<double> found(values.size() / Values);
+      this->Parent.Work.For(
+        static_cast<std::int64_t>(found.size()), grain,
+        [&](std::int64_t first, std::int64_t last) {
+          for (std::int64_t i = first; i < last; ++i)
+          {
+            const double* box = values.data() + static_cast<std::size_t>(i) * Values;
+            found[static_cast<std::size_t>(i)] = this->Parent.MeasureOf(box, box[Dimension]);
+          }
+        },
+        units);
+      return toBytes(found);
+    }
+    void Take(const char* reply, std::int64_t index, std::int64_t)
+    {
+      std::memcpy(this->Measures + index, reply, sizeof(double));
+    }
+
+    TiledShares& Parent;
+    const ByTile<std::int64_t>& Items;
+    const ConstPointSpan<Dimension> Centres;
+    const double* const Shares;
+    double* const Measures;
+  };
+
+  static Point<Dimension> toPoint(const double* coordinates)
+  {
+    Point<Dimension> point;
+    std::copy_n(coordinates, Dimension, point.begin());
+    return point;
+  }
+
+  double MeasureOf(const double* centre, double share) const
+  {
+    return measureOfShare<Dimension>(
+      this->Graded, this->Rounds.Tables(), toPoint(centre), this->Aspect, share);
+  }
+
+  // Those without a share need no tables.
+  ByTile<std::int64_t> FindTiles(
+    ConstPointSpan<Dimension> centres, const double* shares, double* measures)
+  {
+    const std::int64_t count = centres.size();
+    constexpr std::int64_t range = std::int64_t{ 1 } << 14;
+    std::vector<std::vector<std::int64_t>> found(
+      static_cast<std::size_t>((count + range - 1) / range));
+    this->Work.For(count, range, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        std::vector<std::int64_t>& those = found[static_cast<std::size_t>(i / range)];
+        if (i % range == 0)
+        {
+          those.reserve(static_cast<std::size_t>(std::min(range, count - i)));
+        }
+        if (shares[i] > 0.0)
+        {
+          those.push_back(i);
+        }
+        else
+        {
+          measures[i] = 0.0;
+        }
+      }
+    });
+    return { found, this->Tiles.Count(),
+      [&](std::int64_t i) { return this->Tiles.TileOf(toPoint(centres[i])); } };
+  }
+
+  const TableView<Dimension>& Graded;
+  const GridTiles<Dimension>& Tiles;
+  const Point<Dimension>& Aspect;
+  Progress& Work;
+  TileRounds<Dimension> Rounds;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Quality/BlockShares.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr double mostCells = 1 << 22; // of the density at a time
+constexpr std::int64_t grain = 256;   // blocks a range
+
+template <int Dimension>
+std::pair<Point<Dimension>, Point<Dimension>> sidesOf(const CellBox<Dimension>& box)
+{
+  Point<Dimension> low;
+  Point<Dimension> high;
+  std::copy(box.Low.begin(), box.Low.end(), low.begin());
+  std::copy(box.High.begin(), box.High.end(), high.begin());
+  return { low, high };
+}
+
+template <int Dimension>
+CellBox<Dimension> joined(const CellBox<Dimension>& a, const CellBox<Dimension>& b)
+{
+  CellBox<Dimension> box;
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    box.Low[axis] = std::min(a.Low[axis], b.Low[axis]);
+    box.High[axis] = std::max(a.High[axis], b.High[axis]);
+  }
+  return box;
+}
+
+// A rank's blocks in turns, for each of which it needs the density in one box: of several blocks,
+// or of some layers of a large one.
+template <int Dimension>
+class BlockTurns
+{
+public:
+  BlockTurns(const GridBlocks<Dimension>& blocks, std::int64_t first, std::int64_t count)
+    : Blocks(blocks)
+    , Next(first)
+    , End(first + count)
+  {
+  }
+
+  bool HasMore() const { return this->Next < this->End; }
+
+  struct Turn
+  {
+    CellBox<Dimension> Box{};
+    std::int64_t First = 0; // of the blocks
+    std::int64_t Count = 0;
+    bool IsPart = false;  // of one block
+    bool IsFirst = false; // part of it
+  };
+
+  // An empty turn if there are no more.
+  Turn Take()
+  {
+    Turn turn;
+    turn.First = this->Next;
+    if (!this->HasMore())
+    {
+      return turn;
+    }
+    turn.Box = this->Blocks.Box(this->Next);
+    turn.Count = 1;
+    if (turn.Box.Cells() > mostCells)
+    {
+      this->TakePart(turn);
+      return turn;
+    }
+    for (++this->Next; this->HasMore(); ++this->Next, ++turn.Count)
+    {
+      const CellBox<Dimension> larger = joined(turn.Box, this->Blocks.Box(this->Next));
+      if (larger.Cells() > mostCells)
+      {
+        break;
+      }
+      turn.Box = larger;
+    }
+    return turn;
+  }
+
+private:
+  // Whole layers, at least one.
+  void TakePart(Turn& turn)
+  {
+    constexpr int last = Dimension - 1;
+    const std::int64_t end = turn.Box.High[last];
+    const double layer = turn.Box.Cells() / static_cast<double>(end - turn.Box.Low[last]);
+    turn.IsPart = true;
+    turn.IsFirst = this->Layers == 0;
+    turn.Box.Low[last] += this->Layers;
+    const std::int64_t layers = std::min(end - turn.Box.Low[last],
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(mostCells / layer)));
+    turn.Box.High[last] = turn.Box.Low[last] + layers;
+    this->Layers += layers;
+    if (turn.Box.High[last] == end)
+    {
+      this->Layers = 0;
+      ++this->Next;
+    }
+  }
+
+  const GridBlocks<Dimension>& Blocks;
+  std::int64_t Next;
+  const std::int64_t End;
+  std::int64_t Layers = 0; // of the next block that are done
+};
+
+} // namespace
+
+template <int Dimension>
+void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
+  std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end)
+{
+  const auto shareIn = [&flow](const CellBox<Dimension>& box) {
+    const auto [low, high] = sidesOf(box);
+    return flow.Share(low, high);
+  };
+  const double start = progress.StageEnd();
+  BlockTurns<Dimension> turns(blocks, first, count);
+  while (!onAllRanks(progress.Group(), !turns.HasMore()))
+  {
+    const auto turn = turns.Take();
+    flow.PrepareShares(turn.Box.Low, turn.Box.High);
+    const auto done = static_cast<double>(turn.First + turn.Count - first);
+    progress.BeginStage(
+      start + (end - start) * done / static_cast<double>(std::max<std::int64_t>(1, count)));
+    double* found = shares + (turn.First - first);
+    if (turn.IsPart)
+    {
+      *found = shareIn(turn.Box) + (turn.IsFirst ? 0.0 : *found);
+      progress.Check();
+      continue;
+    }
+    progress.For(
+      turn.Count, grain,
+      [&](std::int64_t from, std::int64_t to) {
+        for (std::int64_t i = from; i < to; ++i)
+        {
+          found[i] = shareIn(blocks.Box(turn.First + i));
+        }
+      },
+      16 * grain);
+  }
+}
+
+template void findBlockShares<1>(const RectifiedFlow<1>&, const GridBlocks<1>&, std::int64_t,
+  std::int64_t, double*, Progress&, double);
+template void findBlockShares<2>(const RectifiedFlow<2>&, const GridBlocks<2>&, std::int64_t,
+  std::int64_t, double*, Progress&, double);
+template void findBlockShares<3>(const RectifiedFlow<3>&, const GridBlocks<3>&, std::int64_t,
+  std::int64_t, double*, Progress&, double);
+
+} // namespace RectifiedTransport

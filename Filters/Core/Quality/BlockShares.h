@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shares of a density's mass in blocks of its grid.
+#ifndef RectifiedTransport_BlockShares_h
+#define RectifiedTransport_BlockShares_h
+
+#include "Core/Flow/RectifiedFlow.h"
+#include "Core/Quality/GridBlocks.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Of `count` blocks from `first` on, as the work of stages up to the progress `end`. Ranks of the
+// progress call this together, each for its own blocks, and hold a few million cells of the density
+// at a time. Throws std::bad_alloc and Cancelled.
+template <int Dimension>
+void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
+  std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end);
+
+} // namespace RectifiedTransport
+
+#endif
