@@ -89,6 +89,7 @@ parallel_tests="$parallel_tests:PivotLattice*:MapDerivatives*:NearestNeighbours*
 parallel_tests="$parallel_tests:SolidCoverage*:Executors*"
 parallel_tests="$parallel_tests:AreaPreserving*:ConformalMap*:MassRaster*:SurfaceSamples*"
 parallel_tests="$parallel_tests:Tiles*:TilesOnRanks*:TileSchedule*:PartTables*:Ranks*:RankOrder*:SplatPart*"
+parallel_tests="$parallel_tests:BoxesByTiles*:BlockShares*:ParticleQuality*"
 parallel_tests="$parallel_tests:PowerDiagram*:EqualMassPartition*:PowerSiteCells*:Repulsion*"
 # Limits the memory of its process, which the sanitizer needs more of.
 parallel_tests="$parallel_tests:-*.TakeTheMemoryForetold"

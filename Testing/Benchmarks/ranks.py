@@ -3,6 +3,7 @@
 
     mpirun -np 2 pvbatch --sym ranks.py PLUGIN map 256      # Transport Map, a sample a cell of 256^3
     mpirun -np 2 pvbatch --sym ranks.py PLUGIN 2000000 256  # Sample Density, so many particles
+    mpirun -np 2 pvbatch --sym ranks.py PLUGIN quality 256  # Transport Quality of 4 million points
 
 Each rank prints its peak of memory less that of an idle rank, one that has loaded the plugin and
 run the filter on a small image."""
@@ -25,6 +26,11 @@ def filter_on(image):
     settings = dict(Input=image, Tables="Tiled", Threading="Serial", NegativeValues="Clamp")
     if WHAT == "map":
         return simple.TransportMap(**settings)
+    if WHAT == "quality":
+        last = SIZE - 1
+        settings["Density"] = settings.pop("Input")
+        return simple.TransportQuality(Input=simple.UniformSeeds(
+            Pattern="Jittered", NumberOfPoints=4000000, Bounds=[0, last] * 3), **settings)
     return simple.SampleDensity(NumberOfParticles=int(WHAT), SampleArrays=0, **settings)
 
 

@@ -306,6 +306,7 @@ void drawQuality(Settings& settings)
 {
   settings.Draw<Quality, int>("BlockSize", &Quality::SetBlockSize,
     { 0, 1, 2, 8, 100, std::numeric_limits<int>::max() }, { -1, -3 });
+  drawTables<Quality>(settings);
   drawDensitySettings(settings);
 }
 

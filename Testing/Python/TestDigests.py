@@ -316,6 +316,8 @@ def other_runs():
     yield "quality of given points", rt.vtkTransportQuality, [
         with_ghosts(points_in(density), cells=False), density], dict(BlockSize=8)
     yield "quality in usual blocks", rt.vtkTransportQuality, [points_in(density), density], {}
+    wide = image((1100, 70))
+    yield "quality by tiles", rt.vtkTransportQuality, [points_in(wide), wide], dict(Tables=2)
     for pattern, name in enumerate(PATTERNS):
         yield f"seeds {name}", rt.vtkUniformSeedSource, [], dict(
             Pattern=pattern, Dimension=2 + pattern % 2, NumberOfPoints=4000,

@@ -20,7 +20,8 @@ SIDE = 256  # points along an axis, of float
 # eight cells they are more than a quarter.
 RUNS = {"Transport Map, a sample a cell": ("map", 0.25),
         "Sample Density, 8 million particles": ("8000000", 0.25),
-        "Sample Density, 2 million particles": ("2000000", 0.4)}
+        "Sample Density, 2 million particles": ("2000000", 0.4),
+        "Transport Quality, 4 million points": ("quality", 0.25)}
 LIMIT = 300  # seconds for a run; it takes ten on an idle machine
 NEEDED = 6 << 30  # bytes of memory for four ranks
 

@@ -153,8 +153,9 @@ def give_qualities(inputs):
     particles = {name: simple.SampleDensity(Input=image, NumberOfParticles=4000, NumberOfSteps=8,
                                             **clamp) for name, image in inputs.items()}
     for name, image in inputs.items():
-        give_row("quality " + name, simple.TransportQuality(
-            Input=particles[name], Density=image, **clamp))
+        for tables in ("Whole", "Tiled"):
+            give_row("quality %s %s" % (name, tables), simple.TransportQuality(
+                Input=particles[name], Density=image, Tables=tables, **clamp))
     points, image = particles["points"], inputs["points"]
     give_row("quality blocks", simple.TransportQuality(
         Input=points, Density=image, BlockSize=2, **clamp))
@@ -164,11 +165,13 @@ def give_qualities(inputs):
     # Where others are, and not all inside.
     moved = simple.Transform(Input=redistributed(Input=masses))
     moved.Transform.Translate = [1.5, -0.7, 0.2]
-    give_row("quality moved", simple.TransportQuality(Input=moved, Density=image, **clamp))
+    for tables in ("Whole", "Tiled"):
+        give_row("quality moved " + tables, simple.TransportQuality(
+            Input=moved, Density=image, Tables=tables, **clamp))
     give_row("quality whole", simple.TransportQuality(
         Input=spread("True"), Density=image, **clamp))
     give_row("quality last", simple.TransportQuality(
-        Input=spread("rank == ranks - 1"), Density=image, **clamp))
+        Input=spread("rank == ranks - 1"), Density=image, Tables="Tiled", **clamp))
     field = simple.SplatMass(Input=points, Dimensions=[10, 8, 9])
     give_row("quality of a splat", simple.TransportQuality(Input=points, Density=field))
     give_row("quality plane", simple.TransportQuality(

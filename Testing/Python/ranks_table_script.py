@@ -5,7 +5,7 @@ import pickle
 import sys
 
 from paraview import simple
-from ranks_rows import RANK, gathered, give, redistributed
+from ranks_rows import RANK, gathered, give, give_row, redistributed
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
 from ranks_table_points import give_qualities, give_splats
@@ -23,8 +23,11 @@ def give_tiled():
                                 VOI=[0, 2100, 0, 900, 0, 0])
     for name, density in (("long", image), ("sparse", sparse), ("wide", wide)):
         for maps in ("On", "Off"):
-            give("%s maps %s" % (name, maps), simple.SampleDensity(
-                Input=density, NumberOfParticles=3000, FlowMaps=maps, **tiled))
+            particles = simple.SampleDensity(
+                Input=density, NumberOfParticles=3000, FlowMaps=maps, **tiled)
+            give("%s maps %s" % (name, maps), particles)
+        give_row("quality " + name, simple.TransportQuality(
+            Input=particles, Density=density, **tiled))
         give(name + " map", simple.TransportMap(
             Input=density, SampleDimensions=[40, 6, 7 if name != "wide" else 1], **tiled))
         give(name + " back", simple.TransportMap(

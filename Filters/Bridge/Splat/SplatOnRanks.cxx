@@ -61,9 +61,9 @@ double inOrder(
     return static_cast<double>(points.All());
   }
   const std::int64_t count = points.Counted().Count();
-  const std::vector<double> ones(masses ? 0 : static_cast<std::size_t>(count), 1.0);
   const RankOrder order(count, points.Keys(), PointMasses::Chunk, ranks, progress);
-  const std::vector<double> share = order.Bring(masses ? masses : ones.data());
+  const std::vector<double> share =
+    order.Bring([=](std::int64_t i) { return masses ? masses[i] : 1.0; });
   const double total = sumChunks(share.data(), order.Count(), PointMasses::Chunk, ranks);
   if (!std::isfinite(total))
   {

@@ -4,6 +4,7 @@
 #include "Core/Parallel/KeySort.h"
 
 #include <limits>
+#include <utility>
 
 namespace RectifiedTransport
 {

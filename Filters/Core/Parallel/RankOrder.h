@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace RectifiedTransport
@@ -30,24 +30,20 @@ public:
 
   // The elements of this rank's share.
   std::int64_t Count() const { return this->ShareCount; }
-  // The values of this rank's share in order, given those of this rank's elements.
-  template <class T>
-  std::vector<T> Bring(const T* own) const
+  // The values of this rank's share in order, given those valueOf(i) of this rank's elements.
+  template <class ValueOf>
+  auto Bring(const ValueOf& valueOf) const
   {
-    std::vector<std::vector<T>> given(this->Slots.size());
-    for (std::size_t i = 0; i < this->Receiver.size(); ++i)
-    {
-      given[static_cast<std::size_t>(this->Receiver[i])].push_back(own[i]);
-    }
-    const std::vector<std::vector<T>> received = exchangeValues(this->Group, std::move(given));
+    using T = std::decay_t<decltype(valueOf(std::int64_t{ 0 }))>;
     std::vector<T> values(static_cast<std::size_t>(this->ShareCount));
-    for (std::size_t rank = 0; rank < received.size(); ++rank)
-    {
-      for (std::size_t i = 0; i < received[rank].size(); ++i)
-      {
-        values[static_cast<std::size_t>(this->Slots[rank][i])] = received[rank][i];
-      }
-    }
+    std::vector<std::size_t> taken(this->Slots.size());
+    exchangeInRounds(
+      this->Group, static_cast<std::int64_t>(this->Receiver.size()),
+      [this](std::int64_t i) { return this->Receiver[static_cast<std::size_t>(i)]; }, valueOf,
+      [&](std::size_t rank, const T& value) {
+        const std::int64_t slot = this->Slots[rank][taken[rank]++];
+        values[static_cast<std::size_t>(slot)] = value;
+      });
     return values;
   }
 

@@ -99,6 +99,42 @@ std::vector<std::vector<T>> exchangeValues(const Ranks& ranks, std::vector<std::
   return received;
 }
 
+// How many items each rank may send at a time, of a few words each, so that no rank has many
+// megabytes of messages.
+inline std::int64_t itemsAtOnce(const Ranks& ranks)
+{
+  constexpr std::int64_t received = std::int64_t{ 1 } << 19; // by one rank, at most
+  return std::max<std::int64_t>(1, received / ranks.Count());
+}
+
+// Sends the values valueOf(i) of [0, count) to the ranks rankOf(i), in messages of bounded size,
+// and calls take(rank, value) for those that come here: those of a rank in its order.
+template <class RankOf, class ValueOf, class Take>
+void exchangeInRounds(const Ranks& ranks, std::int64_t count, const RankOf& rankOf,
+  const ValueOf& valueOf, const Take& take)
+{
+  using T = std::decay_t<decltype(valueOf(count))>;
+  const std::int64_t most = itemsAtOnce(ranks);
+  const std::vector<std::int64_t> counts = gatherValues(ranks, count);
+  const std::int64_t longest = *std::max_element(counts.begin(), counts.end());
+  for (std::int64_t done = 0; done < longest; done += most)
+  {
+    std::vector<std::vector<T>> given(counts.size());
+    for (std::int64_t i = done; i < std::min(done + most, count); ++i)
+    {
+      given[static_cast<std::size_t>(rankOf(i))].push_back(valueOf(i));
+    }
+    const std::vector<std::vector<T>> received = exchangeValues(ranks, std::move(given));
+    for (std::size_t rank = 0; rank < received.size(); ++rank)
+    {
+      for (const T& value : received[rank])
+      {
+        take(rank, value);
+      }
+    }
+  }
+}
+
 // The sum over all ranks, of integers or exact sums; `own` where there is one rank.
 template <class Sum>
 Sum sumOverRanks(const Ranks* ranks, const Sum& own)

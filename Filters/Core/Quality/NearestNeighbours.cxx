@@ -252,6 +252,25 @@ struct Query
   double Best;
 };
 
+std::vector<double> answersTo(
+  const std::vector<Query>& queries, const PointTree& tree, Progress& progress)
+{
+  std::vector<double> answers(queries.size());
+  progress.For(
+    static_cast<std::int64_t>(queries.size()), grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        const Query& query = queries[static_cast<std::size_t>(i)];
+        constexpr std::int64_t notHere = -1;
+        answers[static_cast<std::size_t>(i)] =
+          tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
+      }
+    },
+    grain);
+  return answers;
+}
+
 // Lowers the squared distances of this rank's points to those from the points of other ranks: one
 // of them after another answers for those that are nearer to its points' box than to a neighbour.
 void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, const Ranks& ranks,
@@ -262,39 +281,30 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
   {
     progress.BeginStage(endOfOwn + (1.0 - endOfOwn) * step / (ranks.Count() - 1));
     const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
-    std::vector<std::vector<Query>> queries(boxes.size());
-    std::vector<std::int64_t> asked;
-    for (std::int64_t i = 0; i < count && boxes[other].Last > 0; ++i)
+    for (std::int64_t next = boxes[other].Last > 0 ? 0 : count; !onAllRanks(&ranks, next >= count);)
     {
-      const TreePoint& point = tree.At(i);
-      const double best = squared[point.Id];
-      if (PointTree::GapTo(point, boxes[other]) < best)
+      std::vector<std::vector<Query>> queries(boxes.size());
+      std::vector<std::int64_t> asked;
+      for (; next < count && static_cast<std::int64_t>(asked.size()) < itemsAtOnce(ranks); ++next)
       {
-        queries[other].push_back({ { point.X[0], point.X[1], point.X[2] }, best });
-        asked.push_back(point.Id);
+        const TreePoint& point = tree.At(next);
+        const double best = squared[point.Id];
+        if (PointTree::GapTo(point, boxes[other]) < best)
+        {
+          queries[other].push_back({ { point.X[0], point.X[1], point.X[2] }, best });
+          asked.push_back(point.Id);
+        }
       }
-    }
-    std::vector<std::vector<double>> answers;
-    for (const std::vector<Query>& those : exchangeValues(ranks, std::move(queries)))
-    {
-      answers.emplace_back(those.size());
-      double* found = answers.back().data();
-      progress.For(
-        static_cast<std::int64_t>(those.size()), grain,
-        [&tree, &those, found](std::int64_t first, std::int64_t last) {
-          for (std::int64_t i = first; i < last; ++i)
-          {
-            const Query& query = those[static_cast<std::size_t>(i)];
-            constexpr std::int64_t notHere = -1;
-            found[i] = tree.Search({ { query.X[0], query.X[1], query.X[2] }, notHere }, query.Best);
-          }
-        },
-        grain);
-    }
-    const std::vector<double> found = exchangeValues(ranks, std::move(answers))[other];
-    for (std::size_t i = 0; i < asked.size(); ++i)
-    {
-      squared[asked[i]] = found[i];
+      std::vector<std::vector<double>> answers;
+      for (const std::vector<Query>& those : exchangeValues(ranks, std::move(queries)))
+      {
+        answers.push_back(answersTo(those, tree, progress));
+      }
+      const std::vector<double> found = exchangeValues(ranks, std::move(answers))[other];
+      for (std::size_t i = 0; i < asked.size(); ++i)
+      {
+        squared[asked[i]] = found[i];
+      }
     }
   }
 }

@@ -114,10 +114,7 @@ private:
       this->InOrder(this->Count, [&](std::int64_t i) { sum += value(i); });
       return sum;
     }
-    std::vector<double> own;
-    own.reserve(static_cast<std::size_t>(this->Count));
-    this->InOrder(this->Count, [&](std::int64_t i) { own.push_back(value(i)); });
-    const std::vector<double> share = this->Order->Bring(own.data());
+    const std::vector<double> share = this->Order->Bring(value);
     return sumInTurn(this->Group, sum,
       [&](double& running) { running = std::accumulate(share.begin(), share.end(), running); });
   }
@@ -187,6 +184,12 @@ private:
     });
   }
 
+  // The rank that has a block.
+  int OwnerOf(std::int64_t block) const
+  {
+    return block == noBlock ? 0 : RankShare::Of(block, this->NumberOfBlocks, this->Group->Count());
+  }
+
   // The share of a particle, of a block.
   struct BlockTerm
   {
@@ -209,26 +212,26 @@ private:
       });
       return;
     }
-    std::vector<BlockTerm> own;
-    own.reserve(static_cast<std::size_t>(this->Count));
-    this->InOrder(this->Count, [&](std::int64_t i) {
-      own.push_back({ this->Block.data()[i], this->Share(i) });
-    });
-    const int ranks = this->Group->Count();
-    std::vector<std::vector<BlockTerm>> given(static_cast<std::size_t>(ranks));
-    for (const BlockTerm& term : this->Order->Bring(own.data()))
+    // Those of the first rank's share of the order before those of the second.
+    std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group->Count()));
     {
-      if (term.Block != noBlock)
-      {
-        given[static_cast<std::size_t>(RankShare::Of(term.Block, this->NumberOfBlocks, ranks))]
-          .push_back(term);
-      }
+      const std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
+        return BlockTerm{ this->Block.data()[i], this->Share(i) };
+      });
+      exchangeInRounds(
+        *this->Group, static_cast<std::int64_t>(terms.size()),
+        [&](std::int64_t i) { return this->OwnerOf(terms[static_cast<std::size_t>(i)].Block); },
+        [&](std::int64_t i) { return terms[static_cast<std::size_t>(i)]; },
+        [&](std::size_t rank, const BlockTerm& term) { received[rank].push_back(term); });
     }
-    for (const std::vector<BlockTerm>& terms : exchangeValues(*this->Group, std::move(given)))
+    for (const std::vector<BlockTerm>& terms : received)
     {
       for (const BlockTerm& term : terms)
       {
-        found[term.Block - this->OwnBlocks.First] += term.Share;
+        if (term.Block != noBlock)
+        {
+          found[term.Block - this->OwnBlocks.First] += term.Share;
+        }
       }
     }
   }
@@ -302,8 +305,9 @@ private:
       double Smallest = std::numeric_limits<double>::infinity();
       std::int64_t Related = 0;
     };
-    const std::vector<double> brought =
-      this->Order ? this->Order->Bring(this->Spacing.data()) : std::vector<double>();
+    const std::vector<double> brought = this->Order
+      ? this->Order->Bring([this](std::int64_t i) { return this->Spacing.data()[i]; })
+      : std::vector<double>();
     const double* all = this->Order ? brought.data() : this->Spacing.data();
     const std::int64_t count = this->Order ? this->Order->Count() : this->Count;
     const Spacings found = sumInTurn(this->Group, Spacings(), [&](Spacings& sums) {

@@ -2,7 +2,7 @@
 // Tables: tiles give what whole tables give, but for the error of both; what is kept of them from
 // run to run never outlives the density that they read.
 #include "MapTest.h"
-#include "WarpTest.h"
+#include "QualityTest.h"
 
 #include "vtkTransportInterpolator.h"
 #include "vtkTransportSampler.h"
@@ -86,6 +86,21 @@ void checkFilters(Checks& checks)
   expectTheSame(
     checks, warp.Get(), [&]() { return displacementsOf(warp->GetOutput()->GetPointData()); },
     __LINE__);
+
+  vtkNew<vtkTransportQuality> quality;
+  quality->SetInputData(points->GetOutput());
+  quality->SetDensityData(density());
+  Values figures[2];
+  for (const int tables : { vtkTransportQuality::TABLES_WHOLE, vtkTransportQuality::TABLES_TILED })
+  {
+    quality->SetTables(tables);
+    figures[tables == vtkTransportQuality::TABLES_TILED ? 1 : 0] = runQuality(quality);
+  }
+  CHECK(checks, figures[0] != figures[1]); // other bits
+  for (std::size_t i = 0; i < figures[0].size(); ++i)
+  {
+    CHECK_NEAR(checks, figures[1][i], figures[0][i], 1e-6 * std::abs(figures[0][i]));
+  }
 
   vtkNew<vtkTransportInterpolator> morph;
   morph->SetInputData(density());

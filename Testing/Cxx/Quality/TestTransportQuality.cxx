@@ -331,6 +331,13 @@ void checkErrors(Checks& checks)
   quality->SetThreading(4);
   test.Expect("Threading is 4; it must be 0 (Auto)", __LINE__);
   quality->SetThreadingToAuto();
+  quality->SetTables(3);
+  test.Expect({ "Tables is 3", "0 (Auto), 1 (Whole) or 2 (Tiled)" }, __LINE__);
+  quality->SetTablesToTiled();
+  quality->SetDensityData(makeImage(5, 1, 1, true, bumpy));
+  test.Expect({ "Tables is Tiled", "two or three axes", "Tables = Whole" }, __LINE__);
+  quality->SetTablesToAuto();
+  quality->SetDensityData(makeImage(5, 4, 1, true, bumpy));
   const auto withArray = [&](const char* name, const std::vector<double>& values, int components) {
     auto set = points();
     addArray(set, name, values, components);

@@ -35,7 +35,7 @@ void checkPieces(Checks& checks)
   CHECK(checks, quality->GetOutput()->GetNumberOfRows() == 0);
 }
 
-void checkThreads(Checks& checks, int depth)
+void checkThreads(Checks& checks, int depth, int tables)
 {
   auto image = makeImage(41, 37, depth, true, [](vtkIdType i) { return bumpy(i) - 1.0; });
   const double bounds[6] = { -2, 42, 0, 36, 0, depth - 1.0 };
@@ -50,6 +50,7 @@ void checkThreads(Checks& checks, int depth)
   vtkNew<vtkTransportQuality> quality;
   quality->SetInputData(particles);
   quality->SetDensityData(image);
+  quality->SetTables(tables);
   const auto run = [&](int threading) {
     quality->SetThreading(threading);
     forgetTables(quality, image);
@@ -66,8 +67,12 @@ void checkLateAbort(Checks& checks)
   const double bounds[6] = { 0, 60, 0, 60, 0, 60 };
   quality->SetInputData(makePoints(randomCoordinates(bounds, 300000)));
   quality->SetDensityData(makeImage(61, 61, 61, true, bumpy));
-  checkAbort(
-    checks, quality, 0.6999, [&]() { quality->Modified(); }, __LINE__, 20);
+  for (const int tables : { vtkTransportQuality::TABLES_WHOLE, vtkTransportQuality::TABLES_TILED })
+  {
+    quality->SetTables(tables);
+    checkAbort(
+      checks, quality, 0.7299, [&]() { quality->Modified(); }, __LINE__, 20);
+  }
 }
 
 void checkAbort(Checks& checks)
@@ -100,8 +105,11 @@ int TestTransportQualityRun(int, char*[])
   Checks checks;
   checkCache(checks);
   checkPieces(checks);
-  checkThreads(checks, 1);
-  checkThreads(checks, 9);
+  for (const int tables : { vtkTransportQuality::TABLES_WHOLE, vtkTransportQuality::TABLES_TILED })
+  {
+    checkThreads(checks, 1, tables);
+    checkThreads(checks, 9, tables);
+  }
   checkAbort(checks);
   return checks.Result();
 }

@@ -203,9 +203,11 @@ int TestPrintSelf(int, char*[])
   expectLines(checks, barycenter, { "Weights: 0 0.5" });
 
   vtkNew<vtkTransportQuality> quality;
-  expectLines(checks, quality, { "DensityPort: 1", "BlockSize: 0", "TableBuildTime: 0" });
+  expectLines(
+    checks, quality, { "DensityPort: 1", "BlockSize: 0", "Tables: Auto", "TableBuildTime: 0" });
   quality->SetBlockSize(5);
-  expectLines(checks, quality, { "BlockSize: 5" });
+  quality->SetTablesToTiled();
+  expectLines(checks, quality, { "BlockSize: 5", "Tables: Tiled" });
 
   vtkNew<vtkBlueNoiseRelaxation> relaxation;
   expectLines(checks, relaxation,
