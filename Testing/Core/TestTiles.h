@@ -8,14 +8,40 @@
 #include "Core/Tables/SharedDensity.h"
 
 #include "TestDensities.h"
+#include "TestDimensions.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 
 namespace RectifiedTransport
 {
+
+// Limits that make the tables of small densities as coarse, and their tiles as many, as those of
+// large ones.
+template <int Dimension>
+TileLimits tileLimits(std::int64_t nodesOfPlane, std::int64_t nodesOfVolume, std::int64_t width)
+{
+  TileLimits limits;
+  limits.GradedNodes = Dimension == 3 ? nodesOfVolume : nodesOfPlane;
+  limits.Width = width;
+  return limits;
+}
+
+// Of a density of `manyTilesSize`.
+template <int Dimension>
+TileLimits manyTiles()
+{
+  return tileLimits<Dimension>(20000, 250000, 24);
+}
+
+template <int Dimension>
+GridSize<Dimension> manyTilesSize()
+{
+  return sizeFor<Dimension>({ 100 }, { 171, 127 }, { 77, 71, 67 });
+}
 
 // The values outlive the flow, which reads them in every run.
 template <int Dimension>

@@ -27,21 +27,6 @@ namespace RectifiedTransport
 namespace
 {
 
-template <int Dimension>
-TileLimits smallTiles()
-{
-  TileLimits limits;
-  limits.GradedNodes = Dimension == 3 ? 250000 : 20000;
-  limits.Width = 24;
-  return limits;
-}
-
-template <int Dimension>
-GridSize<Dimension> oddSize()
-{
-  return sizeFor<Dimension>({ 100 }, { 171, 127 }, { 77, 71, 67 });
-}
-
 // Sides of boxes: alike, and of an image whose spacings differ.
 template <int Dimension>
 std::vector<Point<Dimension>> aspects()
@@ -60,11 +45,11 @@ TYPED_TEST_SUITE(BoxesByTiles, PlaneAndSpace);
 TYPED_TEST(BoxesByTiles, TilesReachFarEnough)
 {
   constexpr int D = TypeParam::value;
-  const GridSize<D> strides = gradedStrides<D>(oddSize<D>(), smallTiles<D>());
+  const GridSize<D> strides = gradedStrides<D>(manyTilesSize<D>(), manyTiles<D>());
   EXPECT_GT(*std::max_element(strides.begin(), strides.end()), 1);
   for (const Point<D>& aspect : aspects<D>())
   {
-    const GridTiles<D> tiles = tilesForShares<D>(oddSize<D>(), aspect, smallTiles<D>());
+    const GridTiles<D> tiles = tilesForShares<D>(manyTilesSize<D>(), aspect, manyTiles<D>());
     EXPECT_GT(tiles.Count(), 1);
     double half = 0.0;
     for (int axis = 0; axis < D; ++axis)
@@ -76,7 +61,7 @@ TYPED_TEST(BoxesByTiles, TilesReachFarEnough)
     for (int axis = 0; axis < D; ++axis)
     {
       EXPECT_GE(static_cast<double>(tiles.Halo()[axis]),
-        std::min(half * aspect[axis], static_cast<double>(oddSize<D>()[axis])));
+        std::min(half * aspect[axis], static_cast<double>(manyTilesSize<D>()[axis])));
     }
   }
 }
@@ -95,11 +80,11 @@ std::vector<double> measuresOf(const RectifiedFlow<Dimension>& flow,
 TYPED_TEST(BoxesByTiles, AreThoseOfWholeTables)
 {
   constexpr int D = TypeParam::value;
-  for (const TestDensity<D>& density :
-    { randomCells<D>(oddSize<D>()), twoGaussians<D>(oddSize<D>()), discWithHole<D>(oddSize<D>()) })
+  for (const TestDensity<D>& density : { randomCells<D>(manyTilesSize<D>()),
+         twoGaussians<D>(manyTilesSize<D>()), discWithHole<D>(manyTilesSize<D>()) })
   {
     const RectifiedFlow<D> whole = makeFlow(density);
-    const TiledRun<D> run(density, smallTiles<D>());
+    const TiledRun<D> run(density, manyTiles<D>());
     const Points<D> centres = randomPoints<D>(density.Size, 400);
     for (const Point<D>& aspect : aspects<D>())
     {
@@ -131,8 +116,8 @@ TYPED_TEST(BoxesByTiles, AreThoseOfWholeTables)
 TYPED_TEST(BoxesByTiles, OfNothingAndOfAll)
 {
   constexpr int D = TypeParam::value;
-  const TestDensity<D> density = randomCells<D>(oddSize<D>());
-  const TiledRun<D> run(density, smallTiles<D>());
+  const TestDensity<D> density = randomCells<D>(manyTilesSize<D>());
+  const TiledRun<D> run(density, manyTiles<D>());
   Points<D> centres = randomPoints<D>(density.Size, 3);
   centres[1].fill(0.0);
   const std::vector<double> found =
@@ -147,8 +132,8 @@ TYPED_TEST(BoxesByTiles, OfNothingAndOfAll)
 TYPED_TEST(BoxesByTiles, OnRanksHaveTheSameBits)
 {
   constexpr int D = TypeParam::value;
-  const TestDensity<D> density = randomCells<D>(oddSize<D>());
-  const TiledRun<D> alone(density, smallTiles<D>());
+  const TestDensity<D> density = randomCells<D>(manyTilesSize<D>());
+  const TiledRun<D> alone(density, manyTiles<D>());
   const Points<D> centres = randomPoints<D>(density.Size, 3000);
   std::vector<double> shares(centres.size());
   for (std::size_t i = 0; i < shares.size(); ++i)
@@ -163,7 +148,7 @@ TYPED_TEST(BoxesByTiles, OnRanksHaveTheSameBits)
     {
       std::vector<double> found(shares.size());
       runOnRanks(count, [&](const Ranks& ranks) {
-        const RankFlow<D> run(density, ranks, smallTiles<D>());
+        const RankFlow<D> run(density, ranks, manyTiles<D>());
         const auto start = [&](int rank) {
           const double part = static_cast<double>(rank) / static_cast<double>(count);
           return static_cast<std::ptrdiff_t>(
@@ -187,9 +172,7 @@ TYPED_TEST(BoxesByTiles, TakeTheMemoryForetold)
   constexpr int D = TypeParam::value;
   const GridSize<D> size = sizeFor<D>({ 100 }, { 2500, 2000 }, { 160, 150, 140 });
   const TestDensity<D> density = discWithHole<D>(size);
-  TileLimits limits;
-  limits.GradedNodes = D == 3 ? 800000 : 1500000;
-  limits.Width = D == 3 ? 60 : 300;
+  const TileLimits limits = tileLimits<D>(1500000, 800000, D == 3 ? 60 : 300);
   const SerialExecutor serial;
   const Context context(serial);
   const Points<D> centres = randomPoints<D>(size, 1500000);

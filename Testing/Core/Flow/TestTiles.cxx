@@ -29,10 +29,7 @@ namespace
 template <int Dimension>
 TileLimits smallTiles()
 {
-  TileLimits limits;
-  limits.GradedNodes = Dimension == 3 ? 500000 : 35000;
-  limits.Width = 40;
-  return limits;
+  return tileLimits<Dimension>(35000, 500000, 40);
 }
 
 // Of no multiples of strides or tiles, with sides in 4 : 3 or so.
@@ -387,9 +384,7 @@ TYPED_TEST(Tiles, TakeTheMemoryForetold)
   constexpr int D = TypeParam::value;
   const GridSize<D> size = sizeFor<D>({ 100 }, { 2500, 2000 }, { 128, 120, 110 });
   const TestDensity<D> density = discWithHole<D>(size);
-  TileLimits limits;
-  limits.GradedNodes = D == 3 ? 800000 : 1500000;
-  limits.Width = D == 3 ? 60 : 300;
+  const TileLimits limits = tileLimits<D>(1500000, 800000, D == 3 ? 60 : 300);
   const SerialExecutor serial;
   const Context context(serial);
   Points<D> positions = randomPoints<D>(size, 400000);

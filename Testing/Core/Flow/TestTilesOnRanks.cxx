@@ -22,21 +22,6 @@ namespace RectifiedTransport
 namespace
 {
 
-template <int Dimension>
-TileLimits smallTiles()
-{
-  TileLimits limits;
-  limits.GradedNodes = Dimension == 3 ? 250000 : 20000;
-  limits.Width = 24;
-  return limits;
-}
-
-template <int Dimension>
-GridSize<Dimension> oddSize()
-{
-  return sizeFor<Dimension>({ 100 }, { 171, 127 }, { 77, 71, 67 });
-}
-
 // Each rank's share of the seeds, moved by move(flow, seeds, context); together.
 template <int Dimension, class Shares, class Move>
 Points<Dimension> runShares(const TestDensity<Dimension>& density, const Points<Dimension>& seeds,
@@ -44,7 +29,7 @@ Points<Dimension> runShares(const TestDensity<Dimension>& density, const Points<
 {
   Points<Dimension> all(seeds.size());
   runOnRanks(count, [&](const Ranks& ranks) {
-    const RankFlow<Dimension> run(density, ranks, smallTiles<Dimension>());
+    const RankFlow<Dimension> run(density, ranks, manyTiles<Dimension>());
     const std::int64_t first = shares(ranks.Own());
     const std::int64_t last = shares(ranks.Own() + 1);
     Points<Dimension> own(seeds.begin() + first, seeds.begin() + last);
@@ -64,10 +49,10 @@ TYPED_TEST(TilesOnRanks, PointsHaveTheBitsOfOneRank)
 {
   constexpr int D = TypeParam::value;
   for (const TestDensity<D>& density :
-    { twoGaussians<D>(oddSize<D>()), discWithHole<D>(oddSize<D>()) })
+    { twoGaussians<D>(manyTilesSize<D>()), discWithHole<D>(manyTilesSize<D>()) })
   {
     const DensityArray<D, double> source = density.Source();
-    const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+    const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), manyTiles<D>());
     const Points<D> seeds = randomPoints<D>(density.Size, 4001);
     const auto end = static_cast<std::int64_t>(seeds.size());
     for (const FlowMaps maps : OffAndOn)
@@ -104,9 +89,9 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
 {
   constexpr int D = TypeParam::value;
   constexpr int last = D - 1;
-  const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
+  const TestDensity<D> density = twoGaussians<D>(manyTilesSize<D>());
   const DensityArray<D, double> source = density.Source();
-  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), manyTiles<D>());
   const GridSize<D> lattice = evenSize<D>(D == 3 ? 80 : 150);
   Points<D> expected(cellCount<D>(lattice));
   const FlowOptions options = with(FlowMaps::Auto, steps(32));
@@ -115,7 +100,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
   {
     Points<D> all(expected.size());
     runOnRanks(count, [&](const Ranks& ranks) {
-      const RankFlow<D> run(density, ranks, smallTiles<D>());
+      const RankFlow<D> run(density, ranks, manyTiles<D>());
       const RankShare share(lattice[last], &ranks);
       LatticePart<D> part = LatticePart<D>::WholeOf(lattice);
       part.Low[last] = share.First;
@@ -132,17 +117,17 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
 TYPED_TEST(TilesOnRanks, AgreeOnKeptMaps)
 {
   constexpr int D = TypeParam::value;
-  const TestDensity<D> density = twoGaussians<D>(oddSize<D>());
+  const TestDensity<D> density = twoGaussians<D>(manyTilesSize<D>());
   const Points<D> seeds = randomPoints<D>(density.Size, 500);
   const FlowOptions options = with(FlowMaps::On, steps(32));
   const FlowOptions others = with(FlowMaps::On, steps(40));
   const DensityArray<D, double> source = density.Source();
-  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), smallTiles<D>());
+  const RectifiedFlow<D> alone(source, FlowTables::Tiled, Context(), manyTiles<D>());
   const Points<D> expected = runForward(alone, seeds, options);
   std::atomic<int> same{ 0 };
   runOnRanks(2, [&](const Ranks& ranks) {
-    const RankFlow<D> first(density, ranks, smallTiles<D>());
-    const RankFlow<D> second(density, ranks, smallTiles<D>());
+    const RankFlow<D> first(density, ranks, manyTiles<D>());
+    const RankFlow<D> second(density, ranks, manyTiles<D>());
     Points<D> found = runForward(first.Flow, seeds, options, first.RankContext());
     // Flows whose histories differ by rank, as after a failure.
     runForward(second.Flow, seeds, others, second.RankContext());

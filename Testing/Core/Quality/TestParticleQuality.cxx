@@ -305,9 +305,7 @@ TEST(ParticleQuality, TheSameBitsOnRanks)
 template <int Dimension>
 void checkOnTiles(const GridSize<Dimension>& size, std::int64_t blockSize)
 {
-  TileLimits limits;
-  limits.GradedNodes = Dimension == 3 ? 40000 : 8000;
-  limits.Width = 20;
+  const TileLimits limits = tileLimits<Dimension>(8000, 40000, 20);
   const auto grid = unevenGrid<Dimension>(size);
   const auto density = randomCells<Dimension>(size, 0.0, 5);
   const RectifiedFlow<Dimension> whole(density.Source());
