@@ -13,8 +13,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace RectifiedTransport
