@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -62,6 +63,32 @@ TYPED_TEST(BoxesByTiles, TilesReachFarEnough)
     {
       EXPECT_GE(static_cast<double>(tiles.Halo()[axis]),
         std::min(half * aspect[axis], static_cast<double>(manyTilesSize<D>()[axis])));
+    }
+  }
+}
+
+// Also where graded tables have all nodes.
+TYPED_TEST(BoxesByTiles, HaveAllOfAnAxisWithoutLength)
+{
+  constexpr int D = TypeParam::value;
+  const TestDensity<D> density = randomCells<D>(manyTilesSize<D>());
+  const RectifiedFlow<D> whole = makeFlow(density);
+  const Points<D> centres = randomPoints<D>(density.Size, 20);
+  const std::vector<double> shares(centres.size(), 0.01);
+  Point<D> aspect = evenPoint<D>(1.0);
+  aspect[D - 1] = std::numeric_limits<double>::infinity();
+  TileLimits all = manyTiles<D>();
+  all.GradedNodes = 10000000;
+  for (const TileLimits& limits : { manyTiles<D>(), all })
+  {
+    EXPECT_EQ(tilesForShares<D>(density.Size, aspect, limits).Halo()[D - 1], density.Size[D - 1]);
+    const TiledRun<D> run(density, limits);
+    for (std::size_t i = 0; i < centres.size(); ++i)
+    {
+      std::vector<double> measure(1);
+      run.Flow.MeasuresOfShares({ centres[i].data(), 1 }, aspect, shares.data(), measure.data());
+      const double expected = whole.MeasureOfShare(centres[i], aspect, shares[i]);
+      EXPECT_NEAR(measure[0], expected, 0.01 * expected);
     }
   }
 }

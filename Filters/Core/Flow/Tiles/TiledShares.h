@@ -38,8 +38,10 @@ GridTiles<Dimension> tilesForShares(
   GridSize<Dimension> halo;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Not a number where the aspect is infinite: an axis of no length beside the others.
     const double reached = std::ceil(half * aspect[axis]) + 1.0;
-    halo[axis] = static_cast<std::int64_t>(std::min(reached, static_cast<double>(size[axis])));
+    const bool endsBefore = reached < static_cast<double>(size[axis]);
+    halo[axis] = endsBefore ? static_cast<std::int64_t>(reached) : size[axis];
   }
   return { size, halo, limits };
 }
