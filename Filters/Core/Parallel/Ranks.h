@@ -99,12 +99,12 @@ std::vector<std::vector<T>> exchangeValues(const Ranks& ranks, std::vector<std::
   return received;
 }
 
-// How many items each rank may send at a time, of a few words each, so that no rank has many
-// megabytes of messages.
-inline std::int64_t itemsAtOnce(const Ranks& ranks)
+// How many values each rank may send at a time, so that none receives more than 16 MB.
+template <class T>
+std::int64_t valuesAtOnce(const Ranks& ranks)
 {
-  constexpr std::int64_t received = std::int64_t{ 1 } << 19; // by one rank, at most
-  return std::max<std::int64_t>(1, received / ranks.Count());
+  constexpr std::int64_t bytes = std::int64_t{ 1 } << 24;
+  return std::max<std::int64_t>(1, bytes / (ranks.Count() * static_cast<std::int64_t>(sizeof(T))));
 }
 
 // Sends the values valueOf(i) of [0, count) to the ranks rankOf(i), in messages of bounded size,
@@ -114,7 +114,7 @@ void exchangeInRounds(const Ranks& ranks, std::int64_t count, const RankOf& rank
   const ValueOf& valueOf, const Take& take)
 {
   using T = std::decay_t<decltype(valueOf(count))>;
-  const std::int64_t most = itemsAtOnce(ranks);
+  const std::int64_t most = valuesAtOnce<T>(ranks);
   const std::vector<std::int64_t> counts = gatherValues(ranks, count);
   const std::int64_t longest = *std::max_element(counts.begin(), counts.end());
   for (std::int64_t done = 0; done < longest; done += most)
@@ -170,9 +170,7 @@ inline bool onAllRanks(const Ranks* ranks, bool condition)
 template <class T>
 void gatherParts(const Ranks& ranks, const std::vector<std::int64_t>& starts, T* all)
 {
-  constexpr std::int64_t bytesAtOnce = std::int64_t{ 1 } << 24;
-  const std::int64_t most =
-    std::max<std::int64_t>(1, bytesAtOnce / (ranks.Count() * static_cast<std::int64_t>(sizeof(T))));
+  const std::int64_t most = valuesAtOnce<T>(ranks);
   std::int64_t longest = 0;
   for (std::size_t rank = 0; rank + 1 < starts.size(); ++rank)
   {

@@ -245,6 +245,8 @@ private:
 constexpr std::int64_t grain = 512;
 constexpr double endOfOwn = 0.7; // of the work, where other ranks follow
 
+constexpr std::size_t mostAsked = std::size_t{ 1 } << 18; // points at a time, of one rank
+
 // A point and the least squared distance known.
 struct Query
 {
@@ -281,11 +283,12 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
   {
     progress.BeginStage(endOfOwn + (1.0 - endOfOwn) * step / (ranks.Count() - 1));
     const auto other = static_cast<std::size_t>((ranks.Own() + step) % ranks.Count());
-    for (std::int64_t next = boxes[other].Last > 0 ? 0 : count; !onAllRanks(&ranks, next >= count);)
+    std::int64_t next = boxes[other].Last > 0 ? 0 : count;
+    do
     {
       std::vector<std::vector<Query>> queries(boxes.size());
       std::vector<std::int64_t> asked;
-      for (; next < count && static_cast<std::int64_t>(asked.size()) < itemsAtOnce(ranks); ++next)
+      for (; next < count && asked.size() < mostAsked; ++next)
       {
         const TreePoint& point = tree.At(next);
         const double best = squared[point.Id];
@@ -305,7 +308,7 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
       {
         squared[asked[i]] = found[i];
       }
-    }
+    } while (!onAllRanks(&ranks, next >= count));
   }
 }
 

@@ -184,12 +184,6 @@ private:
     });
   }
 
-  // The rank that has a block.
-  int OwnerOf(std::int64_t block) const
-  {
-    return block == noBlock ? 0 : RankShare::Of(block, this->NumberOfBlocks, this->Group->Count());
-  }
-
   // The share of a particle, of a block.
   struct BlockTerm
   {
@@ -215,23 +209,25 @@ private:
     // Those of the first rank's share of the order before those of the second.
     std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group->Count()));
     {
-      const std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
+      std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
         return BlockTerm{ this->Block.data()[i], this->Share(i) };
       });
+      terms.erase(std::remove_if(terms.begin(), terms.end(),
+                    [](const BlockTerm& term) { return term.Block == noBlock; }),
+        terms.end());
+      const auto termAt = [&terms](std::int64_t i) { return terms[static_cast<std::size_t>(i)]; };
       exchangeInRounds(
         *this->Group, static_cast<std::int64_t>(terms.size()),
-        [&](std::int64_t i) { return this->OwnerOf(terms[static_cast<std::size_t>(i)].Block); },
-        [&](std::int64_t i) { return terms[static_cast<std::size_t>(i)]; },
-        [&](std::size_t rank, const BlockTerm& term) { received[rank].push_back(term); });
+        [&](std::int64_t i) {
+          return RankShare::Of(termAt(i).Block, this->NumberOfBlocks, this->Group->Count());
+        },
+        termAt, [&](std::size_t rank, const BlockTerm& term) { received[rank].push_back(term); });
     }
     for (const std::vector<BlockTerm>& terms : received)
     {
       for (const BlockTerm& term : terms)
       {
-        if (term.Block != noBlock)
-        {
-          found[term.Block - this->OwnBlocks.First] += term.Share;
-        }
+        found[term.Block - this->OwnBlocks.First] += term.Share;
       }
     }
   }

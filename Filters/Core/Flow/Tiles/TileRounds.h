@@ -59,15 +59,12 @@ public:
   template <class Item, class Task>
   void Run(const ByTile<Item>& items, Task&& task, double begin, double end)
   {
-    if (this->HasAnyRank(items.Count() > 0))
-    {
-      this->Tile.Reserve(this->Tiles.MostCells());
-    }
     if (this->OfRanks)
     {
       this->RunOnRanks(items, task, begin, end);
       return;
     }
+    this->ReserveIf(items.Count() > 0);
     for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
     {
       const std::int64_t first = items.Start(tile);
@@ -88,6 +85,14 @@ public:
   }
 
 private:
+  void ReserveIf(bool isNeeded)
+  {
+    if (isNeeded)
+    {
+      this->Tile.Reserve(this->Tiles.MostCells());
+    }
+  }
+
   void BuildTile(const DensityValues& density, const GridSize<Dimension>& low,
     const GridSize<Dimension>& high, double from, double to)
   {
@@ -106,6 +111,7 @@ private:
     const Ranks& ranks = *this->Work.Group();
     const std::vector<std::vector<TileUnit>> units = this->Schedule(items, Task::Cell, ranks);
     const auto own = static_cast<std::size_t>(ranks.Own());
+    this->ReserveIf(!units[own].empty());
     std::size_t rounds = 0;
     for (const std::vector<TileUnit>& those : units)
     {
