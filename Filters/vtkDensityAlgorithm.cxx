@@ -45,6 +45,13 @@ bool isAssociation(int association)
     association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
     association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 }
+
+bool hasElements(vtkDataObject* data)
+{
+  return data &&
+    (data->GetNumberOfElements(vtkDataObject::POINT) > 0 ||
+      data->GetNumberOfElements(vtkDataObject::CELL) > 0);
+}
 } // namespace
 
 struct vtkDensityAlgorithm::vtkInternals
@@ -112,16 +119,13 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   auto* image = vtkImageData::SafeDownCast(input);
-  if (const Ranks* ranks = this->GetRanks())
+  const Ranks* ranks = this->GetRanks();
+  std::string kind = hasElements(input) ? image ? "an image" : "no image" : "";
+  if (ranks) // of which those without data take part
   {
-    requireSameOnRanks(*ranks,
-      image     ? "an image"
-        : input ? "no image"
-                : "not there",
-      "The density is ");
+    kind = requireSameOnRanks(*ranks, kind, "The density is ");
   }
-  const bool isDistributed = image && this->GetRanks();
-  if (!input || (image && image->GetNumberOfPoints() == 0 && !isDistributed))
+  if (kind.empty())
   {
     return nullptr;
   }
@@ -130,13 +134,13 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
     throw Failure("The field association of the density array is " + std::to_string(association) +
       "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
-  if (!image)
+  if (kind != "an image")
   {
     return this->ReadResampled(input, progress, arrayIndex, number);
   }
   this->Internals->Resampled.erase(number);
   this->Internals->Gathered.erase(number);
-  if (isDistributed)
+  if (ranks)
   {
     return this->ReadPieces(image, arrayIndex);
   }
@@ -157,7 +161,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* imag
   }
   // The array, as its association and its name; empty on ranks without points.
   std::string chosen;
-  if (image->GetNumberOfPoints() > 0)
+  if (image && image->GetNumberOfPoints() > 0)
   {
     int association = 0;
     vtkDataArray* array = this->RequireDensityArray(image, arrayIndex, "input image", association);
@@ -303,7 +307,8 @@ ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
   vtkInformation* inputInformation, int arrayIndex, int number)
 {
   vtkDataObject* data = vtkDataObject::GetData(inputInformation);
-  if (!data || vtkImageData::SafeDownCast(data))
+  // Where ranks have data of several types, all of them read these.
+  if (onAllRanks(this->GetRanks(), !data || vtkImageData::SafeDownCast(data)))
   {
     return announcedGrid(inputInformation, this->IsDensityOnPoints(inputInformation, arrayIndex));
   }

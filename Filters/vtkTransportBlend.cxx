@@ -79,45 +79,16 @@ std::vector<GivenInput> gatherInputs(
   return inputs;
 }
 
-// How ranks read an input: together, where it is an image.
-enum class InputKind
+void requireSameNumber(std::size_t inputs, const Ranks& ranks)
 {
-  None,
-  Image,
-  Whole
-};
-
-InputKind kindOf(vtkDataObject* data)
-{
-  return !data                         ? InputKind::None
-    : vtkImageData::SafeDownCast(data) ? InputKind::Image
-                                       : InputKind::Whole;
-}
-
-void requireSameKinds(const std::vector<GivenInput>& inputs, const Ranks& ranks)
-{
-  std::vector<InputKind> own;
-  for (const GivenInput& input : inputs)
+  const std::vector<std::size_t> all = gatherValues(ranks, inputs);
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
   {
-    own.push_back(kindOf(input.Data));
-  }
-  const std::vector<Bytes> gathered = ranks.Gather(toBytes(own));
-  const auto first = fromBytes<InputKind>(gathered.front());
-  for (std::size_t rank = 1; rank < gathered.size(); ++rank)
-  {
-    const auto other = fromBytes<InputKind>(gathered[rank]);
-    if (other.size() != first.size())
+    if (all[rank] != all.front())
     {
-      throw Failure("The number of inputs is " + std::to_string(first.size()) + " on rank 0, but " +
-        std::to_string(other.size()) + " on rank " + std::to_string(rank) +
+      throw Failure("The number of inputs is " + std::to_string(all.front()) + " on rank 0, but " +
+        std::to_string(all[rank]) + " on rank " + std::to_string(rank) +
         "; all ranks must have the same inputs and blocks");
-    }
-    const auto different = std::mismatch(first.begin(), first.end(), other.begin()).first;
-    if (different != first.end())
-    {
-      throw Failure("Input " + std::to_string(different - first.begin() + 1) +
-        " is no data set of the same kind on rank 0 and on rank " + std::to_string(rank) +
-        "; it must be an image on all ranks, or on none");
     }
   }
 }
@@ -227,7 +198,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   if (const Ranks* ranks = this->GetRanks())
   {
-    requireSameKinds(allGiven, *ranks);
+    requireSameNumber(allGiven.size(), *ranks);
   }
   std::vector<BlendInput> inputs;
   for (const GivenInput& given : allGiven)

@@ -85,9 +85,10 @@ BLENDS = {
                        "matrix is 1 0 0 0 1 0 0 0 1 on rank 0, but 0 -1 0 1 0 0 0 0 1 on rank 1",
     "morph wrong on one": "The property Parameter is 0.5 on rank 0, but 2 on rank 1",
     "barycenter number": "The number of inputs is 2 on rank 0, but 1 on rank 1",
-    "barycenter kind": "Input 2 is no data set of the same kind on rank 0 and on rank 1",
+    "barycenter kind": "Input 2 of 2: The density is an image on rank 0, but no image on rank 1; it must be "
+                       "of one type on all",
 }
-RIGHT_BLENDS = ("barycenter right", "blocks right", "blocks in pieces", "morph put right",
+RIGHT_BLENDS = ("barycenter right", "barycenter nothing on one", "blocks right", "blocks in pieces", "morph put right",
                 "morph without maps on one", "morph after an abort")
 # Points of a map on each rank, and of 60 particles where they lie on one.
 RIGHT = {
@@ -158,6 +159,26 @@ class RanksErrors(unittest.TestCase):
                 if particles:
                     self.assertEqual(self.points("sample " + name), particles)
                 self.assertEqual(self.points("map " + name), [7 * 6 * 5] * RANKS)
+
+    def test_images_above_zero(self):
+        """Ranks without a part, whatever the type of nothing there."""
+        names = [name for name in self.given[0] if " above " in name]
+        self.assertEqual(len(names), 54)
+        masses = {"cells": sum(1 + i % 7 for i in range(360)),
+                  "points": sum(1 + i % 7 for i in range(546))}
+        for name in names:
+            with self.subTest(name):
+                self.assertEqual(self.errors(name), [[]] * RANKS)
+                kind, _, owner, *_ = name.split()
+                if kind == "vtkTransportSampler":
+                    self.assertEqual(sum(self.points(name)), 60)
+                    for rank in self.given:
+                        if rank[name][0]:
+                            self.assertAlmostEqual(rank[name][2], masses[owner], 9)
+                elif kind == "vtkTransportMap":
+                    self.assertTrue(all(self.points(name)))
+                else:
+                    self.assertGreater(sum(self.points(name)), 0)
 
     def test_points(self):
         whole = 6 * 5 * 12

@@ -5,12 +5,14 @@ import zlib
 import numpy as np
 from paraview import simple
 from rt_testing import reads_appended_data
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 GHOSTS = "vtkGhostType"
 RANK = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
+RANKS = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
 gathered = {}
 
 
@@ -20,6 +22,45 @@ REDISTRIBUTES = reads_appended_data()
 def redistributed(Input):
     """On other ranks, where ParaView's own filter works; else where they are."""
     return simple.RedistributeDataSet(Input=Input) if REDISTRIBUTES else Input
+
+
+def given_here(data, whole=None):
+    """A source of what this rank has, of an image with the whole extent."""
+    producer = simple.TrivialProducer()
+    producer.GetClientSideObject().SetOutput(data)
+    if whole:
+        producer.GetClientSideObject().SetWholeExtent(whole)
+    return producer
+
+
+def turned(Input):
+    """The image with a direction matrix: x to y, y to z, z to x, and y mirrored."""
+    Input.UpdatePipeline()
+    image = Input.GetClientSideObject().GetOutputDataObject(0)
+    copy = image.NewInstance()
+    copy.ShallowCopy(image)
+    copy.SetDirectionMatrix(0, 0, 1, 1, 0, 0, 0, -1, 0)
+    pipeline = Input.GetClientSideObject().GetOutputInformation(0)
+    whole = pipeline.Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
+    return given_here(copy, list(whole))
+
+
+def tiles():
+    """Blocks that tile an image of cells, four along x, each on one rank."""
+    blocks = vtkMultiBlockDataSet()
+    blocks.SetNumberOfBlocks(4)
+    for i in range(4):
+        if i % RANKS != RANK:
+            continue
+        image = vtkImageData()
+        image.SetExtent(3 * i, 3 * i + 3, 0, 5, 0, 4)
+        image.SetSpacing(0.5, 1, 2)
+        x, y, z = np.meshgrid(range(3 * i, 3 * i + 3), range(5), range(4), indexing="ij")
+        values = numpy_to_vtk((1.0 + (x + 2 * y + 3 * z) % 7).ravel(order="F"), deep=1)
+        values.SetName("Density")
+        image.GetCellData().SetScalars(values)
+        blocks.SetBlock(i, image)
+    return given_here(blocks)
 
 
 def digests(data, owner):

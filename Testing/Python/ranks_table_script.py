@@ -5,7 +5,7 @@ import pickle
 import sys
 
 from paraview import simple
-from ranks_rows import RANK, gathered, give, give_row, redistributed
+from ranks_rows import RANK, gathered, give, give_row, redistributed, tiles, turned
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
 from ranks_table_points import give_qualities, give_splats
@@ -53,12 +53,15 @@ def give_data():
             Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0, UpperThreshold=1000),
             BuildIfRequired=0, MinimumNumberOfGhosts=1),
         "block": simple.GroupDatasets(Input=[simple.ImageDatatoPointSet(Input=cells)]),
+        "amr": simple.AMRGaussianPulseSource(Dimension=3, RootSpacing=0.5),
+        "tiles": tiles(),
     }
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8, DensityResolution=12)
     for name, density in meshes.items():
+        chosen = dict(DensityArray=["CELLS", "Gaussian-Pulse"]) if name == "amr" else {}
         give("sample " + name, simple.SampleDensity(
-            Input=density, NumberOfParticles=400, **usual))
-        give("map " + name, simple.TransportMap(Input=density, **usual))
+            density, NumberOfParticles=400, **chosen, **usual))
+        give("map " + name, simple.TransportMap(density, **chosen, **usual))
     shell = simple.Contour(Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0],
                            ComputeNormals=0)
     give("warp mesh", simple.DensityEqualizingWarp(Input=shell, Density=meshes["mesh"], **usual))
@@ -141,6 +144,12 @@ def main(path):
     give("threshold", simple.Threshold(Input=simple.SampleDensity(
         Input=image, NumberOfParticles=400, **usual), Scalars=["POINTS", "RTData"],
         LowerThreshold=150, UpperThreshold=1000))
+    for name, density in (("turned points", turned(image)), ("turned cells", turned(cells))):
+        give("sample " + name, simple.SampleDensity(density, NumberOfParticles=300, **usual))
+        give("map " + name, simple.TransportMap(density, **usual))
+        give("warp " + name, simple.DensityEqualizingWarp(
+            Input=simple.UniformSeeds(NumberOfPoints=80, Dimension=3, Bounds=[0, 10, -4, 8, -7, 0]),
+            Density=density, **usual))
     give_tiled()
     give_splats(image, flat, ghosts)
     give_qualities(inputs)

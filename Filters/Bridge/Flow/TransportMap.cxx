@@ -109,8 +109,7 @@ TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& want
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples = this->SampleGrid(density);
-  Extent part = intersectionOf(wanted, samples.Extent());
-  part = isEmpty(part) ? Extent{ 0, -1, 0, -1, 0, -1 } : part;
+  const Extent part = intersectionOf(wanted, samples.Extent());
   if (samples.Extent() == density.Grid().Extent())
   {
     vtkSmartPointer<vtkImageData> image = density.Image();

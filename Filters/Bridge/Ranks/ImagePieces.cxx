@@ -75,7 +75,7 @@ struct ImagePieces::Piece
 
 ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
   : Processes(ranks)
-  , Own(own)
+  , Own(own ? vtkSmartPointer<vtkImageData>(own) : vtkSmartPointer<vtkImageData>::New())
 {
   Piece piece;
   if (own && own->GetNumberOfPoints() > 0)
@@ -165,6 +165,11 @@ void ImagePieces::TakePieces(const std::vector<Piece>& pieces)
         describe(missing.front()));
     }
   }
+}
+
+vtkImageData* ImagePieces::OwnImage() const
+{
+  return this->Own;
 }
 
 vtkSmartPointer<vtkImageData> ImagePieces::MakeFrame() const

@@ -25,8 +25,8 @@ namespace RectifiedTransport
 class ImagePieces
 {
 public:
-  // Called by all ranks; `own` may be without points. Throws Failure for images that are no parts
-  // of one, or do not fill it.
+  // Called by all ranks; `own` may be nullptr or without points. Throws Failure for images that are
+  // no parts of one, or do not fill it.
   ImagePieces(vtkImageData* own, const Ranks& ranks);
 
   // Empty where no rank has points.
@@ -36,7 +36,7 @@ public:
   // Of the corners of each rank's cells, without duplicates.
   const std::vector<Extent>& Cells() const { return this->CellExtents; }
   const Ranks& Group() const { return this->Processes; }
-  vtkImageData* OwnImage() const { return this->Own; }
+  vtkImageData* OwnImage() const;
   // The arrays that can be gathered.
   const std::vector<ArrayKind>& Kinds() const { return this->Arrays; }
   // An image of the whole extent, without arrays.
@@ -54,7 +54,7 @@ private:
   vtkSmartPointer<vtkImageData> MakeImage(Extent extent) const;
 
   const Ranks& Processes;
-  vtkImageData* const Own;
+  const vtkSmartPointer<vtkImageData> Own;
   std::vector<ArrayKind> Arrays;
   std::vector<Extent> PointExtents;
   std::vector<Extent> CellExtents;

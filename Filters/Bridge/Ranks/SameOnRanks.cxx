@@ -10,19 +10,23 @@
 namespace RectifiedTransport
 {
 
-void requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what)
+std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what)
 {
   const std::vector<Bytes> all = ranks.Gather(Bytes(own.begin(), own.end()));
-  const std::string first(all.front().begin(), all.front().end());
-  for (std::size_t rank = 1; rank < all.size(); ++rank)
+  std::string common;
+  std::size_t first = 0;
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    const std::string other(all[rank].begin(), all[rank].end());
-    if (other != first)
+    const std::string there(all[rank].begin(), all[rank].end());
+    first = common.empty() ? rank : first;
+    common = common.empty() ? there : common;
+    if (!there.empty() && there != common)
     {
-      throw Failure(what + first + " on rank 0, but " + other + " on rank " + std::to_string(rank) +
-        "; it must be of one type on all");
+      throw Failure(what + common + " on rank " + std::to_string(first) + ", but " + there +
+        " on rank " + std::to_string(rank) + "; it must be of one type on all");
     }
   }
+  return common;
 }
 
 namespace

@@ -48,7 +48,8 @@ Extent intersectionOf(const Extent& a, const Extent& b)
     both[2 * axis] = std::max(a[2 * axis], b[2 * axis]);
     both[2 * axis + 1] = std::min(a[2 * axis + 1], b[2 * axis + 1]);
   }
-  return both;
+  // Of one whose ends are reversed otherwise VTK counts points and cells that there are not.
+  return isEmpty(both) ? Extent{ 0, -1, 0, -1, 0, -1 } : both;
 }
 
 std::vector<Extent> dividedExtent(const Extent& whole, int ranks)

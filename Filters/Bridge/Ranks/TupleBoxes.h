@@ -32,6 +32,7 @@ inline bool isEmpty(const Extent& extent)
 {
   return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
 }
+// {0, -1, ...} where they have none in common.
 Extent intersectionOf(const Extent& a, const Extent& b);
 // The pieces into which VTK divides an extent; points at their faces are in both.
 std::vector<Extent> dividedExtent(const Extent& whole, int ranks);

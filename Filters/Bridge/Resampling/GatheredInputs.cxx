@@ -62,8 +62,11 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
     return points.All();
   }
   auto* image = vtkImageData::SafeDownCast(own);
-  requireSameOnRanks(ranks, image ? "an image" : "no image", "The density is ");
-  return image ? gatherImage(image, ranks) : gatherBlocks(own, ranks);
+  const bool hasPoints = own && own->GetNumberOfElements(vtkDataObject::POINT) > 0;
+  const char* type = !hasPoints ? "" : image ? "an image" : "no image";
+  return requireSameOnRanks(ranks, type, "The density is ") == "an image"
+    ? gatherImage(image, ranks)
+    : gatherBlocks(own, ranks);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
 #include "vtkMPIController.h"
+#include "vtkOutputWindow.h"
 
 #include <algorithm>
 #include <array>
@@ -36,12 +37,13 @@ using Clock = std::chrono::steady_clock;
 constexpr int meetingTag = 52718;
 constexpr int exchangeTag = 52719;
 
-std::chrono::duration<double> longestWait()
+Clock::duration longestWait()
 {
   constexpr double usual = 120.0;
   const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
   const double seconds = given ? std::strtod(given, nullptr) : 0.0;
-  return std::chrono::duration<double>(seconds > 0.0 ? seconds : usual);
+  return std::chrono::duration_cast<Clock::duration>(
+    std::chrono::duration<double>(seconds > 0.0 ? seconds : usual));
 }
 
 // How ranks learn that all of them execute a filter. The first rank collects: a rank that fails
@@ -54,8 +56,10 @@ public:
   {
   }
 
-  void Wait(std::uint64_t subject)
+  // `withData` where the data are to be made; else before, as REQUEST_INFORMATION is.
+  void Wait(const std::string& filter, bool withData)
   {
+    const std::uint64_t subject = subjectOf(filter, withData);
     this->Sends.remove_if([](Send& send) { return send.Request.Test() != 0; });
     if (this->Controller->GetLocalProcessId() == 0)
     {
@@ -106,16 +110,34 @@ private:
     return true;
   }
 
-  // Returns whether ready() in time.
-  template <class Ready>
-  static bool waitFor(std::chrono::duration<double> longest, const Ready& ready)
+  // Numbers of meetings with data are even.
+  static std::uint64_t subjectOf(const std::string& filter, bool withData)
+  {
+    return std::hash<std::string>()(filter) << 1U | (withData ? 0U : 1U);
+  }
+  static bool isWithData(std::uint64_t subject) { return (subject & 1U) == 0; }
+
+  // Returns whether ready() in time. After the time `patience` it says which rank() is missing.
+  template <class Ready, class Rank>
+  static bool waitFor(
+    Clock::duration longest, Clock::duration patience, const Ready& ready, const Rank& rank)
   {
     const auto start = Clock::now();
-    while (!ready())
+    for (bool hasSaid = false; !ready();)
     {
-      if (Clock::now() - start > longest)
+      const auto waited = Clock::now() - start;
+      if (waited > longest)
       {
         return false;
+      }
+      if (waited > patience && !hasSaid)
+      {
+        hasSaid = true;
+        vtkOutputWindow::GetInstance()->DisplayText(
+          ("RectifiedTransport: waiting for rank " + std::to_string(rank()) +
+            " to run the same filter. All ranks must run it; where one of them alone runs it, it "
+            "waits until RECTIFIEDTRANSPORT_RANK_TIMEOUT seconds (120) are over\n")
+            .c_str());
       }
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
@@ -125,36 +147,76 @@ private:
   [[noreturn]] static void throwMissing(int rank)
   {
     throw Failure("Rank " + std::to_string(rank) + " has not run this filter within " +
-      std::to_string(static_cast<int>(longestWait().count())) +
+      std::to_string(std::chrono::duration_cast<std::chrono::seconds>(longestWait()).count()) +
       " seconds of this one, perhaps as a filter before it failed there; all ranks must run it "
       "(RECTIFIEDTRANSPORT_RANK_TIMEOUT sets how long they wait for one another)");
+  }
+
+  [[noreturn]] static void throwElsewhere(int rank)
+  {
+    throw Failure("Rank " + std::to_string(rank) +
+      " runs another filter in place of this one, perhaps as a filter before it failed there; all "
+      "ranks must run the same filters in the same order");
+  }
+
+  void ReceiveAll(int rank)
+  {
+    for (Message message; this->Receive(rank, message);)
+    {
+      Calls& waiting = this->Waiting[rank];
+      if (message[2] == Comes)
+      {
+        waiting[message[1]] = message[0];
+      }
+      else
+      {
+        waiting.erase(message[1]);
+      }
+    }
+  }
+
+  // A rank that has come for another subject waits for this rank, and this one for it. Where that
+  // is before the data, it goes on alone, and comes. Returns whether it waits nevertheless.
+  bool WaitsElsewhere(int rank, std::uint64_t subject)
+  {
+    Calls& waiting = this->Waiting[rank];
+    for (auto call = waiting.begin(); isWithData(subject) && call != waiting.end();)
+    {
+      if (isWithData(call->second))
+      {
+        ++call;
+        continue;
+      }
+      this->SendTo(rank, { call->second, call->first, SomeMissing, 0 });
+      call = waiting.erase(call);
+    }
+    return !waiting.empty();
   }
 
   void Collect(std::uint64_t subject)
   {
     const int ranks = this->Controller->GetNumberOfProcesses();
     int missing = 0;
-    const bool haveAll = waitFor(longestWait(), [&]() {
+    bool isElsewhere = false;
+    const auto allHaveCome = [&]() {
       missing = 0;
-      for (int rank = 1; rank < ranks; ++rank)
+      for (int rank = 1; rank < ranks && !isElsewhere; ++rank)
       {
-        for (Message message; this->Receive(rank, message);)
-        {
-          Calls& waiting = this->Waiting[rank];
-          if (message[2] == Comes)
-          {
-            waiting[message[1]] = message[0];
-          }
-          else
-          {
-            waiting.erase(message[1]);
-          }
-        }
+        this->ReceiveAll(rank);
         const Calls& waiting = this->Waiting[rank];
-        missing = missing == 0 && callFor(subject, waiting) == waiting.end() ? rank : missing;
+        if (callFor(subject, waiting) == waiting.end())
+        {
+          isElsewhere = this->WaitsElsewhere(rank, subject);
+          missing = missing == 0 || isElsewhere ? rank : missing;
+        }
       }
       return missing == 0;
-    });
+    };
+    const bool haveAll =
+      waitFor(
+        longestWait(), std::chrono::seconds(5), [&]() { return allHaveCome() || isElsewhere; },
+        [&]() { return missing; }) &&
+      !isElsewhere;
     for (int rank = 1; rank < ranks; ++rank)
     {
       Calls& waiting = this->Waiting[rank];
@@ -166,6 +228,10 @@ private:
             static_cast<unsigned long>(missing) });
         waiting.erase(call);
       }
+    }
+    if (isElsewhere)
+    {
+      throwElsewhere(missing);
     }
     if (!haveAll)
     {
@@ -186,7 +252,8 @@ private:
     Message answer{};
     // Twice as long, as the first rank may come late and then waits itself.
     if (!waitFor(
-          2.0 * longestWait(), [&]() { return this->Receive(0, answer) && answer[1] == call; }))
+          2 * longestWait(), std::chrono::seconds(10),
+          [&]() { return this->Receive(0, answer) && answer[1] == call; }, []() { return 0; }))
     {
       this->SendTo(0, { subject, call, Leaves, 0 });
       throwMissing(0);
@@ -420,27 +487,32 @@ std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) cons
 
 } // namespace
 
-std::unique_ptr<RankRun> RankRun::Begin(const std::string& subject, int piece, int pieces)
+namespace
 {
-  if (!sharesWithRanks(piece, pieces))
-  {
-    return nullptr;
-  }
+
+std::unique_ptr<RankRun> meet(const std::string& filter, bool withData)
+{
   static Meeting meeting(mpiController());
-  meeting.Wait(std::hash<std::string>()(subject));
+  meeting.Wait(filter, withData);
   return std::make_unique<MpiRun>(mpiController());
 }
 
-std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string& subject)
+} // namespace
+
+std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
+{
+  return sharesWithRanks(piece, pieces) ? meet(filter, true) : nullptr;
+}
+
+std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string& filter)
 {
   if (!haveSeveralRanks())
   {
     return nullptr;
   }
-  vtkMPIController* controller = mpiController();
   try
   {
-    return Begin(subject, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+    return meet(filter, false);
   }
   catch (const Failure&)
   {

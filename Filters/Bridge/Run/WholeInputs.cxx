@@ -227,7 +227,7 @@ std::unique_ptr<RankRun> WholeInputs::BeginWithoutPieces(
   {
     return nullptr;
   }
-  return RankRun::BeginWithoutPieces(filter->GetClassName() + std::string(" information"));
+  return RankRun::BeginWithoutPieces(filter->GetClassName());
 }
 
 //------------------------------------------------------------------------------
