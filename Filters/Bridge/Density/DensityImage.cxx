@@ -8,6 +8,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Fingerprint.h"
+#include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Ranks.h"
 #include "Core/Parallel/Reduction.h"
@@ -191,7 +192,9 @@ void DensityImage::Prepare(Progress& progress)
     this->Gathered->Prepare(progress);
     return;
   }
-  this->PrepareWith(this->NeedsWhite() ? this->FindWhite(progress) : 0.0, progress);
+  // Values of blanked cells are none that white is found among.
+  this->BlankCellsOfHiddenPoints(progress);
+  this->Reader->SetWhite(this->NeedsWhite() ? this->FindWhite(progress) : 0.0);
 }
 
 void DensityImage::ReleaseGathered()
@@ -211,7 +214,7 @@ void DensityImage::PrepareShared(Progress& progress)
         this->GatherPart(this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
                                                      : this->Distribution->Cells()[own]))
   {
-    piece->PrepareWith(0.0, progress); // marks blanks
+    piece->BlankCellsOfHiddenPoints(progress);
     largest = piece->FindWhite(progress);
   }
   const std::vector<double> all = gatherValues(this->Distribution->Group(), largest);
@@ -224,15 +227,6 @@ bool DensityImage::NeedsWhite() const
   return needsWhite(this->Rules, this->Array->GetNumberOfComponents());
 }
 
-void DensityImage::PrepareWith(double white, Progress& progress)
-{
-  if (this->HiddenPoints)
-  {
-    this->BlankCellsOfHiddenPoints(progress);
-  }
-  this->Reader->SetWhite(white);
-}
-
 std::unique_ptr<DensityImage> DensityImage::GatherBox(const std::array<int, 6>& extent) const
 {
   std::unique_ptr<DensityImage> box = this->GatherPart(extent);
@@ -240,7 +234,8 @@ std::unique_ptr<DensityImage> DensityImage::GatherBox(const std::array<int, 6>& 
   {
     const SerialExecutor serial;
     Progress progress{ Context(serial) };
-    box->PrepareWith(this->White, progress);
+    box->BlankCellsOfHiddenPoints(progress);
+    box->Reader->SetWhite(this->White);
   }
   return box;
 }
@@ -263,36 +258,21 @@ std::unique_ptr<DensityImage> DensityImage::GatherPart(const std::array<int, 6>&
 
 void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
 {
-  const GridSize<3> size = this->Geometry.Size<3>();
-  const int dimension = this->Geometry.Dimension();
-  const std::int64_t cells[3] = { size[0], dimension > 1 ? size[1] : 1,
-    dimension > 2 ? size[2] : 1 };
-  const std::int64_t rowStep = cells[0] + 1;
-  const std::int64_t planeStep = dimension > 1 ? rowStep * (cells[1] + 1) : 0;
-  const int corners = 1 << dimension;
-  this->CombinedFlags.resize(static_cast<std::size_t>(this->Geometry.NumberOfCells()));
-  unsigned char* combined = this->CombinedFlags.data();
-  const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / cells[0]);
-  progress.For(cells[1] * cells[2], rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t row = first; row < last; ++row)
-    {
-      const unsigned char* points =
-        this->HiddenPoints + row % cells[1] * rowStep + row / cells[1] * planeStep;
-      for (std::int64_t i = 0; i < cells[0]; ++i)
-      {
-        unsigned char hidden = 0;
-        for (int corner = 0; corner < corners; ++corner)
-        {
-          hidden |=
-            points[i + (corner & 1) + (corner >> 1 & 1) * rowStep + (corner >> 2) * planeStep];
-        }
-        const std::int64_t cell = row * cells[0] + i;
-        const unsigned char own = this->CellFlags ? this->CellFlags[cell] : 0;
-        combined[cell] = (hidden & vtkDataSetAttributes::HIDDENPOINT) ? ghostCell : own;
-      }
-    }
+  if (!this->HiddenPoints || !this->CombinedFlags.empty())
+  {
+    return;
+  }
+  const std::int64_t cells = this->Geometry.NumberOfCells();
+  withMemory("the flags of the cells of the input image", static_cast<double>(cells),
+    [&]() { this->CombinedFlags.resize(static_cast<std::size_t>(cells)); });
+  const std::array<int, 3> points = this->Geometry.NumberOfPoints();
+  const std::int64_t columns = std::max(1, points[0] - 1);
+  const std::int64_t rowsAtOnce = std::max<std::int64_t>(1, grain / columns);
+  progress.For(cells / columns, rowsAtOnce, [&](std::int64_t first, std::int64_t last) {
+    blankCellsOfHiddenPoints(
+      points, this->HiddenPoints, this->CellFlags, first, last, this->CombinedFlags.data());
   });
-  this->Reader->SetBlanks(combined, ghostCell);
+  this->Reader->SetBlanks(this->CombinedFlags.data(), ghostCell);
 }
 
 double DensityImage::FindWhite(Progress& progress) const

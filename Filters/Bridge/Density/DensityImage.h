@@ -85,7 +85,6 @@ public:
 private:
   void FindReading();
   std::unique_ptr<DensityImage> GatherPart(const std::array<int, 6>& extent) const;
-  void PrepareWith(double white, Progress& progress);
   bool NeedsWhite() const;
   void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
@@ -109,7 +108,7 @@ private:
   // Ghost flags of the cells and of the points, where the density is cell data.
   const unsigned char* CellFlags = nullptr;
   const unsigned char* HiddenPoints = nullptr;
-  std::vector<unsigned char> CombinedFlags;
+  std::vector<unsigned char> CombinedFlags; // of both, from BlankCellsOfHiddenPoints on
 };
 
 } // namespace RectifiedTransport

@@ -9,6 +9,7 @@
 
 #include "vtkDataSetAttributes.h"
 
+#include <array>
 #include <cstdint>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -27,6 +28,12 @@ constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
 // The values of the ghost array of the points or cells (vtkDataObject::POINT or CELL); nullptr
 // where there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
+
+// Writes the flags of the cells of an image in some of its rows of cells along its first axis:
+// ghostCell where a point of the cell is hidden, else the cell's own, 0 where `cells` is nullptr.
+// `dimensions` are numbers of points, of which 1 is no axis.
+void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
+  const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags);
 
 // The points of a data set that are no ghosts, of these flags, numbered from 0 in their order.
 class CountedPoints

@@ -16,6 +16,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -30,8 +32,28 @@ struct Tile
   vtkImageData* Image;
   std::string Name;
   vtkDataArray* Array;
-  Extent Place; // in the lattice of the first image
+  Extent Place;                     // in the lattice of the first image
+  std::vector<unsigned char> Flags; // of the cells, where points of theirs may be hidden
 };
+
+// Of a density on cells.
+std::vector<unsigned char> flagsOfCells(vtkImageData* image, const std::string& name)
+{
+  const unsigned char* points = ghostFlags(image, vtkDataObject::POINT, name.c_str());
+  if (!points)
+  {
+    return {};
+  }
+  std::array<int, 3> dimensions;
+  image->GetDimensions(dimensions.data());
+  const std::int64_t cells = image->GetNumberOfCells();
+  std::vector<unsigned char> flags;
+  withMemory("the flags of the cells of the " + name, static_cast<double>(cells),
+    [&]() { flags.resize(static_cast<std::size_t>(cells)); });
+  blankCellsOfHiddenPoints(dimensions, points, ghostFlags(image, vtkDataObject::CELL, name.c_str()),
+    0, cells / std::max(1, dimensions[0] - 1), flags.data());
+  return flags;
+}
 
 // Where an image lies in the lattice of another one.
 std::optional<Extent> placeIn(const ImageGrid& lattice, const ImageGrid& grid)
@@ -90,7 +112,8 @@ std::optional<std::vector<Tile>> tilesOf(
     {
       return std::nullopt;
     }
-    tiles.push_back({ image, block.Name, block.Array, *place });
+    tiles.push_back({ image, block.Name, block.Array, *place,
+      onPoints ? std::vector<unsigned char>() : flagsOfCells(image, block.Name) });
   }
   return tiles;
 }
@@ -129,8 +152,10 @@ bool visitRuns(const Tile& tile, const Lattice& all, const ImageGrid& like, cons
 {
   const bool onPoints = like.IsOnPoints();
   const Lattice own(tile.Place, like);
-  const unsigned char* flags = ghostFlags(
-    tile.Image, onPoints ? vtkDataObject::POINT : vtkDataObject::CELL, tile.Name.c_str());
+  const unsigned char* flags = !onPoints && !tile.Flags.empty()
+    ? tile.Flags.data()
+    : ghostFlags(
+        tile.Image, onPoints ? vtkDataObject::POINT : vtkDataObject::CELL, tile.Name.c_str());
   const unsigned char mask = onPoints ? ghostPoint : ghostCell;
   for (std::int64_t k = 0; k < own.Size[2]; ++k)
   {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ghost cells and points that are duplicate or hidden carry no mass, whatever their values are.
-#include "TestData.h"
+#include "BlocksTest.h"
+#include "WarpTest.h"
 
 #include "vtkDataSetAttributes.h"
+#include "vtkEqualMassCells.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace
 {
@@ -38,7 +42,7 @@ double hostile(vtkIdType i, bool blank)
   return blank ? worst[i % 4] : bumpy(i);
 }
 
-void checkSame(Checks& checks, vtkImageData* marked, vtkImageData* expected, bool invert, int line)
+void checkSame(Checks& checks, vtkDataObject* marked, vtkImageData* expected, bool invert, int line)
 {
   vtkNew<vtkTransportSampler> sampler;
   Messages messages(sampler);
@@ -85,6 +89,9 @@ void checkPoints(Checks& checks)
   auto expected =
     makeImage(14, 9, 1, false, [&](vtkIdType i) { return blank(i) ? 0.0 : bumpy(i); });
   checkSame(checks, marked, expected, false, __LINE__);
+  auto inverted =
+    makeImage(14, 9, 1, false, [&](vtkIdType i) { return blank(i) ? 23.0 : bumpy(i); });
+  checkSame(checks, marked, inverted, true, __LINE__);
 }
 
 // The cells that a hidden point blanks are those of vtkImageData.
@@ -93,18 +100,83 @@ void checkCellsOfHiddenPoints(Checks& checks, int ny, int nz)
   const auto flag = [](vtkIdType i) {
     return i % 17 == 3 ? hiddenPoint : i % 11 == 5 ? duplicatePoint : static_cast<unsigned char>(0);
   };
-  auto marked = makeImage(14, ny, nz, true, bumpy);
-  mark(marked->GetPointData(), marked->GetNumberOfPoints(), flag);
-  mark(marked->GetCellData(), marked->GetNumberOfCells(),
-    [](vtkIdType i) { return i % 13 == 4 ? hiddenCell : static_cast<unsigned char>(0); });
+  const auto markBoth = [&](vtkImageData* image) {
+    mark(image->GetPointData(), image->GetNumberOfPoints(), flag);
+    mark(image->GetCellData(), image->GetNumberOfCells(),
+      [](vtkIdType i) { return i % 13 == 4 ? hiddenCell : static_cast<unsigned char>(0); });
+  };
+  auto visible = makeImage(14, ny, nz, true, bumpy);
+  markBoth(visible);
+  const auto blank = [&](vtkIdType i) { return visible->IsCellVisible(i) == 0; };
   int blanked = 0;
-  auto expected = makeImage(14, ny, nz, true, [&](vtkIdType i) {
-    const bool visible = marked->IsCellVisible(i) != 0;
-    blanked += visible ? 0 : 1;
-    return visible ? bumpy(i) : 0.0;
-  });
-  CHECK(checks, blanked > 0 && blanked < marked->GetNumberOfCells());
-  checkSame(checks, marked, expected, false, __LINE__);
+  double white = 0.0; // of the others
+  for (vtkIdType i = 0; i < visible->GetNumberOfCells(); ++i)
+  {
+    blanked += blank(i) ? 1 : 0;
+    white = blank(i) ? white : std::max(white, bumpy(i));
+  }
+  CHECK(checks, blanked > 0 && blanked < visible->GetNumberOfCells());
+  auto marked = makeImage(14, ny, nz, true, [&](vtkIdType i) { return hostile(i, blank(i)); });
+  markBoth(marked);
+  for (const bool invert : { false, true })
+  {
+    const auto expected = makeImage(14, ny, nz, true, [&](vtkIdType i) {
+      return !blank(i) ? bumpy(i) : invert ? white : 0.0;
+    });
+    checkSame(checks, marked, expected, invert, __LINE__);
+    checkSame(checks, makeTiles(marked, 5), expected, invert, __LINE__);
+  }
+}
+
+// What was read before does not count: tables that are kept, or that another filter has.
+void checkKeptTables(Checks& checks)
+{
+  auto image = makeImage(14, 9, 1, true, [](vtkIdType i) { return i == 40 ? 5000.0 : bumpy(i); });
+  mark(image->GetPointData(), image->GetNumberOfPoints(),
+    [](vtkIdType i) { return i == 43 ? hiddenPoint : static_cast<unsigned char>(0); });
+  CHECK(checks, image->IsCellVisible(40) == 0);
+  const double box[6] = { 0.5, 12.5, 0.5, 7.5, 0.0, 0.0 };
+  const auto sites = makePoints(randomCoordinates(box, 12));
+  const auto masses = [&](int shape, bool keepsTables, bool runsTwice) {
+    vtkNew<vtkTransportSampler> other;
+    other->SetInputData(image);
+    other->SetInvertDensity(true);
+    if (keepsTables)
+    {
+      other->Update();
+    }
+    vtkNew<vtkEqualMassCells> cells;
+    cells->SetInputData(sites);
+    cells->SetDomainData(image);
+    cells->SetMeasure(vtkEqualMassCells::DENSITY);
+    cells->SetShape(shape);
+    cells->SetInvertDensity(true);
+    cells->SetResolution(64);
+    cells->Update();
+    if (runsTwice)
+    {
+      cells->SetNormExponent(1.0);
+      cells->Update();
+      cells->SetNormExponent(2.0);
+      cells->Update();
+    }
+    return arrayValues(cells->GetSites()->GetPointData()->GetArray("CellMass"));
+  };
+  for (const int shape : { vtkEqualMassCells::FLOW, vtkEqualMassCells::POWER })
+  {
+    const Values alone = masses(shape, false, false);
+    CHECK(checks, alone.size() == 12);
+    const double sum = std::accumulate(alone.begin(), alone.end(), 0.0);
+    // 23 - value, in the cells that are visible.
+    double expected = 0.0;
+    for (vtkIdType i = 0; i < image->GetNumberOfCells(); ++i)
+    {
+      expected += image->IsCellVisible(i) ? 23.0 - bumpy(i) : 0.0;
+    }
+    CHECK_NEAR(checks, sum, expected, 1e-9 * expected);
+    CHECK(checks, masses(shape, true, false) == alone);
+    CHECK(checks, masses(shape, false, true) == alone);
+  }
 }
 
 // The flags that blank a cell are those of vtkImageData: at the border of a level of refinement,
@@ -170,6 +242,7 @@ int TestSamplerGhosts(int, char*[])
   checkCellsOfHiddenPoints(checks, 9, 1);
   checkCellsOfHiddenPoints(checks, 1, 9);
   checkCellsOfHiddenPoints(checks, 6, 5);
+  checkKeptTables(checks);
   checkEveryFlag(checks);
   checkEditedInPlace(checks, true, true, hiddenCell, __LINE__);
   checkEditedInPlace(checks, true, false, hiddenPoint, __LINE__);
