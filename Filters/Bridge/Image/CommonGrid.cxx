@@ -18,12 +18,14 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr double rounding = 1e-9;       // of lengths that are meant to be the same
-constexpr double planeTolerance = 1e-6; // of the longest side: single precision
+constexpr double rounding = 1e-6;           // of lengths and coordinates: single precision
+constexpr double mostRounding = 0.01;       // of a spacing
+constexpr double directionTolerance = 1e-6; // of each element, as ITK has it by default
+constexpr double planeTolerance = 1e-6;     // of the longest side
 constexpr const char* property = "Dimensions";
 
-// The interval of the domain along an axis, in coordinates along the grid's own directions. For an
-// axis of one point Low is the coordinate of that point.
+// The interval of the domain along an axis, in coordinates along given directions. For an axis of
+// one point Low is the coordinate of that point.
 struct Side
 {
   double Low; // the lower end of the first cell; the upper one if Spacing is negative
@@ -41,11 +43,13 @@ Eigen::Vector3d product(const ImageGrid::Matrix& matrix, const Eigen::Vector3d& 
   return matrix.col(0) * v[0] + matrix.col(1) * v[1] + matrix.col(2) * v[2];
 }
 
-Sides sidesOf(const ImageGrid& grid)
+// `directions` are those of the grid but for their tolerance: those of another grid, so that far
+// from the origin both have the same coordinates.
+Sides sidesOf(const ImageGrid& grid, const ImageGrid::Matrix& directions)
 {
   // VTK's, as Eigen's inverse rounds otherwise; remains zero for a singular matrix.
   ImageGrid::Matrix inverse = ImageGrid::Matrix::Zero();
-  vtkMatrix3x3::Invert(grid.Direction().data(), inverse.data());
+  vtkMatrix3x3::Invert(directions.data(), inverse.data());
   const Eigen::Vector3d origin = product(inverse, grid.Origin());
   Sides sides;
   for (std::size_t i = 0; i < 3; ++i)
@@ -80,7 +84,7 @@ ImageGrid withSides(const ImageGrid& grid, const Sides& sides)
 
 bool haveSameDirection(const ImageGrid& a, const ImageGrid& b)
 {
-  return ((a.Direction() - b.Direction()).cwiseAbs().array() <= rounding).all();
+  return ((a.Direction() - b.Direction()).cwiseAbs().array() <= directionTolerance).all();
 }
 
 // False where an axis of one point has no direction of its own.
@@ -121,8 +125,8 @@ double longestOf(const Sides& sides)
 
 void requireAlike(const NamedGrid& first, const NamedGrid& other)
 {
-  const Sides a = sidesOf(first.Grid);
-  const Sides b = sidesOf(other.Grid);
+  const Sides a = sidesOf(first.Grid, first.Grid.Direction());
+  const Sides b = sidesOf(other.Grid, first.Grid.Direction());
   std::ostringstream message;
   if (axesOf(a) != axesOf(b))
   {
@@ -133,8 +137,8 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
   if (!haveSameDirection(first.Grid, other.Grid))
   {
     message << first.Name << " and " << other.Name
-            << " have different direction matrices; all must have the same one (Resample To Image "
-               "makes it so)";
+            << " have different direction matrices; all must have the same one, up to "
+            << directionTolerance << " in each element (Resample To Image makes it so)";
     throw Failure(message.str());
   }
   if (!hasInverse(first.Grid))
@@ -164,19 +168,25 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
   }
 }
 
+// How far apart ends of an interval may be that are meant to be the same.
+double toleranceOf(double low, double high, double spacing)
+{
+  const double largest = std::max({ high - low, std::abs(low), std::abs(high) });
+  return std::min(rounding * largest, mostRounding * std::abs(spacing));
+}
+
+bool isSame(const Side& a, const Side& b)
+{
+  const double end = a.Low + a.Spacing * a.Cells;
+  const double tolerance = toleranceOf(std::min(a.Low, end), std::max(a.Low, end), a.Spacing);
+  return !a.IsAxis ||
+    (a.Cells == b.Cells && std::abs(a.Low - b.Low) <= tolerance &&
+      std::abs(b.Low + b.Spacing * b.Cells - end) <= tolerance);
+}
+
 bool isSame(const Sides& a, const Sides& b)
 {
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (a[i].IsAxis &&
-      (a[i].Cells != b[i].Cells ||
-        std::abs(a[i].Spacing - b[i].Spacing) > rounding * std::abs(a[i].Spacing) ||
-        std::abs(a[i].Low - b[i].Low) > rounding * lengthOf(a[i])))
-    {
-      return false;
-    }
-  }
-  return true;
+  return isSame(a[0], b[0]) && isSame(a[1], b[1]) && isSame(a[2], b[2]);
 }
 
 // Along one axis: the smallest interval that contains all sides, at the finest spacing.
@@ -185,7 +195,7 @@ struct Union
   double Low;
   double Length;
   double Finest;
-  double Cells; // rounded up; may exceed an integer
+  double Cells; // rounded up, but not what is rounding itself; may exceed an integer
   double Sign;
 };
 
@@ -202,7 +212,8 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
     high = std::max(high, sign * side.Low + lengthOf(side));
     finest = std::min(finest, std::abs(side.Spacing));
   }
-  const double cells = std::max(1.0, std::ceil((high - low) / finest * (1.0 - rounding)));
+  const double tolerance = toleranceOf(low, high, finest);
+  const double cells = std::max(1.0, std::ceil((high - low - tolerance) / finest));
   return { low, high - low, finest, cells, sign };
 }
 
@@ -211,7 +222,7 @@ Union uniteSides(const std::vector<Sides>& all, std::size_t axis)
 ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3])
 {
   const ImageGrid& first = grids.front().Grid;
-  std::vector<Sides> all{ sidesOf(first) };
+  std::vector<Sides> all{ sidesOf(first, first.Direction()) };
   bool same = true;
   for (const NamedGrid& grid : grids)
   {
@@ -220,7 +231,7 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
       continue;
     }
     requireAlike(grids.front(), grid);
-    all.push_back(sidesOf(grid.Grid));
+    all.push_back(sidesOf(grid.Grid, first.Direction()));
     same = same && isSame(all.front(), all.back());
   }
   if (same)
@@ -251,7 +262,8 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     sides[i].Cells = static_cast<int>(cells);
     sides[i].Spacing = unions[i].Sign * unions[i].Length / cells;
   }
-  const Sides exact = sidesOf(gridWithValues(withSides(first, sides), dimensions, property));
+  const Sides exact =
+    sidesOf(gridWithValues(withSides(first, sides), dimensions, property), first.Direction());
   for (std::size_t i = 0; i < 3; ++i)
   {
     sides[i] = exact[i];
