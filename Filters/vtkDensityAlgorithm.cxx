@@ -59,6 +59,7 @@ struct vtkDensityAlgorithm::vtkInternals
   FlowCache Cache;
   std::map<int, ResampledDensity> Resampled; // by the number of the input
   std::map<int, GatheredBlocks> Gathered;    // where it lies on several ranks
+  std::map<int, DensityImage::Content> Told; // of whose unusual values a warning told
 };
 
 //------------------------------------------------------------------------------
@@ -114,6 +115,23 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
 std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
+  // Warns once for each change of a density: what does not change it may run the filter, too.
+  const auto listenTo = [this, number](std::unique_ptr<DensityImage> density) {
+    if (density)
+    {
+      density->SetListener([this, number](const std::vector<std::string>& lines,
+                             const DensityImage::Content& content) {
+        const DensityImage::Content before = std::exchange(this->Internals->Told[number], content);
+        const bool isFirst = !this->GetRanks() || this->GetRanks()->Own() == 0;
+        for (std::size_t i = 0;
+             isFirst && (content != before || content[0] == 0) && i < lines.size(); ++i)
+        {
+          vtkWarningMacro(<< lines[i]);
+        }
+      });
+    }
+    return density;
+  };
   requireChoice("NegativeValues", this->NegativeValues, NegativeValuesTexts);
   requireResolution("DensityResolution", this->DensityResolution);
   const int association =
@@ -136,18 +154,18 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   }
   if (kind != "an image")
   {
-    return this->ReadResampled(input, progress, arrayIndex, number);
+    return listenTo(this->ReadResampled(input, progress, arrayIndex, number));
   }
   this->Internals->Resampled.erase(number);
   this->Internals->Gathered.erase(number);
   if (ranks)
   {
-    return this->ReadPieces(image, arrayIndex);
+    return listenTo(this->ReadPieces(image, arrayIndex));
   }
   int found = 0;
   vtkDataArray* array = this->RequireDensityArray(image, arrayIndex, "input image", found);
-  return std::make_unique<DensityImage>(
-    image, array, found == vtkDataObject::FIELD_ASSOCIATION_POINTS, this->GetDensityRules());
+  return listenTo(std::make_unique<DensityImage>(
+    image, array, found == vtkDataObject::FIELD_ASSOCIATION_POINTS, this->GetDensityRules()));
 }
 
 //------------------------------------------------------------------------------
@@ -245,8 +263,13 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
     vtkWarningMacro(<< made.CellsLeftOut()
                     << " cells of the input could not be divided into simplices and carry no mass");
   }
-  return std::make_unique<DensityImage>(made.Image(), made.Array(), made.IsOnPoints(),
+  auto density = std::make_unique<DensityImage>(made.Image(), made.Array(), made.IsOnPoints(),
     made.IsResampled() ? DensityRules() : this->GetDensityRules());
+  if (made.IsResampled())
+  {
+    density->SetFindings(made.Findings());
+  }
+  return density;
 }
 
 //------------------------------------------------------------------------------

@@ -223,6 +223,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     {
       return {};
     }
+    input.Density->SetInputName(input.Name);
   }
   return inputs;
 }

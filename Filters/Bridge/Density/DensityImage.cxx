@@ -59,6 +59,23 @@ std::uint64_t joinFingerprints(
   return joined;
 }
 
+// The number in a whole image of a value of a part of it.
+std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t index)
+{
+  const std::array<int, 3> of = part.NumberOfValues();
+  const std::array<int, 3> all = whole.NumberOfValues();
+  std::int64_t number = 0;
+  std::int64_t step = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const int low = part.Extent()[2 * axis] - whole.Extent()[2 * axis];
+    number += (index % of[axis] + low) * step;
+    index /= of[axis];
+    step *= all[axis];
+  }
+  return number;
+}
+
 } // namespace
 
 DensityImage::DensityImage(
@@ -194,7 +211,13 @@ void DensityImage::Prepare(Progress& progress)
   }
   // Values of blanked cells are none that white is found among.
   this->BlankCellsOfHiddenPoints(progress);
-  this->Reader->SetWhite(this->NeedsWhite() ? this->FindWhite(progress) : 0.0);
+  this->Known = {};
+  if (this->NeedsWhite())
+  {
+    this->Known.White = this->FindWhite(progress);
+  }
+  this->Reader->SetWhite(this->White());
+  this->Known.Clamped = this->FindClamped(progress);
 }
 
 void DensityImage::ReleaseGathered()
@@ -204,22 +227,60 @@ void DensityImage::ReleaseGathered()
 
 void DensityImage::PrepareShared(Progress& progress)
 {
-  if (!this->NeedsWhite())
+  this->Known = {};
+  const bool clamps = this->Rules.ClampNegative && !this->Rules.Invert;
+  if (!this->NeedsWhite() && !clamps)
   {
     return;
   }
-  const auto own = static_cast<std::size_t>(this->Distribution->Group().Own());
-  double largest = -std::numeric_limits<double>::infinity(); // of no values
-  if (const auto piece =
-        this->GatherPart(this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
-                                                     : this->Distribution->Cells()[own]))
+  const Ranks& ranks = this->Distribution->Group();
+  const auto own = static_cast<std::size_t>(ranks.Own());
+  const auto piece =
+    this->GatherPart(this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
+                                                 : this->Distribution->Cells()[own]);
+  // By the numbers of the whole image.
+  const auto number = [&](std::int64_t index) {
+    return index < 0 ? index : indexIn(this->Geometry, piece->Geometry, index);
+  };
+  if (piece)
   {
     piece->BlankCellsOfHiddenPoints(progress);
-    largest = piece->FindWhite(progress);
   }
-  const std::vector<double> all = gatherValues(this->Distribution->Group(), largest);
-  const double white = *std::max_element(all.begin(), all.end());
-  this->White = std::isfinite(white) ? white : 0.0;
+  if (this->NeedsWhite())
+  {
+    LargestValue largest = piece ? piece->FindWhite(progress) : LargestValue();
+    largest.First = piece ? number(largest.First) : -1;
+    for (const LargestValue& part : gatherValues(ranks, largest))
+    {
+      merge(part, this->Known.White);
+    }
+  }
+  if (clamps)
+  {
+    if (piece)
+    {
+      piece->Reader->SetWhite(this->White());
+    }
+    LowestValue lowest = piece ? piece->FindClamped(progress) : LowestValue();
+    lowest.First = piece ? number(lowest.First) : -1;
+    for (const LowestValue& part : gatherValues(ranks, lowest))
+    {
+      merge(part, this->Known.Clamped);
+    }
+  }
+}
+
+double DensityImage::White() const
+{
+  return std::isfinite(this->Known.White.Value) ? this->Known.White.Value : 0.0;
+}
+
+// Inverted, no value is negative but for those above white.
+LowestValue DensityImage::FindClamped(Progress& progress) const
+{
+  return this->Rules.ClampNegative && !this->Rules.Invert
+    ? findLowest(this->Array, *this->Reader, this->Geometry.NumberOfCells(), progress)
+    : LowestValue();
 }
 
 bool DensityImage::NeedsWhite() const
@@ -235,7 +296,7 @@ std::unique_ptr<DensityImage> DensityImage::GatherBox(const std::array<int, 6>& 
     const SerialExecutor serial;
     Progress progress{ Context(serial) };
     box->BlankCellsOfHiddenPoints(progress);
-    box->Reader->SetWhite(this->White);
+    box->Reader->SetWhite(this->White());
   }
   return box;
 }
@@ -275,20 +336,79 @@ void DensityImage::BlankCellsOfHiddenPoints(Progress& progress)
   this->Reader->SetBlanks(this->CombinedFlags.data(), ghostCell);
 }
 
-double DensityImage::FindWhite(Progress& progress) const
+LargestValue DensityImage::FindWhite(Progress& progress) const
 {
   if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
   {
-    return std::numeric_limits<unsigned char>::max();
+    LargestValue displayed;
+    displayed.Value = std::numeric_limits<unsigned char>::max();
+    return displayed;
   }
-  const std::int64_t cells = this->Geometry.NumberOfCells();
-  const double largest = reduceChunks(
-    progress, cells, grain, -std::numeric_limits<double>::infinity(),
-    [this](
-      std::int64_t first, std::int64_t last) { return this->Reader->Maximum(first, last - first); },
-    [](double a, double b) { return std::max(a, b); });
   // Without a finite value the construction of the tables reports the error.
-  return std::isfinite(largest) ? largest : 0.0;
+  return reduceChunks(
+    progress, this->Geometry.NumberOfCells(), grain, LargestValue(),
+    [this](
+      std::int64_t first, std::int64_t last) { return this->Reader->Largest(first, last - first); },
+    [](LargestValue all, const LargestValue& part) {
+      merge(part, all);
+      return all;
+    });
+}
+
+const UnusualValues& DensityImage::Unusual() const
+{
+  return this->Gathered ? this->Gathered->Known : this->Known;
+}
+
+void DensityImage::SetFindings(const std::vector<std::string>& lines)
+{
+  this->Findings = lines;
+  this->HasFindings = true;
+}
+
+std::vector<std::string> DensityImage::Describe(const UnusualValues& values) const
+{
+  if (this->HasFindings)
+  {
+    return this->Findings;
+  }
+  std::vector<std::string> lines;
+  const ValuePlaces places{ this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
+    this->Geometry.NumberOfCells() };
+  // Of several components it is the luminance.
+  const bool isInverted =
+    this->Rules.Invert && (this->Rules.Component >= 0 || this->Array->GetNumberOfComponents() == 1);
+  const double raw = isInverted ? values.White.Value - values.Found.Maximum : values.Found.Maximum;
+  if (isUnusualLargest(values.Found, raw, places.All))
+  {
+    const double share = static_cast<double>(values.Found.Maxima) *
+      (values.Found.Maximum / std::max(values.Found.Total, values.Found.Maximum));
+    lines.push_back(describeLargest(places, values.Found, raw, share));
+  }
+  else if (this->Rules.Invert && isUnusualWhite(values.White))
+  {
+    lines.push_back(describeWhite(places, values.White));
+  }
+  if (isUnusualLowest(values.Clamped))
+  {
+    lines.push_back(describeLowest(places, values.Clamped));
+  }
+  return lines;
+}
+
+void DensityImage::TellUnusual(const UnusualValues& values, Progress& progress)
+{
+  if (!this->Tell)
+  {
+    return;
+  }
+  std::vector<std::string> lines = this->Describe(values);
+  for (std::string& line : lines)
+  {
+    line = this->InputName.empty() ? line : this->InputName + ": " + line;
+  }
+  // All ranks describe the same values.
+  this->Tell(lines, lines.empty() ? Content{} : this->GetContent(progress));
 }
 
 void DensityImage::ThrowInvalid(const DensitySummary& summary) const

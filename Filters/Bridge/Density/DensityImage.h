@@ -4,6 +4,7 @@
 #define RectifiedTransport_DensityImage_h
 
 #include "Bridge/Density/DensityReader.h"
+#include "Bridge/Density/UnusualValues.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -79,6 +81,21 @@ public:
   // The part of it in an extent, after PrepareShared; each rank may want another one.
   std::unique_ptr<DensityImage> GatherBox(const std::array<int, 6>& extent) const;
 
+  // What Prepare or PrepareShared found of the values, which is all but the summary of the
+  // densities.
+  const UnusualValues& Unusual() const;
+  // Of data sets that were resampled: what messages say of their values.
+  void SetFindings(const std::vector<std::string>& lines);
+  // What precedes a line where a filter has several inputs.
+  void SetInputName(const std::string& name) { this->InputName = name; }
+  // Who hears of values that are probably not meant, in a line each, and of the content that they
+  // are in; without lines the content is not given.
+  using Listener =
+    std::function<void(const std::vector<std::string>& lines, const Content& content)>;
+  void SetListener(const Listener& listener) { this->Tell = listener; }
+  // Called once the values have been read, by this filter or another one; by all ranks.
+  void TellUnusual(const UnusualValues& values, Progress& progress);
+
   // Throws the Failure for values that are no density.
   [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
 
@@ -88,14 +105,21 @@ private:
   bool NeedsWhite() const;
   void FindBlanks(vtkImageData* image);
   void BlankCellsOfHiddenPoints(Progress& progress);
-  double FindWhite(Progress& progress) const;
+  LargestValue FindWhite(Progress& progress) const;
+  LowestValue FindClamped(Progress& progress) const;
+  double White() const;
+  std::vector<std::string> Describe(const UnusualValues& values) const;
 
   ImageGrid Geometry;
   vtkSmartPointer<vtkImageData> Input;
   vtkSmartPointer<vtkDataArray> Array;
   const std::unique_ptr<const ImagePieces> Distribution;
   const std::string ArrayName; // where there are pieces
-  double White = 0.0;
+  UnusualValues Known;
+  std::vector<std::string> Findings;
+  bool HasFindings = false;
+  std::string InputName;
+  Listener Tell;
   std::unique_ptr<DensityImage> Gathered; // after Prepare
   const DensityRules Rules;
   const std::string Name;

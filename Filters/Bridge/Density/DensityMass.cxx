@@ -2,11 +2,11 @@
 #include "Bridge/Density/DensityMass.h"
 
 #include "Bridge/Density/DensityImage.h"
-#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Reduction.h"
+#include "Core/Tables/DensityInspection.h"
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 namespace RectifiedTransport
@@ -15,36 +15,45 @@ namespace RectifiedTransport
 namespace
 {
 
-template <int D>
-double sumOf(const DensityImage& density, Progress& progress)
+DensitySummary summaryOf(const DensityImage& density, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
-  const DensitySource<D> source = density.Source<D>();
-  const auto sumOfChunk = [&](std::int64_t first, std::int64_t last) {
+  const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));
-    source.Values.Read(first, last - first, values.data());
-    double sum = 0.0;
+    density.Values().Read(first, last - first, values.data());
+    DensitySummary found;
     for (const double value : values)
     {
-      sum += value;
+      found.Total += value;
     }
-    return sum;
+    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+    inspectLargest(values.data(), last - first, first, *least, *largest, found);
+    return found;
+  };
+  const auto join = [](DensitySummary all, const DensitySummary& chunk) {
+    merge(chunk, all);
+    return all;
   };
   return reduceChunks(
-    progress, density.Grid().NumberOfCells(), grain, 0.0, sumOfChunk, std::plus<>());
+    progress, density.Grid().NumberOfCells(), grain, DensitySummary(), readChunk, join);
 }
 
 } // namespace
 
-double massOf(const DensityImage& density, Progress& progress)
+double massOf(DensityImage& density, Progress& progress)
 {
-  const double sum =
-    dispatchDimension(density.Grid().Dimension(), sumOf<1>, sumOf<2>, sumOf<3>)(density, progress);
+  UnusualValues values = density.Unusual();
+  values.Found = summaryOf(density, progress);
+  const double sum = values.Found.Total;
   DensitySummary found;
   found.Total = sum * density.Grid().CellMeasure();
   if (sum > 0.0 && std::isfinite(sum) && (!(found.Total > 0.0) || std::isinf(found.Total)))
   {
     density.ThrowInvalid(found);
+  }
+  if (std::isfinite(sum))
+  {
+    density.TellUnusual(values, progress);
   }
   return found.Total;
 }

@@ -10,9 +10,9 @@ class DensityImage;
 class Progress;
 
 // Density times cell measure, summed: of a density that is prepared, as the work of the current
-// stage. Throws Failure for a sum whose mass is no double, and Cancelled; values that are wrong,
-// which the core counts, make the result meaningless.
-double massOf(const DensityImage& density, Progress& progress);
+// stage. Tells of values that are probably not meant. Throws Failure for a sum whose mass is no
+// double, and Cancelled; values that are wrong, which the core counts, make the result meaningless.
+double massOf(DensityImage& density, Progress& progress);
 
 } // namespace RectifiedTransport
 

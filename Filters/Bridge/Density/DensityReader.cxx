@@ -105,7 +105,7 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
 
 // The largest of components [First, End) of the tuples whose flags have no bit of the mask; flags
 // may be null.
-struct MaximumOf
+struct LargestOf
 {
   int First;
   int End;
@@ -113,9 +113,9 @@ struct MaximumOf
   unsigned char Mask;
 
   template <class Tuples>
-  double operator()(const Tuples& begin, std::int64_t count) const
+  LargestValue operator()(const Tuples& begin, std::int64_t firstTuple, std::int64_t count) const
   {
-    double maximum = -std::numeric_limits<double>::infinity();
+    LargestValue largest;
     for (std::int64_t i = 0; i < count; ++i)
     {
       if (this->Flags && (this->Flags[i] & this->Mask))
@@ -125,13 +125,21 @@ struct MaximumOf
       for (int c = this->First; c < this->End; ++c)
       {
         const double value = static_cast<double>(begin(i, c));
-        if (value > maximum && value <= std::numeric_limits<double>::max())
+        if (value > largest.Value && value <= std::numeric_limits<double>::max())
         {
-          maximum = value;
+          largest = { value, 1, firstTuple + i, largest.Value };
+        }
+        else if (value == largest.Value)
+        {
+          ++largest.Count;
+        }
+        else if (value > largest.Next && value < largest.Value)
+        {
+          largest.Next = value;
         }
       }
     }
-    return maximum;
+    return largest;
   }
 };
 
@@ -155,15 +163,15 @@ public:
     this->Finish(first, count, values);
   }
 
-  double Maximum(std::int64_t first, std::int64_t count) const override
+  LargestValue Largest(std::int64_t first, std::int64_t count) const override
   {
     const int component = this->Rules.Component;
-    const MaximumOf maximum{ std::max(component, 0),
+    const LargestOf largest{ std::max(component, 0),
       component < 0 ? this->Components : component + 1, this->Flags ? this->Flags + first : nullptr,
       this->Mask };
-    double found = 0.0;
+    LargestValue found;
     this->Run.VisitTuples(
-      first, count, [&](const auto& begin, int) { found = maximum(begin, count); });
+      first, count, [&](const auto& begin, int) { found = largest(begin, first, count); });
     return found;
   }
 
@@ -289,6 +297,16 @@ void DensityReader::Finish(std::int64_t first, std::int64_t count, double* value
       values[i] = (flags[i] & mask) ? 0.0 : values[i];
     }
   }
+}
+
+std::unique_ptr<DensityReader> DensityReader::MakeUnclamped(vtkDataArray* array) const
+{
+  DensityRules rules = this->Rules;
+  rules.ClampNegative = false;
+  std::unique_ptr<DensityReader> made = makeDensityReader(array, rules);
+  made->SetWhite(this->White);
+  made->SetBlanks(this->Flags, this->Mask);
+  return made;
 }
 
 std::unique_ptr<DensityReader> makeDensityReader(vtkDataArray* array, const DensityRules& rules)

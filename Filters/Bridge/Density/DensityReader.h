@@ -7,6 +7,7 @@
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -22,6 +23,15 @@ struct DensityRules
   int Component = -1;  // an index, or -1 for luminance
   bool Invert = false; // white - value
   bool ClampNegative = false;
+};
+
+// The largest of values that are finite, in how many tuples it is, and the next one below it.
+struct LargestValue
+{
+  double Value = -std::numeric_limits<double>::infinity(); // of none
+  std::int64_t Count = 0;
+  std::int64_t First = -1;
+  double Next = -std::numeric_limits<double>::infinity();
 };
 
 class DensityReader : public DensityValues
@@ -42,9 +52,11 @@ public:
   }
   bool HasBlanks() const { return this->Flags != nullptr; }
 
-  // The largest finite value of the component, or of all (luminance), among the cells that are not
-  // blank; minus infinity if there is none.
-  virtual double Maximum(std::int64_t first, std::int64_t count) const = 0;
+  // The largest value of the component, or of all (luminance), among the cells that are not blank.
+  virtual LargestValue Largest(std::int64_t first, std::int64_t count) const = 0;
+
+  // Reads the same, but leaves negative values as they are.
+  std::unique_ptr<DensityReader> MakeUnclamped(vtkDataArray* array) const;
 
 protected:
   // Applies ClampNegative and the blanking to values that were read.

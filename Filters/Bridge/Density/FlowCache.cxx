@@ -38,6 +38,7 @@ const SharedFlow& FlowCache::Update(
     this->Kept->Attach(density, progress);
   }
   this->Hash = hash;
+  density.TellUnusual(this->Kept->Unusual(), progress);
   return *this->Kept;
 }
 

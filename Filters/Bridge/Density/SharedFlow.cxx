@@ -197,6 +197,8 @@ void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progre
     density.ThrowInvalid(found);
   }
   this->Mass = found.Total;
+  this->Values = density.Unusual();
+  this->Values.Found = this->Flow<D>().Summary();
   this->Built.Modified();
 }
 

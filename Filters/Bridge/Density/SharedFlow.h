@@ -26,6 +26,7 @@ public:
   }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
+  const UnusualValues& Unusual() const { return this->Values; }
   FlowTables Tables() const { return this->Kind; }
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
@@ -53,6 +54,7 @@ private:
   AnyFlow Kept;
   FlowTables Kind = FlowTables::Whole;
   double Mass = 0.0;
+  UnusualValues Values;
   vtkTimeStamp Built;
 };
 

@@ -5,6 +5,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Tables/DensityInspection.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -35,6 +36,22 @@ vtkDataSet* BlockValues::Data() const
   return this->Set;
 }
 
+BlockValues BlockValues::Only(double value) const
+{
+  BlockValues only;
+  only.Set = this->Set;
+  only.OnPoints = this->OnPoints;
+  const std::int64_t count = this->Density.size();
+  withMemory("the values of the " + this->ArrayName,
+    static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Counted.size()), [&]() {
+      only.Density = LargeBuffer<double>(count);
+      only.Counted = this->Counted;
+    });
+  std::transform(this->Density.data(), this->Density.data() + count, only.Density.data(),
+    [value](double density) { return density == value ? density : 0.0; });
+  return only;
+}
+
 // A block between the steps of reading it.
 class BlockReading
 {
@@ -43,18 +60,30 @@ public:
     Progress& progress)
     : Name(describeArray(block.Array) + " of the " + block.Name)
     , Array(block.Array)
+    , Clamps(rules.ClampNegative && !rules.Invert)
     , Reader(makeDensityReader(block.Array, rules))
   {
     requireComponent(Name, rules.Component, block.Array->GetNumberOfComponents());
     this->Read.Set = block.Data;
+    this->Read.ArrayName = this->Name;
     this->Read.OnPoints = onPoints;
     this->FindCounted(block, dimension, progress);
     this->Reader->SetBlanks(this->Flags.data(), unused);
   }
 
-  double LargestValue() const
+  // For white.
+  double FindLargest()
   {
-    return this->Reader->Maximum(0, static_cast<std::int64_t>(this->Flags.size()));
+    if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
+    {
+      this->Read.Known.White.Value = std::numeric_limits<unsigned char>::max();
+    }
+    else
+    {
+      this->Read.Known.White =
+        this->Reader->Largest(0, static_cast<std::int64_t>(this->Flags.size()));
+    }
+    return this->Read.Known.White.Value;
   }
 
   void SetWhite(double white) { this->Reader->SetWhite(white); }
@@ -71,6 +100,7 @@ public:
     DensitySummary summary;
     for (std::int64_t i = 0; i < count; ++i)
     {
+      summary.Total += values[i];
       if (!std::isfinite(values[i]))
       {
         summary.FirstNotFinite = summary.NotFinite++ == 0 ? i : summary.FirstNotFinite;
@@ -83,6 +113,16 @@ public:
     if (summary.NotFinite > 0 || summary.Negative > 0)
     {
       throwInvalidDensity(this->Name, summary);
+    }
+    if (count > 0)
+    {
+      const auto [least, largest] = std::minmax_element(values, values + count);
+      inspectLargest(values, count, 0, *least, *largest, summary);
+    }
+    this->Read.Known.Found = summary;
+    if (this->Clamps)
+    {
+      this->Read.Known.Clamped = findLowest(this->Array, *this->Reader, count, progress);
     }
   }
 
@@ -138,6 +178,7 @@ private:
 
   const std::string Name;
   vtkDataArray* Array;
+  const bool Clamps;
   std::unique_ptr<DensityReader> Reader;
   std::vector<unsigned char> Flags; // of the values
   BlockValues Read;
@@ -157,12 +198,9 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
   if (needsWhite(rules, blocks.front().Array->GetNumberOfComponents()))
   {
     double white = -std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (BlockReading& reading : readings)
     {
-      white = std::max(white,
-        blocks[b].Array->GetDataType() == VTK_UNSIGNED_CHAR
-          ? std::numeric_limits<unsigned char>::max()
-          : readings[b].LargestValue());
+      white = std::max(white, reading.FindLargest());
     }
     for (BlockReading& reading : readings)
     {

@@ -4,9 +4,12 @@
 #define RectifiedTransport_BlockValues_h
 
 #include "Bridge/Density/DensityReader.h"
+#include "Bridge/Density/UnusualValues.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Core/Parallel/LargeBuffer.h"
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace RectifiedTransport
@@ -21,6 +24,14 @@ public:
   bool IsOnPoints() const { return this->OnPoints; }
   // Of the points or the cells; 0 where no cell that counts needs them.
   const double* Values() const { return this->Density.data(); }
+  std::int64_t NumberOfValues() const { return this->Density.size(); }
+  // What messages call the array.
+  const std::string& Name() const { return this->ArrayName; }
+  // What is known of the values; white is that of this block.
+  const UnusualValues& Unusual() const { return this->Known; }
+  // The same cells, with a density in those values alone that are `value`. Throws Failure where
+  // memory is short.
+  BlockValues Only(double value) const;
   bool IsCounted(vtkIdType cell) const
   {
     return this->Counted[static_cast<std::size_t>(cell)] != 0;
@@ -31,6 +42,8 @@ private:
 
   vtkSmartPointer<vtkDataSet> Set;
   bool OnPoints = false;
+  std::string ArrayName;
+  UnusualValues Known;
   LargeBuffer<double> Density;
   std::vector<unsigned char> Counted;
 };

@@ -96,6 +96,12 @@ void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOf
 }
 
 template <int D>
+double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+{
+  return sizeOf<D>(blocks, grid, progress).Integral;
+}
+
+template <int D>
 vtkIdType integrate(
   const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
 {
@@ -130,6 +136,13 @@ vtkIdType integrate(
 }
 
 } // namespace
+
+double MeshDensity::IntegralOf(
+  const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+{
+  return dispatchDimension(grid.Dimension(), integralOf<1>, integralOf<2>, integralOf<3>)(
+    blocks, grid, progress);
+}
 
 MeshDensity MeshDensity::Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   const char* name, Progress& progress)

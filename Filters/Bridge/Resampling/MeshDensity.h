@@ -29,6 +29,10 @@ struct MeshDensity
   // Point values are linear on the simplices of a cell. Throws Failure and Cancelled.
   static MeshDensity Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     const char* name, Progress& progress);
+
+  // The integral of the densities, in cells of the grid.
+  static double IntegralOf(
+    const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress);
 };
 
 } // namespace RectifiedTransport

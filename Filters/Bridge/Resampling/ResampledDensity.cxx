@@ -4,6 +4,7 @@
 #include "Bridge/Resampling/MeshDensity.h"
 #include "Bridge/Resampling/MeshGrid.h"
 #include "Bridge/Resampling/TiledImages.h"
+#include "Bridge/Resampling/UnusualBlocks.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -54,6 +55,7 @@ void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPo
     this->LeftOut = made.CellsLeftOut;
     this->Resampled = true;
     this->Density = made.Image->GetCellData()->GetScalars();
+    this->Unusual = describeUnusual(this->Blocks, grid, rules.Invert, progress);
   }
   this->Content = content;
 }

@@ -10,6 +10,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -38,6 +39,8 @@ public:
   // The data sets, where the image was resampled.
   const std::vector<BlockValues>& Meshes() const { return this->Blocks; }
   vtkIdType CellsLeftOut() const { return this->LeftOut; }
+  // What is to be said of values that are probably not meant, where the image was resampled.
+  const std::vector<std::string>& Findings() const { return this->Unusual; }
 
 private:
   std::vector<std::uint64_t> Content; // of the last Update
@@ -47,6 +50,7 @@ private:
   bool Resampled = false;
   std::vector<BlockValues> Blocks;
   vtkIdType LeftOut = 0;
+  std::vector<std::string> Unusual;
 };
 
 } // namespace RectifiedTransport

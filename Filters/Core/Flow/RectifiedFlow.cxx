@@ -208,6 +208,12 @@ double RectifiedFlow<Dimension>::Total() const
 }
 
 template <int Dimension>
+const DensitySummary& RectifiedFlow<Dimension>::Summary() const
+{
+  return this->Data->Summary();
+}
+
+template <int Dimension>
 Point<Dimension> RectifiedFlow<Dimension>::Centroid() const
 {
   Point<Dimension> centroid;

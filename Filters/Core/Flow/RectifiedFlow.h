@@ -65,9 +65,10 @@ public:
   RectifiedFlow& operator=(RectifiedFlow&&) noexcept;
 
   const GridSize<Dimension>& Size() const;
-  double Total() const;              // sum of the density over the cells
-  Point<Dimension> Centroid() const; // of the density
-  std::int64_t MemorySize() const;   // bytes that the tables and the kept flow maps hold
+  double Total() const;                  // sum of the density over the cells
+  const DensitySummary& Summary() const; // of the density's values
+  Point<Dimension> Centroid() const;     // of the density
+  std::int64_t MemorySize() const;       // bytes that the tables and the kept flow maps hold
   // About the bytes of the tables of a density, before they are made. Flow maps are at most half as
   // large in each direction.
   static double MemoryFor(const GridSize<Dimension>& size);

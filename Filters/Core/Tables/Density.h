@@ -7,6 +7,7 @@
 #include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 namespace RectifiedTransport
@@ -63,6 +64,12 @@ struct DensitySummary
   std::int64_t Negative = 0;
   std::int64_t FirstNegative = -1;
   double Maximum = 0.0;
+  // Of positive values: in how many cells the largest one is, the first of them, and the largest
+  // value below it, 0 if there is none.
+  std::int64_t Maxima = 0;
+  std::int64_t FirstMaximum = -1;
+  double BelowMaximum = 0.0;
+  double Minimum = std::numeric_limits<double>::max();
   double Total = 0.0; // sum of the cells' values; infinite if it passes the largest double
 };
 

@@ -43,11 +43,33 @@ void markOccupied(const double* values, std::int64_t count, std::uint64_t* words
 
 } // namespace
 
+// Counts only where the largest value is that of all so far: elsewhere it is one below.
+void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
+  double largest, DensitySummary& found)
+{
+  found.Minimum = std::min(found.Minimum, least);
+  if (!(largest > 0.0) || largest < found.Maximum)
+  {
+    found.BelowMaximum = std::max(found.BelowMaximum, largest);
+    return;
+  }
+  if (largest > found.Maximum)
+  {
+    found.BelowMaximum = found.Maximum;
+    found.Maximum = largest;
+    found.Maxima = 0;
+    found.FirstMaximum = index + (std::find(values, values + count, largest) - values);
+  }
+  const RowMaximum row = tableKernels().Largest(values, count, largest);
+  found.Maxima += row.Count;
+  found.BelowMaximum = std::max(found.BelowMaximum, row.Below);
+}
+
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found)
 {
   const RowInspection row = tableKernels().Inspect(values, count);
-  found.Maximum = std::max(found.Maximum, row.Largest);
+  inspectLargest(values, count, index, row.Smallest, row.Largest, found);
   if (row.Wrong > 0)
   {
     findWrong(values, count, index, found);
@@ -72,7 +94,24 @@ void merge(const DensitySummary& part, DensitySummary& whole)
   whole.FirstNotFinite = first(whole.FirstNotFinite, part.FirstNotFinite);
   whole.Negative += part.Negative;
   whole.FirstNegative = first(whole.FirstNegative, part.FirstNegative);
-  whole.Maximum = std::max(whole.Maximum, part.Maximum);
+  if (part.Maximum > whole.Maximum)
+  {
+    whole.BelowMaximum = std::max(whole.Maximum, part.BelowMaximum);
+    whole.Maximum = part.Maximum;
+    whole.Maxima = part.Maxima;
+    whole.FirstMaximum = part.FirstMaximum;
+  }
+  else if (part.Maximum == whole.Maximum)
+  {
+    whole.BelowMaximum = std::max(whole.BelowMaximum, part.BelowMaximum);
+    whole.Maxima += part.Maxima;
+    whole.FirstMaximum = first(whole.FirstMaximum, part.FirstMaximum);
+  }
+  else
+  {
+    whole.BelowMaximum = std::max(whole.BelowMaximum, part.Maximum);
+  }
+  whole.Minimum = std::min(whole.Minimum, part.Minimum);
   whole.Total += part.Total;
 }
 

@@ -16,6 +16,11 @@ namespace RectifiedTransport
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found);
 
+// Adds to the least, the largest and the second largest value of `found` those of part of a row, of
+// which the first has the index `index` and which has this least and largest value.
+void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
+  double largest, DensitySummary& found);
+
 // Adds the summary of a part to that of the whole.
 void merge(const DensitySummary& part, DensitySummary& whole);
 

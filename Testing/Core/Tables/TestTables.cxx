@@ -230,6 +230,44 @@ TEST(Tables, Summary)
   EXPECT_EQ(flow.Size(), density.Size);
 }
 
+// The largest value, its cells, the first of them, and the next value: of all values, by a sort.
+template <int Dimension>
+void checkLargest(const GridSize<Dimension>& size, int values)
+{
+  TestDensity<Dimension> density = uniformDensity<Dimension>(size, 0.0);
+  std::mt19937_64 engine(static_cast<std::uint64_t>(values));
+  for (double& value : density.Values)
+  {
+    value = std::floor(uniformNumber(engine) * values);
+  }
+  std::vector<double> sorted = density.Values;
+  std::sort(sorted.rbegin(), sorted.rend());
+  const auto most = std::count(sorted.begin(), sorted.end(), sorted.front());
+  const auto first = std::find(density.Values.begin(), density.Values.end(), sorted.front());
+  const auto expect = [&](const DensitySummary& summary) {
+    EXPECT_EQ(summary.Maximum, sorted.front());
+    EXPECT_EQ(summary.Maxima, most);
+    EXPECT_EQ(summary.FirstMaximum, first - density.Values.begin());
+    EXPECT_EQ(summary.BelowMaximum, sorted[static_cast<std::size_t>(most)]);
+    EXPECT_EQ(summary.Minimum, sorted.back());
+  };
+  expect(makeFlow(density).Summary());
+  if constexpr (Dimension > 1)
+  {
+    expect(RectifiedFlow<Dimension>(density.Source(), FlowTables::Tiled).Summary());
+  }
+}
+
+TEST(Tables, SummaryOfTheLargestValues)
+{
+  for (const int values : { 3, 200, 1000000 })
+  {
+    checkLargest<1>({ 1234 }, values);
+    checkLargest<2>({ 601, 40 }, values);
+    checkLargest<3>({ 31, 44, 70 }, values);
+  }
+}
+
 // All bits of the nodes of all levels, without what pads their rows.
 template <int Dimension>
 std::vector<double> allRecords(const SummedAreaTables<Dimension>& tables)

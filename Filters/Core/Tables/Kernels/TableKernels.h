@@ -23,6 +23,14 @@ struct RowInspection
 };
 using InspectRow = RowInspection (*)(const double* values, std::int64_t count);
 
+// How many values of a row are its largest one, and the largest of the others; 0 if there are none.
+struct RowMaximum
+{
+  std::int64_t Count;
+  double Below;
+};
+using CountLargest = RowMaximum (*)(const double* values, std::int64_t count, double largest);
+
 // Adds a row of grid cells to {f, f * centre} of every column.
 using AddToColumns = void (*)(
   const double* values, std::int64_t count, double centre, double* columns, double* moments);
@@ -57,6 +65,7 @@ using AddTableRow3D = void (*)(const TableRow3D& row);
 struct TableKernels
 {
   InspectRow Inspect;
+  CountLargest Largest;
   AddToColumns AddColumns;
   AddTableRow2D AddRow2D;
   AddTableRow3D AddRow3D;

@@ -72,6 +72,36 @@ RowInspection inspectRow(const double* values, std::int64_t count)
   return found;
 }
 
+RowMaximum countLargest(const double* values, std::int64_t count, double largest)
+{
+  alignas(64) double equal[sumLanes] = {};
+  alignas(64) double below[sumLanes] = {};
+  const std::int64_t whole = count / sumLanes * sumLanes;
+  for (std::int64_t i = 0; i < whole; i += sumLanes)
+  {
+#pragma omp simd
+    for (int lane = 0; lane < sumLanes; ++lane)
+    {
+      const double value = values[i + lane];
+      equal[lane] += value == largest ? 1.0 : 0.0;
+      const double other = value < largest ? value : 0.0;
+      below[lane] = other > below[lane] ? other : below[lane];
+    }
+  }
+  RowMaximum found = { 0, 0.0 };
+  for (std::int64_t i = whole; i < count; ++i)
+  {
+    found.Count += values[i] == largest ? 1 : 0;
+    found.Below = values[i] < largest && values[i] > found.Below ? values[i] : found.Below;
+  }
+  for (int lane = 0; lane < sumLanes; ++lane)
+  {
+    found.Count += static_cast<std::int64_t>(equal[lane]);
+    found.Below = below[lane] > found.Below ? below[lane] : found.Below;
+  }
+  return found;
+}
+
 void addToColumns(
   const double* values, std::int64_t count, double centre, double* columns, double* moments)
 {
@@ -136,7 +166,7 @@ void addTableRow3D(const TableRow3D& row)
 
 const TableKernels& RECTIFIEDTRANSPORT_KERNELS()
 {
-  static const TableKernels kernels = { &inspectRow, &addToColumns, &addTableRow2D,
+  static const TableKernels kernels = { &inspectRow, &countLargest, &addToColumns, &addTableRow2D,
     &addTableRow3D };
   return kernels;
 }

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Density/UnusualValues.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t fewest = 8;
+// Between a value and the next one: of a value that belongs to other data, of one that adding up
+// hides, and of a number that is known to mark missing data.
+constexpr double farBelow = 1e-6;
+constexpr double nothingBelow = 1e-15;
+constexpr double below = 0.9;
+
+std::string countOf(std::int64_t count, std::int64_t first, const ValuePlaces& places)
+{
+  std::ostringstream text;
+  text << count << " of " << places.All << " " << places.Of
+       << (count == 1 ? " (index " : " (the first at index ") << first << ")";
+  return text.str();
+}
+
+} // namespace
+
+void merge(const LargestValue& part, LargestValue& all)
+{
+  const double next = std::max(std::min(part.Value, all.Value), std::max(part.Next, all.Next));
+  if (part.Value == all.Value)
+  {
+    all.Next = std::max(part.Next, all.Next);
+    all.First =
+      all.Count > 0 && (part.Count == 0 || all.First < part.First) ? all.First : part.First;
+    all.Count += part.Count;
+    return;
+  }
+  all = part.Value > all.Value ? part : all;
+  all.Next = next;
+}
+
+void merge(const LowestValue& part, LowestValue& all)
+{
+  const double negative = all.Negative + part.Negative;
+  const double largest = std::max(all.Largest, part.Largest);
+  if (part.Value < all.Value)
+  {
+    all = part;
+  }
+  else if (part.Value == all.Value && part.Count > 0)
+  {
+    all.First = all.Count > 0 ? std::min(all.First, part.First) : part.First;
+    all.Count += part.Count;
+  }
+  all.Negative = negative;
+  all.Largest = largest;
+}
+
+bool isFillValue(double value)
+{
+  constexpr double always = 1e30; // 1e30, 9.96921e36, 1.70141e38, the largest float
+  constexpr double tens = 1e10;
+  const double size = std::abs(value);
+  if (size >= always || value == -32768.0 || value == -2147483648.0 || value == 2147483647.0)
+  {
+    return true;
+  }
+  const double power = std::round(std::log10(std::max(size, 1.0)));
+  const double ten = std::pow(10.0, power);
+  // Powers of ten as floats, too; and 999, 9999, 99999 and so on.
+  return size >= tens ? std::abs(size / ten - 1.0) < 1e-7 : power >= 3.0 && size == ten - 1.0;
+}
+
+bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t values)
+{
+  const double largest = found.Maximum;
+  const double next = found.BelowMaximum;
+  const double total = std::max(found.Total, largest);
+  if (values < fewest || !(largest > found.Minimum) ||
+    !(static_cast<double>(found.Maxima) * (largest / total) > mostOfMass))
+  {
+    return false;
+  }
+  if (isFillValue(raw) && next <= below * largest)
+  {
+    return true;
+  }
+  if (found.Maxima == 1)
+  {
+    return next > 0.0;
+  }
+  // Two values may be a mask and its ground.
+  return next > 0.0 && next <= (found.Minimum < next ? farBelow : nothingBelow) * largest;
+}
+
+bool isUnusualWhite(const LargestValue& white)
+{
+  constexpr double farFromAll = 1e-10;
+  return std::isfinite(white.Value) && std::isfinite(white.Next) && white.Value > 0.0 &&
+    white.Next != 0.0 &&
+    (std::abs(white.Next) <= farFromAll * white.Value ||
+      (isFillValue(white.Value) && white.Next <= below * white.Value));
+}
+
+bool isUnusualLowest(const LowestValue& lowest)
+{
+  return lowest.Count > 0 &&
+    static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative) > mostOfMass &&
+    (isFillValue(lowest.Value) ||
+      (lowest.Largest > 0.0 && lowest.Largest <= farBelow * -lowest.Value));
+}
+
+LowestValue findLowest(
+  vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const std::unique_ptr<DensityReader> unclamped = reader.MakeUnclamped(array);
+  const auto ofChunk = [&](std::int64_t first, std::int64_t last) {
+    std::vector<double> values(static_cast<std::size_t>(last - first));
+    unclamped->Read(first, last - first, values.data());
+    LowestValue found;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const double value = values[i];
+      found.Largest = std::isfinite(value) ? std::max(found.Largest, value) : found.Largest;
+      if (!(value < 0.0) || !std::isfinite(value))
+      {
+        continue;
+      }
+      found.Negative += value;
+      if (value < found.Value)
+      {
+        found.Value = value;
+        found.Count = 0;
+        found.First = first + static_cast<std::int64_t>(i);
+      }
+      found.Count += value == found.Value ? 1 : 0;
+    }
+    return found;
+  };
+  const auto join = [](LowestValue all, const LowestValue& part) {
+    merge(part, all);
+    return all;
+  };
+  return reduceChunks(progress, count, grain, LowestValue(), ofChunk, join);
+}
+
+std::string describeLargest(
+  const ValuePlaces& places, const DensitySummary& found, double raw, double share)
+{
+  std::ostringstream text;
+  text << "The value " << raw << " of the " << places.Name << ", in "
+       << countOf(found.Maxima, found.FirstMaximum, places) << ", carries ";
+  text.precision(3);
+  text << 100.0 * share << " % of the mass";
+  text.precision(6);
+  if (isFillValue(raw))
+  {
+    text << "; if it marks missing data, leave these " << places.Of << " out (Threshold does) or "
+         << "blank them";
+  }
+  else
+  {
+    text << ", the next largest is " << found.BelowMaximum << " as a density; is it meant?";
+  }
+  return text.str();
+}
+
+std::string describeWhite(const ValuePlaces& places, const LargestValue& white)
+{
+  std::ostringstream text;
+  text << "InvertDensity takes the value " << white.Value << " of the " << places.Name << ", in "
+       << countOf(white.Count, white.First, places) << ", for white, and the next largest is "
+       << white.Next
+       << ": all others carry about equal mass; if it marks missing data, leave these " << places.Of
+       << " out (Threshold does) or blank them";
+  return text.str();
+}
+
+std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
+{
+  std::ostringstream text;
+  text << "The value " << lowest.Value << " of the " << places.Name << ", in "
+       << countOf(lowest.Count, lowest.First, places) << ", is ";
+  text.precision(3);
+  text << 100.0 * static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative)
+       << " % of what NegativeValues = Clamp takes as 0; if it marks missing data, they carry no "
+          "mass, as they should";
+  return text.str();
+}
+
+} // namespace RectifiedTransport
