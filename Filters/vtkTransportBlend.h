@@ -18,8 +18,8 @@
  *
  * The grid of the output does not depend on the weights: it covers the smallest box that holds all
  * domains, at the finest spacing along each axis (numbers of cells are rounded up, and the box
- * extended at its upper end), unless Dimensions are set. For inputs of equal geometry it is exactly
- * that.
+ * extended at its upper end), unless Dimensions are set. For inputs of equal geometry, up to the
+ * rounding of single precision, it is exactly that of the first one.
  *
  * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once; the maps
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
@@ -28,9 +28,9 @@
  * Tables). Several ranks share particles and cells.
  *
  * Images may lie on several ranks of MPI, and each rank gets its piece of the outputs: the image by
- * the extent that is requested, the particles whose places it has. On one rank the outputs are in one
- * piece: where several are requested, piece 0 holds all data. Data that are no images are gathered
- * on every rank.
+ * the extent that is requested, the particles whose places it has. On one rank the outputs are in
+ * one piece: where several are requested, piece 0 holds all data. Data that are no images are
+ * gathered on every rank.
  *
  * @warning The pivot makes this a linearized transport: the results resemble the displacement
  * interpolation and the barycenters of optimal transport, but are not them.

@@ -25,7 +25,8 @@
  * requested time replaces Parameter. The first time of the inputs is requested then, if they have
  * times, so that they do not change with the requested time.
  *
- * Images of different dimensions, planes or direction matrices are an error.
+ * Images of different dimensions, planes or direction matrices are an error. Elements of direction
+ * matrices may differ by 1e-6, and the output has those of the source.
  *
  * @sa vtkTransportBlend vtkTransportBarycenter vtkMassSplatter vtkSolidDensity
  */

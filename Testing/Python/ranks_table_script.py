@@ -118,6 +118,13 @@ def main(path):
     give("tiled", simple.SampleDensity(Input=image, NumberOfParticles=500, Tables="Tiled",
                                        NegativeValues="Clamp", NumberOfSteps=32))
     give("few", simple.SampleDensity(Input=image, NumberOfParticles=2, **usual))
+    hidden = simple.Calculator(
+        Input=cells, Function="2*(coordsX^2 + coordsY^2 < 9)", AttributeType="Point Data",
+        ResultArrayName="vtkGhostType", ResultArrayType="Unsigned Char")
+    for tables in ("Whole", "Tiled"):  # the largest values are hidden
+        give("hidden points " + tables, simple.SampleDensity(
+            Input=hidden, NumberOfParticles=500, InvertDensity=1, Tables=tables, NumberOfSteps=32,
+            DensityArray=["CELLS", "RTData"]))
     give("paths", simple.SampleDensity(
         Input=cells, NumberOfParticles=60, OutputPaths=1, SampleArrays=0, **usual))
     give("paths of seeds", simple.SampleDensity(
