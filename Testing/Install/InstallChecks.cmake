@@ -27,6 +27,24 @@ function (build_against_moved project folder)
   run("${CMAKE_COMMAND}" --build "${WORK}/${folder}")
 endfunction ()
 
+# build_of_readme(FOLDER FIRST): a project of C++ alone with the lines that the README gives for CMake, after
+# FIRST, which defines my_program. Checks that it runs.
+function (build_of_readme folder first)
+  file(READ "${SOURCE}/README.md" readme)
+  if (NOT readme MATCHES "It is linked by\n+```cmake\n([^`]+)```")
+    message(FATAL_ERROR "README.md does not say how it is linked")
+  endif ()
+  file(WRITE "${WORK}/${folder}Source/CMakeLists.txt" "cmake_minimum_required(VERSION 3.22)
+project(${folder} LANGUAGES CXX)
+${first}
+add_executable(my_program \"${SOURCE}/Testing/Install/Program/main.cxx\")
+${CMAKE_MATCH_1}")
+  run("${CMAKE_COMMAND}" -S "${WORK}/${folder}Source" -B "${WORK}/${folder}" -G Ninja
+    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=${WORK}/moved" ${ARGN})
+  run("${CMAKE_COMMAND}" --build "${WORK}/${folder}")
+  run("${WORK}/${folder}/my_program")
+endfunction ()
+
 # Installs a build and moves the prefix away. What is there may name no place of this machine but
 # those in ARGN.
 function (install_and_move build)

@@ -13,6 +13,11 @@ endforeach ()
 run("${WORK}/Downstream/Downstream")
 run("${WORK}/StippleImage/StippleImage" "${SOURCE}/Testing/Data/ascent.png" "${WORK}/dots.png" 500)
 run("${WORK}/LiveStippling/LiveStippling" --help)
+build_of_readme(Readme "")
+# With a VTK that the project found before, and with C, whose MPI is then CMake's own.
+build_of_readme(ReadmeAfterVTK
+  "find_package(VTK REQUIRED COMPONENTS CommonCore OPTIONAL_COMPONENTS ParallelMPI)" "-DVTK_DIR=${VTK}")
+build_of_readme(ReadmeWithC "enable_language(C)")
 build_against_moved(Testing/Install/Headers Headers)
 check_core(RectifiedTransportCore)
 
