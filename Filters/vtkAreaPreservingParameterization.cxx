@@ -3,8 +3,8 @@
 
 #include "Bridge/Parameterization/AreaPreservingParameterization.h"
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputBlock.h"
 #include "Bridge/Settings/CornerSettings.h"
+#include "Bridge/Surface/SurfaceInput.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -42,7 +42,7 @@ vtkPolyData* vtkAreaPreservingParameterization::GetOutput()
 //------------------------------------------------------------------------------
 int vtkAreaPreservingParameterization::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  SurfaceInput::Require(info);
   return 1;
 }
 
@@ -67,14 +67,13 @@ int vtkAreaPreservingParameterization::RequestData(
   {
     return 1;
   }
-  auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
-    "a vtkPolyData, as Extract Surface makes one of it");
-  if (!input || input->GetNumberOfPoints() == 0)
+  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
+  if (!input.Get())
   {
     return 1;
   }
   const ParameterizationReport report =
-    parameterization.Run(input, progress, vtkPolyData::GetData(outputVector));
+    parameterization.Run(input.Get(), progress, vtkPolyData::GetData(outputVector));
   for (const std::string& warning : report.Warnings())
   {
     vtkWarningMacro(<< warning);

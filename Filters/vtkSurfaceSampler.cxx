@@ -2,10 +2,11 @@
 #include "vtkSurfaceSampler.h"
 
 #include "Bridge/Run/AlgorithmProgress.h"
-#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Failure.h"
 #include "Bridge/Settings/CornerSettings.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
+#include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Bridge/SurfaceSampling/SurfaceSampler.h"
 
@@ -49,7 +50,7 @@ vtkPolyData* vtkSurfaceSampler::GetOutput()
 //------------------------------------------------------------------------------
 int vtkSurfaceSampler::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  SurfaceInput::Require(info);
   return 1;
 }
 
@@ -101,15 +102,14 @@ int vtkSurfaceSampler::RequestData(
   {
     return 1;
   }
-  auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
-    "a vtkPolyData, as Extract Surface makes one of it");
-  if (!input || input->GetNumberOfPoints() == 0)
+  const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
+  if (!input.Get())
   {
     return 1;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const SurfaceSamplingReport report =
-    sampler.Run(input, this->FindDensity(input), progress, output);
+    sampler.Run(input, this->FindDensity(input.Get()), progress, output);
   for (const std::string& warning : report.Warnings())
   {
     vtkWarningMacro(<< warning);

@@ -66,7 +66,7 @@ def measure(name, mesh, resolution):
     clock = time.perf_counter()
     alone = example.result(maps, Polish=0)
     middle = time.perf_counter()
-    alone = disks.coordinates(alone, "AreaPreserving")
+    alone = disks.coordinates(alone, "AreaPreservingExact")
     again = time.perf_counter()
     made = example.result(maps, Polish=1)
     end = time.perf_counter()
@@ -77,7 +77,7 @@ def measure(name, mesh, resolution):
     rows = [row(label, "Tutte", triangles, points, tutte(triangles, points, conformal, corners), 0),
             row("", "conformal", triangles, points, conformal, 0),
             row("", "flow alone", triangles, points, alone, middle - clock),
-            row("", "and polish", triangles, points, disks.coordinates(made, "AreaPreserving"),
+            row("", "and polish", triangles, points, disks.coordinates(made, "AreaPreservingExact"),
                 end - again)]
     simple.Delete(maps)
     simple.Delete(source)
@@ -110,7 +110,7 @@ def flat(mesh, map_, preset, values, limits, pixels):
 
 def pictures_of(mesh, alone, pose, pixels):
     """Rows of pictures: the maps with the triangles' areas, and on the surface."""
-    conformal, kept = (disks.coordinates(mesh, name) for name in ("Conformal", "AreaPreserving"))
+    conformal, kept = (disks.coordinates(mesh, name) for name in ("Conformal", "AreaPreservingExact"))
 
     def quotient(map_):
         return disks.distortion(disks.triangles(mesh), disks.points(mesh), map_)[0]

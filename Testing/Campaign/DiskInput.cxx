@@ -212,7 +212,7 @@ void drawOthers(RandomSource& random, vtkPolyData* data, Input& input)
   {
     std::string text;
     const auto array = drawArray(random, data->GetNumberOfPoints(), 2, text);
-    array->SetName(random.Of({ "Own", "Conformal", "AreaPreserving" }));
+    array->SetName(random.Of({ "Own", "Conformal", "AreaPreserving", "AreaPreservingExact" }));
     data->GetPointData()->AddArray(array);
     if (random.Chance(0.5))
     {

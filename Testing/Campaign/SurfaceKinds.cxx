@@ -149,9 +149,10 @@ void checkParameterization(vtkAlgorithm* filter, const Inputs& inputs, Findings&
       (output->GetNumberOfLines() == 0 && input->GetNumberOfLines() == 0),
     "the lines");
   findings.That(output->GetPolys()->IsHomogeneous() == 3, "triangles");
-  requirePassed(
-    input->GetPointData(), output->GetPointData(), { "AreaPreserving", "Conformal" }, findings);
+  requirePassed(input->GetPointData(), output->GetPointData(),
+    { "AreaPreserving", "AreaPreservingExact", "Conformal" }, findings);
   checkPositions(output->GetPointData(), "AreaPreserving", points, findings);
+  checkPositions(output->GetPointData(), "AreaPreservingExact", points, findings);
   checkPositions(output->GetPointData(), "Conformal", points, findings);
   findings.That(
     output->GetPointData()->GetTCoords() == output->GetPointData()->GetArray("AreaPreserving"),

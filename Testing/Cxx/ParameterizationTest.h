@@ -31,7 +31,7 @@ inline void setCorners(Parameterization* filter, const std::vector<vtkIdType>& c
 }
 
 // Two numbers a point; none where there is no such array.
-inline Values squareValues(Parameterization* filter, const char* name = "AreaPreserving")
+inline Values squareValues(Parameterization* filter, const char* name = "AreaPreservingExact")
 {
   return arrayValues(filter->GetOutput()->GetPointData()->GetArray(name));
 }

@@ -10,6 +10,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
@@ -26,16 +27,26 @@ namespace
 // A deviation of 95 % of the area that is worth a warning; the goal is 3 %.
 constexpr double AcceptableDeviation = 0.05;
 
-vtkSmartPointer<vtkDoubleArray> coordinatesArray(
-  const std::string& name, const std::vector<Point<2>>& positions)
+// By the points of the output; 0 0 for those that no triangle with area has.
+template <class ArrayT>
+vtkSmartPointer<ArrayT> coordinatesArray(
+  const std::string& name, const DiskSurface& surface, ConstPointSpan<2> positions)
 {
-  auto array = newArray<vtkDoubleArray>(name, 2, static_cast<vtkIdType>(positions.size()));
-  const ConstPointSpan<2> points(positions);
-  std::copy_n(points.data(), 2 * points.size(), array->GetPointer(0));
+  const vtkIdType points = surface.Triangulated()->GetNumberOfPoints();
+  auto array = newArray<ArrayT>(name, 2, points);
+  auto* next = array->GetPointer(0);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const std::int64_t point = surface.PointOf(i);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      *next++ = static_cast<typename ArrayT::ValueType>(point < 0 ? 0.0 : positions[point][axis]);
+    }
+  }
   return array;
 }
 
-// The arrays of the cells; those that are no triangles of the disk are not distorted.
+// The arrays of the cells; those that are no triangles with area are not distorted.
 class CellDistortions
 {
 public:
@@ -48,23 +59,25 @@ public:
   {
   }
 
-  void Measure(Progress& progress)
+  // cellOf(triangle) is the cell that a triangle is.
+  template <class CellOf>
+  void Measure(const MeasuredTriangles& triangles, const CellOf& cellOf, Progress& progress)
   {
     constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-    const DiskMesh& disk = this->Surface.Disk();
-    const vtkIdType offset = this->Surface.CellOf(0);
-    double* areas = this->Area->GetPointer(offset);
-    double* angles = this->Angle->GetPointer(offset);
-    unsigned char* flipped = this->Flipped->GetPointer(offset);
-    progress.For(disk.NumberOfTriangles(), grain, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t triangle = first; triangle < last; ++triangle)
-      {
-        const TriangleDistortion found = distortionOf(disk, this->Positions, triangle);
-        areas[triangle] = found.Area;
-        angles[triangle] = found.Angle;
-        flipped[triangle] = found.IsFlipped ? 1 : 0;
-      }
-    });
+    double* areas = this->Area->GetPointer(0);
+    double* angles = this->Angle->GetPointer(0);
+    unsigned char* flipped = this->Flipped->GetPointer(0);
+    progress.For(
+      triangles.Surface.NumberOfTriangles, grain, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          const TriangleDistortion found = distortionOf(triangles, this->Positions, triangle);
+          const vtkIdType cell = cellOf(triangle);
+          areas[cell] = found.Area;
+          angles[cell] = found.Angle;
+          flipped[cell] = found.IsFlipped ? 1 : 0;
+        }
+      });
   }
 
   void Attach(vtkCellData* cells) const
@@ -91,11 +104,38 @@ private:
   const vtkSmartPointer<vtkUnsignedCharArray> Flipped;
 };
 
+// Of a repaired surface the figures are those of its own cells: in the disk a triangle may have
+// been cut where a point lies on its side.
+MapDistortion measureCells(const DiskSurface& surface, const AreaPreservingMap& map,
+  CellDistortions& distortions, Progress& progress)
+{
+  if (!surface.IsRepaired())
+  {
+    distortions.Measure(
+      measuredTriangles(surface.Disk()),
+      [&](std::int64_t triangle) { return surface.CellOf(triangle); }, progress);
+    return map.Distortion;
+  }
+  const GivenTriangles given = surface.GivenWithArea(progress);
+  const MeasuredTriangles triangles{ given.Surface(), given.AreaShares() };
+  distortions.Measure(
+    triangles,
+    [&](std::int64_t triangle) {
+      return surface.FirstCell() + static_cast<vtkIdType>(given.Given(triangle));
+    },
+    progress);
+  return measureDistortion(triangles, map.Positions, progress.Stage());
+}
+
 } // namespace
 
 std::vector<std::string> ParameterizationReport::Warnings() const
 {
   std::vector<std::string> warnings;
+  if (!this->Repair.empty())
+  {
+    warnings.push_back(this->Repair);
+  }
   const std::int64_t flipped = this->Distortion.Flipped;
   if (flipped > this->Collapsed || (this->Polish && this->Distortion.Area95 > AcceptableDeviation))
   {
@@ -132,7 +172,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
   const std::string purpose = " of " + std::to_string(disk.NumberOfPoints()) + " points";
 
   progress.BeginStage(0.4);
-  const ConformalMap conformal = mapDisk(disk, this->Corners.Of(disk), progress);
+  const ConformalMap conformal = mapDisk(disk, this->Corners.Of(surface.Repaired()), progress);
   progress.BeginStage(0.95);
   const std::string cells = std::to_string(this->Resolution);
   const double bytes = 40.0 * this->Resolution * this->Resolution + 200.0 * points;
@@ -146,7 +186,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
 
   progress.BeginStage(1.0);
   CellDistortions distortions(surface, map.Positions);
-  distortions.Measure(progress);
+  const MapDistortion figures = measureCells(surface, map, distortions, progress);
   vtkPolyData* triangles = surface.Triangulated();
   output->CopyStructure(triangles);
   output->GetFieldData()->PassData(triangles->GetFieldData());
@@ -154,14 +194,16 @@ ParameterizationReport AreaPreservingParameterization::Run(
   distortions.Attach(output->GetCellData());
   vtkPointData* data = output->GetPointData();
   data->PassData(triangles->GetPointData());
-  data->AddArray(coordinatesArray("Conformal", conformal.Square.Positions));
-  data->AddArray(coordinatesArray("AreaPreserving", map.Positions));
+  data->AddArray(
+    coordinatesArray<vtkDoubleArray>("Conformal", surface, conformal.Square.Positions));
+  data->AddArray(coordinatesArray<vtkDoubleArray>("AreaPreservingExact", surface, map.Positions));
+  data->AddArray(coordinatesArray<vtkFloatArray>("AreaPreserving", surface, map.Positions));
   data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
-  addFieldValue(output, "AreaDistortionRMS", map.Distortion.AreaRootMeanSquare);
-  addFieldValue(output, "AngleDistortionMean", map.Distortion.AngleMean);
-  addFieldValue(output, "FlippedCount", static_cast<double>(map.Distortion.Flipped));
-  return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), map.Distortion,
-    this->Polish };
+  addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
+  addFieldValue(output, "AngleDistortionMean", figures.AngleMean);
+  addFieldValue(output, "FlippedCount", static_cast<double>(figures.Flipped));
+  return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
+    this->Polish, surface.IsRepaired() ? surface.RepairWarning() : "" };
 }
 
 } // namespace RectifiedTransport

@@ -27,6 +27,7 @@ struct ParameterizationReport
   std::int64_t Collapsed; // all points on one side of the square
   MapDistortion Distortion;
   bool Polish;
+  std::string Repair; // of the surface; empty where it needed none
 
   // What a user should know; mostly nothing.
   std::vector<std::string> Warnings() const;

@@ -41,15 +41,32 @@ void CornerSettings::Check() const
   }
 }
 
-SquareCorners CornerSettings::Of(const DiskMesh& disk) const
+SquareCorners CornerSettings::Of(const RepairedDisk& disk) const
 {
   if (this->Points.empty())
   {
-    return chooseCorners(disk);
+    return chooseCorners(disk.Mesh());
+  }
+  std::vector<std::int64_t> corners;
+  for (const std::int64_t point : this->Points)
+  {
+    const std::string have = "Corners have the point " + std::to_string(point);
+    if (point < 0 || point >= disk.NumberOfGivenPoints())
+    {
+      throw Failure(
+        have + "; there are points 0 to " + std::to_string(disk.NumberOfGivenPoints() - 1));
+    }
+    corners.push_back(disk.PointOf(point));
+    if (corners.back() < 0)
+    {
+      throw Failure(have +
+        ", which is in no triangle with area; they must be 4 points of the "
+        "boundary of the surface");
+    }
   }
   try
   {
-    return orderCorners(disk, this->Points);
+    return orderCorners(disk.Mesh(), corners, this->Points);
   }
   catch (const std::invalid_argument& error)
   {

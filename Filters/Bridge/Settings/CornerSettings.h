@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_CornerSettings_h
 #define RectifiedTransport_CornerSettings_h
 
+#include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
 #include "vtkIndent.h"
@@ -32,9 +33,9 @@ struct CornerSettings
 
   // Throws Failure unless there are none or four.
   void Check() const;
-  // The corners of a disk, chosen where there are none. Throws Failure unless they are four
-  // different points of its boundary.
-  SquareCorners Of(const DiskMesh& disk) const;
+  // The corners of a disk, chosen where there are none; the values are given points of it. Throws
+  // Failure unless they are four different points of its boundary.
+  SquareCorners Of(const RepairedDisk& disk) const;
   void Print(std::ostream& os, vtkIndent indent) const;
 };
 

@@ -29,6 +29,17 @@ double bytesOfTuple(vtkAbstractArray* array)
     std::max(1, array->GetDataTypeSize());
 }
 
+LargeBuffer<std::int64_t> readTriangles(vtkCellArray* cells, Progress& progress)
+{
+  LargeBuffer<std::int64_t> corners(3 * cells->GetNumberOfCells());
+  std::int64_t* copy = corners.data();
+  visitTriangles(
+    cells, progress, [copy](std::int64_t triangle, const std::array<std::int64_t, 3>& ids) {
+      std::copy_n(ids.data(), 3, copy + 3 * triangle);
+    });
+  return corners;
+}
+
 } // namespace
 
 DiskSurface::DiskSurface(vtkPolyData* input, Progress& progress, double end)
@@ -137,29 +148,54 @@ void DiskSurface::MakeDisk(const LargeBuffer<double>& coordinates, const Stages&
         std::to_string(triangles) + " triangles",
       static_cast<double>(points) * 40.0 + static_cast<double>(triangles) * 104.0, [&]() {
         stages.Next(0.5);
-        LargeBuffer<std::int64_t> corners(3 * triangles);
-        std::int64_t* copy = corners.data();
-        visitTriangles(
-          cells, progress, [copy](std::int64_t triangle, const std::array<std::int64_t, 3>& ids) {
-            std::copy_n(ids.data(), 3, copy + 3 * triangle);
-          });
+        const LargeBuffer<std::int64_t> corners = readTriangles(cells, progress);
         stages.Next(1.0);
         this->Mesh.emplace(
           TriangleSurface{ { coordinates.data(), points }, corners.data(), triangles },
-          progress.Stage());
+          roundingOf(this->Surface->GetPoints()), progress.Stage());
       });
   }
   catch (const NotADisk& defect)
   {
     std::string message = std::string("The input surface ") + defect.what();
     const std::int64_t first = defect.First();
-    if (defect.Defect() == DiskDefect::TrianglesWithoutArea && this->InputCellOf(first) != first)
+    if (defect.Defect() == DiskDefect::TrianglesWithoutArea && this->InputCell(first) != first)
     {
       message += "; triangle " + std::to_string(first) + " is of cell " +
-        std::to_string(this->InputCellOf(first));
+        std::to_string(this->InputCell(first));
     }
     throw Failure(message);
   }
+}
+
+GivenTriangles DiskSurface::GivenWithArea(Progress& progress) const
+{
+  const LargeBuffer<std::int64_t> corners = readTriangles(this->Surface->GetPolys(), progress);
+  return { *this->Mesh, corners.data() };
+}
+
+std::string DiskSurface::RepairWarning() const
+{
+  const auto counted = [](std::int64_t count, const char* what, const char* rest) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s") + rest;
+  };
+  const SurfaceRepairs repairs = this->Mesh->Repairs();
+  std::string message;
+  const auto add = [&message](
+                     const std::string& part) { message += (message.empty() ? "" : ", ") + part; };
+  if (repairs.UnusedPoints > 0)
+  {
+    add(counted(repairs.UnusedPoints, "point", " in no polygon left out"));
+  }
+  if (repairs.FlatTriangles > 0)
+  {
+    add(counted(repairs.FlatTriangles, "triangle", " without area left out"));
+  }
+  if (repairs.MergedPoints > 0)
+  {
+    add(counted(repairs.MergedPoints, "point", " merged with others at their places"));
+  }
+  return "The input surface was repaired: " + message;
 }
 
 } // namespace RectifiedTransport

@@ -4,7 +4,7 @@
 #define RectifiedTransport_DiskSurface_h
 
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Mesh/DiskMesh.h"
+#include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -12,8 +12,10 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
@@ -26,26 +28,46 @@ class DiskSurface
 {
 public:
   // Of an input with points. Cuts polygons and strips into triangles and checks that they are a
-  // disk, as stages of the run up to the progress `end`. Points stay apart even where their
-  // coordinates are equal. Throws Failure where the input has no polygons, coordinates that are not
-  // finite, polygons that cannot be cut, or is no disk, and Cancelled.
+  // disk, as stages of the run up to the progress `end`. Where they are none, points and triangles
+  // of no area are left out, and points at one place merged (see RepairedDisk). Throws Failure
+  // where the input has no polygons, coordinates that are not finite, polygons that cannot be cut,
+  // or is no disk, and Cancelled.
   DiskSurface(vtkPolyData* input, Progress& progress, double end);
 
-  const DiskMesh& Disk() const { return *this->Mesh; }
+  const DiskMesh& Disk() const { return this->Mesh->Mesh(); }
 
   // The input itself where all polygons are triangles and there are no strips, else its points,
   // vertices, lines and triangles, with all point and field data, and the cell data of the cells
   // that they are of (but for global ids, which would no longer be of one cell each).
   vtkPolyData* Triangulated() const { return this->Surface; }
 
-  // The cell of Triangulated() that a triangle of the disk is: vtkPolyData numbers vertices, lines,
-  // polygons, strips.
-  vtkIdType CellOf(std::int64_t triangle) const { return this->FirstPolygon + triangle; }
+  // The point of the disk that a point of the input is, -1 for one that no triangle with area has.
+  std::int64_t PointOf(std::int64_t point) const { return this->Mesh->PointOf(point); }
+  // The points of the input at the corners of a triangle of the disk.
+  std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const
+  {
+    return this->Mesh->GivenCorners(triangle);
+  }
+  // The cell of Triangulated() that a triangle of the disk is, or is part of: vtkPolyData numbers
+  // vertices, lines, polygons, strips.
+  vtkIdType CellOf(std::int64_t triangle) const
+  {
+    return this->FirstPolygon + static_cast<vtkIdType>(this->Mesh->GivenTriangle(triangle));
+  }
+  // That of the first polygon.
+  vtkIdType FirstCell() const { return this->FirstPolygon; }
   // The cell of the input that it was cut from.
   vtkIdType InputCellOf(std::int64_t triangle) const
   {
-    return this->InputCells.size() > 0 ? this->InputCells.data()[triangle] : this->CellOf(triangle);
+    return this->InputCell(this->Mesh->GivenTriangle(triangle));
   }
+
+  const RepairedDisk& Repaired() const { return *this->Mesh; }
+  bool IsRepaired() const { return this->Mesh->Repairs().Any(); }
+  // The polygons of Triangulated() that have area, by their numbers from 0. Throws Cancelled.
+  GivenTriangles GivenWithArea(Progress& progress) const;
+  // A warning that counts what was left out and merged.
+  std::string RepairWarning() const;
 
 private:
   // Fractions of the stages from `begin` to `end` of the run.
@@ -65,11 +87,16 @@ private:
   void FindInputCells(vtkPolyData* input, Progress& progress);
   void CopyCellData(vtkPolyData* input, Progress& progress);
   void MakeDisk(const LargeBuffer<double>& coordinates, const Stages& stages);
+  vtkIdType InputCell(std::int64_t polygon) const
+  {
+    return this->InputCells.size() > 0 ? this->InputCells.data()[polygon]
+                                       : this->FirstPolygon + static_cast<vtkIdType>(polygon);
+  }
 
   vtkSmartPointer<vtkPolyData> Surface;
   vtkIdType FirstPolygon;
   LargeBuffer<vtkIdType> InputCells; // of triangles; empty where they are the input's
-  std::optional<DiskMesh> Mesh;
+  std::optional<RepairedDisk> Mesh;
 };
 
 } // namespace RectifiedTransport

@@ -4,14 +4,18 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/PolygonCutter.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace RectifiedTransport
 {
@@ -74,7 +78,74 @@ void runAsStage(vtkAlgorithm* filter, Progress& progress)
   }
 }
 
+// Appends the triangles of a strip, all with its orientation.
+void cutStrip(vtkIdType count, const vtkIdType* points, vtkCellArray* triangles)
+{
+  for (vtkIdType i = 2; i < count; ++i)
+  {
+    const bool isOdd = i % 2 == 1;
+    const vtkIdType ids[3] = { points[isOdd ? i - 1 : i - 2], points[isOdd ? i - 2 : i - 1],
+      points[i] };
+    triangles->InsertNextCell(3, ids);
+  }
+}
+
+// Cuts polygons one by one. Returns how many triangles are missing.
+std::int64_t cutEach(vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips,
+  std::int64_t expected, Progress& progress, vtkSmartPointer<vtkCellArray>& triangles)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
+  constexpr std::int64_t units = std::int64_t{ 1 } << 12; // of polygons, some milliseconds
+  triangles = vtkSmartPointer<vtkCellArray>::New();
+  triangles->AllocateExact(static_cast<vtkIdType>(expected), static_cast<vtkIdType>(3 * expected));
+  PolygonCutter cutter(points, roundingOf(points));
+  std::int64_t missing = 0;
+  vtkNew<vtkIdList> ids;
+  for (vtkCellArray* cells : { polygons, strips })
+  {
+    progress.ForInOrder(
+      cells->GetNumberOfCells(), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t cell = first; cell < last; ++cell)
+        {
+          cells->GetCellAtId(static_cast<vtkIdType>(cell), ids);
+          if (cells == strips)
+          {
+            cutStrip(ids->GetNumberOfIds(), ids->GetPointer(0), triangles);
+          }
+          else if (!cutter.Cut(ids->GetNumberOfIds(), ids->GetPointer(0), triangles))
+          {
+            missing += ids->GetNumberOfIds() - 2;
+          }
+        }
+      },
+      units);
+  }
+  return missing;
+}
+
 } // namespace
+
+double roundingOf(vtkPoints* points)
+{
+  double farthest = 0.0;
+  bool areFloats = true;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    points->GetPoint(i, x);
+    for (const double coordinate : x)
+    {
+      farthest = std::max(farthest, std::abs(coordinate));
+      areFloats = areFloats && std::abs(coordinate) <= std::numeric_limits<float>::max() &&
+        static_cast<double>(static_cast<float>(coordinate)) == coordinate;
+    }
+  }
+  constexpr double units = 4.0;
+  return units * farthest *
+    (areFloats ? static_cast<double>(std::numeric_limits<float>::epsilon())
+               : std::numeric_limits<double>::epsilon());
+}
 
 LargeBuffer<double> readPoints(vtkPolyData* surface, Progress& progress)
 {
@@ -124,8 +195,11 @@ vtkSmartPointer<vtkCellArray> triangulate(
   filter->PassVertsOff();
   filter->PassLinesOff();
   runAsStage(filter, progress);
-  vtkCellArray* triangles = filter->GetOutput()->GetPolys();
-  const std::int64_t missing = expected - triangles->GetNumberOfCells();
+  vtkSmartPointer<vtkCellArray> triangles = filter->GetOutput()->GetPolys();
+  // The filter drops polygons with corners at one place.
+  const std::int64_t missing = expected - triangles->GetNumberOfCells() == 0
+    ? 0
+    : cutEach(points, polygons, strips, expected, progress, triangles);
   if (missing != 0)
   {
     throw Failure("The input surface has polygons that cannot be cut into triangles: " +

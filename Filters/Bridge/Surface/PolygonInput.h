@@ -32,6 +32,10 @@ constexpr std::int64_t RandomAccessUnits = std::int64_t{ 1 } << 16;
 // they are not finite, Cancelled and std::bad_alloc.
 LargeBuffer<double> readPoints(vtkPolyData* surface, Progress& progress);
 
+// By how much the coordinates of one place may differ, as far as rounding goes: that of float where
+// all of them are floats, also of points in double.
+double roundingOf(vtkPoints* points);
+
 // Throws Failure where a surface has neither polygons nor strips, or these have points that it has
 // not; `need` completes "N points and no polygons; ".
 void requirePolygons(vtkPolyData* surface, const std::string& need);
@@ -42,8 +46,9 @@ bool isAllTriangles(vtkPolyData* surface);
 // The number of triangles of a polygon or strip: one for each point beyond the second.
 std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
 
-// Polygons and strips as triangles, in their order, as the work of the current stage. Throws
-// Failure where there are fewer than trianglesOf() counts, and Cancelled.
+// Polygons and strips as triangles, in their order, as the work of the current stage: as many as
+// trianglesOf() counts. Polygons may have corners at one place or on one line, whose triangles have
+// no area. Throws Failure where edges of a polygon cross, and Cancelled.
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);
 

@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -148,7 +149,7 @@ SurfaceMasses::SurfaceMasses(
     tuples.emplace(array, progress);
     const DensityRange range = density.IsOnPoints()
       ? rangeOf(tuples->data(), nullptr, 0, input->GetNumberOfPoints(), progress)
-      : rangeOf(tuples->data(), ghosts, surface.CellOf(0), input->GetNumberOfCells(), progress);
+      : rangeOf(tuples->data(), ghosts, surface.FirstCell(), input->GetNumberOfCells(), progress);
     requireDensity(range, array);
     largest = range.Largest > 0.0 ? range.Largest : 1.0;
   }
@@ -164,7 +165,7 @@ SurfaceMasses::SurfaceMasses(
     {
       return values ? values[cell] / largest : 1.0;
     }
-    const std::int64_t* corners = disk.Triangle(triangle);
+    const std::array<std::int64_t, 3> corners = surface.CornersOf(triangle);
     return (values[corners[0]] / largest + values[corners[1]] / largest +
              values[corners[2]] / largest) /
       3.0;

@@ -9,6 +9,7 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
+#include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
@@ -25,6 +26,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -51,8 +53,9 @@ Eigen::Vector3d normalOf(const DiskMesh& disk, std::int64_t triangle)
 }
 
 // The points with vertices, SeedId, Mass, CellId and Normal.
-void writeParticles(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places,
-  double totalMass, Progress& progress, vtkPolyData* output)
+void writeParticles(const SurfaceInput& input, const DiskSurface& surface,
+  const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
+  vtkPolyData* output)
 {
   const std::int64_t count = places.size();
   auto points = newArray<vtkDoubleArray>("Points", 3, count);
@@ -71,19 +74,19 @@ void writeParticles(const DiskSurface& surface, const LargeBuffer<PlaceOnTriangl
     for (std::int64_t i = first; i < last; ++i)
     {
       const PlaceOnTriangle& place = places.data()[i];
+      const std::array<std::int64_t, 3> corners = surface.CornersOf(place.Triangle);
       Eigen::Vector3d x = Eigen::Vector3d::Zero();
-      for (int corner = 0; corner < 3; ++corner)
+      for (std::size_t corner = 0; corner < 3; ++corner)
       {
         Eigen::Vector3d at;
-        surface.Triangulated()->GetPoint(
-          static_cast<vtkIdType>(disk.Triangle(place.Triangle)[corner]), at.data());
-        x += place.Weights[static_cast<std::size_t>(corner)] * at;
+        surface.Triangulated()->GetPoint(static_cast<vtkIdType>(corners[corner]), at.data());
+        x += place.Weights[corner] * at;
       }
       Eigen::Map<Eigen::Vector3d>(point + 3 * i) = x;
       Eigen::Map<Eigen::Vector3d>(normal + 3 * i) = normalOf(disk, place.Triangle);
       id[i] = i;
       mass[i] = share;
-      cell[i] = surface.InputCellOf(place.Triangle);
+      cell[i] = input.InputCellOf(surface.InputCellOf(place.Triangle));
     }
   });
   vtkNew<vtkPoints> made;
@@ -112,7 +115,7 @@ public:
     const PlaceOnTriangle& on = this->Places.data()[place];
     SampledPlace found{};
     found.Count = 3;
-    std::copy_n(this->Surface.Disk().Triangle(on.Triangle), 3, found.Points);
+    std::copy_n(this->Surface.CornersOf(on.Triangle).data(), 3, found.Points);
     std::copy_n(on.Weights.data(), 3, found.Weights);
     found.Cell = this->Surface.CellOf(on.Triangle);
     return found;
@@ -137,6 +140,10 @@ void SurfaceSampler::Check() const
 std::vector<std::string> SurfaceSamplingReport::Warnings() const
 {
   std::vector<std::string> warnings;
+  if (!this->Repair.empty())
+  {
+    warnings.push_back(this->Repair);
+  }
   if (this->Moved > 0)
   {
     warnings.push_back(std::to_string(this->Moved) + " of " + std::to_string(this->Particles) +
@@ -164,9 +171,10 @@ std::vector<std::string> SurfaceSamplingReport::Warnings() const
   return warnings;
 }
 
-SurfaceSamplingReport SurfaceSampler::Run(
-  vtkPolyData* input, const SurfaceDensity& density, Progress& progress, vtkPolyData* output) const
+SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const SurfaceDensity& density,
+  Progress& progress, vtkPolyData* output) const
 {
+  vtkPolyData* input = given.Get();
   SurfaceSamplingOptions options;
   options.NumberOfSamples = this->NumberOfParticles;
   options.Resolution = this->Resolution;
@@ -190,7 +198,7 @@ SurfaceSamplingReport SurfaceSampler::Run(
   const DiskSurface surface(input, progress, ends[0]);
   const DiskMesh& disk = surface.Disk();
   progress.BeginStage(ends[1]);
-  const ConformalMap map = mapDisk(disk, this->Corners.Of(disk), progress);
+  const ConformalMap map = mapDisk(disk, this->Corners.Of(surface.Repaired()), progress);
   progress.BeginStage(ends[2]);
   const SurfaceMasses masses(input, surface, density, progress);
 
@@ -205,14 +213,15 @@ SurfaceSamplingReport SurfaceSampler::Run(
     [&]() { return sampleSurface(disk, map, masses.Values(), options, progress.Stage()); });
 
   progress.BeginStage(ends[4]);
-  writeParticles(surface, samples.Places, masses.Total(), progress, output);
+  writeParticles(given, surface, samples.Places, masses.Total(), progress, output);
   progress.BeginStage(ends[5]);
   output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
   sampleArrays({ { surface.Triangulated() }, "input surface", true },
     PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
   return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),
-    countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving };
+    countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
+    surface.IsRepaired() ? surface.RepairWarning() : "" };
 }
 
 } // namespace RectifiedTransport

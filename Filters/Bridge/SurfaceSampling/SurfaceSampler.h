@@ -21,6 +21,7 @@ namespace RectifiedTransport
 
 class Progress;
 class SurfaceDensity;
+class SurfaceInput;
 
 // Of one run, for warnings.
 struct SurfaceSamplingReport
@@ -31,6 +32,7 @@ struct SurfaceSamplingReport
   std::int64_t Collapsed = 0; // triangles without area in the map
   double PatchError = 0.0;
   bool IsAreaPreserving = false; // the map that the particles come from
+  std::string Repair;            // of the surface; empty where it needed none
 
   std::vector<std::string> Warnings() const;
 };
@@ -49,8 +51,8 @@ struct SurfaceSampler
   void Check() const;
 
   // Writes particles. Throws Failure and Cancelled.
-  SurfaceSamplingReport Run(vtkPolyData* surface, const SurfaceDensity& density, Progress& progress,
-    vtkPolyData* output) const;
+  SurfaceSamplingReport Run(const SurfaceInput& surface, const SurfaceDensity& density,
+    Progress& progress, vtkPolyData* output) const;
 };
 
 } // namespace RectifiedTransport

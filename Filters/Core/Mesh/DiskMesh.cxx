@@ -38,8 +38,7 @@ std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
       return "has no triangles";
     case DiskDefect::TrianglesWithoutArea:
       return "has " + counted(count, "triangle", "triangles") +
-        " without area, the first is triangle " + id +
-        "; move or merge the points (Clean removes triangles that have a point twice)";
+        " without area, the first is triangle " + id + "; move their points apart";
     case DiskDefect::UnusedPoints:
       return "has " + counted(count, "point that is", "points that are") +
         " in no triangle, the first is point " + id + "; remove them (Clean does)";
@@ -48,11 +47,11 @@ std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
         "; every edge must be one of at most two triangles";
     case DiskDefect::Components:
       return "has " + std::to_string(count) +
-        " components that no edges join; it must be one: extract one (Connectivity), or merge "
-        "equal "
-        "points (Clean)";
+        " components that no edges join; it must be one: extract the largest with Connectivity "
+        "(Extraction Mode: Extract Largest Region)";
     case DiskDefect::NotOrientable:
-      return "is not orientable: it has one side only, as a Moebius strip; cut it to a disk";
+      return "is not orientable: it has one side only, as a Moebius strip; cut it open, "
+             "for example with Clip";
     case DiskDefect::NonManifoldPoints:
       return "has " + counted(count, "point", "points") +
         " where parts of it touch that no edges join, the first is point " + id +
@@ -61,14 +60,14 @@ std::string describe(DiskDefect defect, std::int64_t count, std::int64_t first)
       return "is closed: it has no boundary; cut it open, for example with Clip";
     case DiskDefect::BoundaryLoops:
       return "has " + std::to_string(count) +
-        " boundary loops; it must have one: fill the holes (vtkFillHolesFilter), or cut it open "
-        "between them";
+        " boundary loops; it must have one: cut it open between them, for example with Clip";
     case DiskDefect::Handles:
       return "has " + counted(count, "handle", "handles") +
-        ", as a torus has one; cut it open to a disk";
+        ", as a torus has one; cut it open, for example with Clip, more than once where needed";
     default:
       return "has " + counted(count, "point", "points") +
-        " on its boundary; it must have at least 4, one for each corner of the square";
+        " on its boundary; it must have at least 4, one for each corner of the square: Subdivide "
+        "adds some";
   }
 }
 

@@ -42,11 +42,22 @@ double quantile(const std::vector<std::pair<double, double>>& ascending, double 
 
 } // namespace
 
+MeasuredTriangles measuredTriangles(const DiskMesh& disk)
+{
+  return { disk.Surface(), disk.AreaShares() };
+}
+
 TriangleDistortion distortionOf(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t triangle)
 {
-  const std::int64_t* corners = disk.Triangle(triangle);
-  const ConstPointSpan<3> points = disk.Surface().Points;
+  return distortionOf(measuredTriangles(disk), positions, triangle);
+}
+
+TriangleDistortion distortionOf(
+  const MeasuredTriangles& triangles, ConstPointSpan<2> positions, std::int64_t triangle)
+{
+  const std::int64_t* corners = triangles.Surface.Triangles + 3 * triangle;
+  const ConstPointSpan<3> points = triangles.Surface.Points;
   const auto point = [&](int i) { return Eigen::Map<const Eigen::Vector3d>(points[corners[i]]); };
   const auto image = [&](int i) { return Eigen::Map<const Vector2>(positions[corners[i]]); };
   const Vector2 first = image(1) - image(0);
@@ -68,7 +79,7 @@ TriangleDistortion distortionOf(
   const double angle = 2.0 * larger / twice;
 
   TriangleDistortion distortion;
-  distortion.Area = 0.5 * determinant / disk.AreaShare(triangle);
+  distortion.Area = 0.5 * determinant / triangles.AreaShares[triangle];
   distortion.Angle = angle <= MaximumAngleDistortion ? std::max(1.0, angle)
                                                      : MaximumAngleDistortion; // also without area
   distortion.IsFlipped = !(determinant > 0.0);
@@ -78,19 +89,25 @@ TriangleDistortion distortionOf(
 MapDistortion measureDistortion(
   const DiskMesh& disk, ConstPointSpan<2> positions, const Context& context)
 {
+  return measureDistortion(measuredTriangles(disk), positions, context);
+}
+
+MapDistortion measureDistortion(
+  const MeasuredTriangles& triangles, ConstPointSpan<2> positions, const Context& context)
+{
+  const std::int64_t count = triangles.Surface.NumberOfTriangles;
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   Progress progress(context);
-  std::vector<std::pair<double, double>> deviations(
-    static_cast<std::size_t>(disk.NumberOfTriangles()));
+  std::vector<std::pair<double, double>> deviations(static_cast<std::size_t>(count));
   progress.BeginStage(0.5);
   const Sums sums = reduceChunks(
-    progress, disk.NumberOfTriangles(), grain, Sums{ 0.0, 0.0, 0 },
+    progress, count, grain, Sums{ 0.0, 0.0, 0 },
     [&](std::int64_t first, std::int64_t last) {
       Sums part{ 0.0, 0.0, 0 };
       for (std::int64_t t = first; t < last; ++t)
       {
-        const TriangleDistortion distortion = distortionOf(disk, positions, t);
-        const double weight = disk.AreaShare(t);
+        const TriangleDistortion distortion = distortionOf(triangles, positions, t);
+        const double weight = triangles.AreaShares[t];
         const double deviation = std::abs(distortion.Area - 1.0);
         deviations[static_cast<std::size_t>(t)] = { deviation, weight };
         part.Square += weight * deviation * deviation;

@@ -5,6 +5,7 @@
 
 #include "Core/Geometry/Points.h"
 #include "Core/Mesh/DiskMesh.h"
+#include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/Context.h"
 
 #include <cstdint>
@@ -24,6 +25,17 @@ struct TriangleDistortion
   bool IsFlipped; // its area in the square is not positive
 };
 
+// Triangles with their shares of the surface's area, each > 0.
+struct MeasuredTriangles
+{
+  TriangleSurface Surface;
+  const double* AreaShares;
+};
+
+MeasuredTriangles measuredTriangles(const DiskMesh& disk);
+
+TriangleDistortion distortionOf(
+  const MeasuredTriangles& triangles, ConstPointSpan<2> positions, std::int64_t triangle);
 TriangleDistortion distortionOf(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t triangle);
 
@@ -38,6 +50,8 @@ struct MapDistortion
   std::int64_t Flipped; // number of triangles
 };
 
+MapDistortion measureDistortion(const MeasuredTriangles& triangles, ConstPointSpan<2> positions,
+  const Context& context = Context());
 MapDistortion measureDistortion(
   const DiskMesh& disk, ConstPointSpan<2> positions, const Context& context = Context());
 

@@ -325,7 +325,8 @@ SquareCorners chooseCorners(const DiskMesh& disk)
   return pointsAt(places, best);
 }
 
-SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points)
+SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points,
+  const std::vector<std::int64_t>& names)
 {
   const BoundaryPlaces places(disk);
   CornerPlaces corners;
@@ -337,21 +338,22 @@ SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>
   for (std::size_t q = 0; q < corners.size(); ++q)
   {
     const std::int64_t point = points[q];
+    const std::string name = std::to_string(names.empty() ? point : names[q]);
     if (point < 0 || point >= disk.NumberOfPoints())
     {
-      throw std::invalid_argument("have the point " + std::to_string(point) +
-        "; there are points 0 to " + std::to_string(disk.NumberOfPoints() - 1));
+      throw std::invalid_argument("have the point " + name + "; there are points 0 to " +
+        std::to_string(disk.NumberOfPoints() - 1));
     }
     if (places.PlaceOf(point) < 0)
     {
-      throw std::invalid_argument("have the point " + std::to_string(point) +
+      throw std::invalid_argument("have the point " + name +
         ", which is not on the boundary of the surface; they must be 4 points of it");
     }
     if (std::find(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(q), point) !=
       points.begin() + static_cast<std::ptrdiff_t>(q))
     {
       throw std::invalid_argument(
-        "have the point " + std::to_string(point) + " twice; they must be 4 different points");
+        "have the point " + name + " twice; they must be 4 different points");
     }
     corners[q] = places.PlaceOf(point);
   }

@@ -23,8 +23,10 @@ using SquareCorners = std::array<std::int64_t, 4>;
 SquareCorners chooseCorners(const DiskMesh& disk);
 
 // Four given points, the first as given and the others in the order of the boundary. Throws
-// std::invalid_argument unless they are four different points of the boundary.
-SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points);
+// std::invalid_argument unless they are four different points of the boundary; it says `names` in
+// place of the points where there are any.
+SquareCorners orderCorners(const DiskMesh& disk, const std::vector<std::int64_t>& points,
+  const std::vector<std::int64_t>& names = {});
 
 // How many triangles have their three points on one side of the square, so that they have no area
 // there.

@@ -212,15 +212,24 @@ void checkWhatIsKept(Checks& checks)
   CHECK(checks, output->GetPolys() == input->GetPolys() && output->GetLines() == lines);
   CHECK(checks, output->GetVerts() == vertices && output->GetNumberOfCells() == cells);
   vtkPointData* pointData = output->GetPointData();
-  CHECK(checks, pointData->GetNumberOfArrays() == 4);
+  CHECK(checks, pointData->GetNumberOfArrays() == 5);
   CHECK(
     checks, pointData->GetScalars() == pointNumbers && pointData->GetArray("Texture") == texture);
   CHECK(checks, pointData->GetTCoords() == pointData->GetArray("AreaPreserving"));
-  for (const char* name : { "AreaPreserving", "Conformal" })
+  for (const char* name : { "AreaPreserving", "AreaPreservingExact", "Conformal" })
   {
     vtkDataArray* array = pointData->GetArray(name);
-    CHECK(checks, vtkDoubleArray::SafeDownCast(array) && array->GetNumberOfComponents() == 2);
-    CHECK(checks, array->GetNumberOfTuples() == points);
+    CHECK(checks, array && array->GetNumberOfComponents() == 2);
+    CHECK(checks, array && array->GetNumberOfTuples() == points);
+    const bool isActive = array == pointData->GetTCoords(); // float: writers ask for it
+    CHECK(checks, array && array->GetDataType() == (isActive ? VTK_FLOAT : VTK_DOUBLE));
+  }
+  const Values exact = squareValues(filter);
+  const Values rounded = squareValues(filter, "AreaPreserving");
+  CHECK(checks, exact.size() == rounded.size());
+  for (std::size_t i = 0; i < exact.size(); ++i)
+  {
+    CHECK(checks, rounded[i] == static_cast<double>(static_cast<float>(exact[i])));
   }
   vtkCellData* cellData = output->GetCellData();
   CHECK(checks, cellData->GetNumberOfArrays() == 4 && cellData->GetScalars() == cellNumbers);

@@ -40,7 +40,9 @@ void checkSmall(Checks& checks)
   filter->SetInputData(single);
   filter->Update();
   CHECK(checks, filter->GetOutput()->GetPoints()->GetDataType() == VTK_FLOAT);
-  CHECK(checks, vtkDoubleArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetTCoords()));
+  CHECK(checks,
+    vtkDoubleArray::SafeDownCast(
+      filter->GetOutput()->GetPointData()->GetArray("AreaPreservingExact")));
 }
 
 // A strip with teeth, more than the square has corners: some have no area.

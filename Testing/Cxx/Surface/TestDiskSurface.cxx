@@ -180,17 +180,18 @@ void checkFailures(Checks& checks)
     const std::string found = failureOf(input);
     checks.That(contains(found, text), "the failure", line, found);
   };
-  auto sheet = makeFlatSheet(2, 2);
+  auto sheet = makeSheet(2, 2, [](double x, double y) {
+    return std::array<double, 3>{ x, 0.0 * y, 0.0 };
+  });
   addOthers(sheet);
-  sheet->GetPoints()->SetPoint(8, 1, 1, 0);
   expect(sheet,
-    "The input surface has 2 triangles without area, the first is triangle 6; move or merge the "
-    "points (Clean removes triangles that have a point twice); triangle 6 is of cell 9",
+    "The input surface has 8 triangles without area, the first is triangle 0; move their points "
+    "apart; triangle 0 is of cell 3",
     __LINE__);
   sheet = makeFlatSheet(2, 2, false);
-  sheet->GetPoints()->SetPoint(8, 1, 1, 0);
-  expect(
-    sheet, "The input surface has polygons that cannot be cut into triangles: 2 tri", __LINE__);
+  sheet->GetPoints()->SetPoint(8, 1, 2, 0);
+  sheet->GetPoints()->SetPoint(7, 2, 2, 0);
+  expect(sheet, "The input surface has polygons that cannot be cut into triangles: ", __LINE__);
   sheet = makeFlatSheet(2, 2, false);
   sheet->GetCellData()->AddArray(makeNumbers("Short", 3));
   expect(sheet,

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Surface/SurfaceInput.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputBlock.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/PolygonInput.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataObject.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringVectorKey.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
+
+enum Part
+{
+  Vertices,
+  Lines,
+  Polygons,
+  Strips,
+  NoPart // of three dimensions, or with curved sides
+};
+
+Part partOf(int cellType)
+{
+  switch (cellType)
+  {
+    case VTK_VERTEX:
+    case VTK_POLY_VERTEX:
+      return Vertices;
+    case VTK_LINE:
+    case VTK_POLY_LINE:
+      return Lines;
+    case VTK_TRIANGLE:
+    case VTK_QUAD:
+    case VTK_PIXEL:
+    case VTK_POLYGON:
+      return Polygons;
+    case VTK_TRIANGLE_STRIP:
+      return Strips;
+    default:
+      return NoPart;
+  }
+}
+
+// Cells of a grid that a vtkPolyData can have, in its order.
+struct PolyDataCells
+{
+  std::array<vtkSmartPointer<vtkCellArray>, NoPart> Parts;
+  std::array<std::vector<vtkIdType>, NoPart> Ids; // in the grid
+};
+
+PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
+{
+  PolyDataCells cells;
+  for (vtkSmartPointer<vtkCellArray>& part : cells.Parts)
+  {
+    part = vtkSmartPointer<vtkCellArray>::New();
+  }
+  vtkNew<vtkIdList> points;
+  std::int64_t others = 0;
+  progress.ForInOrder(
+    grid->GetNumberOfCells(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (auto cell = static_cast<vtkIdType>(first); cell < last; ++cell)
+      {
+        const int type = grid->GetCellType(cell);
+        const Part part = partOf(type);
+        if (part == NoPart)
+        {
+          others += type == VTK_EMPTY_CELL ? 0 : 1; // that or one that is blanked
+          continue;
+        }
+        grid->GetCellPoints(cell, points);
+        if (type == VTK_PIXEL && points->GetNumberOfIds() == 4)
+        {
+          std::swap(points->GetPointer(0)[2], points->GetPointer(0)[3]);
+        }
+        cells.Parts[part]->InsertNextCell(points);
+        cells.Ids[part].push_back(cell);
+      }
+    },
+    RandomAccessUnits);
+  if (others > 0)
+  {
+    throw Failure("The input has " + std::to_string(others) +
+      (others == 1 ? " cell that is" : " cells that are") +
+      " no polygons, as of three dimensions or with curved sides; take the surface of the input "
+      "with Extract Surface");
+  }
+  return cells;
+}
+
+LargeBuffer<vtkIdType> joined(const std::array<std::vector<vtkIdType>, NoPart>& parts)
+{
+  std::size_t count = 0;
+  for (const std::vector<vtkIdType>& part : parts)
+  {
+    count += part.size();
+  }
+  LargeBuffer<vtkIdType> all(static_cast<std::int64_t>(count));
+  vtkIdType* next = all.data();
+  for (const std::vector<vtkIdType>& part : parts)
+  {
+    next = std::copy(part.begin(), part.end(), next);
+  }
+  return all;
+}
+
+vtkSmartPointer<vtkPolyData> surfaceOf(vtkPointSet* grid, const PolyDataCells& cells,
+  const LargeBuffer<vtkIdType>& ids, Progress& progress)
+{
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(grid->GetPoints());
+  surface->SetVerts(cells.Parts[Vertices]);
+  surface->SetLines(cells.Parts[Lines]);
+  surface->SetPolys(cells.Parts[Polygons]);
+  surface->SetStrips(cells.Parts[Strips]);
+  surface->GetPointData()->PassData(grid->GetPointData());
+  surface->GetFieldData()->PassData(grid->GetFieldData());
+  vtkCellData* data = surface->GetCellData();
+  data->CopyAllOn();
+  data->CopyAllocate(grid->GetCellData(), static_cast<vtkIdType>(ids.size()));
+  progress.ForInOrder(
+    ids.size(), Grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (auto cell = static_cast<vtkIdType>(first); cell < last; ++cell)
+      {
+        data->CopyData(grid->GetCellData(), ids.data()[cell], cell);
+      }
+    },
+    RandomAccessUnits);
+  return surface;
+}
+
+void requirePoints(vtkUnstructuredGrid* grid)
+{
+  const std::int64_t points = grid->GetNumberOfPoints();
+  visitIds(grid->GetCells(), [points](const auto& ids) {
+    for (const auto id : ids)
+    {
+      const auto point = static_cast<std::int64_t>(id);
+      if (point < 0 || point >= points)
+      {
+        throw Failure("A cell of the input surface has the point " + std::to_string(point) +
+          "; there are points 0 to " + std::to_string(points - 1));
+      }
+    }
+  });
+}
+
+} // namespace
+
+void SurfaceInput::Require(vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkStructuredGrid");
+}
+
+SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
+{
+  auto* set = requireBlock<vtkPointSet>(
+    input, "The input", "a vtkPolyData or a grid, or what Extract Surface makes of it");
+  if (!set || set->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
+  this->Surface = vtkPolyData::SafeDownCast(set);
+  if (this->Surface)
+  {
+    return;
+  }
+  const auto cells = static_cast<double>(set->GetNumberOfCells());
+  const std::string purpose =
+    "the surface of " + std::to_string(set->GetNumberOfCells()) + " cells of the input";
+  constexpr double bytesOfCell = 16.0 * sizeof(vtkIdType);
+  requireMemory(purpose, cells * bytesOfCell);
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(set))
+  {
+    requirePoints(grid);
+  }
+  const PolyDataCells found = cellsOf(set, progress);
+  this->Cells = joined(found.Ids);
+  this->Surface = surfaceOf(set, found, this->Cells, progress);
+}
+
+} // namespace RectifiedTransport

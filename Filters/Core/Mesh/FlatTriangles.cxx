@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/FlatTriangles.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::int64_t nextSide(std::int64_t side)
+{
+  return side % 3 == 2 ? side - 2 : side + 1;
+}
+
+std::int64_t lastSide(std::int64_t side)
+{
+  return side % 3 == 0 ? side + 2 : side - 1;
+}
+
+class FlatTriangleRun
+{
+public:
+  FlatTriangleRun(const EditedTriangles& triangles, double height, std::int64_t* nearest)
+    : Edited(triangles)
+    , Height(height)
+    , Nearest(nearest)
+    , Others(3 * triangles.Count)
+  {
+  }
+
+  void Run(const Context& context)
+  {
+    Progress progress(context);
+    progress.BeginStage(0.5);
+    {
+      const SurfaceEdges edges(
+        { this->Edited.Positions, this->Edited.Points, this->Edited.Count }, progress.Stage());
+      for (std::int64_t side = 0; side < this->Others.size(); ++side)
+      {
+        this->Others.data()[side] = edges.Other(side);
+      }
+    }
+    progress.BeginStage(1.0, this->Edited.Count);
+    for (std::int64_t triangle = 0; triangle < this->Edited.Count; ++triangle)
+    {
+      this->Remove(triangle, progress);
+      progress.Add(1);
+    }
+    progress.EndSlice(0);
+  }
+
+private:
+  std::int64_t& PointAt(std::int64_t side) { return this->Edited.Points[side]; }
+  bool IsRemoved(std::int64_t triangle) { return this->Edited.Points[3 * triangle] < 0; }
+
+  FlatShape ShapeOf(std::int64_t triangle) const
+  {
+    const std::int64_t* points = this->Edited.Points + 3 * triangle;
+    return { this->Edited.Positions[points[0]], this->Edited.Positions[points[1]],
+      this->Edited.Positions[points[2]] };
+  }
+
+  bool IsFlat(std::int64_t triangle) const
+  {
+    return this->ShapeOf(triangle).Height <= this->Height;
+  }
+
+  // A flat triangle, and those that flips make flat or that have to be removed before.
+  void Remove(std::int64_t triangle, Progress& progress)
+  {
+    // Lengths fall with every flip but for rounding, which must not let two sides flip for ever.
+    constexpr std::int64_t most = 64; // steps a triangle
+    this->Stack.assign(1, triangle);
+    while (!this->Stack.empty() && this->Steps < most * this->Edited.Count)
+    {
+      ++this->Steps;
+      const std::int64_t next = this->Stack.back();
+      this->Stack.pop_back();
+      if (!this->IsRemoved(next) && this->IsFlat(next))
+      {
+        this->Step(next);
+        progress.Add(1);
+      }
+    }
+  }
+
+  void Step(std::int64_t triangle)
+  {
+    const FlatShape shape = this->ShapeOf(triangle);
+    const std::int64_t side = 3 * triangle + shape.Longest;
+    const std::int64_t other = this->Others.data()[side];
+    if (other < 0)
+    {
+      this->LeaveOut(triangle);
+      return;
+    }
+    const std::int64_t beyond = other / 3;
+    const FlatShape shapeBeyond = this->ShapeOf(beyond);
+    const bool isLonger = shapeBeyond.Height <= this->Height &&
+      3 * beyond + shapeBeyond.Longest != other && shapeBeyond.Length > shape.Length;
+    if (isLonger)
+    {
+      this->Stack.push_back(triangle); // after that one
+      this->Stack.push_back(beyond);
+    }
+    else if (this->CanFlip(side, other))
+    {
+      this->Flip(side, other);
+      this->Stack.push_back(triangle);
+      this->Stack.push_back(beyond);
+    }
+  }
+
+  void LeaveOut(std::int64_t triangle)
+  {
+    for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
+    {
+      const std::int64_t other = this->Others.data()[side];
+      if (other >= 0)
+      {
+        this->Others.data()[other] = -1;
+      }
+      const double* at = this->Edited.Positions[this->PointAt(side)];
+      const std::int64_t one = this->PointAt(nextSide(side));
+      const std::int64_t two = this->PointAt(lastSide(side));
+      this->Nearest[this->PointAt(side)] = squaredDistance(at, this->Edited.Positions[one]) <=
+          squaredDistance(at, this->Edited.Positions[two])
+        ? one
+        : two;
+    }
+    std::fill_n(this->Edited.Points + 3 * triangle, 3, std::int64_t{ -1 });
+  }
+
+  // Whether the edge between the points across does not exist yet.
+  bool CanFlip(std::int64_t side, std::int64_t other)
+  {
+    const bool isOriented = this->PointAt(side) == this->PointAt(nextSide(other)) &&
+      this->PointAt(nextSide(side)) == this->PointAt(other);
+    const std::int64_t across = this->PointAt(lastSide(other));
+    return isOriented && this->PointAt(lastSide(side)) != across &&
+      !this->IsJoined(lastSide(side), across);
+  }
+
+  // Whether a triangle about the point that a side leaves has another point.
+  bool IsJoined(std::int64_t leaving, std::int64_t point)
+  {
+    const auto has = [&](std::int64_t side) {
+      return this->PointAt(nextSide(side)) == point || this->PointAt(lastSide(side)) == point;
+    };
+    std::int64_t side = leaving;
+    do
+    {
+      if (has(side))
+      {
+        return true;
+      }
+      side = this->Others.data()[lastSide(side)];
+    } while (side >= 0 && side != leaving && this->PointAt(side) == this->PointAt(leaving));
+    if (side == leaving)
+    {
+      return false;
+    }
+    for (side = this->Others.data()[leaving]; side >= 0; side = this->Others.data()[side])
+    {
+      side = nextSide(side);
+      if (this->PointAt(side) != this->PointAt(leaving) || side == leaving)
+      {
+        break;
+      }
+      if (has(side))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // The side from a to b, of the triangles a b c and b a d, becomes the one from c to d: their
+  // triangles become c a d and d b c.
+  void Flip(std::int64_t side, std::int64_t other)
+  {
+    const std::int64_t f = side / 3;
+    const std::int64_t g = other / 3;
+    std::int64_t* corners = this->Edited.Corners;
+    const std::array<std::int64_t, 3> far{ lastSide(side), nextSide(other), lastSide(other) };
+    const std::array<std::int64_t, 3> near{ lastSide(other), other, lastSide(side) };
+    const auto at = [](const std::int64_t* values, const std::array<std::int64_t, 3>& sides) {
+      return std::array<std::int64_t, 3>{ values[sides[0]], values[sides[1]], values[sides[2]] };
+    };
+    const auto pointsF = at(this->Edited.Points, far);
+    const auto pointsG = at(this->Edited.Points, near);
+    const auto cornersF = at(corners, far);
+    const auto cornersG = at(corners, near);
+
+    const std::int64_t alongCA = this->Renamed(lastSide(side), side, other);
+    const std::int64_t alongAD = this->Renamed(nextSide(other), side, other);
+    const std::int64_t alongDB = this->Renamed(lastSide(other), side, other);
+    const std::int64_t alongBC = this->Renamed(nextSide(side), side, other);
+    std::copy(pointsF.begin(), pointsF.end(), this->Edited.Points + 3 * f);
+    std::copy(pointsG.begin(), pointsG.end(), this->Edited.Points + 3 * g);
+    std::copy(cornersF.begin(), cornersF.end(), corners + 3 * f);
+    std::copy(cornersG.begin(), cornersG.end(), corners + 3 * g);
+    this->Edited.Origins[f] = this->Edited.Origins[g];
+    this->Join(3 * f, alongCA);
+    this->Join(3 * f + 1, alongAD);
+    this->Join(3 * f + 2, 3 * g + 2);
+    this->Join(3 * g, alongDB);
+    this->Join(3 * g + 1, alongBC);
+  }
+
+  // What a side meets before a flip, by its number after it.
+  std::int64_t Renamed(std::int64_t outer, std::int64_t side, std::int64_t other) const
+  {
+    const std::int64_t f = side / 3;
+    const std::int64_t g = other / 3;
+    const std::int64_t met = this->Others.data()[outer];
+    return met == nextSide(side) ? 3 * g + 1
+      : met == lastSide(side)    ? 3 * f
+      : met == nextSide(other)   ? 3 * f + 1
+      : met == lastSide(other)   ? 3 * g
+                                 : met;
+  }
+
+  void Join(std::int64_t one, std::int64_t two)
+  {
+    this->Others.data()[one] = two;
+    if (two >= 0)
+    {
+      this->Others.data()[two] = one;
+    }
+  }
+
+  const EditedTriangles Edited;
+  const double Height;
+  std::int64_t* const Nearest;
+  LargeBuffer<std::int64_t> Others; // by sides
+  std::vector<std::int64_t> Stack;
+  std::int64_t Steps = 0;
+};
+
+} // namespace
+
+void removeFlatTriangles(
+  const EditedTriangles& triangles, double height, std::int64_t* nearest, const Context& context)
+{
+  FlatTriangleRun(triangles, height, nearest).Run(context);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Takes triangles without area out of a surface, and keeps it connected as it was.
+#ifndef RectifiedTransport_FlatTriangles_h
+#define RectifiedTransport_FlatTriangles_h
+
+#include "Core/Geometry/Points.h"
+#include "Core/Parallel/Context.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+// Triangles that are changed in place. Each has three different points, three corners, which are
+// names that go with them, and the origin that it is part of.
+struct EditedTriangles
+{
+  ConstPointSpan<3> Positions;
+  std::int64_t* Points;  // three a triangle
+  std::int64_t* Corners; // three a triangle
+  std::int64_t* Origins;
+  std::int64_t Count;
+};
+
+// Removes the triangles whose height is at most `height`. Their longest side has the third point
+// between its ends: on the boundary the triangle is left out, as the other two sides are the same
+// line. Elsewhere the side is flipped: the triangle beyond it is cut in two at that point, and both
+// parts have its origin. Triangles that cannot be removed without joining edges stay.
+//
+// Writes the points of removed triangles as -1, and for each point of one that was left out the
+// nearest other point of it to `nearest`, which is indexed by points. The triangles must be
+// oriented; those of another orientation than their neighbour stay. O(triangles), and for each flip
+// the triangles about a point. Memory: 40 bytes a triangle, and that of SurfaceEdges. Throws
+// std::bad_alloc and Cancelled.
+void removeFlatTriangles(const EditedTriangles& triangles, double height, std::int64_t* nearest,
+  const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif

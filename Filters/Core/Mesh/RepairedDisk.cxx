@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/RepairedDisk.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// What rounding in double leaves of coordinates at one place.
+double roundingOfDoubles(ConstPointSpan<3> points)
+{
+  double largest = 0.0;
+  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(points.data()[i]));
+  }
+  constexpr double units = 4.0;
+  return units * std::numeric_limits<double>::epsilon() * largest;
+}
+
+bool areFinite(ConstPointSpan<3> points)
+{
+  return std::all_of(points.data(), points.data() + 3 * points.size(),
+    [](double coordinate) { return std::isfinite(coordinate); });
+}
+
+// Merging cannot help where it only joins more.
+bool mayMerge(const NotADisk& defect)
+{
+  switch (defect.Defect())
+  {
+    case DiskDefect::PointsNotFinite:
+    case DiskDefect::NoTriangles:
+    case DiskDefect::NonManifoldEdges:
+    case DiskDefect::Closed:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// The error of a repaired surface in the numbers of the given one.
+NotADisk inGivenNumbers(const NotADisk& defect, const RepairedSurface& repaired)
+{
+  const std::int64_t first = defect.First();
+  if (first < 0)
+  {
+    return defect;
+  }
+  const bool isTriangle = defect.Defect() == DiskDefect::TrianglesWithoutArea;
+  return { defect.Defect(), defect.Count(),
+    isTriangle ? repaired.GivenTriangle(first) : repaired.FirstGivenPoint(first) };
+}
+
+} // namespace
+
+RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, const Context& context)
+  : NumberOfPoints(surface.Points.size())
+{
+  Progress progress(context);
+  if (surface.NumberOfTriangles == 0 || !areFinite(surface.Points))
+  {
+    progress.BeginStage(1.0);
+    this->Disk.emplace(surface, progress.Stage()); // throws
+    return;
+  }
+  const double least = roundingOfDoubles(surface.Points);
+  const double most = std::max(least, rounding);
+  const auto isDisk = [&](const SurfaceRepairOptions& options) {
+    progress.BeginStage(progress.StageEnd() + 0.5 * (1.0 - progress.StageEnd()));
+    return this->Try(surface, options, progress.Stage());
+  };
+  const auto isDiskWith = [&](bool merges) {
+    return isDisk({ least, merges }) ||
+      (most > least && this->Defect->Defect() != DiskDefect::Closed && isDisk({ most, merges }));
+  };
+  if (isDiskWith(false))
+  {
+    return;
+  }
+  const NotADisk apart = *this->Defect;
+  if (mayMerge(apart) && isDiskWith(true))
+  {
+    return;
+  }
+  // Of several parts the user should know what is wrong once they are joined.
+  throw apart.Defect() == DiskDefect::Components ? *this->Defect : apart;
+}
+
+bool RepairedDisk::Try(
+  const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context)
+{
+  Progress progress(context);
+  this->Repaired.reset();
+  try
+  {
+    progress.BeginStage(0.1);
+    if (options.MergesEqualPoints || needsRepair(surface, options.Rounding, progress.Stage()))
+    {
+      progress.BeginStage(0.5);
+      this->Repaired = repairSurface(surface, options, progress.Stage());
+      if (this->Repaired->Surface().NumberOfTriangles == 0)
+      {
+        throw NotADisk(DiskDefect::TrianglesWithoutArea, surface.NumberOfTriangles, 0);
+      }
+    }
+    progress.BeginStage(1.0);
+    this->Disk.emplace(this->Repaired ? this->Repaired->Surface() : surface, progress.Stage());
+    return true;
+  }
+  catch (const NotADisk& defect)
+  {
+    const bool isRepaired = this->Repaired && this->Repaired->Surface().NumberOfTriangles > 0;
+    this->Defect.emplace(isRepaired ? inGivenNumbers(defect, *this->Repaired) : defect);
+    return false;
+  }
+}
+
+std::array<std::int64_t, 3> RepairedDisk::GivenCorners(std::int64_t triangle) const
+{
+  const std::int64_t* points = this->Disk->Triangle(triangle);
+  if (!this->Repaired)
+  {
+    return { points[0], points[1], points[2] };
+  }
+  // The disk may have the corners in the opposite order.
+  const std::int64_t* corners = this->Repaired->Corners(triangle);
+  const bool isTurned = this->Repaired->NewPoint(corners[1]) != points[1];
+  return { corners[0], corners[isTurned ? 2 : 1], corners[isTurned ? 1 : 2] };
+}
+
+GivenTriangles::GivenTriangles(const RepairedDisk& disk, const std::int64_t* given)
+  : Points(disk.Mesh().Surface().Points)
+{
+  const auto at = [this](std::int64_t point) {
+    return Eigen::Map<const Eigen::Vector3d>(this->Points[point]);
+  };
+  const auto normalOf = [&at](const std::int64_t* ids) -> Eigen::Vector3d {
+    return (at(ids[1]) - at(ids[0])).cross(at(ids[2]) - at(ids[0]));
+  };
+  std::int64_t last = -1;
+  for (std::int64_t triangle = 0; triangle < disk.Mesh().NumberOfTriangles(); ++triangle)
+  {
+    last = std::max(last, disk.GivenTriangle(triangle));
+  }
+  std::vector<unsigned char> isDone(static_cast<std::size_t>(last + 1), 0);
+  for (std::int64_t triangle = 0; triangle < disk.Mesh().NumberOfTriangles(); ++triangle)
+  {
+    const std::int64_t number = disk.GivenTriangle(triangle);
+    std::array<std::int64_t, 3> ids;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      ids[i] = disk.PointOf(given[3 * number + static_cast<std::int64_t>(i)]);
+    }
+    const bool isKept = *std::min_element(ids.begin(), ids.end()) >= 0;
+    if (std::exchange(isDone[static_cast<std::size_t>(number)], 1) != 0 || !isKept)
+    {
+      continue;
+    }
+    const Eigen::Vector3d normal = normalOf(ids.data());
+    const double share = 0.5 * normal.norm() / disk.Mesh().Area();
+    if (share > 0.0)
+    {
+      if (normal.dot(normalOf(disk.Mesh().Triangle(triangle))) < 0.0)
+      {
+        std::swap(ids[1], ids[2]);
+      }
+      this->Triangles.insert(this->Triangles.end(), ids.begin(), ids.end());
+      this->Numbers.push_back(number);
+      this->Shares.push_back(share);
+    }
+  }
+}
+
+TriangleSurface GivenTriangles::Surface() const
+{
+  return { this->Points, this->Triangles.data(), static_cast<std::int64_t>(this->Numbers.size()) };
+}
+
+} // namespace RectifiedTransport

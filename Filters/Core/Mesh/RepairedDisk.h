@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A disk of a surface that may have points and triangles of no area.
+#ifndef RectifiedTransport_RepairedDisk_h
+#define RectifiedTransport_RepairedDisk_h
+
+#include "Core/Mesh/DiskMesh.h"
+#include "Core/Mesh/SurfaceRepair.h"
+#include "Core/Parallel/Context.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// The surface as it is where that is a disk. Else it is repaired as little as makes it one: first
+// without points at one place being merged that no edge joins, then with. "Given" are the points
+// and triangles of the surface.
+class RepairedDisk
+{
+public:
+  // `rounding` is by how much coordinates of one place may differ (see SurfaceRepairOptions). The
+  // error of what is no disk names points and triangles that were given. Cost and memory: those of
+  // DiskMesh and repairSurface. Throws NotADisk, std::invalid_argument, std::bad_alloc and
+  // Cancelled.
+  RepairedDisk(const TriangleSurface& surface, double rounding, const Context& context = Context());
+
+  const DiskMesh& Mesh() const { return *this->Disk; }
+  SurfaceRepairs Repairs() const
+  {
+    return this->Repaired ? this->Repaired->Repairs() : SurfaceRepairs();
+  }
+
+  // The point of the disk that a given one is; -1 for those that no triangle with area has.
+  std::int64_t PointOf(std::int64_t given) const
+  {
+    return this->Repaired ? this->Repaired->NewPoint(given) : given;
+  }
+  std::int64_t NumberOfGivenPoints() const { return this->NumberOfPoints; }
+  // The given points at the corners of a triangle of the disk.
+  std::array<std::int64_t, 3> GivenCorners(std::int64_t triangle) const;
+  // The given triangle that a triangle of the disk is part of.
+  std::int64_t GivenTriangle(std::int64_t triangle) const
+  {
+    return this->Repaired ? this->Repaired->GivenTriangle(triangle) : triangle;
+  }
+
+private:
+  bool Try(
+    const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context);
+
+  std::int64_t NumberOfPoints;
+  std::optional<RepairedSurface> Repaired;
+  std::optional<DiskMesh> Disk;
+  std::optional<NotADisk> Defect; // of the last attempt
+};
+
+// The given triangles that have area, oriented as the disk's.
+class GivenTriangles
+{
+public:
+  // `given` are the triangles that the disk was made of. Throws std::bad_alloc.
+  GivenTriangles(const RepairedDisk& disk, const std::int64_t* given);
+
+  // Their points are the disk's.
+  TriangleSurface Surface() const;
+  std::int64_t Given(std::int64_t triangle) const
+  {
+    return this->Numbers[static_cast<std::size_t>(triangle)];
+  }
+  // Of the disk's area.
+  const double* AreaShares() const { return this->Shares.data(); }
+
+private:
+  ConstPointSpan<3> Points;
+  std::vector<std::int64_t> Triangles;
+  std::vector<std::int64_t> Numbers;
+  std::vector<double> Shares;
+};
+
+} // namespace RectifiedTransport
+
+#endif

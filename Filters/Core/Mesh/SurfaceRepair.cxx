@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/SurfaceRepair.h"
+
+#include "Core/Mesh/FlatShape.h"
+#include "Core/Mesh/FlatTriangles.h"
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+constexpr std::int64_t randomAccess = std::int64_t{ 1 } << 16; // units of a first slice
+
+bool isSamePlace(const double* a, const double* b, double rounding)
+{
+  return std::abs(a[0] - b[0]) <= rounding && std::abs(a[1] - b[1]) <= rounding &&
+    std::abs(a[2] - b[2]) <= rounding;
+}
+
+// A power of two that areas of the surface neither overflow nor underflow by.
+double scaleOf(ConstPointSpan<3> points)
+{
+  double largest = 0.0;
+  for (std::int64_t i = 0; i < 3 * points.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(points.data()[i]));
+  }
+  constexpr int most = 1000; // the scale is finite
+  return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -most, most)) : 1.0;
+}
+
+FlatShape shapeOf(const TriangleSurface& surface, double scale, std::int64_t triangle)
+{
+  std::array<std::array<double, 3>, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::int64_t point = surface.Triangles[3 * triangle + static_cast<std::int64_t>(i)];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      corners[i][axis] = scale * surface.Points[point][axis];
+    }
+  }
+  return { corners[0].data(), corners[1].data(), corners[2].data() };
+}
+
+} // namespace
+
+class SurfaceRepairRun
+{
+public:
+  SurfaceRepairRun(const TriangleSurface& surface, const SurfaceRepairOptions& options)
+    : Given(surface)
+    , Options(options)
+    , Scale(scaleOf(surface.Points))
+    , Roots(surface.Points.size())
+  {
+  }
+
+  RepairedSurface Run(const Context& context)
+  {
+    Progress progress(context);
+    progress.BeginStage(0.2);
+    this->FindRoots(progress);
+    progress.BeginStage(0.3);
+    this->KeepTriangles(progress);
+    progress.BeginStage(0.5);
+    this->Orient(progress.Stage());
+    progress.BeginStage(0.8);
+    this->RemoveFlat(progress.Stage());
+    progress.BeginStage(0.9);
+    this->NumberPoints(progress);
+    progress.BeginStage(1.0);
+    this->CountRepairs();
+    progress.EndSlice(1);
+    return std::move(this->Made);
+  }
+
+private:
+  std::int64_t RootOf(std::int64_t point)
+  {
+    std::int64_t* roots = this->Roots.data();
+    while (roots[point] != point)
+    {
+      roots[point] = roots[roots[point]];
+      point = roots[point];
+    }
+    return point;
+  }
+
+  // Of each point the first one that it is merged with.
+  void FindRoots(Progress& progress)
+  {
+    const std::int64_t points = this->Given.Points.size();
+    if (this->Options.MergesEqualPoints)
+    {
+      mergePoints(this->Given.Points, this->Roots.data(), progress.Stage());
+    }
+    else
+    {
+      for (std::int64_t i = 0; i < points; ++i)
+      {
+        this->Roots.data()[i] = i;
+      }
+    }
+    progress.ForInOrder(
+      this->Given.NumberOfTriangles, grain,
+      [this](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+          for (int i = 0; i < 3; ++i)
+          {
+            this->MergeEnds(ids[i], ids[(i + 1) % 3]);
+          }
+        }
+      },
+      randomAccess);
+  }
+
+  void MergeEnds(std::int64_t a, std::int64_t b)
+  {
+    const std::int64_t rootA = this->RootOf(a);
+    const std::int64_t rootB = this->RootOf(b);
+    if (rootA != rootB &&
+      isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
+    {
+      this->Roots.data()[std::max(rootA, rootB)] = std::min(rootA, rootB);
+    }
+  }
+
+  // Those of three different points.
+  void KeepTriangles(Progress& progress)
+  {
+    const std::int64_t count = this->Given.NumberOfTriangles;
+    this->Triangles = LargeBuffer<std::int64_t>(3 * count);
+    this->Corners = LargeBuffer<std::int64_t>(3 * count);
+    this->Origins = LargeBuffer<std::int64_t>(count);
+    progress.ForInOrder(
+      count, grain,
+      [this](std::int64_t first, std::int64_t last) {
+        for (std::int64_t triangle = first; triangle < last; ++triangle)
+        {
+          const std::int64_t* ids = this->Given.Triangles + 3 * triangle;
+          const std::array<std::int64_t, 3> roots{ this->RootOf(ids[0]), this->RootOf(ids[1]),
+            this->RootOf(ids[2]) };
+          if (roots[0] != roots[1] && roots[1] != roots[2] && roots[2] != roots[0])
+          {
+            std::copy(roots.begin(), roots.end(), this->Triangles.data() + 3 * this->Count);
+            std::copy_n(ids, 3, this->Corners.data() + 3 * this->Count);
+            this->Origins.data()[this->Count++] = triangle;
+          }
+        }
+      },
+      randomAccess);
+  }
+
+  TriangleSurface Kept() const
+  {
+    return { this->Given.Points, this->Triangles.data(), this->Count };
+  }
+
+  // So that flips find their neighbours in the same order.
+  void Orient(const Context& context)
+  {
+    Progress progress(context);
+    progress.BeginStage(0.7);
+    const SurfaceEdges edges(this->Kept(), progress.Stage());
+    if (edges.Reversed() == 0)
+    {
+      return;
+    }
+    progress.BeginStage(1.0);
+    LargeBuffer<std::int64_t> oriented(3 * this->Count);
+    orientSurface(this->Kept(), edges, oriented.data(), progress.Stage());
+    for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
+    {
+      if (oriented.data()[3 * triangle + 1] != this->Triangles.data()[3 * triangle + 1])
+      {
+        std::swap(
+          this->Triangles.data()[3 * triangle + 1], this->Triangles.data()[3 * triangle + 2]);
+        std::swap(this->Corners.data()[3 * triangle + 1], this->Corners.data()[3 * triangle + 2]);
+      }
+    }
+  }
+
+  void RemoveFlat(const Context& context)
+  {
+    const std::int64_t points = this->Given.Points.size();
+    this->Nearest = LargeBuffer<std::int64_t>(points);
+    std::fill_n(this->Nearest.data(), points, std::int64_t{ -1 });
+    LargeBuffer<double> scaled(3 * points);
+    for (std::int64_t i = 0; i < 3 * points; ++i)
+    {
+      scaled.data()[i] = this->Scale * this->Given.Points.data()[i];
+    }
+    removeFlatTriangles({ { scaled.data(), points }, this->Triangles.data(), this->Corners.data(),
+                          this->Origins.data(), this->Count },
+      this->Scale * this->Options.Rounding, this->Nearest.data(), context);
+  }
+
+  // Numbers the points that are left in their order, and moves the triangles that are together.
+  void NumberPoints(Progress& progress)
+  {
+    const std::int64_t points = this->Given.Points.size();
+    LargeBuffer<std::int64_t> numbers(points); // by roots
+    std::fill_n(numbers.data(), points, std::int64_t{ -1 });
+    std::int64_t triangles = 0;
+    for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
+    {
+      const std::int64_t* ids = this->Triangles.data() + 3 * triangle;
+      if (ids[0] >= 0)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          numbers.data()[ids[i]] = 0;
+        }
+        std::copy_n(ids, 3, this->Triangles.data() + 3 * triangles);
+        std::copy_n(this->Corners.data() + 3 * triangle, 3, this->Corners.data() + 3 * triangles);
+        this->Origins.data()[triangles++] = this->Origins.data()[triangle];
+      }
+    }
+    this->Count = triangles;
+    std::int64_t used = 0;
+    for (std::int64_t point = 0; point < points; ++point)
+    {
+      numbers.data()[point] = numbers.data()[point] < 0 ? -1 : used++;
+    }
+    progress.Check();
+    RepairedSurface& made = this->Made;
+    made.Positions = LargeBuffer<double>(3 * used);
+    made.FirstGiven = LargeBuffer<std::int64_t>(used);
+    made.NewPoints = LargeBuffer<std::int64_t>(points);
+    for (std::int64_t point = 0; point < points; ++point)
+    {
+      const std::int64_t number = numbers.data()[point];
+      if (number >= 0)
+      {
+        std::copy_n(this->Given.Points[point], 3, made.Positions.data() + 3 * number);
+        made.FirstGiven.data()[number] = point;
+      }
+      made.NewPoints.data()[point] = this->NumberOf(point, numbers.data());
+    }
+    made.Triangles = LargeBuffer<std::int64_t>(3 * triangles);
+    made.GivenCorners = LargeBuffer<std::int64_t>(3 * triangles);
+    made.Origins = LargeBuffer<std::int64_t>(triangles);
+    for (std::int64_t corner = 0; corner < 3 * triangles; ++corner)
+    {
+      made.Triangles.data()[corner] = numbers.data()[this->Triangles.data()[corner]];
+    }
+    std::copy_n(this->Corners.data(), 3 * triangles, made.GivenCorners.data());
+    std::copy_n(this->Origins.data(), triangles, made.Origins.data());
+  }
+
+  // Of a point of triangles without area alone it is that of the nearest one that is left.
+  std::int64_t NumberOf(std::int64_t point, const std::int64_t* numbers)
+  {
+    constexpr int most = 1000; // two such points may be the nearest of each other
+    std::int64_t root = this->RootOf(point);
+    for (int i = 0; i < most && numbers[root] < 0 && this->Nearest.data()[root] >= 0; ++i)
+    {
+      root = this->Nearest.data()[root];
+    }
+    return numbers[root];
+  }
+
+  void CountRepairs()
+  {
+    const std::int64_t points = this->Given.Points.size();
+    const std::int64_t triangles = this->Given.NumberOfTriangles;
+    LargeBuffer<unsigned char> isUsed(std::max(points, triangles));
+    std::fill_n(isUsed.data(), points, static_cast<unsigned char>(0));
+    for (std::int64_t corner = 0; corner < 3 * triangles; ++corner)
+    {
+      isUsed.data()[this->Given.Triangles[corner]] = 1;
+    }
+    SurfaceRepairs& counts = this->Made.Counts;
+    for (std::int64_t point = 0; point < points; ++point)
+    {
+      const bool used = isUsed.data()[point] != 0;
+      counts.UnusedPoints += used ? 0 : 1;
+      counts.MergedPoints += used && this->RootOf(point) != point ? 1 : 0;
+    }
+    std::fill_n(isUsed.data(), triangles, static_cast<unsigned char>(0));
+    for (std::int64_t triangle = 0; triangle < this->Count; ++triangle)
+    {
+      isUsed.data()[this->Origins.data()[triangle]] = 1;
+    }
+    counts.FlatTriangles = std::count(isUsed.data(), isUsed.data() + triangles, 0);
+  }
+
+  const TriangleSurface Given;
+  const SurfaceRepairOptions Options;
+  const double Scale;
+  LargeBuffer<std::int64_t> Roots; // by points
+  LargeBuffer<std::int64_t> Triangles;
+  LargeBuffer<std::int64_t> Corners;
+  LargeBuffer<std::int64_t> Origins;
+  LargeBuffer<std::int64_t> Nearest; // by points: of triangles that were left out
+  std::int64_t Count = 0;
+  RepairedSurface Made;
+};
+
+TriangleSurface RepairedSurface::Surface() const
+{
+  return { { this->Positions.data(), this->Positions.size() / 3 }, this->Triangles.data(),
+    this->Triangles.size() / 3 };
+}
+
+bool needsRepair(const TriangleSurface& surface, double rounding, const Context& context)
+{
+  Progress progress(context);
+  const double scale = scaleOf(surface.Points);
+  LargeBuffer<unsigned char> isUsed(surface.Points.size());
+  std::fill_n(isUsed.data(), isUsed.size(), static_cast<unsigned char>(0));
+  bool isFlat = false;
+  progress.BeginStage(1.0);
+  progress.ForInOrder(
+    surface.NumberOfTriangles, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t triangle = first; triangle < last && !isFlat; ++triangle)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          isUsed.data()[surface.Triangles[3 * triangle + i]] = 1;
+        }
+        isFlat = shapeOf(surface, scale, triangle).Height <= scale * rounding;
+      }
+    },
+    randomAccess);
+  return isFlat ||
+    std::find(isUsed.data(), isUsed.data() + isUsed.size(), 0) != isUsed.data() + isUsed.size();
+}
+
+RepairedSurface repairSurface(
+  const TriangleSurface& surface, const SurfaceRepairOptions& options, const Context& context)
+{
+  return SurfaceRepairRun(surface, options).Run(context);
+}
+
+} // namespace RectifiedTransport

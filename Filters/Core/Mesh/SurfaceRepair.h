@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces as files and filters leave them, without what has no area: points that no triangle uses,
+// points at one place, triangles that are lines.
+//
+//   const RepairedSurface repaired = repairSurface(surface, { rounding, false });
+//   DiskMesh disk(repaired.Surface());
+#ifndef RectifiedTransport_SurfaceRepair_h
+#define RectifiedTransport_SurfaceRepair_h
+
+#include "Core/Mesh/TriangleSurface.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+struct SurfaceRepairOptions
+{
+  // By how much coordinates of one place may differ, along each axis: what rounds them. Also the
+  // height of triangles without area.
+  double Rounding = 0.0;
+  // Whether points of equal coordinates become one even where no edge joins them.
+  bool MergesEqualPoints = false;
+};
+
+struct SurfaceRepairs
+{
+  std::int64_t UnusedPoints = 0;  // of no triangle
+  std::int64_t FlatTriangles = 0; // without area
+  std::int64_t MergedPoints = 0;  // with others at their places
+
+  bool Any() const { return this->UnusedPoints + this->FlatTriangles + this->MergedPoints > 0; }
+};
+
+// "Given" are the points and triangles that a surface was repaired from. Each triangle is part of a
+// given one.
+class RepairedSurface
+{
+public:
+  TriangleSurface Surface() const;
+  const SurfaceRepairs& Repairs() const { return this->Counts; }
+
+  // The point that a given one has become; -1 for those that no triangle with area has.
+  std::int64_t NewPoint(std::int64_t given) const { return this->NewPoints.data()[given]; }
+  const std::int64_t* AllNewPoints() const { return this->NewPoints.data(); }
+  std::int64_t NumberOfGivenPoints() const { return this->NewPoints.size(); }
+  // The first given point that became this one.
+  std::int64_t FirstGivenPoint(std::int64_t point) const { return this->FirstGiven.data()[point]; }
+  // The three given points at the corners of a triangle.
+  const std::int64_t* Corners(std::int64_t triangle) const
+  {
+    return this->GivenCorners.data() + 3 * triangle;
+  }
+  // The given triangle that a triangle is part of.
+  std::int64_t GivenTriangle(std::int64_t triangle) const { return this->Origins.data()[triangle]; }
+
+private:
+  friend class SurfaceRepairRun;
+
+  LargeBuffer<double> Positions;
+  LargeBuffer<std::int64_t> Triangles;
+  LargeBuffer<std::int64_t> GivenCorners;
+  LargeBuffer<std::int64_t> Origins;
+  LargeBuffer<std::int64_t> NewPoints;
+  LargeBuffer<std::int64_t> FirstGiven;
+  SurfaceRepairs Counts;
+};
+
+// Whether a surface has points that no triangle uses, edges of no length or triangles without area,
+// that is of no more than `rounding`. O(triangles). Throws std::bad_alloc and Cancelled.
+bool needsRepair(
+  const TriangleSurface& surface, double rounding, const Context& context = Context());
+
+// Merges the ends of edges of no length, and leaves out points that no triangle uses and triangles
+// without area. Points at one place that no edge joins stay apart, as along a cut, unless the
+// options merge them. All coordinates must be finite. O(triangles log triangles). Memory: 70 bytes
+// a point and 180 a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+RepairedSurface repairSurface(const TriangleSurface& surface, const SurfaceRepairOptions& options,
+  const Context& context = Context());
+
+} // namespace RectifiedTransport
+
+#endif
