@@ -3,8 +3,9 @@
  * @class   vtkAreaPreservingParameterization
  * @brief   texture coordinates of a disk that preserve areas
  *
- * Input: a vtkPolyData whose polygons and triangle strips are a disk: one component with one
- * boundary, without holes and handles, as a surface that was cut open. Output: the same surface
+ * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons, whose polygons
+ * and triangle strips are a disk: one component with one boundary, without holes and handles, as a
+ * surface that was cut open. Output: the same surface
  * with coordinates in the unit square for every point, so that every triangle has the share of the
  * square that it has of the surface. The method is that of Section 5.4 of Do, Coeurjolly, Memari
  * and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4),
@@ -15,25 +16,27 @@
  *
  * Output, a vtkPolyData with the points, cells and data of the input in their order, and
  *
- * - point data `AreaPreserving` (2 components, double, active texture coordinates) and `Conformal`
- *   (2 components, double): both in [0,1]^2, the boundary of the surface on the sides;
+ * - point data `AreaPreserving` (2 components, float, active texture coordinates),
+ *   `AreaPreservingExact` (the same in double) and `Conformal` (2 components, double): all in
+ *   [0,1]^2, the boundary of the surface on the sides;
  * - cell data `AreaDistortion` (double: the share of the area in the square by that of the
  *   surface's area, 1 where it is kept), `AngleDistortion` (double: the quotient of the singular
  *   values of the map of the triangle, 1 where it keeps its shape, at most 1000), and `Flipped`
  *   (unsigned char: 1 where a triangle is turned over, or has no area left); 1, 1 and 0 for cells
- *   that are no polygons;
+ *   that are no polygons or have no area;
  * - field data `AreaDistortionRMS` (the root mean square of the deviation of AreaDistortion from 1,
  *   weighted by area), `AngleDistortionMean` (weighted by area) and `FlippedCount`.
  *
- * All of them are of AreaPreserving; they replace arrays of the same names. Where there are
+ * All of them are of AreaPreservingExact; they replace arrays of the same names. Where there are
  * polygons of more than three points, or strips, these are cut into triangles, each with the cell
  * data of the polygon; global ids of cells are then dropped. Lines and vertices pass unchanged.
  *
- * Points are not merged: a cut along which points are there twice stays a cut. Polygons that
- * disagree in their orientation are mapped with the one that most of the area has. Surfaces that
- * are closed, have several components, boundaries, handles or edges of more than two triangles, or
- * triangles without area, or points that are in no polygon, are errors that say which. No points
- * give an empty output.
+ * Points that are in no polygon (their coordinates are 0 0) and triangles without area are left out
+ * of the map, and points at one place merged, with a warning that counts them, where the surface is
+ * no disk otherwise. A cut along which points are there twice stays a cut. Polygons that disagree in
+ * their orientation are mapped with the one that most of the area has. Surfaces that are closed,
+ * have several components, boundaries, handles or edges of more than two triangles are errors that
+ * say which. No points give an empty output.
  *
  * On several ranks of MPI the surface is gathered on the first one, which has the output.
  *

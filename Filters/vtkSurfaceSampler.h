@@ -10,10 +10,12 @@
  * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147, to the density of the
  * surface in the rectangle, and from there put on its triangles.
  *
- * Input: a vtkPolyData whose polygons and triangle strips are a disk: one component with one
- * boundary, without holes and handles. Others are errors that say which: clip a closed surface
- * open. Polygons are cut into triangles; points are not merged, so that a cut along which points
- * are there twice stays a cut; lines and vertices do not count. No points give an empty output.
+ * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons, whose polygons
+ * and triangle strips are a disk: one component with one boundary, without holes and handles. Others
+ * are errors that say which: clip a closed surface open. Polygons are cut into triangles. Where the
+ * surface is no disk otherwise, points that are in no polygon and triangles without area are left
+ * out, and points at one place merged, with a warning that counts them; a cut along which points are
+ * there twice stays a cut. Lines and vertices do not count. No points give an empty output.
  *
  * The density is array 0 of SetInputArrayToProcess, a point or cell array of one component and any
  * numeric type; none (the default) is 1. The mass of a triangle is its area times the mean of the

@@ -175,6 +175,7 @@ void drawDefect(RandomSource& random, Disk& disk, Input& input)
       break;
     case 7:
       disk.Points.push_back({ 1e6, -1e6, 0.0 });
+      state = State::Sound; // left out
       break;
     default: // another component
     {

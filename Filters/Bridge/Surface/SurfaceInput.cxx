@@ -105,9 +105,9 @@ PolyDataCells cellsOf(vtkPointSet* grid, Progress& progress)
   if (others > 0)
   {
     throw Failure("The input has " + std::to_string(others) +
-      (others == 1 ? " cell that is" : " cells that are") +
-      " no polygons, as of three dimensions or with curved sides; take the surface of the input "
-      "with Extract Surface");
+      (others == 1 ? " cell that is no polygon" : " cells that are no polygons") +
+      ", as of three dimensions or with curved sides; take the surface of the input with Extract "
+      "Surface");
   }
   return cells;
 }

@@ -101,16 +101,13 @@ private:
   void FindRoots(Progress& progress)
   {
     const std::int64_t points = this->Given.Points.size();
+    for (std::int64_t i = 0; i < points; ++i)
+    {
+      this->Roots.data()[i] = i;
+    }
     if (this->Options.MergesEqualPoints)
     {
-      mergePoints(this->Given.Points, this->Roots.data(), progress.Stage());
-    }
-    else
-    {
-      for (std::int64_t i = 0; i < points; ++i)
-      {
-        this->Roots.data()[i] = i;
-      }
+      this->MergePlaces(progress.Stage());
     }
     progress.ForInOrder(
       this->Given.NumberOfTriangles, grain,
@@ -127,6 +124,37 @@ private:
       randomAccess);
   }
 
+  // Points that differ by no more than the rounding are in one cell of one of eight grids, which
+  // are displaced by half a cell along each axis or not. Those of one cell are merged.
+  void MergePlaces(const Context& context)
+  {
+    const std::int64_t points = this->Given.Points.size();
+    const double cell = 2.0 * this->Options.Rounding;
+    LargeBuffer<double> cells(3 * points);
+    LargeBuffer<std::int64_t> firsts(points);
+    Progress progress(context);
+    for (int grid = 0; grid < (cell > 0.0 ? 8 : 1); ++grid)
+    {
+      progress.BeginStage(static_cast<double>(grid + 1) / 8.0);
+      for (std::int64_t i = 0; i < 3 * points; ++i)
+      {
+        const double x = this->Given.Points.data()[i];
+        const double displaced = (grid >> i % 3 & 1) != 0 ? 0.5 : 0.0;
+        cells.data()[i] = cell > 0.0 ? std::floor(x / cell + displaced) : x;
+      }
+      mergePoints({ cells.data(), points }, firsts.data(), progress.Stage());
+      for (std::int64_t i = 0; i < points; ++i)
+      {
+        this->Merge(this->RootOf(i), this->RootOf(firsts.data()[i]));
+      }
+    }
+  }
+
+  void Merge(std::int64_t rootA, std::int64_t rootB)
+  {
+    this->Roots.data()[std::max(rootA, rootB)] = std::min(rootA, rootB);
+  }
+
   void MergeEnds(std::int64_t a, std::int64_t b)
   {
     const std::int64_t rootA = this->RootOf(a);
@@ -134,7 +162,7 @@ private:
     if (rootA != rootB &&
       isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
     {
-      this->Roots.data()[std::max(rootA, rootB)] = std::min(rootA, rootB);
+      this->Merge(rootA, rootB);
     }
   }
 

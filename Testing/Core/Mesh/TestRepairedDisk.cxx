@@ -354,6 +354,23 @@ TEST(RepairedDisk, TrianglesWithPointsOfTheirOwn)
       EXPECT_EQ(corner / 3, disk.GivenTriangle(t));
     }
   }
+  // Also where rounding differs, in whatever direction.
+  Mesh rounded = makeSoup(square.Mapped([](const Point<3>& p) {
+    return Point<3>{ p[0] - 0.4, 0.6 * p[1] - 0.3, 0.8 * p[1] };
+  }));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> error(-1e-7, 1e-7);
+  for (Point<3>& point : rounded.Points)
+  {
+    for (double& x : point)
+    {
+      x += error(random);
+    }
+  }
+  const RepairedDisk joined(rounded.Surface(), floatRounding);
+  expectRepairs(joined, 0, 0, 150 - 36);
+  EXPECT_NEAR(areaOf(joined), 1.0, 1e-6);
+  EXPECT_NE(defectOf(rounded).find("has 50 components"), std::string::npos);
   // What is wrong once they are joined, not that they are apart.
   EXPECT_NE(
     defectOf(makeSoup(makeSphere({ 0, 0, 0 }, 1.0, 3))).find("is closed"), std::string::npos);
