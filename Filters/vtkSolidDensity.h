@@ -12,22 +12,28 @@
  * The image covers the bounds of the polygons and a margin (Padding), with the surface in the
  * middle. Its axes are the coordinate axes.
  *
- * Lines along x, Supersampling^2 through each cell, are cut at the surface. What a line covers of a
- * cell is exact, not sampled. Inside is where the winding number is not zero: components that
- * overlap are united, and a component within another one that is turned the other way is a cavity,
- * as vtkMassProperties counts it. Whether all is turned inside out does not matter. A component
- * whose polygons do not agree gets the orientation that most of its area has.
+ * Values are exact but for rounding, however thin the solid is: volumes of prisms over the pieces
+ * of the triangles in each cell, with their signs. Inside is where the winding number is not zero:
+ * components that overlap are united, and a component within another one that is turned the other
+ * way is a cavity, as vtkMassProperties counts it. Whether all is turned inside out does not
+ * matter. A component whose polygons do not agree gets the orientation that most of its area has.
+ * Only where components overlap, or pass through themselves, values are sampled, on Supersampling^2
+ * lines along x through each cell.
  *
- * Polygons are cut into triangles and points of equal coordinates merged first; points that are
- * nearly equal are not. Every edge must then be one of exactly two triangles: else an error counts
- * the open edges (of one triangle) and the non-manifold edges (of more than two).
- * Polygons that vtkTriangleFilter cannot cut, coordinates that are not finite, points without
- * polygons and surfaces that are not orientable are errors, too; no points give an empty output.
+ * Polygons are cut into triangles and points of equal coordinates merged first. If edges are open
+ * then, points that differ by less than 1e-9 of the longest side are merged, too, and of float
+ * points those that differ by less than 4 rounding errors. Every edge must then be one of two
+ * triangles, or of another even number, as where voxels touch along an edge: else an error counts
+ * the open edges (of one triangle) and the non-manifold edges (of another odd number), and says how
+ * to close the surface. Where triangles do not agree about an edge of four or more, inside is what
+ * an odd number of crossings says. Polygons that are there twice count once, and two of opposite
+ * directions cancel each other. Coordinates that are not finite, points without polygons and
+ * surfaces that are not orientable are errors, too; no points give an empty output.
  *
- * Cost: O(cells + triangles * rows of lines that they cross + crossings of lines), and linear in
- * the points and triangles before that. Memory: 8 bytes a cell; while it runs up to 64 bytes a
- * point, 72 a triangle (81 where polygons do not agree) and 8 more for each layer of cells that a
- * triangle has a part in.
+ * Cost: O(cells + pieces of triangles in cells + crossings of lines), and linear in the points and
+ * triangles before that. Memory: 8 bytes a cell; while it runs up to 72 bytes a point, 81 a
+ * triangle, 8 more for each layer of cells that a triangle has a part in, and for each thread 40
+ * for each cell of a layer.
  *
  * On several ranks of MPI the surface is gathered on each, which has the extent of the image that
  * is requested of it.
@@ -72,8 +78,8 @@ public:
 
   ///@{
   /**
-   * The square root of the number of lines through a cell of the image, 1 to 16, because the
-   * crossings of a layer of cells are held in memory. Default 2.
+   * The square root of the number of lines through a cell of the image that find where components
+   * overlap; 1 to 16, because the crossings of a layer of cells are held in memory. Default 2.
    */
   vtkSetMacro(Supersampling, int);
   vtkGetMacro(Supersampling, int);

@@ -103,7 +103,10 @@ OTHERS = [
     # cells, solids, quality
     E(CORE + "SiteCells/BorderMaxFlow.cxx", "this->Capacity(from.Border, «-from.Sign») > 0", "from.Sign"),
     E(CORE + "SiteCells/SiteDensity.cxx", "«*next < first + count»", "*next <= first + count - 2"),
-    E(CORE + "Solid/SolidCoverage.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
+    E(CORE + "Solid/SolidLines.cxx", "std::ceil(coordinate - «0.5»); // the", "0.25"),
+    E(CORE + "Solid/SignedVolumes.cxx", "(end - a[0]) + (end - b[0]) + «(end - c[0])»", "(end - b[0])"),
+    E(CORE + "Solid/BodyWeights.cxx", "side > 0 ? «triangle < this->Triangle» : triangle", "triangle > this->Triangle"),
+    E(CORE + "Solid/OrientedBodies.cxx", "const int same = «-this->DirectionOf(a)» * this->DirectionOf(b);", "this->DirectionOf(a)"),
     E(CORE + "Solid/ClosedMesh.cxx", "if («a != b && b != c && c != a»)", "true"),
     E(CORE + "Mesh/SurfaceEdges.cxx", "«endsOf(triangles, *begin).High == high»",
       "endsOf(triangles, *begin).High >= high"),

@@ -3,17 +3,18 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Solid/SolidTriangles.h"
 #include "Bridge/Surface/PolygonInput.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -27,45 +28,22 @@ namespace
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
-// The polygons without consecutive corners of equal coordinates, as at the poles of a sphere of
-// quads; those of fewer than three remaining corners are dropped.
-vtkSmartPointer<vtkCellArray> mergeCorners(
-  vtkCellArray* polygons, const ClosedMesh& mesh, Progress& progress)
+// Distances within which points may differ by rounding: of any coordinates, and of float ones.
+std::array<double, 2> roundingsOf(vtkPolyData* surface)
 {
-  const vtkIdType cells = polygons->GetNumberOfCells();
-  const vtkIdType ids = polygons->GetNumberOfConnectivityIds();
-  requireMemory("the " + std::to_string(cells) + " polygons of the input surface",
-    static_cast<double>(cells + 1 + ids) * sizeof(vtkIdType));
-  auto merged = vtkSmartPointer<vtkCellArray>::New();
-  merged->AllocateExact(cells, ids);
-  vtkNew<vtkIdList> corners;
-  progress.ForInOrder(
-    cells, Grain,
-    [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t polygon = first; polygon < last; ++polygon)
-      {
-        polygons->GetCellAtId(polygon, corners);
-        vtkIdType kept = 0;
-        for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
-        {
-          const vtkIdType corner = mesh.FirstOf(corners->GetId(i));
-          if (kept == 0 || corner != corners->GetId(kept - 1))
-          {
-            corners->SetId(kept++, corner);
-          }
-        }
-        while (kept > 1 && corners->GetId(0) == corners->GetId(kept - 1))
-        {
-          --kept;
-        }
-        if (kept >= 3)
-        {
-          merged->InsertNextCell(kept, corners->GetPointer(0));
-        }
-      }
-    },
-    RandomAccessUnits);
-  return merged;
+  const std::array<double, 6> bounds = polygonBounds(surface);
+  double longest = 0.0;
+  double farthest = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    longest = std::max(longest, bounds[2 * a + 1] - bounds[2 * a]);
+    farthest = std::max({ farthest, std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1]) });
+  }
+  const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
+  constexpr double units = 4.0;
+  const double near = ClosedMesh::NearDistance * longest;
+  return { std::isfinite(near) ? near : 0.0,
+    isFloat ? units * farthest * std::numeric_limits<float>::epsilon() : 0.0 };
 }
 
 } // namespace
@@ -100,34 +78,87 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
 {
   const std::string points = std::to_string(this->NumberOfPoints) + " points";
   const double begin = progress.StageEnd();
-  const auto stage = [&progress, begin, end](
-                       double part) { progress.BeginStage(begin + part * (end - begin)); };
+  const auto at = [begin, end](double part) { return begin + part * (end - begin); };
   LargeBuffer<double> coordinates;
   withMemory("the surface's " + points, static_cast<double>(this->NumberOfPoints) * 64.0, [&]() {
-    stage(0.1);
+    progress.BeginStage(at(0.1));
     coordinates = readPoints(input, progress);
   });
   requirePolygons(input, "a solid needs a closed surface");
-  stage(0.25);
+  progress.BeginStage(at(0.25));
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
     [&]() { this->Mesh.emplace(std::move(coordinates), progress.Stage()); });
-  vtkSmartPointer<vtkCellArray> triangles = input->GetPolys();
-  if (!isAllTriangles(input))
+  std::string problem;
+  try
   {
-    stage(0.3);
-    triangles = mergeCorners(triangles, *this->Mesh, progress);
-    stage(0.4);
-    triangles = triangulate(input->GetPoints(), triangles, input->GetStrips(), progress);
+    this->ReadPolygons(input, progress, at(0.25), at(0.7));
+    if (this->Mesh->IsClosed())
+    {
+      return;
+    }
+    problem = this->Openness();
   }
+  catch (const Failure& failure)
+  {
+    problem = failure.what(); // corners that differ by rounding may be the reason
+  }
+  const std::array<double, 2> roundings = roundingsOf(input);
+  if (this->CloseNear(input, roundings[0], progress, at(0.7), at(0.85)))
+  {
+    return;
+  }
+  problem =
+    this->Mesh->OpenEdges() + this->Mesh->NonManifoldEdges() > 0 ? this->Openness() : problem;
+  if (!this->CloseNear(input, roundings[1], progress, at(0.85), at(1.0)))
+  {
+    throw Failure(problem);
+  }
+}
+
+// Merges points nearer than a distance; returns whether that closes the surface.
+bool ClosedSurface::CloseNear(
+  vtkPolyData* input, double distance, Progress& progress, double begin, double end)
+{
+  const std::string points = std::to_string(this->NumberOfPoints) + " points";
+  progress.BeginStage(begin + 0.4 * (end - begin));
+  const bool isMerged = distance > 0.0 &&
+    withMemory("the table of the surface's " + points,
+      static_cast<double>(this->NumberOfPoints) * 9.0 * sizeof(std::int64_t),
+      [&]() { return this->Mesh->MergeNear(distance, progress.Stage()); });
+  if (!isMerged)
+  {
+    return false;
+  }
+  try
+  {
+    this->ReadPolygons(input, progress, begin + 0.4 * (end - begin), end);
+  }
+  catch (const Failure&)
+  {
+    return false; // what was wrong before is said
+  }
+  return this->Mesh->IsClosed();
+}
+
+void ClosedSurface::ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end)
+{
+  const auto stage = [&progress, begin, end](
+                       double part) { progress.BeginStage(begin + part * (end - begin)); };
+  const vtkSmartPointer<vtkCellArray> triangles =
+    cutIntoTriangles(input, *this->Mesh, progress, begin + 0.2 * (end - begin));
   withMemory("the surface's " + std::to_string(triangles->GetNumberOfCells()) + " triangles",
     static_cast<double>(triangles->GetNumberOfCells()) * 9.0 * sizeof(std::int64_t), [&]() {
-      stage(0.6);
+      stage(0.5);
       this->ReadTriangles(triangles, progress);
       stage(1.0);
       this->Mesh->CountEdges(progress.Stage());
     });
-  this->RequireClosed();
+  if (this->Mesh->Surface().NumberOfTriangles == 0)
+  {
+    throw Failure("The input surface has each polygon twice, in opposite directions, so that "
+                  "nothing is inside; keep one of each");
+  }
 }
 
 void ClosedSurface::ReadTriangles(vtkCellArray* triangles, Progress& progress)
@@ -142,22 +173,25 @@ void ClosedSurface::ReadTriangles(vtkCellArray* triangles, Progress& progress)
   }
 }
 
-void ClosedSurface::RequireClosed() const
+std::string ClosedSurface::Openness() const
 {
-  if (!this->Mesh->IsClosed())
+  const std::int64_t open = this->Mesh->OpenEdges();
+  const std::int64_t nonManifold = this->Mesh->NonManifoldEdges();
+  std::ostringstream message;
+  message << "The input surface is not closed: it has " << open
+          << (open == 1 ? " open edge" : " open edges") << " and " << nonManifold
+          << (nonManifold == 1 ? " non-manifold edge" : " non-manifold edges")
+          << "; every edge must be one of two triangles, or of another even number";
+  if (open > 0)
   {
-    const std::int64_t open = this->Mesh->OpenEdges();
-    const std::int64_t nonManifold = this->Mesh->NonManifoldEdges();
-    std::ostringstream message;
-    message << "The input surface is not closed: it has " << open
-            << (open == 1 ? " open edge" : " open edges") << " and " << nonManifold
-            << (nonManifold == 1 ? " non-manifold edge" : " non-manifold edges")
-            << "; every edge must be one of exactly two triangles";
-    throw Failure(message.str());
+    message << ". To close it: Clip Closed Surface in place of Clip, Capping of sources and "
+               "extrusions, Clean with a Tolerance where seams gape, vtkFillHolesFilter in a "
+               "Programmable Filter, or Delaunay 3D and Extract Surface for the convex hull";
   }
+  return message.str();
 }
 
-TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
+SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, double end)
 {
   double* points = this->Mesh->Points().data();
   const double spacing = grid.Spacing()[0];
@@ -177,14 +211,14 @@ TriangleSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress
   progress.BeginStage(end);
   const std::int64_t triangles = this->Mesh->Surface().NumberOfTriangles;
   const bool oriented = withMemory("the orientation of the surface's triangles",
-    static_cast<double>(triangles) * (sizeof(std::int64_t) + 1),
+    static_cast<double>(triangles) * (2 * sizeof(std::int64_t) + 1),
     [&]() { return this->Mesh->Orient(progress.Stage()); });
   if (!oriented)
   {
     throw Failure("The input surface is not orientable: it has one side only, as a Klein bottle; "
                   "a solid needs a surface with an inside");
   }
-  return this->Mesh->Surface();
+  return this->Mesh->Solid();
 }
 
 } // namespace RectifiedTransport

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
@@ -29,19 +30,23 @@ class ClosedSurface
 {
 public:
   // Merges points of equal coordinates and cuts polygons and strips into triangles, as stages of
-  // the run up to the progress `end`; lines and vertices do not count. Throws Failure where the
-  // input has no polygons, coordinates that are not finite, or edges of other than two triangles,
-  // and Cancelled.
+  // the run up to the progress `end`; lines and vertices do not count. If edges are open then,
+  // merges points that differ by rounding: by less than 1e-9 of the longest side of the polygons'
+  // bounds, and if that leaves edges open and the coordinates are float, by less than 4 of their
+  // rounding errors. Throws Failure where the input has no polygons, coordinates that are not
+  // finite, or edges of an odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // Returns the surface in the index coordinates of a grid, the triangles of each component with
   // one orientation, as stages up to the progress `end`. Throws Failure where a component is not
   // orientable, and Cancelled.
-  TriangleSurface InCells(const ImageGrid& grid, Progress& progress, double end);
+  SolidSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:
+  bool CloseNear(vtkPolyData* input, double distance, Progress& progress, double begin, double end);
+  void ReadPolygons(vtkPolyData* input, Progress& progress, double begin, double end);
   void ReadTriangles(vtkCellArray* triangles, Progress& progress);
-  void RequireClosed() const;
+  std::string Openness() const;
 
   std::int64_t NumberOfPoints;
   std::optional<ClosedMesh> Mesh;

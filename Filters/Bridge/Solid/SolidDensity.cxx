@@ -24,7 +24,7 @@ namespace RectifiedTransport
 namespace
 {
 
-vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const GridSize<3>& cells,
+vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSize<3>& cells,
   const LatticePart<3>& part, int supersampling, Progress& progress)
 {
   const std::string grid = describeSize<3>(part.Cells) + " cells (see Resolution)";
@@ -33,8 +33,8 @@ vtkSmartPointer<vtkDoubleArray> cover(const TriangleSurface& surface, const Grid
   auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(count));
   progress.BeginStage(1.0);
   const CoverageReport report = withMemory("the surface's " +
-      std::to_string(surface.NumberOfTriangles) + " triangles in the layers of " + grid,
-    static_cast<double>(surface.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
+      std::to_string(surface.Triangles.NumberOfTriangles) + " triangles in the layers of " + grid,
+    static_cast<double>(surface.Triangles.NumberOfTriangles) * sizeof(vtkIdType), [&]() {
       return coverPartOfSolid(
         surface, cells, part, supersampling, density->GetPointer(0), progress.Stage());
     });
@@ -77,7 +77,7 @@ ImageGrid SolidDensity::Run(vtkPolyData* surface,
   const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
-  const TriangleSurface triangles = closed.InCells(cells, progress, 0.5);
+  const SolidSurface triangles = closed.InCells(cells, progress, 0.5);
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   // The values are those of cells, or of the points at their centres.
   const auto part = latticePartOf<3>(tuplesOf(wanted, owner, grid.Extent()), cells);

@@ -5,6 +5,8 @@
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 namespace RectifiedTransport
@@ -46,6 +48,119 @@ std::uint64_t hash(const double* point)
   return mixed;
 }
 
+// A box of a lattice whose boxes are twice the distance wide.
+using Box = std::array<std::int64_t, 3>;
+
+std::uint64_t hash(const Box& box)
+{
+  std::uint64_t mixed = 0;
+  for (const std::int64_t i : box)
+  {
+    mixed = mix(mixed ^ static_cast<std::uint64_t>(i));
+  }
+  return mixed;
+}
+
+// Clusters of points, each a tree of indices.
+class Clusters
+{
+public:
+  Clusters(ConstPointSpan<3> points, double distance, std::int64_t* parents)
+    : Points(points)
+    , Width(2.0 * distance)
+    , Parents(parents)
+    , Table(tableSize(points.size()))
+  {
+    std::fill_n(this->Table.data(), this->Table.size(), std::int64_t{ -1 });
+  }
+
+  // Joins a point with those in its box.
+  void Enter(std::int64_t point)
+  {
+    std::int64_t& own = this->Table.data()[this->PlaceOf(this->BoxOf(point))];
+    if (own < 0)
+    {
+      own = point;
+    }
+    this->Join(own, point);
+  }
+
+  // Once all points are entered: joins a point with those of the boxes beside the half of its box
+  // that it is in. Points nearer than half a width are in the same box or find each other so.
+  void JoinBeside(std::int64_t point)
+  {
+    const Box box = this->BoxOf(point);
+    Box side;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const double place = this->Points[point][a] / this->Width;
+      side[a] = place - std::floor(place) < 0.5 ? -1 : 1;
+    }
+    for (int corner = 1; corner < 8; ++corner)
+    {
+      const Box beside{ box[0] + (corner & 1 ? side[0] : 0), box[1] + (corner & 2 ? side[1] : 0),
+        box[2] + (corner & 4 ? side[2] : 0) };
+      const std::int64_t found = this->Table.data()[this->PlaceOf(beside)];
+      if (found >= 0)
+      {
+        this->Join(found, point);
+      }
+    }
+  }
+
+  std::int64_t RootOf(std::int64_t point)
+  {
+    while (this->Parents[point] != point)
+    {
+      this->Parents[point] = this->Parents[this->Parents[point]];
+      point = this->Parents[point];
+    }
+    return point;
+  }
+
+private:
+  Box BoxOf(std::int64_t point) const
+  {
+    Box box;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      constexpr double most = 0x1p61; // what is farther away is one box
+      const double low = std::floor(this->Points[point][a] / this->Width);
+      box[a] = static_cast<std::int64_t>(std::max(-most, std::min(low, most)));
+    }
+    return box;
+  }
+
+  // Where the table has a box, or could have it.
+  std::uint64_t PlaceOf(const Box& box) const
+  {
+    const auto mask = static_cast<std::uint64_t>(this->Table.size() - 1);
+    std::uint64_t place = hash(box) & mask;
+    while (this->Table.data()[place] >= 0 && this->BoxOf(this->Table.data()[place]) != box)
+    {
+      place = (place + 1) & mask;
+    }
+    return place;
+  }
+
+  void Join(std::int64_t a, std::int64_t b)
+  {
+    a = this->RootOf(a);
+    b = this->RootOf(b);
+    if (a != b)
+    {
+      const bool isLess = std::lexicographical_compare(
+        this->Points[a], this->Points[a] + 3, this->Points[b], this->Points[b] + 3);
+      this->Parents[isLess ? b : a] = isLess ? a : b;
+    }
+  }
+
+  ConstPointSpan<3> Points;
+  double Width;
+  std::int64_t* Parents;
+  LargeBuffer<std::int64_t> Table; // of each box a point; -1 where it is free
+};
+
 } // namespace
 
 void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& context)
@@ -79,6 +194,52 @@ void mergePoints(ConstPointSpan<3> points, std::int64_t* firsts, const Context& 
       }
     },
     grain);
+}
+
+bool mergeNearPoints(
+  ConstPointSpan<3> points, double distance, std::int64_t* firsts, const Context& context)
+{
+  constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
+  const std::int64_t count = points.size();
+  Progress progress(context);
+  progress.BeginStage(0.3);
+  mergePoints(points, firsts, progress.Stage());
+  LargeBuffer<bool> isDistinct(count);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    isDistinct.data()[i] = firsts[i] == i;
+  }
+  Clusters clusters(points, distance, firsts);
+  const auto forDistinct = [&](double end, void (Clusters::*step)(std::int64_t)) {
+    progress.BeginStage(end);
+    progress.ForInOrder(
+      count, grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          if (isDistinct.data()[i])
+          {
+            (clusters.*step)(i);
+          }
+        }
+      },
+      grain);
+  };
+  forDistinct(0.5, &Clusters::Enter);
+  forDistinct(0.9, &Clusters::JoinBeside);
+  bool isMerged = false;
+  progress.BeginStage(1.0);
+  progress.ForInOrder(
+    count, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i)
+      {
+        firsts[i] = clusters.RootOf(i);
+        isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
+      }
+    },
+    grain);
+  return isMerged;
 }
 
 } // namespace RectifiedTransport

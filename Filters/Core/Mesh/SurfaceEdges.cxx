@@ -101,6 +101,7 @@ void SurfaceEdges::Pair(const std::int64_t* triangles, std::int64_t* begin, std:
     if (begin - edge != 2)
     {
       ++(begin - edge == 1 ? this->NumberOpen : this->NumberNonManifold);
+      this->NumberOdd += begin - edge > 2 && (begin - edge) % 2 == 1 ? 1 : 0;
       for (; edge < begin; ++edge)
       {
         this->Others.data()[*edge] = -1;

@@ -26,6 +26,8 @@ public:
   // Edges of one side, edges of more than two, and edges of two with the same direction.
   std::int64_t Open() const { return this->NumberOpen; }
   std::int64_t NonManifold() const { return this->NumberNonManifold; }
+  // Of the edges of more than two sides, those of an odd number.
+  std::int64_t Odd() const { return this->NumberOdd; }
   std::int64_t Reversed() const { return this->NumberReversed; }
 
   // The other side of a side's edge; -1 where that is open or non-manifold.
@@ -37,6 +39,7 @@ private:
   LargeBuffer<std::int64_t> Others; // by sides
   std::atomic<std::int64_t> NumberOpen{ 0 };
   std::atomic<std::int64_t> NumberNonManifold{ 0 };
+  std::atomic<std::int64_t> NumberOdd{ 0 };
   std::atomic<std::int64_t> NumberReversed{ 0 };
 };
 

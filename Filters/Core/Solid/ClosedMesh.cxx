@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/ClosedMesh.h"
 
-#include "Core/Parallel/Progress.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SurfaceEdges.h"
-#include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Solid/OrientedBodies.h"
+#include "Core/Solid/RepeatedTriangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -72,10 +74,22 @@ ClosedMesh::ClosedMesh(const TriangleSurface& surface, const Context& context)
   progress.BeginStage(0.4);
   this->Merge(progress.Stage());
   this->Reserve(surface.NumberOfTriangles);
-  progress.BeginStage(0.6);
+  progress.BeginStage(0.5);
   addTriangles(surface, progress, *this);
-  progress.BeginStage(1.0);
+  progress.BeginStage(0.7);
   this->CountEdges(progress.Stage());
+  const double distance = NearDistance * this->LongestSide();
+  progress.BeginStage(0.8);
+  if (!this->Closed && distance > 0.0 && this->MergeNear(distance, progress.Stage()))
+  {
+    progress.BeginStage(0.9);
+    addTriangles(surface, progress, *this);
+    progress.BeginStage(1.0);
+    this->CountEdges(progress.Stage());
+    return;
+  }
+  progress.BeginStage(1.0);
+  progress.EndSlice(1);
 }
 
 ClosedMesh::ClosedMesh(LargeBuffer<double> coordinates, const Context& context)
@@ -93,6 +107,40 @@ void ClosedMesh::Merge(const Context& context)
   const ConstPointSpan<3> points = this->Points();
   this->Firsts = LargeBuffer<std::int64_t>(points.size());
   mergePoints(points, this->Firsts.data(), context);
+}
+
+bool ClosedMesh::MergeNear(double distance, const Context& context)
+{
+  const ConstPointSpan<3> points = this->Points();
+  LargeBuffer<std::int64_t> firsts(points.size());
+  if (!mergeNearPoints(points, distance, firsts.data(), context))
+  {
+    return false;
+  }
+  this->Firsts = std::move(firsts);
+  this->NumberOfTriangles = 0;
+  this->Edges.reset();
+  this->Closed = false;
+  return true;
+}
+
+// Of the bounds of the triangles.
+double ClosedMesh::LongestSide() const
+{
+  double longest = 0.0;
+  for (std::int64_t a = 0; a < 3; ++a)
+  {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (std::int64_t i = 0; i < 3 * this->NumberOfTriangles; ++i)
+    {
+      const double x = this->Coordinates.data()[3 * this->Triangles.data()[i] + a];
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
 }
 
 void ClosedMesh::Reserve(std::int64_t triangles)
@@ -117,21 +165,74 @@ void ClosedMesh::Add(const std::array<std::int64_t, 3>& corners)
 void ClosedMesh::CountEdges(const Context& context)
 {
   this->Firsts = {}; // its memory is needed now
+  Progress progress(context);
+  progress.BeginStage(0.5);
+  this->CountEdgesAlone(progress.Stage());
+  progress.BeginStage(1.0);
+  if (this->Edges->NonManifold() > 0)
+  {
+    this->DropRepeated(progress.Stage());
+  }
+  this->Closed = this->NumberOpen == 0 && this->NumberNonManifold == 0;
+}
+
+void ClosedMesh::CountEdgesAlone(const Context& context)
+{
+  this->Edges.reset(); // frees its memory first
   this->Edges = std::make_unique<SurfaceEdges>(this->Surface(), context);
   this->NumberOpen = this->Edges->Open();
-  this->NumberNonManifold = this->Edges->NonManifold();
-  this->Closed = this->NumberOpen == 0 && this->NumberNonManifold == 0;
+  this->NumberNonManifold = this->Edges->Odd();
+}
+
+// In the first of the ways that leaves no edge open; in the first of all if none does.
+void ClosedMesh::DropRepeated(const Context& context)
+{
+  const std::array<std::vector<std::int64_t>, 3> ways =
+    findRepeated(this->Surface(), *this->Edges).Ways();
+  if (ways.back().empty())
+  {
+    return;
+  }
+  Progress progress(context);
+  const std::int64_t number = this->NumberOfTriangles;
+  LargeBuffer<std::int64_t> all(3 * number);
+  std::copy_n(this->Triangles.data(), 3 * number, all.data());
+  const auto drop = [&](const std::vector<std::int64_t>& dropped) {
+    this->NumberOfTriangles = dropTriangles(
+      { this->Surface().Points, all.data(), number }, dropped, this->Triangles.data());
+    this->CountEdgesAlone(progress.Stage());
+    return this->NumberOpen + this->NumberNonManifold == 0;
+  };
+  double end = 0.0;
+  for (const std::vector<std::int64_t>& way : ways)
+  {
+    end += 0.25;
+    progress.BeginStage(end);
+    if (drop(way))
+    {
+      return;
+    }
+  }
+  progress.BeginStage(1.0);
+  drop(ways.front());
 }
 
 bool ClosedMesh::Orient(const Context& context)
 {
   if (this->Closed && this->Edges)
   {
-    this->Oriented = this->Edges->Reversed() == 0 ||
-      orientSurface(this->Surface(), *this->Edges, this->Triangles.data(), context).IsOrientable;
+    OrientedBodies found =
+      orientBodies(this->Surface(), *this->Edges, this->Triangles.data(), context);
+    this->Oriented = found.IsOrientable;
+    this->Bodies = std::move(found.Bodies);
     this->Edges.reset(); // no longer of these triangles
   }
   return this->Oriented;
+}
+
+SolidSurface ClosedMesh::Solid() const
+{
+  return { this->Surface(), this->Bodies.data() };
 }
 
 TriangleSurface ClosedMesh::Surface() const

@@ -3,13 +3,14 @@
 //
 //   ClosedMesh mesh(surface);
 //   if (mesh.IsClosed() && mesh.Orient())
-//     coverSolid(mesh.Surface(), cells, 2, coverage);
+//     coverSolid(mesh.Solid(), cells, 2, coverage);
 #ifndef RectifiedTransport_ClosedMesh_h
 #define RectifiedTransport_ClosedMesh_h
 
+#include "Core/Mesh/TriangleSurface.h"
 #include "Core/Parallel/Context.h"
 #include "Core/Parallel/LargeBuffer.h"
-#include "Core/Mesh/TriangleSurface.h"
+#include "Core/Solid/SolidCoverage.h"
 
 #include <array>
 #include <cstdint>
@@ -21,13 +22,16 @@ namespace RectifiedTransport
 class SurfaceEdges;
 
 // Points of equal coordinates are one point, as where each face has points of its own. A mesh is
-// closed where each of its edges is one of exactly two triangles. Throws std::bad_alloc and
-// Cancelled.
+// closed where each of its edges has two triangles or another even number. Triangles of the same
+// three points and direction count once, and two of opposite directions not at all. Throws
+// std::bad_alloc and Cancelled.
 class ClosedMesh
 {
 public:
-  // Copies a surface, merges its points and counts its edges. Throws std::invalid_argument for
-  // coordinates that are not finite, and triangles of points that there are not.
+  // Copies a surface, merges its points and counts its edges. If it is open so, points nearer than
+  // NearDistance times the longest side of the triangles' bounds are merged, too. Throws
+  // std::invalid_argument for coordinates that are not finite, and triangles of points that there
+  // are not.
   explicit ClosedMesh(const TriangleSurface& surface, const Context& context = Context());
 
   // The same in steps, for faces that have yet to be cut into triangles. First the points, three
@@ -39,7 +43,13 @@ public:
   ClosedMesh(ClosedMesh&&) noexcept;
   ClosedMesh& operator=(ClosedMesh&&) noexcept;
 
-  // The first of the points that are equal to a point; not after CountEdges().
+  // For a mesh that CountEdges() finds to be open: begins again without triangles, and merges
+  // points that differ by less than a distance along every axis (mergeNearPoints()): seams that
+  // close but for rounding. Returns whether there are any; else the mesh is what it was.
+  bool MergeNear(double distance, const Context& context = Context());
+  static constexpr double NearDistance = 1e-9;
+
+  // The one that a point is merged into; not after CountEdges().
   std::int64_t FirstOf(std::int64_t point) const { return this->Firsts.data()[point]; }
   // Provides memory for as many triangles.
   void Reserve(std::int64_t triangles);
@@ -50,7 +60,7 @@ public:
   // 24 bytes a triangle, and as much again and 8 bytes a point meanwhile.
   void CountEdges(const Context& context = Context());
 
-  // Edges of one triangle, and of more than two.
+  // Edges of one triangle, and of three or another odd number.
   std::int64_t OpenEdges() const { return this->NumberOpen; }
   std::int64_t NonManifoldEdges() const { return this->NumberNonManifold; }
   // No such edges; false before CountEdges().
@@ -59,20 +69,27 @@ public:
   // Reorders the corners of triangles of a closed mesh so that those of each component, that is
   // triangles joined by edges, have one orientation: that of most of its area, even if that is
   // inside out. By the winding number that is the same solid, and within another one a cavity.
-  // Returns false if there is none, as for a Klein bottle, or the mesh is not closed. Memory: 9
-  // bytes a triangle. On one thread.
+  // Of edges of four triangles or more inside is what an odd number of crossings says, unless
+  // the triangles agree as they are. Returns false if there is none, as for a
+  // Klein bottle, or the mesh is not closed. Memory: 17 bytes a triangle. On one thread.
   bool Orient(const Context& context = Context());
 
   // The points may be moved, as to other coordinates; they stay merged as they were.
   PointSpan<3> Points() { return { this->Coordinates.data(), this->Coordinates.size() / 3 }; }
   TriangleSurface Surface() const;
+  // The same with the bodies that Orient() finds, for coverSolid(). Must not outlive this object.
+  SolidSurface Solid() const;
 
 private:
   void Merge(const Context& context);
+  double LongestSide() const;
+  void DropRepeated(const Context& context);
+  void CountEdgesAlone(const Context& context);
 
   LargeBuffer<double> Coordinates;
   LargeBuffer<std::int64_t> Firsts;
   LargeBuffer<std::int64_t> Triangles;
+  LargeBuffer<std::int64_t> Bodies;
   std::int64_t NumberOfTriangles = 0;
   std::unique_ptr<SurfaceEdges> Edges;
   std::int64_t NumberOpen = 0;

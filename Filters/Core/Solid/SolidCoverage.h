@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fraction of each grid cell that a closed surface encloses, by scan lines: the density of a
-// solid (paper, Section 5.2).
+// The fraction of each grid cell that a closed surface encloses: the density of a solid (paper,
+// Section 5.2).
 #ifndef RectifiedTransport_SolidCoverage_h
 #define RectifiedTransport_SolidCoverage_h
 
@@ -13,6 +13,20 @@
 
 namespace RectifiedTransport
 {
+
+// Triangles of a closed surface, and of each the number of the body that it belongs to, if that is
+// known; else bodies are triangles that are joined by points.
+struct SolidSurface
+{
+  SolidSurface(const TriangleSurface& triangles, const std::int64_t* bodies = nullptr) // NOLINT
+    : Triangles(triangles)
+    , Bodies(bodies)
+  {
+  }
+
+  TriangleSurface Triangles;
+  const std::int64_t* Bodies;
+};
 
 struct CoverageReport
 {
@@ -27,22 +41,25 @@ struct CoverageReport
 // another is a cavity. Parts of the surface outside of the grid are ignored along axes 1 and 2 and
 // projected onto its border along axis 0.
 //
-// Each grid cell is crossed by supersampling^2 lines along axis 0, through the centres of as many
-// equal squares. The length that a line covers is exact, so that only the other two axes are
-// sampled. A surface that passes exactly through lines and rows of lines is no special case: the
-// plane of a row intersects the surface in closed polygons, whose corners are on the triangles'
-// edges, at places that both triangles of an edge compute from the same numbers in the same order.
-// Such a polygon crosses every line of the row equally often in both directions, if a corner on the
-// line counts as below it, whatever the rounding of the corners.
+// Cells are exact but for rounding, however thin the parts of the solid in them, where bodies lie
+// beside or within each other: the volume within a cell is a sum over the triangles' pieces in the
+// row of cells. Where bodies pass through each other or through themselves the sum counts some
+// places more than once. These are found on supersampling^2 lines along axis 0 through each cell,
+// at the centres of as many equal squares, and taken off by the length that they have there: these
+// parts alone are sampled, in two axes of three. What differs from 0 or 1 by no more than the
+// rounding of coordinates, about 2e-15 times the number of cells along the longest axis and the
+// area of the surface in the cell and before it, is 0 or 1.
 //
-// O(cells + triangles x rows of lines that they cross + crossings of lines). Memory: 8 bytes for
-// each layer of grid cells that a triangle intersects, and a layer's crossings, 16 bytes each, for
-// each thread. Throws std::bad_alloc and Cancelled.
-CoverageReport coverSolid(const TriangleSurface& surface, const GridSize<3>& cells,
-  int supersampling, double* coverage, const Context& context = Context());
+// The same bits on any number of threads, for any order of the triangles, and for any part of the
+// grid. O(cells + pieces of triangles in cells + crossings of lines). Memory: 8 bytes for each
+// layer of grid cells that a triangle has a part in; for each thread 32 bytes for each cell of a
+// layer, and 16 for each of its crossings; 9 bytes a triangle and 8 a point. Throws std::bad_alloc
+// and Cancelled.
+CoverageReport coverSolid(const SolidSurface& surface, const GridSize<3>& cells, int supersampling,
+  double* coverage, const Context& context = Context());
 
 // Of a part of the grid, with the same bits; lines that meet the part alone are counted.
-CoverageReport coverPartOfSolid(const TriangleSurface& surface, const GridSize<3>& cells,
+CoverageReport coverPartOfSolid(const SolidSurface& surface, const GridSize<3>& cells,
   const LatticePart<3>& part, int supersampling, double* coverage,
   const Context& context = Context());
 

@@ -43,6 +43,55 @@ TEST(MergePoints, FirstOfEach)
   EXPECT_TRUE(firstsOf({}).empty());
 }
 
+// Clusters of points within a distance, which lie on borders of boxes or not, in any order: each
+// is taken for its lowest one.
+TEST(MergePoints, Near)
+{
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> apart(-0.45, 0.45);
+  std::vector<Point<3>> centres;
+  std::vector<Point<3>> points;
+  const double distance = 1e-6;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Point<3> centre{ 1e-5 * (i % 10), 1e-5 * (i / 10 % 10), 1e-5 * (i / 100) - 1e-4 };
+    for (int k = 0; k < 4; ++k)
+    {
+      points.push_back(centre);
+      for (double& x : points.back())
+      {
+        x += distance * apart(random);
+      }
+      centres.push_back(centre);
+    }
+  }
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::map<Point<3>, Point<3>> lowest;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    Point<3>& low = lowest.emplace(centres[i], points[i]).first->second;
+    low = std::min(low, points[i]);
+  }
+  for (int run = 0; run < 3; ++run)
+  {
+    std::vector<Point<3>> mixed;
+    for (const std::size_t i : order)
+    {
+      mixed.push_back(points[i]);
+    }
+    std::vector<std::int64_t> firsts(points.size());
+    EXPECT_TRUE(mergeNearPoints(mixed, distance, firsts.data()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      ASSERT_EQ(mixed[static_cast<std::size_t>(firsts[i])], lowest[centres[order[i]]]) << i;
+    }
+    EXPECT_FALSE(mergeNearPoints(mixed, 1e-13, firsts.data()));
+    EXPECT_EQ(firsts, firstsOf(mixed));
+    std::shuffle(order.begin(), order.end(), random);
+  }
+}
+
 // Points that differ in the last bit are different; so are a million in a corner of the bounds,
 // which by pairs would take hours.
 TEST(MergePoints, ManyInACorner)

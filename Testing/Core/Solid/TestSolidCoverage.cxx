@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scan lines through closed surfaces: against planes, volumes and each other, where surfaces lie on
+// Coverage by closed surfaces: against planes, volumes and each other, where surfaces lie on
 // lines, with any turn, and on any number of threads.
 #include "SolidSurfaces.h"
 
@@ -64,11 +64,13 @@ TEST(SolidCoverage, TetrahedraByPlanes)
     }
     const Mesh mesh = makeTetrahedron(corners[0], corners[1], corners[2], corners[3]);
     const int supersampling = 1 + i % 4;
-    const auto truth = coverByLines(cells, supersampling, [&mesh](double y, double z) {
+    const auto truth = coverByLines(cells, 32, [&mesh](double y, double z) {
       return std::vector<std::array<double, 2>>{ clipLine(mesh, y, z) };
     });
-    expectNear(coverClosed(mesh, cells, supersampling), truth, 1e-9, "tetrahedron");
-    expectNear(coverClosed(mesh.Turned(), cells, supersampling), truth, 1e-9, "inside out");
+    const std::vector<double> found = coverClosed(mesh, cells, supersampling);
+    expectNear(found, truth, 1e-2, "tetrahedron");
+    EXPECT_NEAR(sum(found), mesh.Volume(), 1e-12);
+    expectNear(coverClosed(mesh.Turned(), cells, supersampling), found, 1e-14, "inside out");
   }
 }
 
@@ -150,7 +152,7 @@ TEST(SolidCoverage, NoLeaksOnLattices)
       return Point<3>{ p[0], p[1] - 1e-7, p[2] - 1e-10 };
     });
     expectNear(coverage, coverClosed(lower, cells, 2), 1e-5, "a trifle lower");
-    EXPECT_NEAR(sum(coverage), sphere.Volume(), 0.05 * sphere.Volume() + 1.0);
+    EXPECT_NEAR(sum(coverage), sphere.Volume(), 0.02 * sphere.Volume());
     for (std::int64_t i = 0; i < 1728; ++i)
     {
       const double low[3] = { static_cast<double>(i % 12), static_cast<double>(i / 12 % 12),
@@ -241,32 +243,8 @@ TEST(SolidCoverage, NoLeaksOfRotatedNeedles)
       return rotated;
     });
     const double volume = mesh.Volume();
-    EXPECT_NEAR(sum(coverClosed(mesh, cells, 3)), volume, 0.03 * volume + 0.3) << run;
+    EXPECT_NEAR(sum(coverClosed(mesh, cells, 3)), volume, 1e-11 * volume + 1e-9) << run;
   }
-}
-
-TEST(SolidCoverage, SphereConverges)
-{
-  const auto error = [](std::int64_t side, int supersampling) {
-    const double scale = static_cast<double>(side);
-    double largest = 0.0;
-    for (int i = 0; i < 8; ++i)
-    {
-      const Mesh mesh = makeSphere(
-        { (0.5 + 0.003 * i) * scale, (0.5 - 0.0041 * i) * scale, (0.5 + 0.0017 * i) * scale },
-        0.4 * scale, 60);
-      const double volume = mesh.Volume();
-      const std::vector<double> coverage = cover(mesh, { side, side, side }, supersampling);
-      largest = std::max(largest, std::abs(sum(coverage) - volume) / volume);
-    }
-    return largest;
-  };
-  // At least as h^1.5, the order of points of a lattice in a smooth shape.
-  EXPECT_LT(error(8, 1), 0.05);
-  EXPECT_LT(error(32, 1), error(8, 1) / 8.0);
-  EXPECT_LT(error(8, 4), error(8, 1) / 8.0);
-  EXPECT_LT(error(32, 4), error(8, 4) / 8.0);
-  EXPECT_LT(error(64, 2), 3e-4);
 }
 
 TEST(SolidCoverage, Torus)
@@ -277,8 +255,7 @@ TEST(SolidCoverage, Torus)
       16.3 + 4.0 * std::sin(2.0 * pi * v) };
   });
   const std::vector<double> coverage = coverClosed(mesh, { 32, 32, 32 }, 2);
-  EXPECT_NEAR(sum(coverage) / mesh.Volume(), 1.0, 1e-2);
-  EXPECT_NEAR(sum(coverClosed(mesh, { 32, 32, 32 }, 8)) / mesh.Volume(), 1.0, 1e-3);
+  EXPECT_NEAR(sum(coverage) / mesh.Volume(), 1.0, 1e-12);
   EXPECT_EQ(coverage[(16 * 32 + 16) * 32 + 16], 0.0); // the hole
 }
 
@@ -312,7 +289,7 @@ TEST(SolidCoverage, OverlapIsUnited)
     makeTetrahedron({ 5.1, 1.2, 1.3 }, { 18.2, 4.1, 9.9 }, { 7.3, 14.2, 3.8 }, { 8.8, 6.1, 14.7 });
   Mesh both = a;
   both.Add(b);
-  const auto truth = coverByLines(cells, 2, [&](double y, double z) {
+  const auto truth = coverByLines(cells, 40, [&](double y, double z) {
     const std::array<double, 2> p = clipLine(a, y, z);
     const std::array<double, 2> q = clipLine(b, y, z);
     std::vector<std::array<double, 2>> parts{ p, q };
@@ -322,7 +299,8 @@ TEST(SolidCoverage, OverlapIsUnited)
     }
     return parts;
   });
-  expectNear(coverClosed(both, cells, 2), truth, 1e-12, "union");
+  expectNear(coverClosed(both, cells, 16), truth, 4e-2, "union");
+  expectNear(coverClosed(both, cells, 2), truth, 0.3, "union by few lines");
   // Twice the same component, one way and the other way.
   Mesh twice = b;
   twice.Add(b);

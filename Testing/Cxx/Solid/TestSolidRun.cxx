@@ -229,12 +229,23 @@ void checkSurfaceErrors(Checks& checks)
   expect(points, "no polygons", __LINE__);
   expect(makePolyhedron(corners, { 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3 }),
     "The input surface is not closed: it has 3 open edges and 0 non-manifold edges", __LINE__);
+  // A polygon on an edge of others.
   auto fin = faces;
-  fin.insert(fin.end(), { 3, 0, 1, 2, 3, 0, 3, 1 });
-  expect(makePolyhedron(corners, fin), "has 0 open edges and 5 non-manifold edges", __LINE__);
-  // Points that differ in the last bit are two.
+  fin.insert(fin.end(), { 3, 0, 1, 4 });
+  auto more = corners;
+  more.insert(more.end(), { 2, 2, 2 });
+  expect(makePolyhedron(more, fin),
+    "has 2 open edges and 1 non-manifold edge; every edge must be one of two triangles, or of "
+    "another even number",
+    __LINE__);
+  auto twice = faces;
+  twice.insert(twice.end(), { 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3, 0 });
+  expect(makePolyhedron(corners, twice),
+    "The input surface has each polygon twice, in opposite directions, so that nothing is inside",
+    __LINE__);
+  // Points that differ by more than rounding are two.
   auto split = corners;
-  split.insert(split.end(), { 1e-300, 0, 0 });
+  split.insert(split.end(), { 2e-8, 0, 0 });
   expect(makePolyhedron(split, { 3, 4, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 2, 0, 3 }),
     "has 4 open edges and 0 non-manifold edges", __LINE__);
   auto wrong = corners;
@@ -251,7 +262,7 @@ void checkSurfaceErrors(Checks& checks)
     "The input surface has 3 points and no polygon of three different ones", __LINE__);
   expect(makePolyhedron(corners, { 2, 0, 1 }), "no polygon of three different ones", __LINE__);
   expect(makePolyhedron({ 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 1.5, 0, 0 }, { 5, 0, 1, 2, 3, 4 }),
-    "cannot be cut into triangles", __LINE__);
+    "has 5 open edges", __LINE__);
   expect(makeBox(1e15, 1e15 + 2, 0, 1, 0, 1), "makes cells of 0.275 for coordinates of up to 1e+15",
     __LINE__);
   auto large = corners;

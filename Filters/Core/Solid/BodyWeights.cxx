@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Solid/BodyWeights.h"
+
+#include "Core/Parallel/Progress.h"
+#include "Core/Solid/SurfaceCuts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Index = std::int64_t;
+
+// Numbers the bodies of a surface without gaps.
+class Bodies
+{
+public:
+  Bodies(const SolidSurface& surface, Progress& progress)
+    : Surface(surface.Triangles)
+    , Given(surface.Bodies)
+    , Parents(this->Given ? this->Surface.NumberOfTriangles : this->Surface.Points.size())
+  {
+    for (Index i = 0; i < this->Parents.size(); ++i)
+    {
+      this->Parents.data()[i] = i;
+    }
+    progress.BeginStage(0.3, this->Surface.NumberOfTriangles);
+    for (Index i = 0; !this->Given && i < this->Surface.NumberOfTriangles; ++i)
+    {
+      const Index* ids = this->Surface.Triangles + 3 * i;
+      this->Join(this->Join(this->RootOf(ids[0]), this->RootOf(ids[1])), this->RootOf(ids[2]));
+      progress.Add(1);
+    }
+    progress.BeginStage(0.4, this->Surface.NumberOfTriangles);
+    for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
+    {
+      const Index root = this->RootOf(this->NodeOf(i));
+      if (root >= 0)
+      {
+        this->Parents.data()[root] = -1 - this->Number++;
+      }
+      progress.Add(1);
+    }
+  }
+
+  Index Count() const { return this->Number; }
+  Index Of(Index triangle) { return -1 - this->RootOf(this->NodeOf(triangle)); }
+
+private:
+  // Nodes of trees are given numbers of bodies, or points.
+  Index NodeOf(Index triangle) const
+  {
+    return this->Given ? this->Given[triangle] : this->Surface.Triangles[3 * triangle];
+  }
+  // A node without a parent but itself, or what a numbered one has for it.
+  Index RootOf(Index node)
+  {
+    Index* parents = this->Parents.data();
+    while (parents[node] >= 0 && parents[node] != node)
+    {
+      const Index parent = parents[node];
+      if (parents[parent] < 0)
+      {
+        return parents[parent];
+      }
+      parents[node] = parents[parent];
+      node = parent;
+    }
+    return parents[node];
+  }
+  Index Join(Index a, Index b)
+  {
+    const Index root = std::min(a, b);
+    this->Parents.data()[std::max(a, b)] = root;
+    return root;
+  }
+
+  TriangleSurface Surface;
+  const Index* Given;
+  LargeBuffer<Index> Parents;
+  Index Number = 0;
+};
+
+// What a triangle is chosen by, and where a line goes through it.
+struct Place
+{
+  double Area = 0.0; // projected along axis 0, of the triangle's side
+  Corner Centre{};
+};
+
+Place placeOf(const std::array<Corner, 3>& t)
+{
+  Place place;
+  place.Area =
+    0.5 * ((t[1][1] - t[0][1]) * (t[2][2] - t[0][2]) - (t[1][2] - t[0][2]) * (t[2][1] - t[0][1]));
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    place.Centre[a] = (t[0][a] + t[1][a] + t[2][a]) / 3.0;
+  }
+  return place;
+}
+
+// A line along axis 0 through the centre of a triangle.
+struct Probe
+{
+  Index Triangle = -1;
+  double Key = -HUGE_VAL;
+  Place At;
+  double X = 0.0;   // where it passes the triangle
+  int Side = 0;     // and the change of the winding number there
+  Index Before = 0; // the winding number before it
+
+  // Whether another triangle is passed first. Those at one place are passed as if one body were
+  // within the other, and bodies that touch had a gap between them.
+  bool IsBehind(double x, int side, Index triangle) const
+  {
+    if (x != this->X)
+    {
+      return x < this->X;
+    }
+    if (side != this->Side)
+    {
+      return side < 0;
+    }
+    return side > 0 ? triangle < this->Triangle : triangle > this->Triangle;
+  }
+
+  // Equal keys are decided by places, so that the choice does not depend on the order.
+  void Choose(Index triangle, double key, const Place& place)
+  {
+    if (this->Triangle < 0 || key > this->Key ||
+      (key == this->Key && place.Centre < this->At.Centre))
+    {
+      this->Triangle = triangle;
+      this->Key = key;
+      this->At = place;
+    }
+  }
+};
+
+// Calls visit(segment) if a line passes a triangle.
+template <class Visit>
+void passTriangle(const std::array<Corner, 3>& triangle, double y, double z, const Visit& visit)
+{
+  cutTriangle(triangle, z, [&](const PlanePoint& in, const PlanePoint& out) {
+    if (std::min(in.Y, out.Y) <= y && y < std::max(in.Y, out.Y))
+    {
+      visit(PlaneSegment(in, out));
+    }
+  });
+}
+
+class BodyProbes
+{
+public:
+  static constexpr std::size_t PerBody = 8;
+
+  BodyProbes(const TriangleSurface& surface, Bodies& bodies)
+    : Surface(surface)
+    , Own(bodies)
+    , Probes(PerBody * static_cast<std::size_t>(bodies.Count()))
+  {
+  }
+
+  void Choose(Progress& progress)
+  {
+    progress.BeginStage(0.5, this->Surface.NumberOfTriangles);
+    this->ForTriangles(progress, [](Probe* probes, Index triangle, const Place& place) {
+      probes[place.Area > 0.0 ? 0 : 1].Choose(triangle, std::abs(place.Area), place);
+    });
+    progress.BeginStage(0.6, this->Surface.NumberOfTriangles);
+    this->ForTriangles(progress, [](Probe* probes, Index triangle, const Place& place) {
+      // Slivers at the rim tell nothing.
+      constexpr double least = 0.01;
+      if (std::abs(place.Area) >= least * std::max(probes[0].Key, probes[1].Key))
+      {
+        for (std::size_t a = 0; a < 3; ++a)
+        {
+          probes[2 + 2 * a].Choose(triangle, place.Centre[a], place);
+          probes[3 + 2 * a].Choose(triangle, -place.Centre[a], place);
+        }
+      }
+    });
+    const auto isNone = [this](Probe& probe) {
+      if (probe.Triangle >= 0)
+      {
+        passTriangle(cornersOf(this->Surface, probe.Triangle), probe.At.Centre[1],
+          probe.At.Centre[2], [&probe](const PlaneSegment& segment) {
+            probe.X = segment.At(probe.At.Centre[1]);
+            probe.Side = segment.Side();
+          });
+      }
+      return probe.Side == 0; // by rounding, or as there is no triangle
+    };
+    this->Probes.erase(
+      std::remove_if(this->Probes.begin(), this->Probes.end(), isNone), this->Probes.end());
+  }
+
+  // Counts the winding numbers before all probes.
+  void Count(Progress& progress)
+  {
+    progress.BeginStage(0.9, this->Surface.NumberOfTriangles);
+    this->SortIntoBoxes();
+    for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
+    {
+      const std::array<Corner, 3> triangle = cornersOf(this->Surface, i);
+      this->ForBoxes(triangle, [&](Index box) {
+        for (Index at = this->First[static_cast<std::size_t>(box)];
+             at < this->First[static_cast<std::size_t>(box) + 1]; ++at)
+        {
+          Probe& probe = this->Probes[static_cast<std::size_t>(at)];
+          const double y = probe.At.Centre[1];
+          passTriangle(triangle, y, probe.At.Centre[2], [&](const PlaneSegment& segment) {
+            probe.Before += probe.IsBehind(segment.At(y), segment.Side(), i) ? segment.Side() : 0;
+          });
+        }
+      });
+      progress.Add(1);
+    }
+  }
+
+  std::vector<signed char> Weights()
+  {
+    // In and out of the solid, by bodies; the side decides which way is in.
+    std::vector<Index> sums(static_cast<std::size_t>(this->Own.Count()), 0);
+    for (const Probe& probe : this->Probes)
+    {
+      const int before = probe.Before != 0 ? 1 : 0;
+      const int after = probe.Before + probe.Side != 0 ? 1 : 0;
+      sums[static_cast<std::size_t>(this->Own.Of(probe.Triangle))] += (after - before) * probe.Side;
+    }
+    std::vector<signed char> weights(sums.size());
+    std::transform(sums.begin(), sums.end(), weights.begin(),
+      [](Index sum) { return static_cast<signed char>((sum > 0 ? 1 : 0) - (sum < 0 ? 1 : 0)); });
+    return weights;
+  }
+
+private:
+  template <class Visit>
+  void ForTriangles(Progress& progress, const Visit& visit)
+  {
+    for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
+    {
+      const Place place = placeOf(cornersOf(this->Surface, i));
+      if (place.Area != 0.0)
+      {
+        visit(this->Probes.data() + PerBody * static_cast<std::size_t>(this->Own.Of(i)), i, place);
+      }
+      progress.Add(1);
+    }
+  }
+
+  // Boxes of a lattice across axis 0, about as many as probes.
+  void SortIntoBoxes()
+  {
+    this->Boxes =
+      std::max<Index>(1, static_cast<Index>(std::sqrt(static_cast<double>(this->Probes.size()))));
+    for (std::size_t a = 1; a < 3; ++a)
+    {
+      double low = HUGE_VAL;
+      double high = -HUGE_VAL;
+      for (const Probe& probe : this->Probes)
+      {
+        low = std::min(low, probe.At.Centre[a]);
+        high = std::max(high, probe.At.Centre[a]);
+      }
+      this->Low[a] = low;
+      this->Scale[a] = high > low ? static_cast<double>(this->Boxes) / (high - low) : 0.0;
+    }
+    const auto boxOf = [this](const Probe& probe) {
+      return this->BoxOf(2, probe.At.Centre[2]) * this->Boxes + this->BoxOf(1, probe.At.Centre[1]);
+    };
+    std::stable_sort(this->Probes.begin(), this->Probes.end(),
+      [&boxOf](const Probe& a, const Probe& b) { return boxOf(a) < boxOf(b); });
+    this->First.assign(static_cast<std::size_t>(this->Boxes * this->Boxes + 1), 0);
+    for (const Probe& probe : this->Probes)
+    {
+      ++this->First[static_cast<std::size_t>(boxOf(probe)) + 1];
+    }
+    for (std::size_t box = 1; box < this->First.size(); ++box)
+    {
+      this->First[box] += this->First[box - 1];
+    }
+  }
+
+  Index BoxOf(std::size_t axis, double coordinate) const
+  {
+    const double box = (coordinate - this->Low[axis]) * this->Scale[axis];
+    return static_cast<Index>(std::max(0.0, std::min(box, static_cast<double>(this->Boxes - 1))));
+  }
+
+  // Calls visit(box) for those that a triangle has a part in, and maybe for neighbours of these.
+  template <class Visit>
+  void ForBoxes(const std::array<Corner, 3>& triangle, const Visit& visit) const
+  {
+    std::array<Corner, 3> scaled = triangle;
+    for (Corner& corner : scaled)
+    {
+      // Rounding must not move a part into the row beside.
+      corner[2] = (corner[2] - this->Low[2]) * this->Scale[2];
+    }
+    const auto visitRow = [&](Index row, const std::array<double, 2>& range) {
+      for (Index j = this->BoxOf(1, range[0]); j <= this->BoxOf(1, range[1]); ++j)
+      {
+        visit(row * this->Boxes + j);
+      }
+    };
+    const CutPolygon whole(scaled);
+    const std::array<double, 2> rows = whole.Range(2);
+    const Index first =
+      this->BoxOf(2, std::min({ triangle[0][2], triangle[1][2], triangle[2][2] }));
+    const Index last = this->BoxOf(2, std::max({ triangle[0][2], triangle[1][2], triangle[2][2] }));
+    if (rows[1] < 0.0 || rows[0] > static_cast<double>(this->Boxes))
+    {
+      return;
+    }
+    if (last - first < 2)
+    {
+      for (Index row = first; row <= last; ++row)
+      {
+        visitRow(row, whole.Range(1));
+      }
+      return;
+    }
+    CutPolygon rest = whole;
+    CutPolygon below;
+    CutPolygon above;
+    for (Index row = first; row <= last; ++row)
+    {
+      below = rest;
+      if (row < last)
+      {
+        cutPolygon<2>(rest, static_cast<double>(row + 1), below, above);
+        rest = above;
+      }
+      if (below.Size > 0)
+      {
+        visitRow(row, below.Range(1));
+      }
+    }
+  }
+
+  TriangleSurface Surface;
+  Bodies& Own;
+  std::vector<Probe> Probes;
+  Index Boxes = 1;
+  std::array<double, 3> Low{};
+  std::array<double, 3> Scale{};
+  std::vector<Index> First;
+};
+
+// Of one body, which way it is turned.
+signed char weightOfOne(const TriangleSurface& surface, Progress& progress)
+{
+  progress.BeginStage(0.9, surface.NumberOfTriangles);
+  double volume = 0.0;
+  for (Index i = 0; i < surface.NumberOfTriangles; ++i)
+  {
+    const Place place = placeOf(cornersOf(surface, i));
+    const double origin = surface.Points[surface.Triangles[0]][0];
+    volume += place.Area * (place.Centre[0] - origin);
+    progress.Add(1);
+  }
+  return volume < 0.0 ? -1 : 1;
+}
+
+} // namespace
+
+LargeBuffer<signed char> weighBodies(const SolidSurface& solid, const Context& context)
+{
+  const TriangleSurface& surface = solid.Triangles;
+  LargeBuffer<signed char> weights(surface.NumberOfTriangles);
+  Progress progress(context);
+  Bodies bodies(solid, progress);
+  if (bodies.Count() < 2)
+  {
+    const signed char weight = bodies.Count() == 1 ? weightOfOne(surface, progress) : 1;
+    std::fill_n(weights.data(), surface.NumberOfTriangles, weight);
+    return weights;
+  }
+  BodyProbes probes(surface, bodies);
+  probes.Choose(progress);
+  probes.Count(progress);
+  const std::vector<signed char> ofBodies = probes.Weights();
+  progress.BeginStage(1.0, surface.NumberOfTriangles);
+  for (Index i = 0; i < surface.NumberOfTriangles; ++i)
+  {
+    weights.data()[i] = ofBodies[static_cast<std::size_t>(bodies.Of(i))];
+    progress.Add(1);
+  }
+  return weights;
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Solid/OrientedBodies.h"
+
+#include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Index = std::int64_t;
+using Vector = std::array<double, 3>;
+
+Vector between(const double* from, const double* to)
+{
+  return { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
+}
+
+double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+// A side of a triangle at an edge of more than two.
+struct FanSide
+{
+  Index Low; // its ends
+  Index High;
+  Index Side;
+  double Angle; // about the edge
+};
+
+// That two patches keep or change their orientations together, or one of them alone.
+struct Relation
+{
+  Index Patch;
+  Index Other;
+  int Same; // 1 or -1
+};
+
+class OrientationRun
+{
+public:
+  OrientationRun(const TriangleSurface& surface, const SurfaceEdges& edges)
+    : Surface(surface)
+    , Edges(edges)
+    , Signs(surface.NumberOfTriangles)
+    , Patches(surface.NumberOfTriangles)
+  {
+  }
+
+  OrientedBodies Run(Index* triangles, Progress& progress)
+  {
+    if (!this->FindPatches(progress))
+    {
+      return { false, {} };
+    }
+    this->Turns.assign(this->Areas.size(), 1);
+    this->Roots.resize(this->Areas.size());
+    std::iota(this->Roots.begin(), this->Roots.end(), Index{ 0 });
+    if (this->Edges.NonManifold() > 0)
+    {
+      this->FindFans(progress);
+      progress.BeginStage(0.9);
+      if (!this->TurnUnbalanced())
+      {
+        return { false, {} };
+      }
+      this->JoinPatches();
+    }
+    progress.BeginStage(1.0, this->Surface.NumberOfTriangles);
+    for (Index i = 0; i < this->Surface.NumberOfTriangles; ++i)
+    {
+      Index& patch = this->Patches.data()[i];
+      if (this->Signs.data()[i] * this->Turns[static_cast<std::size_t>(patch)] < 0)
+      {
+        std::swap(triangles[3 * i + 1], triangles[3 * i + 2]);
+      }
+      patch = this->RootOf(patch);
+      progress.Add(1);
+    }
+    return { true, std::move(this->Patches) };
+  }
+
+private:
+  // Numbers the patches and orients each by most of its area.
+  bool FindPatches(Progress& progress)
+  {
+    const Index count = this->Surface.NumberOfTriangles;
+    LargeBuffer<Index> queueMemory(count);
+    Index* queue = queueMemory.data();
+    std::fill_n(this->Signs.data(), count, static_cast<signed char>(0));
+    progress.BeginStage(0.8, count);
+    for (Index start = 0; start < count; ++start)
+    {
+      if (this->Signs.data()[start] != 0)
+      {
+        continue;
+      }
+      Index end = 0;
+      const auto enter = [&](Index triangle, signed char sign) {
+        this->Signs.data()[triangle] = sign;
+        this->Patches.data()[triangle] = static_cast<Index>(this->Areas.size());
+        queue[end++] = triangle;
+      };
+      enter(start, 1);
+      double area = 0.0; // of triangles oriented as the first one, less that of the others
+      for (Index next = 0; next < end; ++next)
+      {
+        const Index triangle = queue[next];
+        const signed char sign = this->Signs.data()[triangle];
+        area += sign * this->AreaOf(triangle);
+        for (Index side = 3 * triangle; side < 3 * triangle + 3; ++side)
+        {
+          const Index other = this->Edges.Other(side);
+          if (other < 0)
+          {
+            continue;
+          }
+          const bool same = this->Surface.Triangles[side] != this->Surface.Triangles[other];
+          const auto wanted = static_cast<signed char>(same ? sign : -sign);
+          if (this->Signs.data()[other / 3] == 0)
+          {
+            enter(other / 3, wanted);
+          }
+          else if (this->Signs.data()[other / 3] != wanted)
+          {
+            return false;
+          }
+        }
+        progress.Add(1);
+      }
+      if (area < 0.0)
+      {
+        std::for_each(queue, queue + end, [this](Index triangle) {
+          this->Signs.data()[triangle] = static_cast<signed char>(-this->Signs.data()[triangle]);
+        });
+      }
+      this->Areas.push_back(std::abs(area));
+      const auto isTurned = [this](Index triangle) { return this->Signs.data()[triangle] < 0; };
+      this->IsMended.push_back(std::any_of(queue, queue + end, isTurned));
+    }
+    return true;
+  }
+
+  double AreaOf(Index triangle) const
+  {
+    const Index* ids = this->Surface.Triangles + 3 * triangle;
+    const double* a = this->Surface.Points[ids[0]];
+    const Vector n =
+      cross(between(a, this->Surface.Points[ids[1]]), between(a, this->Surface.Points[ids[2]]));
+    return std::hypot(n[0], n[1], n[2]);
+  }
+
+  // The sides at edges of more than two, by edges.
+  void FindFans(Progress& progress)
+  {
+    progress.BeginStage(0.85, this->Surface.NumberOfTriangles);
+    for (Index side = 0; side < 3 * this->Surface.NumberOfTriangles; ++side)
+    {
+      if (this->Edges.Other(side) < 0)
+      {
+        const Index from = this->Surface.Triangles[side];
+        const Index to = this->Surface.Triangles[side % 3 == 2 ? side - 2 : side + 1];
+        this->Fans.push_back({ std::min(from, to), std::max(from, to), side, 0.0 });
+      }
+      progress.Add(side % 3 == 2 ? 1 : 0);
+    }
+    std::sort(this->Fans.begin(), this->Fans.end(), [](const FanSide& a, const FanSide& b) {
+      return std::array<Index, 3>{ a.Low, a.High, a.Side } <
+        std::array<Index, 3>{ b.Low, b.High, b.Side };
+    });
+  }
+
+  // Calls visit(begin, end) for the sides of each edge.
+  template <class Visit>
+  void ForFans(const Visit& visit)
+  {
+    FanSide* end = this->Fans.data() + this->Fans.size();
+    for (FanSide* begin = this->Fans.data(); begin < end;)
+    {
+      FanSide* next = std::find_if(begin, end, [begin](const FanSide& side) {
+        return side.Low != begin->Low || side.High != begin->High;
+      });
+      visit(begin, next);
+      begin = next;
+    }
+  }
+
+  Index PatchOf(const FanSide& side) const { return this->Patches.data()[side.Side / 3]; }
+
+  // 1 where the triangle, as its patch is oriented, passes the edge from the lower to the higher
+  // end, else -1.
+  int DirectionOf(const FanSide& side) const
+  {
+    const int sign = this->Signs.data()[side.Side / 3];
+    return this->Surface.Triangles[side.Side] == side.Low ? sign : -sign;
+  }
+
+  // Trees of patches.
+  Index RootOf(Index patch)
+  {
+    Index* roots = this->Roots.data();
+    while (roots[patch] != patch)
+    {
+      roots[patch] = roots[roots[patch]];
+      patch = roots[patch];
+    }
+    return patch;
+  }
+  void Join(Index a, Index b)
+  {
+    a = this->RootOf(a);
+    b = this->RootOf(b);
+    this->Roots[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+  // Joins patches into bodies that are closed each: at an edge those that pass it one way with as
+  // many that pass it the other way, of the same body where there are such.
+  void JoinPatches()
+  {
+    std::iota(this->Roots.begin(), this->Roots.end(), Index{ 0 });
+    this->ForFans([&](FanSide* begin, FanSide* end) {
+      std::vector<std::array<Index, 2>> sums; // of roots
+      for (const FanSide* side = begin; side < end; ++side)
+      {
+        const Index patch = this->PatchOf(*side);
+        const Index way = this->DirectionOf(*side) * this->Turns[static_cast<std::size_t>(patch)];
+        sums.push_back({ this->RootOf(patch), way });
+      }
+      std::sort(sums.begin(), sums.end());
+      // What is left of each body, in one direction.
+      std::vector<std::array<Index, 2>> left;
+      for (const std::array<Index, 2>& sum : sums)
+      {
+        if (!left.empty() && left.back()[0] == sum[0] && left.back()[1] == -sum[1])
+        {
+          left.pop_back();
+        }
+        else
+        {
+          left.push_back(sum);
+        }
+      }
+      this->JoinOpposite(left);
+    });
+  }
+
+  void JoinOpposite(std::vector<std::array<Index, 2>>& left)
+  {
+    std::vector<Index> ways[2];
+    for (const std::array<Index, 2>& side : left)
+    {
+      ways[side[1] > 0 ? 0 : 1].push_back(side[0]);
+    }
+    for (std::size_t i = 0; i < std::min(ways[0].size(), ways[1].size()); ++i)
+    {
+      this->Join(ways[0][i], ways[1][i]);
+    }
+  }
+
+  // Turns the patches of those groups that do not agree.
+  bool TurnUnbalanced()
+  {
+    this->ForFans([&](const FanSide* begin, const FanSide* end) {
+      for (const FanSide* side = begin + 1; side < end; ++side)
+      {
+        this->Join(this->PatchOf(*begin), this->PatchOf(*side));
+      }
+    });
+    this->Groups.assign(this->Roots.size(), Group::Agrees);
+    this->ForFans([&](const FanSide* begin, const FanSide* end) {
+      Group& group = this->GroupOf(this->PatchOf(*begin));
+      const int sum = std::accumulate(begin, end, 0,
+        [this](int before, const FanSide& side) { return before + this->DirectionOf(side); });
+      const bool isMended = std::any_of(begin, end, [this](const FanSide& side) {
+        return this->IsMended[static_cast<std::size_t>(this->PatchOf(side))];
+      });
+      group = std::max(group,
+        sum != 0     ? Group::Unbalanced
+          : isMended ? Group::Mended
+                     : Group::Agrees);
+    });
+    std::vector<Relation> relations;
+    this->ForFans([&](FanSide* begin, FanSide* end) {
+      if (this->GroupOf(this->PatchOf(*begin)) != Group::Agrees)
+      {
+        this->RelateFan(begin, end, relations);
+      }
+    });
+    return this->TurnAsRelated(relations);
+  }
+
+  // Patches that are joined by edges.
+  enum class Group
+  {
+    Agrees, // as given
+    Mended, // as each patch is oriented alone
+    Unbalanced
+  };
+
+  Group& GroupOf(Index patch)
+  {
+    return this->Groups[static_cast<std::size_t>(this->RootOf(patch))];
+  }
+
+  // What the order of angles about an edge asks of its patches.
+  void RelateFan(FanSide* begin, FanSide* end, std::vector<Relation>& relations)
+  {
+    this->SortByAngles(begin, end);
+    const auto relate = [&](const FanSide& a, const FanSide& b) {
+      const int same = -this->DirectionOf(a) * this->DirectionOf(b);
+      relations.push_back({ this->PatchOf(a), this->PatchOf(b), same });
+      relations.push_back({ this->PatchOf(b), this->PatchOf(a), same });
+    };
+    // Pairs at one angle face each other, whatever is beside them.
+    std::vector<FanSide> single;
+    for (const FanSide* side = begin; side < end; ++side)
+    {
+      constexpr double rounding = 1e-9;
+      if (side + 1 < end && side[1].Angle - side[0].Angle < rounding)
+      {
+        relate(side[0], side[1]);
+        ++side;
+        continue;
+      }
+      single.push_back(*side);
+    }
+    for (std::size_t i = 1; i < single.size(); ++i)
+    {
+      relate(single[i - 1], single[i]);
+    }
+  }
+
+  // By angles from the first side's triangle on, in [0, 2 pi).
+  void SortByAngles(FanSide* begin, FanSide* end) const
+  {
+    const double* low = this->Surface.Points[begin->Low];
+    const Vector along = between(low, this->Surface.Points[begin->High]);
+    const double length = std::sqrt(dot(along, along));
+    Vector across{}; // of the first
+    Vector normal{};
+    for (FanSide* side = begin; side < end; ++side)
+    {
+      const Index* ids = this->Surface.Triangles + side->Side / 3 * 3;
+      const Index third = ids[(side->Side % 3 + 2) % 3];
+      const Vector out = between(low, this->Surface.Points[third]);
+      if (side == begin)
+      {
+        normal = cross(along, out);
+        across = cross(normal, along);
+        const double a = std::hypot(across[0], across[1], across[2]);
+        const double n = std::hypot(normal[0], normal[1], normal[2]);
+        std::transform(
+          across.begin(), across.end(), across.begin(), [a](double x) { return x / a; });
+        std::transform(
+          normal.begin(), normal.end(), normal.begin(), [n](double x) { return x / n; });
+      }
+      side->Angle = length > 0.0 ? std::atan2(dot(out, normal), dot(out, across)) : 0.0;
+      constexpr double rounding = 1e-9;
+      side->Angle += side->Angle < -rounding ? 2.0 * std::acos(-1.0) : 0.0;
+    }
+    std::sort(begin, end, [](const FanSide& a, const FanSide& b) {
+      return a.Angle != b.Angle ? a.Angle < b.Angle : a.Side < b.Side;
+    });
+  }
+
+  // Chooses the turns of all related patches. Where relations disagree, as where a surface passes
+  // through itself, patches stay as they are; returns false if these are not balanced.
+  bool TurnAsRelated(std::vector<Relation>& relations)
+  {
+    std::sort(relations.begin(), relations.end(),
+      [](const Relation& a, const Relation& b) { return a.Patch < b.Patch; });
+    std::vector<bool> isFound(this->Areas.size(), false);
+    std::vector<Index> queue;
+    for (const Relation& start : relations)
+    {
+      if (isFound[static_cast<std::size_t>(start.Patch)])
+      {
+        continue;
+      }
+      queue.assign(1, start.Patch);
+      isFound[static_cast<std::size_t>(start.Patch)] = true;
+      double area = 0.0;
+      bool agrees = true;
+      for (std::size_t next = 0; next < queue.size(); ++next)
+      {
+        const auto patch = static_cast<std::size_t>(queue[next]);
+        area += this->Turns[patch] * this->Areas[patch];
+        auto relation = std::lower_bound(relations.begin(), relations.end(), queue[next],
+          [](const Relation& a, Index b) { return a.Patch < b; });
+        for (; relation != relations.end() && relation->Patch == queue[next]; ++relation)
+        {
+          const auto other = static_cast<std::size_t>(relation->Other);
+          const int wanted = relation->Same * this->Turns[patch];
+          agrees = agrees && (!isFound[other] || this->Turns[other] == wanted);
+          if (!isFound[other])
+          {
+            isFound[other] = true;
+            this->Turns[other] = wanted;
+            queue.push_back(relation->Other);
+          }
+        }
+      }
+      if (!agrees && this->GroupOf(start.Patch) == Group::Unbalanced)
+      {
+        return false;
+      }
+      for (const Index patch : queue)
+      {
+        int& turn = this->Turns[static_cast<std::size_t>(patch)];
+        turn = agrees ? (area < 0.0 ? -turn : turn) : 1;
+      }
+    }
+    return true;
+  }
+
+  const TriangleSurface& Surface;
+  const SurfaceEdges& Edges;
+  LargeBuffer<signed char> Signs; // of triangles: 1 as given, -1 opposite
+  LargeBuffer<Index> Patches;     // of triangles
+  std::vector<double> Areas;      // of patches, of the triangles that agree less the others
+  std::vector<bool> IsMended;     // of patches: there are others
+  std::vector<FanSide> Fans;
+  std::vector<int> Turns;    // of patches: 1 as oriented alone, -1 opposite
+  std::vector<Group> Groups; // of the roots while patches are joined by edges
+  std::vector<Index> Roots;  // of patches: another one of the same body, or itself
+};
+
+} // namespace
+
+OrientedBodies orientBodies(const TriangleSurface& surface, const SurfaceEdges& edges,
+  std::int64_t* triangles, const Context& context)
+{
+  Progress progress(context);
+  return OrientationRun(surface, edges).Run(triangles, progress);
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles that a surface has more than once.
+#ifndef RectifiedTransport_RepeatedTriangles_h
+#define RectifiedTransport_RepeatedTriangles_h
+
+#include "Core/Mesh/SurfaceEdges.h"
+#include "Core/Mesh/TriangleSurface.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// Triangles of the same three points; each has three edges of more than two triangles. Which to
+// drop, in three ways, in ascending order.
+struct RepeatedTriangles
+{
+  // Those of one direction count once, and those of opposite directions cancel each other: faces
+  // that two solids share.
+  std::vector<std::int64_t> ByDirection;
+  // One stays of an odd number of them, and none of an even number: the same, turned at random.
+  std::vector<std::int64_t> ByNumber;
+  // One stays: polygons that are there twice.
+  std::vector<std::int64_t> AllButOne;
+
+  std::array<std::vector<std::int64_t>, 3> Ways() const
+  {
+    return { this->ByDirection, this->ByNumber, this->AllButOne };
+  }
+};
+
+// O(n log n) of the triangles with such edges only.
+RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdges& edges);
+
+// Writes the triangles that stay, which may be to their own memory; returns their number.
+std::int64_t dropTriangles(
+  const TriangleSurface& surface, const std::vector<std::int64_t>& dropped, std::int64_t* kept);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a closed surface encloses of the cells of a grid, each place as often as its winding number
+// says, exactly.
+#ifndef RectifiedTransport_SignedVolumes_h
+#define RectifiedTransport_SignedVolumes_h
+
+#include "Core/Geometry/GridSize.h"
+#include "Core/Geometry/LatticePart.h"
+#include "Core/Solid/SurfaceCuts.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// A sum of doubles up to about 1, that does not depend on their order: each is rounded to a
+// multiple of 2^-72, and these are added as integers. Good for 2^27 of them and more.
+// OrderlessSum{} is 0.
+class OrderlessSum
+{
+public:
+  void Add(double value)
+  {
+    const double scaled = value * Unit;
+    const auto high = static_cast<std::int64_t>(scaled);
+    this->High += high;
+    this->Low += static_cast<std::int64_t>((scaled - static_cast<double>(high)) * Unit);
+  }
+  void Add(const OrderlessSum& other)
+  {
+    this->High += other.High;
+    this->Low += other.Low;
+  }
+  double Value() const
+  {
+    return (static_cast<double>(this->High) + static_cast<double>(this->Low) / Unit) / Unit;
+  }
+
+private:
+  static constexpr double Unit = 0x1p36;
+  std::int64_t High;
+  std::int64_t Low;
+};
+
+// The volumes in a layer of cells, by the divergence theorem: over a piece of a triangle within one
+// cell stands a prism along axis 0, up to the end of the row. Its volume in the piece's own cell is
+// the piece's area, projected along axis 0, times its mean distance from the cell's end; in each
+// later cell of the row it is the area. With the sign of the piece's side these add up to what
+// is enclosed. The error is that of rounding, about 1e-15 of a cell, and no part is too thin.
+class SignedVolumes
+{
+public:
+  // Of the rows of a part; each row has all cells along axis 0.
+  SignedVolumes(const GridSize<3>& cells, const LatticePart<3>& part);
+
+  // Forgets all; then the layer is `layer`.
+  void Begin(std::int64_t layer);
+  // Adds `weight` times what is before a triangle of an outward side. Triangles beyond the grid
+  // along axis 0 count as on its border; their parts beyond it along the other axes do not count.
+  void Add(const std::array<Corner, 3>& triangle, int weight);
+
+  // Whether a triangle has a part in a row, counted from the part's first.
+  bool HasRow(std::int64_t row) const { return this->Used[static_cast<std::size_t>(row)] != 0; }
+  // Writes the volumes of all cells of such a row; those that `rounding` times the areas before a
+  // cell's end may have made of 0 or 1 are that.
+  void WriteRow(std::int64_t row, double rounding, double* volumes) const;
+
+private:
+  struct CellSums
+  {
+    OrderlessSum Own;    // of prisms that begin in the cell
+    OrderlessSum Beyond; // areas of prisms that begin in the cell before
+    std::int64_t Areas;  // of prisms that begin in the cell, in units, without their signs
+  };
+
+  static constexpr double AreaUnit = 0x1p-40;
+
+  void AddToRow(std::int64_t row, const CutPolygon& polygon, double weight);
+  CellSums* RowOf(std::int64_t row);
+
+  std::int64_t Columns;
+  std::int64_t Rows; // of the grid
+  std::int64_t FirstRow;
+  std::int64_t NumberOfRows; // of the part
+  double Layer = 0.0;
+  std::vector<unsigned char> Used;
+  std::unique_ptr<CellSums[]> Sums; // Columns + 1 a row; of rows that are used
+};
+
+} // namespace RectifiedTransport
+
+#endif

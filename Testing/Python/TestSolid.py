@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solids that others bring: thin parts, edges of four triangles, seams of rounding, open surfaces; and that
+what the error advises closes them."""
+import os
+import unittest
+
+import numpy as np
+from rt_testing import SOURCE, Listener, load_plugin, main, output_of, producer
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonComputationalGeometry import (vtkParametricEllipsoid, vtkParametricKlein,
+                                                       vtkParametricSuperToroid, vtkParametricTorus)
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkMassProperties, vtkTriangleFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkParametricFunctionSource, vtkTexturedSphereSource
+
+simple = load_plugin()
+
+
+def box(*bounds):
+    source = vtkCubeSource()
+    source.SetBounds(*bounds)
+    source.SetOutputPointsPrecision(1)
+    source.Update()
+    return source.GetOutput()
+
+
+def together(*surfaces):
+    append = vtkAppendPolyData()
+    append.SetOutputPointsPrecision(1)
+    for surface in surfaces:
+        append.AddInputData(surface)
+    append.Update()
+    return append.GetOutput()
+
+
+def parametric(function, count=50):
+    source = vtkParametricFunctionSource()
+    source.SetParametricFunction(function)
+    source.SetUResolution(count)
+    source.SetVResolution(count)
+    source.Update()
+    return source.GetOutput()
+
+
+def voxels(labels):
+    """An image with these values on its cells."""
+    image = vtkImageData()
+    image.SetDimensions(*(n + 1 for n in labels.shape[::-1]))
+    array = numpy_to_vtk(np.ascontiguousarray(labels.astype(np.uint8)).ravel(), deep=1)
+    array.SetName("Label")
+    image.GetCellData().SetScalars(array)
+    return producer(simple, image)
+
+
+def volume(source, **properties):
+    solid = simple.SolidDensity(Input=source, **properties)
+    image = output_of(solid)
+    values = vtk_to_numpy(image.GetPointData().GetArray("Density"))
+    assert values.min() >= 0 and values.max() <= 1
+    return values.sum() * np.prod(image.GetSpacing())
+
+
+def by_triangles(source):
+    """The volume by vtkMassProperties, which takes triangles as they are."""
+    source.UpdatePipeline()
+    triangles = vtkTriangleFilter()
+    triangles.SetInputData(source.GetClientSideObject().GetOutputDataObject(0))
+    mass = vtkMassProperties()
+    mass.SetInputConnection(triangles.GetOutputPort())
+    mass.Update()
+    return mass.GetVolume()
+
+
+class Solids(unittest.TestCase):
+    def check(self, source, right, relative=1e-9, **properties):
+        self.assertLess(abs(volume(source, **properties) / right - 1), relative)
+
+    def test_beams_plates_and_rods(self):
+        """The sides are exact in float."""
+        for sides in ((10, 1, 1), (1, 10, 1), (10, 3, .5), (7, 1, 1.25), (1, 1, 1), (8, 8, 2**-10),
+                      (8, 2**-10, 8), (2**-10, 8, 8), (8, 2**-12, 2**-11), (2**-12, 8, 2**-11),
+                      (2**-12, 2**-11, 8)):
+            for options in ({}, dict(Resolution=1, Padding=0), dict(Supersampling=1, Resolution=7)):
+                source = simple.Box(XLength=sides[0], YLength=sides[1], ZLength=sides[2])
+                self.check(source, np.prod(sides), **options)
+        for thin in (1e-3, 1e-6, 1e-8):
+            for axis in range(3):
+                high = [1.0, 1.0, 1.0]
+                high[axis] = thin
+                self.check(producer(simple, box(0, high[0], 0, high[1], 0, high[2])), thin, 1e-7)
+
+    def test_profiles_of_beams(self):
+        flange, web = box(0, 10, 0, 10, 1, 1.02), box(0, 10, 4.99, 5.01, -5, 1)
+        self.check(producer(simple, together(flange, web)), 2 + 10 * .02 * 6)
+        profile = [(0, 0), (10, 0), (10, .02), (5.01, .02), (5.01, 6), (4.99, 6), (4.99, .02), (0, .02)]
+        points = vtkPoints()
+        for x, y in profile:
+            points.InsertNextPoint(x, y, 0)
+        face = vtkCellArray()
+        face.InsertNextCell(len(profile))
+        for i in range(len(profile)):
+            face.InsertCellPoint(i)
+        outline = vtkPolyData()
+        outline.SetPoints(points)
+        outline.SetPolys(face)
+        beam = simple.LinearExtrusion(Input=producer(simple, outline), Vector=[0, 0, 1], ScaleFactor=20)
+        self.check(beam, 20 * (10 * .02 + .02 * 5.98), 1e-5)
+        # Overlapping ones are sampled where they overlap.
+        self.check(producer(simple, together(box(0, 1, 0, 10, 0, 5), box(0, 5, 0, 10, 0, 1))), 90, .01)
+
+    def test_voxels_that_touch(self):
+        for seed in range(5):
+            random = np.random.default_rng(seed)
+            labels = random.random((6, 5, 7)) < .2 + .15 * seed
+            parts = simple.Threshold(Input=voxels(labels), Scalars=["CELLS", "Label"],
+                                     LowerThreshold=1, UpperThreshold=1)
+            self.check(simple.ExtractSurface(Input=parts), labels.sum(), 1e-12)
+
+    def test_two_labels_that_share_faces(self):
+        labels = np.random.default_rng(8).integers(0, 3, (5, 5, 5))
+        surfaces = [simple.ExtractSurface(Input=simple.Threshold(
+            Input=voxels(labels), Scalars=["CELLS", "Label"], LowerThreshold=label, UpperThreshold=label))
+            for label in (1, 2)]
+        self.check(simple.AppendGeometry(Input=surfaces), (labels > 0).sum(), 1e-12)
+
+    def test_contours_at_values_of_the_data(self):
+        for seed in range(4):
+            values = np.pad(np.random.default_rng(seed).integers(0, 4, (7, 7, 7)), 1)
+            image = vtkImageData()
+            image.SetDimensions(*values.shape)
+            array = numpy_to_vtk(values.astype(float).ravel(), deep=1)
+            array.SetName("Value")
+            image.GetPointData().SetScalars(array)
+            contour = simple.Contour(Input=producer(simple, image), ContourBy=["POINTS", "Value"],
+                                     Isosurfaces=[1 + seed % 3])
+            self.check(contour, by_triangles(contour), 1e-5)
+
+    def test_seams(self):
+        torus, ellipsoid = vtkParametricTorus(), vtkParametricEllipsoid()
+        self.check(producer(simple, parametric(torus, 200)), .5 * np.pi**2, 1e-3)
+        self.check(producer(simple, parametric(ellipsoid, 200)), 4 / 3 * np.pi, 1e-3)
+        textured = vtkTexturedSphereSource()
+        textured.SetThetaResolution(40)
+        textured.SetPhiResolution(30)
+        textured.Update()
+        surfaces = [producer(simple, data) for data in (
+            parametric(torus), parametric(ellipsoid), parametric(vtkParametricSuperToroid()), textured.GetOutput())]
+        for source in surfaces:
+            self.check(source, by_triangles(source), 1e-5)
+            # Turned in float, both ends of the seam are rounded anew.
+            turned = simple.Transform(Input=source)
+            turned.Transform.Rotate = [31, 47, 12]
+            self.check(turned, by_triangles(source), 1e-5)
+            turned.Transform.Translate = [100, -50, 20]
+            self.check(turned, by_triangles(source), 1e-4)
+
+    def test_extrusions(self):
+        plane = simple.Plane(Origin=[1, 0, 0], Point1=[2, 0, 0], Point2=[1, 0, 1])
+        for angle in (90, 360):
+            ring = simple.RotationalExtrusion(Input=plane, Resolution=100, Angle=angle)
+            self.check(ring, 3 * np.pi * angle / 360, 1e-2)
+        self.check(simple.LinearExtrusion(Input=simple.a3DText(Text="8g&"), Vector=[0, 0, 1]),
+                   by_triangles(simple.LinearExtrusion(Input=simple.a3DText(Text="8g&"), Vector=[0, 0, 1])), 1e-5)
+
+    def message(self, source):
+        solid = simple.SolidDensity(Input=source)
+        reported = Listener(solid.GetClientSideObject())
+        self.assertEqual(output_of(solid).GetNumberOfPoints(), 0)
+        return reported.errors[0].strip().splitlines()[-1]
+
+    def test_klein_bottle(self):
+        self.assertIn("open edges", self.message(producer(simple, parametric(vtkParametricKlein()))))
+
+    def test_what_the_error_advises(self):
+        """Word by word: each closes the surface."""
+        ball = simple.Sphere(ThetaResolution=30, PhiResolution=30)
+        half = simple.ExtractSurface(Input=simple.Clip(Input=ball, ClipType="Plane"))
+        message = self.message(half)
+        self.assertIn("112 open edges", message)
+        right = .5 * by_triangles(ball)
+        self.assertIn("Clip Closed Surface in place of Clip", message)
+        self.check(simple.ClipClosedSurface(Input=ball), right, 1e-5)
+        self.assertIn("Delaunay 3D and Extract Surface for the convex hull", message)
+        self.check(simple.ExtractSurface(Input=simple.Delaunay3D(Input=half)), right, 1e-3)
+        self.assertIn("vtkFillHolesFilter in a Programmable Filter", message)
+        # The script of the page.
+        with open(os.path.join(SOURCE, "Documentation", "SolidDensity.md"), encoding="utf-8") as page:
+            script = page.read().split('Script="""')[1].split('"""')[0]
+        self.check(simple.ProgrammableFilter(Input=half, Script=script), right, 1e-5)
+        self.assertIn("Capping of sources and extrusions", message)
+        self.assertIn("open edges", self.message(simple.Cylinder(Capping=0)))
+        self.check(simple.Cylinder(Capping=1), by_triangles(simple.Cylinder()), 1e-6)
+        self.assertIn("open edges", self.message(simple.Plane()))
+        self.check(simple.LinearExtrusion(Input=simple.Plane(), Vector=[0, 0, 1], Capping=1), 1, 1e-6)
+        self.assertIn("Clean with a Tolerance where seams gape", message)
+        soup = self.soup(1e-5)
+        self.assertIn("open edges", self.message(soup))
+        self.check(simple.Clean(Input=soup, Tolerance=1e-3), by_triangles(ball), 1e-3)
+
+    @staticmethod
+    def soup(gap):
+        """A sphere of triangles that do not quite meet."""
+        ball = output_of(simple.Sphere(ThetaResolution=30, PhiResolution=30))
+        random = np.random.default_rng(1)
+        points, faces = vtkPoints(), vtkCellArray()
+        for face in vtk_to_numpy(ball.GetPolys().GetConnectivityArray()).reshape(-1, 3):
+            faces.InsertNextCell(3)
+            for point in face:
+                faces.InsertCellPoint(points.InsertNextPoint(
+                    np.array(ball.GetPoint(point)) + random.uniform(-gap, gap, 3)))
+        surface = vtkPolyData()
+        surface.SetPoints(points)
+        surface.SetPolys(faces)
+        return producer(simple, surface)
+
+
+if __name__ == "__main__":
+    main()
