@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/RegionCoverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+RegionCoverage::RegionCoverage(const GridSlab<2>& slab)
+  : Slab(slab)
+  , Shares(static_cast<std::size_t>((slab.Last - slab.First) * slab.Size[0]), Share{ 0.0, 0.0 })
+  , Rows(static_cast<std::size_t>(slab.Last - slab.First), Row{ slab.Size[0], -1, 0.0 })
+  , FirstRow(slab.Last)
+  , LastRow(slab.First - 1)
+{
+}
+
+void RegionCoverage::Add(const Point<2>& from, const Point<2>& to)
+{
+  if (from[1] == to[1])
+  {
+    return;
+  }
+  // From the lower end, so that an edge there and back adds nothing.
+  const bool isUp = from[1] < to[1];
+  const Point<2>& low = isUp ? from : to;
+  const Point<2>& high = isUp ? to : from;
+  const double begin = std::max(low[1], static_cast<double>(this->Slab.First));
+  const double end = std::min(high[1], static_cast<double>(this->Slab.Last));
+  if (!(begin < end))
+  {
+    return;
+  }
+  const double slope = (high[0] - low[0]) / (high[1] - low[1]);
+  const double left = std::min(low[0], high[0]);
+  const double right = std::max(low[0], high[0]);
+  const auto at = [&](double y) {
+    return y == high[1] ? high[0] : std::clamp(low[0] + (y - low[1]) * slope, left, right);
+  };
+  const auto first = static_cast<std::int64_t>(std::floor(begin));
+  double y = begin;
+  double x = at(begin);
+  for (std::int64_t row = first; y < end; ++row)
+  {
+    const double nextY = std::min(static_cast<double>(row + 1), end);
+    const double nextX = at(nextY);
+    this->AddInRow(row, x, nextX, isUp ? y - nextY : nextY - y);
+    x = nextX;
+    y = nextY;
+  }
+}
+
+// Of an edge's part in a row of cells, which has the region above `from` and `to` where its height
+// is positive.
+void RegionCoverage::AddInRow(std::int64_t row, double from, double to, double height)
+{
+  const auto width = static_cast<double>(this->Slab.Size[0]);
+  Row& rowSpan = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
+  Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+  const double low = std::min(from, to);
+  const double high = std::max(from, to);
+  this->FirstRow = std::min(this->FirstRow, row);
+  this->LastRow = std::max(this->LastRow, row);
+  rowSpan.Heights += std::abs(height);
+  if (low >= width)
+  {
+    rowSpan.Last = this->Slab.Size[0] - 1;
+    return;
+  }
+  const auto add = [&](std::int64_t cell, double part, double toRight) {
+    shares[cell].Area += part * toRight;
+    shares[cell].Height += part;
+  };
+  const double perLength = high > low ? height / (high - low) : 0.0;
+  if (low < 0.0)
+  {
+    add(0, high <= 0.0 ? height : -low * perLength, 1.0);
+  }
+  const double begin = std::max(low, 0.0);
+  const double end = std::min(high, width);
+  const std::int64_t first = static_cast<std::int64_t>(begin);
+  const std::int64_t last =
+    std::min(static_cast<std::int64_t>(std::max(end, 0.0)), this->Slab.Size[0] - 1);
+  rowSpan.First = std::min(rowSpan.First, first);
+  rowSpan.Last = std::max(rowSpan.Last, last);
+  if (high < 0.0 || (high <= 0.0 && low < 0.0))
+  {
+    return;
+  }
+  if (first == last)
+  {
+    const double part = low == begin && high == end ? height : (end - begin) * perLength;
+    add(first, part, static_cast<double>(first + 1) - 0.5 * (begin + end));
+    return;
+  }
+  const double inFirst = static_cast<double>(first + 1) - begin;
+  add(first, inFirst * perLength, 0.5 * inFirst);
+  for (std::int64_t cell = first + 1; cell < last; ++cell)
+  {
+    add(cell, perLength, 0.5);
+  }
+  const double inLast = end - static_cast<double>(last);
+  add(last, inLast * perLength, 1.0 - 0.5 * inLast);
+}
+
+void RegionCoverage::Finish(double value)
+{
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  for (std::int64_t row = this->FirstRow; row <= this->LastRow; ++row)
+  {
+    Row& span = this->Rows[static_cast<std::size_t>(row - this->Slab.First)];
+    Share* shares = this->Shares.data() + (row - this->Slab.First) * this->Slab.Size[0];
+    double* sums = this->Slab.Sums + row * this->Slab.Size[0];
+    // Cells outside must have nothing at all, else particles might be put there.
+    const double tolerance = rounding * span.Heights;
+    double height = 0.0;
+    for (std::int64_t cell = span.First; cell <= span.Last; ++cell)
+    {
+      const double covered = height + shares[cell].Area;
+      height += shares[cell].Height;
+      shares[cell] = { 0.0, 0.0 };
+      if (covered > tolerance)
+      {
+        sums[cell] += value * (covered < 1.0 - tolerance ? covered : 1.0);
+      }
+    }
+    span = { this->Slab.Size[0], -1, 0.0 };
+  }
+  this->FirstRow = this->Slab.Last;
+  this->LastRow = this->Slab.First - 1;
+}
+
+} // namespace RectifiedTransport

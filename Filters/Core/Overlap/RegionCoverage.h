@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What regions between straight edges cover of each cell of a plane grid, exactly but for rounding.
+#ifndef RectifiedTransport_RegionCoverage_h
+#define RectifiedTransport_RegionCoverage_h
+
+#include "Core/Overlap/Overlap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+// For one thread. Each edge adds the area to its right, with a sign, in the cells that it crosses,
+// and its height to all that are farther right: O(cells that edges cross + cells between them).
+class RegionCoverage
+{
+public:
+  explicit RegionCoverage(const GridSlab<2>& slab);
+
+  // In index space, the region on the left. Edges may be beyond the grid.
+  void Add(const Point<2>& from, const Point<2>& to);
+  // Adds to the slab's sums the value times the area that the edges since the last call are around
+  // once.
+  void Finish(double value);
+
+private:
+  struct Share
+  {
+    double Area;   // of this cell
+    double Height; // the part of each cell to the right
+  };
+  struct Row
+  {
+    std::int64_t First;
+    std::int64_t Last;
+    double Heights; // of all edges
+  };
+
+  void AddInRow(std::int64_t row, double from, double to, double height);
+
+  const GridSlab<2> Slab;
+  std::vector<Share> Shares;
+  std::vector<Row> Rows;
+  std::int64_t FirstRow;
+  std::int64_t LastRow;
+};
+
+} // namespace RectifiedTransport
+
+#endif

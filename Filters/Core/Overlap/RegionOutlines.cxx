@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/RegionOutlines.h"
+
+#include "Core/Overlap/RingSweep.h"
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::int64_t nobody = -1;
+
+// The edges that reach each of equal rows of a plane.
+class EdgeRows
+{
+public:
+  explicit EdgeRows(const Rings& rings)
+    : All(rings)
+    , Low(rings.At(0)[1])
+  {
+    double high = this->Low;
+    double lengths = 0.0;
+    for (std::int64_t i = 0; i < rings.Edges(); ++i)
+    {
+      this->Low = std::min(this->Low, rings.At(i)[1]);
+      high = std::max(high, rings.At(i)[1]);
+      lengths += std::abs(rings.At(rings.Next(i))[1] - rings.At(i)[1]);
+    }
+    const double height = high - this->Low;
+    const auto count = static_cast<double>(rings.Edges());
+    const double rows =
+      lengths > 0.0 ? std::clamp(2.0 * count * height / lengths, 1.0, count) : 1.0;
+    this->PerLength = height > 0.0 ? rows / height : 0.0;
+    this->Begin.assign(static_cast<std::size_t>(rows) + 3, 0);
+    this->VisitEdges([this](std::size_t row, std::int64_t) { ++this->Begin[row + 2]; });
+    for (std::size_t row = 2; row < this->Begin.size(); ++row)
+    {
+      this->Begin[row] += this->Begin[row - 1];
+    }
+    this->Sorted.resize(this->Begin.back());
+    this->VisitEdges([this](std::size_t row, std::int64_t edge) {
+      this->Sorted[this->Begin[row + 1]++] = static_cast<std::int32_t>(edge);
+    });
+  }
+
+  // The rings that have the first point of an edge inside, but for its own.
+  std::vector<std::int64_t> RingsAround(std::int64_t point) const
+  {
+    const NumberedPoint p = this->All.Numbered(point);
+    const std::size_t row = this->RowOf(p.X);
+    std::vector<std::int64_t> around;
+    for (std::size_t i = this->Begin[row]; i < this->Begin[row + 1]; ++i)
+    {
+      const std::int64_t edge = this->Sorted[i];
+      const std::int64_t ring = this->All.RingOf(edge);
+      NumberedPoint low = this->All.Numbered(edge);
+      NumberedPoint high = this->All.Numbered(this->All.Next(edge));
+      if (ring == this->All.RingOf(point) || isAbove(low, p) == isAbove(high, p))
+      {
+        continue;
+      }
+      if (isAbove(low, high))
+      {
+        std::swap(low, high);
+      }
+      if (!turnsLeft(low, high, p))
+      {
+        toggle(around, ring);
+      }
+    }
+    return around;
+  }
+
+  static void toggle(std::vector<std::int64_t>& rings, std::int64_t ring)
+  {
+    const auto found = std::find(rings.begin(), rings.end(), ring);
+    if (found == rings.end())
+    {
+      rings.push_back(ring);
+    }
+    else
+    {
+      rings.erase(found);
+    }
+  }
+
+private:
+  std::size_t RowOf(const Point<2>& x) const
+  {
+    return static_cast<std::size_t>((x[1] - this->Low) * this->PerLength);
+  }
+
+  template <class Visit>
+  void VisitEdges(const Visit& visit) const
+  {
+    for (std::int64_t edge = 0; edge < this->All.Edges(); ++edge)
+    {
+      const std::size_t a = this->RowOf(this->All.At(edge));
+      const std::size_t b = this->RowOf(this->All.At(this->All.Next(edge)));
+      for (std::size_t row = std::min(a, b); row <= std::max(a, b); ++row)
+      {
+        visit(row, edge);
+      }
+    }
+  }
+
+  const Rings& All;
+  double Low;
+  double PerLength;
+  std::vector<std::size_t> Begin;
+  std::vector<std::int32_t> Sorted;
+};
+
+// The point where two edges cross, the same for both; where they lie on each other some point of
+// both.
+Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
+{
+  const Point<2>& a = rings.At(pair.First);
+  const Point<2>& b = rings.At(rings.Next(pair.First));
+  const Point<2>& c = rings.At(pair.Second);
+  const Point<2>& d = rings.At(rings.Next(pair.Second));
+  double error = 0.0;
+  const double before = doubleArea(a, b, c, error);
+  const double after = doubleArea(a, b, d, error);
+  const double part = before / (before - after);
+  Point<2> x;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double low = std::max(std::min(a[axis], b[axis]), std::min(c[axis], d[axis]));
+    const double high = std::min(std::max(a[axis], b[axis]), std::max(c[axis], d[axis]));
+    const double along = c[axis] + part * (d[axis] - c[axis]);
+    x[axis] = std::isfinite(along) ? std::min(std::max(along, low), high) : 0.5 * (low + high);
+  }
+  return x;
+}
+
+class OutlineWalk
+{
+public:
+  OutlineWalk(const Rings& rings, const std::vector<double>& values, Progress& progress)
+    : All(rings)
+    , Values(values)
+    , Stop(progress)
+  {
+    for (std::int64_t ring = 0; ring < rings.Count(); ++ring)
+    {
+      this->Areas.push_back(std::abs(windingArea(rings, ring)));
+    }
+    constexpr std::int64_t few = 64; // compared sooner than swept
+    if (rings.Edges() > few && !haveCrossings(rings, progress))
+    {
+      return;
+    }
+    for (const EdgePair& pair : findCrossings(rings, progress))
+    {
+      const Point<2> x = crossingOf(rings, pair);
+      this->AddCrossing(pair.First, pair.Second, x);
+      this->AddCrossing(pair.Second, pair.First, x);
+    }
+    std::sort(
+      this->Crossings.begin(), this->Crossings.end(), [](const Crossing& p, const Crossing& q) {
+        return p.Edge != q.Edge ? p.Edge < q.Edge
+          : p.Along != q.Along  ? p.Along < q.Along
+                                : p.Other < q.Other;
+      });
+  }
+
+  std::vector<OutlineEdge> Run()
+  {
+    this->Found.reserve(static_cast<std::size_t>(this->All.Edges()));
+    if (this->All.Count() == 1)
+    {
+      this->Walk(0, {});
+      return std::move(this->Found);
+    }
+    const EdgeRows rows(this->All);
+    for (std::int64_t ring = 0; ring < this->All.Count() && !this->Stop.ShouldStop(); ++ring)
+    {
+      if (this->All.Begin(ring + 1) > this->All.Begin(ring))
+      {
+        this->Walk(ring, rows.RingsAround(this->TopOf(ring)));
+      }
+    }
+    std::stable_sort(this->Found.begin(), this->Found.end(),
+      [](const OutlineEdge& p, const OutlineEdge& q) { return p.Ring < q.Ring; });
+    return std::move(this->Found);
+  }
+
+private:
+  struct Crossing
+  {
+    std::int64_t Edge;
+    double Along;
+    std::int64_t Other; // edge
+    Point<2> X;
+  };
+
+  void AddCrossing(std::int64_t edge, std::int64_t other, const Point<2>& x)
+  {
+    const Point<2>& a = this->All.At(edge);
+    const Point<2>& b = this->All.At(this->All.Next(edge));
+    const double along = (x[0] - a[0]) * (b[0] - a[0]) + (x[1] - a[1]) * (b[1] - a[1]);
+    this->Crossings.push_back({ edge, along, other, x });
+  }
+
+  std::int64_t TopOf(std::int64_t ring) const
+  {
+    std::int64_t top = this->All.Begin(ring);
+    for (std::int64_t i = top + 1; i < this->All.Begin(ring + 1); ++i)
+    {
+      top = isAbove(this->All.Numbered(i), this->All.Numbered(top)) ? i : top;
+    }
+    return top;
+  }
+
+  // The ring whose region has a place that is inside of these rings.
+  std::int64_t OwnerOf(const std::vector<std::int64_t>& around) const
+  {
+    if (around.size() % 2 == 0)
+    {
+      return nobody;
+    }
+    std::int64_t owner = nobody;
+    for (const std::int64_t ring : around)
+    {
+      const double value = this->Values[static_cast<std::size_t>(ring)];
+      const auto same = std::count_if(around.begin(), around.end(),
+        [&](std::int64_t other) { return this->Values[static_cast<std::size_t>(other)] == value; });
+      const bool isSmaller = owner == nobody || this->AreaOf(ring) < this->AreaOf(owner) ||
+        (this->AreaOf(ring) == this->AreaOf(owner) && ring > owner);
+      owner = same % 2 == 1 && isSmaller ? ring : owner;
+    }
+    return owner;
+  }
+
+  double AreaOf(std::int64_t ring) const { return this->Areas[static_cast<std::size_t>(ring)]; }
+
+  // Along a ring from its top, whose left and right are inside of `others`, and one of them of the
+  // ring itself. Each crossing changes what both sides are inside of.
+  void Walk(std::int64_t ring, std::vector<std::int64_t> others)
+  {
+    const std::int64_t top = this->TopOf(ring);
+    const std::int64_t begin = this->All.Begin(ring);
+    const std::int64_t end = this->All.Begin(ring + 1);
+    const std::int64_t before = top == begin ? end - 1 : top - 1;
+    bool isInLeft = turnsLeft(
+      this->All.Numbered(top), this->All.Numbered(this->All.Next(top)), this->All.Numbered(before));
+    std::int64_t left = nobody;
+    std::int64_t right = nobody;
+    const auto findOwners = [&]() {
+      std::vector<std::int64_t> both = others;
+      both.push_back(ring);
+      left = this->OwnerOf(isInLeft ? both : others);
+      right = this->OwnerOf(isInLeft ? others : both);
+    };
+    findOwners();
+    std::int64_t edge = top;
+    do
+    {
+      const Point<2>* from = &this->All.At(edge);
+      for (auto crossing = this->FirstOn(edge);
+           crossing != this->Crossings.end() && crossing->Edge == edge; ++crossing)
+      {
+        this->AddPiece(edge, *from, crossing->X, left, right);
+        from = &crossing->X;
+        const std::int64_t other = this->All.RingOf(crossing->Other);
+        if (other == ring)
+        {
+          isInLeft = !isInLeft;
+        }
+        else
+        {
+          EdgeRows::toggle(others, other);
+        }
+        findOwners();
+      }
+      this->AddPiece(edge, *from, this->All.At(this->All.Next(edge)), left, right);
+      edge = this->All.Next(edge);
+    } while (edge != top);
+  }
+
+  std::vector<Crossing>::const_iterator FirstOn(std::int64_t edge) const
+  {
+    return std::lower_bound(this->Crossings.begin(), this->Crossings.end(), edge,
+      [](const Crossing& crossing, std::int64_t number) { return crossing.Edge < number; });
+  }
+
+  void AddPiece(std::int64_t edge, const Point<2>& from, const Point<2>& to, std::int64_t left,
+    std::int64_t right)
+  {
+    if (left == right || from == to)
+    {
+      return;
+    }
+    const auto number = static_cast<std::int32_t>(edge);
+    if (left != nobody)
+    {
+      this->Found.push_back({ from, to, number, static_cast<std::int32_t>(left) });
+    }
+    if (right != nobody)
+    {
+      this->Found.push_back({ to, from, number, static_cast<std::int32_t>(right) });
+    }
+  }
+
+  const Rings& All;
+  const std::vector<double>& Values;
+  Progress& Stop;
+  std::vector<double> Areas; // that rings wind around
+  std::vector<Crossing> Crossings;
+  std::vector<OutlineEdge> Found;
+};
+
+} // namespace
+
+std::vector<OutlineEdge> regionOutlines(
+  const Rings& rings, const std::vector<double>& values, Progress& progress)
+{
+  if (rings.Edges() < 3)
+  {
+    return {};
+  }
+  return OutlineWalk(rings, values, progress).Run();
+}
+
+RegionSize sizeOfRegion(const OutlineEdge* first, const OutlineEdge* last)
+{
+  RegionSize size;
+  if (first == last)
+  {
+    return size;
+  }
+  const Point<2> origin = first->From;
+  for (const OutlineEdge* edge = first; edge != last; ++edge)
+  {
+    const Point<2> a{ edge->From[0] - origin[0], edge->From[1] - origin[1] };
+    const Point<2> b{ edge->To[0] - origin[0], edge->To[1] - origin[1] };
+    const double area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    size.Area += area;
+    size.Centroid[0] += area * (a[0] + b[0]) / 3.0;
+    size.Centroid[1] += area * (a[1] + b[1]) / 3.0;
+  }
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    size.Centroid[axis] = origin[axis] + (size.Area > 0.0 ? size.Centroid[axis] / size.Area : 0.0);
+  }
+  size.Area = std::max(size.Area, 0.0);
+  return size;
+}
+
+double windingArea(const Rings& rings, std::int64_t ring)
+{
+  double area = 0.0;
+  for (std::int64_t i = rings.Begin(ring); i < rings.Begin(ring + 1); ++i)
+  {
+    const Point<2>& origin = rings.At(rings.Begin(ring));
+    const Point<2>& a = rings.At(i);
+    const Point<2>& b = rings.At(rings.Next(i));
+    area +=
+      0.5 * ((a[0] - origin[0]) * (b[1] - origin[1]) - (a[1] - origin[1]) * (b[0] - origin[0]));
+  }
+  return area;
+}
+
+} // namespace RectifiedTransport

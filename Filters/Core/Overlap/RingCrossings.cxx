@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/RingCrossings.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr std::size_t lanes = 8;
+constexpr std::size_t comparedAll = 64;   // edges: fewer are not put into bins
+constexpr std::size_t dividedAgain = 384; // edges of a bin
+constexpr int mostDivisions = 4;
+constexpr double recordsPerEdge = 4.0; // about
+
+struct Box
+{
+  Point<2> Low;
+  Point<2> High;
+
+  double Length(int axis) const { return this->High[axis] - this->Low[axis]; }
+};
+
+class CrossingSearch
+{
+public:
+  CrossingSearch(const Rings& rings, Progress& progress)
+    : All(rings)
+    , Stop(progress)
+  {
+  }
+
+  void Search(const std::vector<std::int32_t>& edges, const Box& box, int divisions)
+  {
+    if (edges.size() <= comparedAll || divisions >= mostDivisions)
+    {
+      this->Compare(edges.data(), edges.size());
+      return;
+    }
+    this->SearchBins(edges, box, divisions);
+  }
+
+  std::vector<EdgePair> Take()
+  {
+    const auto isLess = [](const EdgePair& a, const EdgePair& b) {
+      return a.First != b.First ? a.First < b.First : a.Second < b.Second;
+    };
+    std::sort(this->Found.begin(), this->Found.end(), isLess);
+    this->Found.erase(std::unique(this->Found.begin(), this->Found.end(),
+                        [](const EdgePair& a, const EdgePair& b) {
+                          return a.First == b.First && a.Second == b.Second;
+                        }),
+      this->Found.end());
+    return std::move(this->Found);
+  }
+
+private:
+  // Equal bins over a box.
+  struct Bins
+  {
+    Point<2> Low;
+    Point<2> Width;
+    std::array<std::int64_t, 2> Size;
+
+    std::int64_t At(int axis, double x) const
+    {
+      const double bin = (x - this->Low[axis]) / this->Width[axis];
+      return static_cast<std::int64_t>(
+        std::clamp(bin, 0.0, static_cast<double>(this->Size[axis] - 1)));
+    }
+    Box Of(std::size_t bin) const
+    {
+      const auto number = static_cast<std::int64_t>(bin);
+      Box box;
+      for (int a = 0; a < 2; ++a)
+      {
+        const std::int64_t place = a == 0 ? number % this->Size[0] : number / this->Size[0];
+        box.Low[a] = this->Low[a] + static_cast<double>(place) * this->Width[a];
+        box.High[a] = box.Low[a] + this->Width[a];
+      }
+      return box;
+    }
+  };
+
+  // About as wide and high as the edges are, and as many as these.
+  Bins BinsFor(const std::vector<std::int32_t>& edges, const Box& box) const
+  {
+    const auto count = static_cast<double>(edges.size());
+    Point<2> lengths{ 0.0, 0.0 };
+    for (const std::int32_t edge : edges)
+    {
+      const Point<2>& a = this->All.At(edge);
+      const Point<2>& b = this->All.At(this->All.Next(edge));
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        lengths[axis] += std::min(std::abs(b[axis] - a[axis]), box.Length(axis));
+      }
+    }
+    Point<2> most;
+    for (int a = 0; a < 2; ++a)
+    {
+      most[a] = std::clamp(0.5 * recordsPerEdge * count * box.Length(a) / lengths[a], 1.0, count);
+      most[a] = box.Length(a) > 0.0 ? most[a] : 1.0;
+    }
+    const double tooMany = std::max(1.0, std::sqrt(most[0] * most[1] / count));
+    Bins bins{ box.Low, {}, {} };
+    for (int a = 0; a < 2; ++a)
+    {
+      const double size = std::clamp(std::floor(most[a] / tooMany), 1.0, count);
+      bins.Size[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(size);
+      bins.Width[a] = box.Length(a) > 0.0 ? box.Length(a) / size : 1.0;
+    }
+    return bins;
+  }
+
+  // Calls visit(bin) for those that an edge reaches, and some beside them.
+  template <class Visit>
+  void VisitBins(const Bins& bins, std::int32_t edge, const Visit& visit) const
+  {
+    constexpr double slack = 1e-6; // of a bin
+    const Point<2>* a = &this->All.At(edge);
+    const Point<2>* b = &this->All.At(this->All.Next(edge));
+    if ((*a)[1] > (*b)[1])
+    {
+      std::swap(a, b);
+    }
+    const Point<2> margin{ slack * bins.Width[0], slack * bins.Width[1] };
+    const double slope = ((*b)[0] - (*a)[0]) / ((*b)[1] - (*a)[1]);
+    const double low = std::min((*a)[0], (*b)[0]);
+    const double high = std::max((*a)[0], (*b)[0]);
+    const std::int64_t first = bins.At(1, (*a)[1] - margin[1]);
+    const std::int64_t last = bins.At(1, (*b)[1] + margin[1]);
+    for (std::int64_t row = first; row <= last; ++row)
+    {
+      double from = low;
+      double to = high;
+      if (first != last && high - low > bins.Width[0])
+      {
+        const double y = bins.Low[1] + static_cast<double>(row) * bins.Width[1];
+        const double under =
+          row == first ? (*a)[0] : (*a)[0] + (std::max(y - margin[1], (*a)[1]) - (*a)[1]) * slope;
+        const double over = row == last
+          ? (*b)[0]
+          : (*a)[0] + (std::min(y + bins.Width[1] + margin[1], (*b)[1]) - (*a)[1]) * slope;
+        from = std::max(low, std::min(under, over));
+        to = std::min(high, std::max(under, over));
+      }
+      const std::int64_t end = bins.At(0, to + margin[0]);
+      for (std::int64_t i = bins.At(0, from - margin[0]); i <= end; ++i)
+      {
+        visit(static_cast<std::size_t>(row * bins.Size[0] + i));
+      }
+    }
+  }
+
+  void SearchBins(const std::vector<std::int32_t>& edges, const Box& box, int divisions)
+  {
+    const Bins bins = this->BinsFor(edges, box);
+    struct Record
+    {
+      std::uint32_t Bin;
+      std::int32_t Edge;
+    };
+    std::vector<Record> records;
+    records.reserve(edges.size() * static_cast<std::size_t>(recordsPerEdge));
+    std::vector<std::size_t> begin(static_cast<std::size_t>(bins.Size[0] * bins.Size[1]) + 2, 0);
+    for (const std::int32_t edge : edges)
+    {
+      this->VisitBins(bins, edge, [&](std::size_t bin) {
+        records.push_back({ static_cast<std::uint32_t>(bin), edge });
+        ++begin[bin + 2];
+      });
+    }
+    for (std::size_t bin = 2; bin < begin.size(); ++bin)
+    {
+      begin[bin] += begin[bin - 1];
+    }
+    std::vector<std::int32_t> sorted(records.size());
+    for (const Record& record : records)
+    {
+      sorted[begin[record.Bin + 1]++] = record.Edge;
+    }
+    for (std::size_t bin = 0; bin + 2 < begin.size() && !this->ShouldStop(); ++bin)
+    {
+      const std::size_t count = begin[bin + 1] - begin[bin];
+      const std::int32_t* first = sorted.data() + begin[bin];
+      const Box part = count > dividedAgain ? this->BoxWithin(bins.Of(bin), first, count) : box;
+      const bool isMuchSmaller = 4.0 * part.Length(0) < box.Length(0) + box.Length(1) &&
+        4.0 * part.Length(1) < box.Length(0) + box.Length(1);
+      if (isMuchSmaller)
+      {
+        this->Search({ first, first + count }, part, divisions + 1);
+      }
+      else
+      {
+        this->Compare(first, count);
+      }
+    }
+  }
+
+  // The bounds of what edges have within a box.
+  Box BoxWithin(const Box& box, const std::int32_t* edges, std::size_t count) const
+  {
+    Box within{ box.High, box.Low };
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (const std::int64_t end : { std::int64_t{ edges[i] }, this->All.Next(edges[i]) })
+      {
+        for (int a = 0; a < 2; ++a)
+        {
+          const double x = std::clamp(this->All.At(end)[a], box.Low[a], box.High[a]);
+          within.Low[a] = std::min(within.Low[a], x);
+          within.High[a] = std::max(within.High[a], x);
+        }
+      }
+    }
+    return within;
+  }
+
+  // Compares all with all.
+  void Compare(const std::int32_t* edges, std::size_t count)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::vector<double>& values : this->Ends)
+    {
+      values.resize((count + lanes - 1) / lanes * lanes);
+    }
+    Box box{ { infinity, infinity }, { -infinity, -infinity } };
+    for (std::size_t i = 0; i < this->Ends[0].size(); ++i)
+    {
+      const std::int32_t edge = edges[std::min(i, count - 1)];
+      const Point<2>& a = this->All.At(edge);
+      const Point<2>& b = this->All.At(this->All.Next(edge));
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        this->Ends[static_cast<std::size_t>(axis)][i] = a[axis];
+        this->Ends[static_cast<std::size_t>(2 + axis)][i] = b[axis];
+        box.Low[axis] = std::min({ box.Low[axis], a[axis], b[axis] });
+        box.High[axis] = std::max({ box.High[axis], a[axis], b[axis] });
+      }
+    }
+    const double extent = std::max(box.Length(0), box.Length(1));
+    for (std::size_t i = 0; i + 1 < count && !this->ShouldStop(); ++i)
+    {
+      this->CompareWithLater(edges, count, i, extent);
+    }
+  }
+
+  void CompareWithLater(const std::int32_t* edges, std::size_t count, std::size_t i, double extent)
+  {
+    const double* ax = this->Ends[0].data();
+    const double* ay = this->Ends[1].data();
+    const double* bx = this->Ends[2].data();
+    const double* by = this->Ends[3].data();
+    const double x = ax[i];
+    const double y = ay[i];
+    const double dx = bx[i] - x;
+    const double dy = by[i] - y;
+    const double error =
+      8.0 * std::numeric_limits<double>::epsilon() * extent * (std::abs(dx) + std::abs(dy));
+    for (std::size_t first = i / lanes * lanes; first < count; first += lanes)
+    {
+      std::array<double, lanes> beside; // how far both ends are on one side
+      for (std::size_t l = 0; l < lanes; ++l)
+      {
+        const std::size_t j = first + l;
+        const double from = dx * (ay[j] - y) - dy * (ax[j] - x);
+        const double to = dx * (by[j] - y) - dy * (bx[j] - x);
+        beside[l] = std::max(std::min(from, to), std::min(-from, -to));
+      }
+      for (std::size_t l = 0; l < lanes; ++l)
+      {
+        const std::size_t j = first + l;
+        if (!(beside[l] > error) && j > i && j < count)
+        {
+          this->CompareTwo(edges[i], edges[j]);
+        }
+      }
+      this->Compared += static_cast<std::int64_t>(lanes);
+    }
+  }
+
+  void CompareTwo(std::int32_t i, std::int32_t j)
+  {
+    const std::int64_t endOfI = this->All.Next(i);
+    const std::int64_t endOfJ = this->All.Next(j);
+    if (endOfI == j || endOfJ == i)
+    {
+      return;
+    }
+    const NumberedPoint a = this->All.Numbered(i);
+    const NumberedPoint b = this->All.Numbered(endOfI);
+    const NumberedPoint c = this->All.Numbered(j);
+    const NumberedPoint d = this->All.Numbered(endOfJ);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      if (std::max(a.X[axis], b.X[axis]) < std::min(c.X[axis], d.X[axis]) ||
+        std::max(c.X[axis], d.X[axis]) < std::min(a.X[axis], b.X[axis]))
+      {
+        return;
+      }
+    }
+    if (doCross(a, b, c, d))
+    {
+      this->Found.push_back({ std::min(i, j), std::max(i, j) });
+    }
+  }
+
+  bool ShouldStop()
+  {
+    constexpr std::int64_t betweenPolls = std::int64_t{ 1 } << 16;
+    if (++this->Compared > betweenPolls)
+    {
+      this->Compared = 0;
+      this->Stopped = this->Stopped || this->Stop.ShouldStop();
+    }
+    return this->Stopped;
+  }
+
+  const Rings& All;
+  Progress& Stop;
+  std::int64_t Compared = 0; // since the last poll
+  bool Stopped = false;
+  std::array<std::vector<double>, 4> Ends; // of the edges to compare
+  std::vector<EdgePair> Found;
+};
+
+} // namespace
+
+void Rings::EndRing()
+{
+  const std::int64_t begin = this->Begins.back();
+  const auto ring = static_cast<std::int32_t>(this->Count());
+  for (std::int64_t i = begin; i < this->Edges(); ++i)
+  {
+    this->Nexts.push_back(static_cast<std::int32_t>(i + 1 < this->Edges() ? i + 1 : begin));
+    this->Owners.push_back(ring);
+  }
+  this->Begins.push_back(this->Edges());
+}
+
+void Rings::Reserve(std::int64_t points)
+{
+  this->Points.reserve(Index(points));
+  this->Nexts.reserve(Index(points));
+  this->Owners.reserve(Index(points));
+}
+
+std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress)
+{
+  if (rings.Edges() < 4)
+  {
+    return {};
+  }
+  Box box{ rings.At(0), rings.At(0) };
+  std::vector<std::int32_t> edges;
+  edges.reserve(static_cast<std::size_t>(rings.Edges()));
+  for (std::int64_t i = 0; i < rings.Edges(); ++i)
+  {
+    const Point<2>& x = rings.At(i);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      box.Low[axis] = std::min(box.Low[axis], x[axis]);
+      box.High[axis] = std::max(box.High[axis], x[axis]);
+    }
+    edges.push_back(static_cast<std::int32_t>(i));
+  }
+  CrossingSearch search(rings, progress);
+  search.Search(edges, box, 0);
+  return search.Take();
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Closed rings of straight edges in a plane, and where their edges cross.
+#ifndef RectifiedTransport_RingCrossings_h
+#define RectifiedTransport_RingCrossings_h
+
+#include "Core/Overlap/ExactOrientation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Edge i begins at point i.
+class Rings
+{
+public:
+  // The point belongs to the ring that the next EndRing ends.
+  void Add(const Point<2>& x) { this->Points.push_back(x); }
+  void EndRing();
+  void Reserve(std::int64_t points);
+
+  std::int64_t Count() const { return static_cast<std::int64_t>(this->Begins.size()) - 1; }
+  std::int64_t Edges() const { return static_cast<std::int64_t>(this->Points.size()); }
+  // Of a ring, and the end of the last.
+  std::int64_t Begin(std::int64_t ring) const { return this->Begins[Index(ring)]; }
+  std::int64_t Next(std::int64_t point) const { return this->Nexts[Index(point)]; }
+  std::int64_t RingOf(std::int64_t point) const { return this->Owners[Index(point)]; }
+  const Point<2>& At(std::int64_t point) const { return this->Points[Index(point)]; }
+  NumberedPoint Numbered(std::int64_t point) const { return { this->At(point), point }; }
+
+private:
+  static std::size_t Index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+  std::vector<Point<2>> Points;
+  std::vector<std::int32_t> Nexts;
+  std::vector<std::int32_t> Owners;
+  std::vector<std::int64_t> Begins{ 0 };
+};
+
+struct EdgePair
+{
+  std::int64_t First;
+  std::int64_t Second;
+};
+
+// The pairs of edges that cross, each once, in order; edges that touch or lie on each other cross
+// or do not as the points' infinitesimals say. In a time linear in the edges, where these do not
+// lie close together over lengths that differ much. Incomplete where `progress` says to stop.
+std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Overlap/RingSweep.h"
+
+#include "Core/Parallel/Progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Edges = std::vector<std::int32_t>;
+
+// Edges from left to right, in blocks, so that one more moves few of the others.
+class EdgeOrder
+{
+public:
+  struct Place
+  {
+    std::size_t Block;
+    std::size_t Index; // in it; its size only at the end of all
+  };
+
+  // The first for which isLeft is false.
+  template <class IsLeft>
+  Place Find(const IsLeft& isLeft) const
+  {
+    if (this->Blocks.empty())
+    {
+      return { 0, 0 };
+    }
+    const auto block = std::partition_point(this->Blocks.begin() + 1, this->Blocks.end(),
+                         [&](const Edges& edges) { return isLeft(edges.front()); }) -
+      1;
+    const auto index = std::partition_point(block->begin(), block->end(), isLeft) - block->begin();
+    return this->Normal(
+      { static_cast<std::size_t>(block - this->Blocks.begin()), static_cast<std::size_t>(index) });
+  }
+
+  static constexpr std::int32_t nothing = -1;
+
+  std::int32_t At(const Place& place) const
+  {
+    return place.Block < this->Blocks.size() && place.Index < this->Blocks[place.Block].size()
+      ? this->Blocks[place.Block][place.Index]
+      : nothing;
+  }
+  std::int32_t Before(const Place& place) const
+  {
+    return place.Index > 0 ? this->Blocks[place.Block][place.Index - 1]
+      : place.Block > 0    ? this->Blocks[place.Block - 1].back()
+                           : nothing;
+  }
+  std::int32_t After(const Place& place) const
+  {
+    return this->At(this->Normal({ place.Block, place.Index + 1 }));
+  }
+
+  void Replace(const Place& place, std::int32_t edge)
+  {
+    this->Blocks[place.Block][place.Index] = edge;
+  }
+
+  // The next edge is then at the returned place.
+  Place Erase(const Place& place)
+  {
+    Edges& block = this->Blocks[place.Block];
+    block.erase(block.begin() + static_cast<std::ptrdiff_t>(place.Index));
+    if (block.empty())
+    {
+      this->Blocks.erase(this->Blocks.begin() + static_cast<std::ptrdiff_t>(place.Block));
+      return this->Normal({ place.Block, 0 });
+    }
+    return this->Normal(place);
+  }
+
+  void InsertTwo(const Place& place, std::int32_t first, std::int32_t second)
+  {
+    constexpr std::size_t most = 512;
+    if (this->Blocks.empty())
+    {
+      this->Blocks.emplace_back();
+    }
+    const std::size_t number = std::min(place.Block, this->Blocks.size() - 1);
+    Edges& block = this->Blocks[number];
+    const std::size_t index = number == place.Block ? place.Index : block.size();
+    const std::int32_t both[2] = { first, second };
+    block.insert(block.begin() + static_cast<std::ptrdiff_t>(index), both, both + 2);
+    if (block.size() > most)
+    {
+      const auto middle = block.begin() + static_cast<std::ptrdiff_t>(most / 2);
+      Edges half(middle, block.end());
+      block.erase(middle, block.end());
+      this->Blocks.insert(
+        this->Blocks.begin() + static_cast<std::ptrdiff_t>(number) + 1, std::move(half));
+    }
+  }
+
+private:
+  // Behind the last of a block is the first of the next.
+  Place Normal(const Place& place) const
+  {
+    return place.Block + 1 < this->Blocks.size() && place.Index >= this->Blocks[place.Block].size()
+      ? Place{ place.Block + 1, 0 }
+      : place;
+  }
+
+  std::vector<Edges> Blocks; // none is empty
+};
+
+class Sweep
+{
+public:
+  explicit Sweep(const Rings& rings)
+    : All(rings)
+  {
+    const auto count = static_cast<std::size_t>(rings.Edges());
+    this->Before.resize(count);
+    this->Upward.resize(count);
+    for (std::int32_t i = 0; i < rings.Edges(); ++i)
+    {
+      const NumberedPoint a = rings.Numbered(i);
+      const NumberedPoint b = rings.Numbered(rings.Next(i));
+      this->Upward[static_cast<std::size_t>(i)] =
+        isAbove(a, b) ? Ends{ b.X, a.X } : Ends{ a.X, b.X };
+      this->Before[static_cast<std::size_t>(rings.Next(i))] = i;
+    }
+  }
+
+  bool Run(Progress& progress)
+  {
+    constexpr std::size_t betweenPolls = std::size_t{ 1 } << 14;
+    const std::vector<Height> heights = this->SortedHeights();
+    for (std::size_t i = 0; i < heights.size(); ++i)
+    {
+      if (i % betweenPolls == 0 && progress.ShouldStop())
+      {
+        return false;
+      }
+      if (this->Pass(heights[i].Number))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  struct Height
+  {
+    double Y;
+    std::int32_t Number;
+  };
+
+  std::vector<Height> SortedHeights() const
+  {
+    std::vector<Height> heights;
+    heights.reserve(static_cast<std::size_t>(this->All.Edges()));
+    for (std::int32_t i = 0; i < this->All.Edges(); ++i)
+    {
+      heights.push_back({ this->All.At(i)[1], i });
+    }
+    std::sort(heights.begin(), heights.end(), [](const Height& a, const Height& b) {
+      return a.Y != b.Y ? a.Y < b.Y : a.Number > b.Number;
+    });
+    return heights;
+  }
+
+  // Of an edge.
+  struct Ends
+  {
+    Point<2> Low;
+    Point<2> High;
+  };
+
+  bool IsLeftOf(std::int32_t edge, const NumberedPoint& point) const
+  {
+    const Ends& ends = this->Upward[static_cast<std::size_t>(edge)];
+    double error = 0.0;
+    const double area = doubleArea(ends.Low, ends.High, point.X, error);
+    if (std::abs(area) > error)
+    {
+      return area < 0.0;
+    }
+    NumberedPoint low = this->All.Numbered(edge);
+    NumberedPoint high = this->All.Numbered(this->All.Next(edge));
+    if (isAbove(low, high))
+    {
+      std::swap(low, high);
+    }
+    return !turnsLeft(low, high, point);
+  }
+
+  bool DoTwoCross(std::int32_t i, std::int32_t j) const
+  {
+    if (i == EdgeOrder::nothing || j == EdgeOrder::nothing || this->All.Next(i) == j ||
+      this->All.Next(j) == i)
+    {
+      return false;
+    }
+    return doCross(this->All.Numbered(i), this->All.Numbered(this->All.Next(i)),
+      this->All.Numbered(j), this->All.Numbered(this->All.Next(j)));
+  }
+
+  // Moves the line past a point; returns whether there is a crossing.
+  bool Pass(std::int32_t number)
+  {
+    const NumberedPoint point = this->All.Numbered(number);
+    const std::int32_t in = this->Before[static_cast<std::size_t>(number)];
+    const std::int32_t out = number;
+    const bool doesInEnd = isAbove(point, this->All.Numbered(in));
+    const bool doesOutEnd = isAbove(point, this->All.Numbered(this->All.Next(out)));
+    EdgeOrder::Place place = this->Order.Find([&](std::int32_t edge) {
+      if (edge == in || edge == out)
+      {
+        return false;
+      }
+      return this->IsLeftOf(edge, point);
+    });
+    const std::int32_t left = this->Order.Before(place);
+    if (!doesInEnd && !doesOutEnd)
+    {
+      const std::int32_t right = this->Order.At(place);
+      const bool isOutRight =
+        turnsLeft(point, this->All.Numbered(this->All.Next(out)), this->All.Numbered(in));
+      this->Order.InsertTwo(place, isOutRight ? in : out, isOutRight ? out : in);
+      return this->DoTwoCross(left, isOutRight ? in : out) ||
+        this->DoTwoCross(isOutRight ? out : in, right);
+    }
+    const std::int32_t found = this->Order.At(place);
+    if (doesInEnd && doesOutEnd)
+    {
+      const std::int32_t next = this->Order.After(place);
+      if (!((found == in && next == out) || (found == out && next == in)))
+      {
+        return true; // they are in another order than where they began
+      }
+      place = this->Order.Erase(this->Order.Erase(place));
+      return this->DoTwoCross(left, this->Order.At(place));
+    }
+    if (found != (doesInEnd ? in : out))
+    {
+      return true;
+    }
+    const std::int32_t begun = doesInEnd ? out : in;
+    this->Order.Replace(place, begun);
+    return this->DoTwoCross(left, begun) || this->DoTwoCross(begun, this->Order.After(place));
+  }
+
+  const Rings& All;
+  Edges Before; // of each point, the edge that ends there
+  std::vector<Ends> Upward;
+  EdgeOrder Order;
+};
+
+} // namespace
+
+bool haveCrossings(const Rings& rings, Progress& progress)
+{
+  return rings.Edges() > 3 && Sweep(rings).Run(progress);
+}
+
+} // namespace RectifiedTransport
