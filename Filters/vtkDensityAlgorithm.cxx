@@ -258,10 +258,12 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   ResampledDensity& made = this->Internals->Resampled[number];
   made.Update(
     blocks, onPoints, dimension, this->DensityResolution, this->GetDensityRules(), progress);
-  if (made.CellsLeftOut() > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
+  for (const std::string& warning : made.Warnings())
   {
-    vtkWarningMacro(<< made.CellsLeftOut()
-                    << " cells of the input could not be divided into simplices and carry no mass");
+    if (!this->GetRanks() || this->GetRanks()->Own() == 0)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   auto density = std::make_unique<DensityImage>(made.Image(), made.Array(), made.IsOnPoints(),
     made.IsResampled() ? DensityRules() : this->GetDensityRules());

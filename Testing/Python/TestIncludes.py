@@ -20,7 +20,7 @@ CORE = {
     "Relaxation": {"Parallel", "Algebra", "Geometry", "Tables", "Flow", "PowerCells"},
     "Seeds": {"Parallel", "Geometry"},
     "Splat": {"Parallel", "Geometry"},
-    "Overlap": {"Geometry"},
+    "Overlap": {"Parallel", "Geometry"},
     "Solid": {"Parallel", "Geometry", "Mesh"},
     "Parameterization": {"Parallel", "Algebra", "Geometry", "Mesh", "Tables", "Flow"},
     "SurfaceSampling": {"Parallel", "Geometry", "Mesh", "Tables", "Flow", "Seeds",

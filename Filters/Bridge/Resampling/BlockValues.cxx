@@ -41,6 +41,8 @@ BlockValues BlockValues::Only(double value) const
   BlockValues only;
   only.Set = this->Set;
   only.OnPoints = this->OnPoints;
+  only.Cells = this->Cells;
+  only.Open = this->Open;
   const std::int64_t count = this->Density.size();
   withMemory("the values of the " + this->ArrayName,
     static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Counted.size()), [&]() {
@@ -56,8 +58,8 @@ BlockValues BlockValues::Only(double value) const
 class BlockReading
 {
 public:
-  BlockReading(const DensityBlock& block, bool onPoints, int dimension, const DensityRules& rules,
-    Progress& progress)
+  BlockReading(const DensityBlock& block, bool onPoints, const MassCells& cells,
+    const DensityRules& rules, Progress& progress)
     : Name(describeArray(block.Array) + " of the " + block.Name)
     , Array(block.Array)
     , Clamps(rules.ClampNegative && !rules.Invert)
@@ -67,7 +69,8 @@ public:
     this->Read.Set = block.Data;
     this->Read.ArrayName = this->Name;
     this->Read.OnPoints = onPoints;
-    this->FindCounted(block, dimension, progress);
+    this->Read.Cells = cells;
+    this->FindCounted(block, progress);
     this->Reader->SetBlanks(this->Flags.data(), unused);
   }
 
@@ -129,7 +132,7 @@ public:
   BlockValues Take() { return std::move(this->Read); }
 
 private:
-  void FindCounted(const DensityBlock& block, int dimension, Progress& progress)
+  void FindCounted(const DensityBlock& block, Progress& progress)
   {
     vtkDataSet* data = block.Data;
     const unsigned char* cellFlags = ghostFlags(data, vtkDataObject::CELL, block.Name.c_str());
@@ -145,9 +148,14 @@ private:
       {
         progress.Check();
       }
-      if (dimensionOfCellType(data->GetCellType(cell)) != dimension ||
-        (cellFlags && (cellFlags[cell] & ghostCell)))
+      const MassCells& mass = this->Read.Cells;
+      if (!mass.HasDimension(data, cell) || (cellFlags && (cellFlags[cell] & ghostCell)))
       {
+        continue;
+      }
+      if (mass.AreClosedLines && !mass.Find(data, cell, points))
+      {
+        ++this->Read.Open;
         continue;
       }
       bool counts = true;
@@ -160,6 +168,10 @@ private:
         }
       }
       this->Read.Counted[static_cast<std::size_t>(cell)] = counts ? 1 : 0;
+      if (counts && mass.AreClosedLines)
+      {
+        this->Read.MarkAsRegion(cell);
+      }
       if (!counts)
       {
         continue;
@@ -185,7 +197,7 @@ private:
 };
 
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
-  int dimension, const DensityRules& rules, Progress& progress)
+  const MassCells& cells, const DensityRules& rules, Progress& progress)
 {
   std::vector<BlockReading> readings;
   readings.reserve(blocks.size());
@@ -193,7 +205,7 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
   {
     withMemory("the flags of the cells of the " + block.Name,
       static_cast<double>(block.Data->GetNumberOfCells()),
-      [&]() { readings.emplace_back(block, onPoints, dimension, rules, progress); });
+      [&]() { readings.emplace_back(block, onPoints, cells, rules, progress); });
   }
   if (needsWhite(rules, blocks.front().Array->GetNumberOfComponents()))
   {

@@ -5,7 +5,7 @@
 
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Density/UnusualValues.h"
-#include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Resampling/MassCells.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <cstdint>
@@ -36,6 +36,17 @@ public:
   {
     return this->Counted[static_cast<std::size_t>(cell)] != 0;
   }
+  // Counted cells are regions within their outlines, or are divided into simplices and boxes.
+  bool IsRegion(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 2; }
+  bool IsDivided(vtkIdType cell) const
+  {
+    return this->Counted[static_cast<std::size_t>(cell)] == 1;
+  }
+  void MarkAsRegion(vtkIdType cell) { this->Counted[static_cast<std::size_t>(cell)] = 2; }
+  // Whether the cells are closed lines, which are around regions together.
+  bool AreClosedLines() const { return this->Cells.AreClosedLines; }
+  // Lines that are not closed, where the others are around regions.
+  vtkIdType OpenLines() const { return this->Open; }
 
 private:
   friend class BlockReading;
@@ -46,12 +57,14 @@ private:
   UnusualValues Known;
   LargeBuffer<double> Density;
   std::vector<unsigned char> Counted;
+  MassCells Cells;
+  vtkIdType Open = 0;
 };
 
-// Cells count if they have the dimension, and neither they nor their points are blanked. Throws
+// Cells count if they carry mass, and neither they nor their points are blanked. Throws
 // Failure for values of these that are no density, and Cancelled.
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
-  int dimension, const DensityRules& rules, Progress& progress);
+  const MassCells& cells, const DensityRules& rules, Progress& progress);
 
 } // namespace RectifiedTransport
 

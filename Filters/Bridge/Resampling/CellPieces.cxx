@@ -124,8 +124,45 @@ typename CellPieces<D>::Size CellPieces<D>::SizeOf(vtkIdType cell)
       size.Wide += isWideAlongLines(simplex) ? measure : 0.0;
     }
   });
-  size.LeftOut = divided ? 0 : 1;
+  if (!divided)
+  {
+    size = {};
+    size.LeftOut = 1;
+    this->AddBoxAround(cell, size);
+  }
   return size;
+}
+
+// As left out.
+template <int D>
+void CellPieces<D>::AddBoxAround(vtkIdType cell, Size& size)
+{
+  this->Data->GetCellPoints(cell, this->Ids);
+  const vtkIdType count = this->Ids->GetNumberOfIds();
+  Point<D> low;
+  Point<D> high;
+  double value = this->OnPoints ? 0.0 : this->Values[cell];
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double x[3];
+    const vtkIdType point = this->Ids->GetId(i);
+    this->Data->GetPoint(point, x);
+    Point<D> index;
+    this->Grid.template ToIndex<D>(x, index.data());
+    for (int a = 0; a < D; ++a)
+    {
+      low[a] = i == 0 ? index[a] : std::min(low[a], index[a]);
+      high[a] = i == 0 ? index[a] : std::max(high[a], index[a]);
+    }
+    value += this->OnPoints ? this->Values[point] / static_cast<double>(count) : 0.0;
+  }
+  double measure = count > 0 ? 1.0 : 0.0;
+  for (int a = 0; a < D && count > 0; ++a)
+  {
+    measure *= high[a] - low[a];
+  }
+  size.LeftOutMeasure += measure;
+  size.LeftOutIntegral += measure * value;
 }
 
 template <int D>

@@ -38,8 +38,10 @@ public:
   {
     double Integral = 0.0; // of the density
     double Measure = 0.0;
-    double Wide = 0.0;        // of the measure, that of simplices which several lines cross
-    std::int64_t LeftOut = 0; // cells that VTK could not divide into simplices
+    double Wide = 0.0;            // of the measure, that of simplices which several lines cross
+    std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
+    double LeftOutIntegral = 0.0; // at most: of the boxes around these
+    double LeftOutMeasure = 0.0;
   };
   Size SizeOf(vtkIdType cell);
 
@@ -53,6 +55,7 @@ public:
 
 private:
   bool FindBox(vtkIdType cell, MultilinearBox<D>& box);
+  void AddBoxAround(vtkIdType cell, Size& size);
   template <class Visit>
   bool VisitSimplices(vtkIdType cell, const Visit& visit);
 

@@ -5,9 +5,11 @@
 #include "Bridge/Resampling/BlockValues.h"
 #include "Bridge/Resampling/CellPieces.h"
 #include "Bridge/Resampling/MeshSlabs.h"
+#include "Bridge/Resampling/RegionShapes.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Overlap/Overlap.h"
+#include "Core/Overlap/RegionCoverage.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -20,6 +22,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -35,7 +38,8 @@ using Size = typename CellPieces<D>::Size;
 template <int D>
 Size<D> sumOf(const Size<D>& a, const Size<D>& b)
 {
-  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut };
+  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut,
+    a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure };
 }
 
 template <int D>
@@ -52,13 +56,53 @@ Size<D> sizeOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Pr
           Size<D> part;
           for (std::int64_t cell = first; cell < last; ++cell)
           {
-            part = block.IsCounted(cell) ? sumOf<D>(part, pieces.SizeOf(cell)) : part;
+            part = block.IsDivided(cell) ? sumOf<D>(part, pieces.SizeOf(cell)) : part;
           }
           return part;
         },
         sumOf<D>));
   }
   return size;
+}
+
+Size<2> sizeOf(const RegionShape& shape)
+{
+  Size<2> size;
+  const OutlineEdge* end = shape.Edges.data() + shape.Edges.size();
+  for (const OutlineEdge* first = shape.Edges.data(); first != end;)
+  {
+    const std::int32_t ring = first->Ring;
+    const OutlineEdge* last =
+      std::find_if(first, end, [=](const OutlineEdge& edge) { return edge.Ring != ring; });
+    const double area = sizeOfRegion(first, last).Area;
+    size.Measure += area;
+    size.Integral += area * shape.Values[static_cast<std::size_t>(ring)];
+    first = last;
+  }
+  return size;
+}
+
+// Adds what the regions of a batch cover of a slab.
+void addEdges(const RegionBatch& batch, std::int64_t number, const GridSlab<2>& slab)
+{
+  const std::size_t begin = batch.Begin[static_cast<std::size_t>(number)];
+  const std::size_t end = batch.Begin[static_cast<std::size_t>(number) + 1];
+  if (begin == end)
+  {
+    return;
+  }
+  RegionCoverage coverage(slab);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const RegionBatch::Edge& edge = batch.Edges[i];
+    const OutlineEdge& piece = batch.At(edge);
+    coverage.Add(piece.From, piece.To);
+    if (i + 1 == end || !batch.IsSame(edge, batch.Edges[i + 1]))
+    {
+      coverage.Finish(batch.Shapes[static_cast<std::size_t>(edge.Shape)]
+                        .Values[static_cast<std::size_t>(piece.Ring)]);
+    }
+  }
 }
 
 template <int D>
@@ -95,14 +139,85 @@ void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOf
     1);
 }
 
-template <int D>
-double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+// Adds what regions cover, and their sizes.
+void addRegions(const std::vector<BlockValues>& blocks, const MeshSlabs<2>& slabs,
+  const ImageGrid& grid, Progress& progress, double* sums, Size<2>& all)
 {
-  return sizeOf<D>(blocks, grid, progress).Integral;
+  const GridSize<2> size = grid.Size<2>();
+  visitRegions(blocks, grid, slabs, 0.0, progress, [&](const RegionBatch& batch) {
+    for (const RegionShape& shape : batch.Shapes)
+    {
+      all = sumOf<2>(all, sizeOf(shape));
+    }
+    progress.For(
+      slabs.Count, 1,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t s = first; s < last && !progress.ShouldStop(); ++s)
+        {
+          addEdges(
+            batch, s, { size, s * slabs.Planes, std::min((s + 1) * slabs.Planes, size[1]), sums });
+        }
+      },
+      1);
+  });
+}
+
+std::string percent(double part, double whole)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << (whole > 0.0 ? 100.0 * part / whole : 0.0) << " %";
+  return text.str();
 }
 
 template <int D>
-vtkIdType integrate(
+double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+{
+  Size<D> size = sizeOf<D>(blocks, grid, progress);
+  if constexpr (D == 2)
+  {
+    visitRegions(
+      blocks, grid, MeshSlabs<2>(grid.Size<2>()), 0.0, progress, [&](const RegionBatch& batch) {
+        for (const RegionShape& shape : batch.Shapes)
+        {
+          size = sumOf<2>(size, sizeOf(shape));
+        }
+      });
+  }
+  return size.Integral;
+}
+
+template <int D>
+std::vector<std::string> warningsOf(const Size<D>& size, const std::vector<BlockValues>& blocks)
+{
+  std::vector<std::string> warnings;
+  if (size.LeftOut > 0)
+  {
+    warnings.push_back(std::to_string(size.LeftOut) +
+      " cells of the input could not be divided into simplices and carry no mass: at most " +
+      percent(size.LeftOutIntegral, size.LeftOutIntegral + size.Integral) + " of the mass, and " +
+      percent(size.LeftOutMeasure, size.LeftOutMeasure + size.Measure) + " of the " +
+      (D == 3      ? "volume"
+          : D == 2 ? "area"
+                   : "length") +
+      ", are in the boxes around them");
+  }
+  vtkIdType open = 0;
+  for (const BlockValues& block : blocks)
+  {
+    open += block.OpenLines();
+  }
+  if (open > 0)
+  {
+    warnings.push_back(std::to_string(open) +
+      " lines of the input are not closed and carry no mass; lines around regions must end where "
+      "they begin");
+  }
+  return warnings;
+}
+
+template <int D>
+std::vector<std::string> integrate(
   const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
 {
   const MeshSlabs<D> slabs(grid.Size<D>());
@@ -112,7 +227,7 @@ vtkIdType integrate(
   {
     cells.push_back(cellsOfSlabs<D>(block, grid, slabs, 0.0, progress));
   }
-  const Size<D> size = sizeOf<D>(blocks, grid, progress);
+  Size<D> size = sizeOf<D>(blocks, grid, progress);
   constexpr double mostlyWide = 0.9;
   constexpr double tolerance = 1e-3; // of the mass, for lines
   bool alongLines = D == 3 && size.Wide >= mostlyWide * size.Measure;
@@ -132,7 +247,11 @@ vtkIdType integrate(
       addBlocks<D>(blocks, cells, slabs, grid, false, progress, sums);
     }
   }
-  return static_cast<vtkIdType>(size.LeftOut);
+  if constexpr (D == 2)
+  {
+    addRegions(blocks, slabs, grid, progress, sums, size);
+  }
+  return warningsOf<D>(size, blocks);
 }
 
 } // namespace
@@ -154,7 +273,7 @@ MeshDensity MeshDensity::Make(const std::vector<BlockValues>& blocks, const Imag
   applyGrid(grid, made.Image);
   auto density = newArray<vtkDoubleArray>(name, 1, static_cast<vtkIdType>(grid.NumberOfCells()));
   double* sums = density->GetPointer(0);
-  made.CellsLeftOut = withMemory("the order of the input's cells", 0.0, [&]() {
+  made.Warnings = withMemory("the order of the input's cells", 0.0, [&]() {
     return dispatchDimension(grid.Dimension(), integrate<1>, integrate<2>, integrate<3>)(
       blocks, grid, progress, sums);
   });

@@ -9,6 +9,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -24,9 +25,10 @@ struct MeshDensity
 {
   // The image has one cell array, of doubles, called `name`.
   vtkSmartPointer<vtkImageData> Image;
-  vtkIdType CellsLeftOut = 0; // that VTK could not divide into simplices
+  std::vector<std::string> Warnings; // of what carries no mass
 
-  // Point values are linear on the simplices of a cell. Throws Failure and Cancelled.
+  // Point values are linear on the simplices of a cell, and of a region one value. Throws Failure
+  // and Cancelled.
   static MeshDensity Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     const char* name, Progress& progress);
 

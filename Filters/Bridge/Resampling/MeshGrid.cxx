@@ -2,10 +2,13 @@
 #include "Bridge/Resampling/MeshGrid.h"
 
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/Progress.h"
 
+#include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
@@ -16,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
 
 namespace RectifiedTransport
 {
@@ -29,38 +33,87 @@ using Eigen::Vector3d;
 constexpr double flatness = 1e-5;
 constexpr vtkIdType cellsBetweenPolls = vtkIdType{ 1 } << 16;
 
-// Calls visit(x) for the corners of all cells of the dimension; a point may come several times.
+std::string describe(const Vector3d& x)
+{
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
+
+// The cells that ghost flags keep from having mass.
+class BlankedCells
+{
+public:
+  BlankedCells(vtkDataSet* data, const std::string& name)
+    : OfCells(ghostFlags(data, vtkDataObject::CELL, name.c_str()))
+    , OfPoints(ghostFlags(data, vtkDataObject::POINT, name.c_str()))
+  {
+  }
+
+  bool Has(vtkIdType cell, vtkIdList* points) const
+  {
+    bool has = this->OfCells && (this->OfCells[cell] & ghostCell);
+    for (vtkIdType i = 0; this->OfPoints && i < points->GetNumberOfIds(); ++i)
+    {
+      has = has || (this->OfPoints[points->GetId(i)] & vtkDataSetAttributes::HIDDENPOINT);
+    }
+    return has;
+  }
+
+private:
+  const unsigned char* OfCells;
+  const unsigned char* OfPoints;
+};
+
+// Calls visit(x) for the corners of all cells with mass, each point once. Throws Failure for one
+// that is not finite.
 template <class Visit>
-void visitCorners(
-  const std::vector<DensityBlock>& blocks, int dimension, Progress& progress, const Visit& visit)
+void visitCorners(const std::vector<DensityBlock>& blocks, const MassCells& cells,
+  Progress& progress, const Visit& visit)
 {
   vtkNew<vtkIdList> points;
   for (const DensityBlock& block : blocks)
   {
     vtkDataSet* data = block.Data;
+    const BlankedCells blanked(data, block.Name);
     std::vector<bool> visited(static_cast<std::size_t>(data->GetNumberOfPoints()), false);
+    vtkIdType notFinite = -1;
     for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
     {
       if (cell % cellsBetweenPolls == 0)
       {
         progress.Check();
       }
-      if (dimensionOfCellType(data->GetCellType(cell)) != dimension)
+      if (!cells.Find(data, cell, points))
       {
         continue;
       }
-      data->GetCellPoints(cell, points);
       for (vtkIdType i = 0; i < points->GetNumberOfIds(); ++i)
       {
-        const auto id = static_cast<std::size_t>(points->GetId(i));
-        if (!visited[id])
+        const vtkIdType point = points->GetId(i);
+        if (visited[static_cast<std::size_t>(point)])
         {
-          visited[id] = true;
-          Vector3d x;
-          data->GetPoint(points->GetId(i), x.data());
+          continue;
+        }
+        Vector3d x;
+        data->GetPoint(point, x.data());
+        if (x.allFinite())
+        {
+          visited[static_cast<std::size_t>(point)] = true;
           visit(x);
         }
+        else if (!blanked.Has(cell, points))
+        {
+          notFinite = notFinite < 0 ? point : std::min(notFinite, point);
+        }
       }
+    }
+    if (notFinite >= 0)
+    {
+      Vector3d x;
+      data->GetPoint(notFinite, x.data());
+      throw Failure("Point " + std::to_string(notFinite) + " of the " + block.Name + " is at " +
+        describe(x) + "; the coordinates of all points of cells must be finite");
     }
   }
 }
@@ -79,15 +132,15 @@ struct Bounds
 };
 
 // The eigenvectors of the points' covariance, by growing eigenvalue.
-Eigen::Matrix3d principalAxes(
-  const std::vector<DensityBlock>& blocks, int dimension, const Bounds& bounds, Progress& progress)
+Eigen::Matrix3d principalAxes(const std::vector<DensityBlock>& blocks, const MassCells& cells,
+  const Bounds& bounds, Progress& progress)
 {
   const Vector3d middle = 0.5 * (bounds.Low + bounds.High);
   const double unit = bounds.Lengths().maxCoeff();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Vector3d first = Vector3d::Zero();
   double count = 0.0;
-  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) {
+  visitCorners(blocks, cells, progress, [&](const Vector3d& x) {
     const Vector3d d = (x - middle) / unit;
     first += d;
     second += d * d.transpose();
@@ -127,29 +180,35 @@ struct Frame
   Bounds Box; // of the coordinates along the axes
 };
 
-[[noreturn]] void failFlat(int dimension, double off, double length)
+[[noreturn]] void failFlat(int dimension, bool areClosedLines, double off, double length)
 {
   std::ostringstream message;
-  message << "The input's cells are " << (dimension == 2 ? "faces that lie in no plane" : "lines")
+  message << "The input's cells are "
+          << (dimension == 1      ? "lines"
+                 : areClosedLines ? "closed lines that lie in no plane"
+                                  : "faces that lie in no plane")
           << (dimension == 2 ? "" : " that are not on one straight line") << ": points are " << off
           << " off, with a longest side of " << length << "; "
           << (dimension == 2 ? "they must lie in one plane, as a slice does (Sample Surface takes "
                                "curved surfaces that are disks)"
-                             : "they must lie on one");
+                             : "they must lie on one, or closed ones in a plane, around regions");
   throw Failure(message.str());
 }
 
-Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension, Progress& progress)
+Frame frameOf(const std::vector<DensityBlock>& blocks, const MassCells& cells, Progress& progress)
 {
+  const int dimension = cells.Dimension;
   Frame frame;
-  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) { frame.Box.Add(x); });
+  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.Add(x); });
   const Vector3d lengths = frame.Box.Lengths();
   const double longest = lengths.maxCoeff();
   if (!std::isfinite(longest) || !(longest > 0.0))
   {
     throw Failure(longest == 0.0
-        ? "The cells of the input are all at one place; they must have a length, area or volume"
-        : "The input has points whose coordinates are not finite; all must be");
+        ? std::string(
+            "The cells of the input are all at one place; they must have a length, area or volume")
+        : "The cells of the input reach from " + describe(frame.Box.Low) + " to " +
+          describe(frame.Box.High) + "; a side must not be past the largest double");
   }
   const auto isFlat = [&](const Vector3d& sides) {
     return (sides.array() <= flatness * longest).count() >= 3 - dimension;
@@ -160,26 +219,27 @@ Frame frameOf(const std::vector<DensityBlock>& blocks, int dimension, Progress& 
   }
   Eigen::Index main = 0;
   const Vector3d direction = roundedDirection(
-    principalAxes(blocks, dimension, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
+    principalAxes(blocks, cells, frame.Box, progress).col(dimension == 2 ? 0 : 2), main);
   frame.Axes = axesAround(direction, main);
   frame.Box = Bounds();
   const Eigen::Matrix3d toFrame = frame.Axes.transpose();
-  visitCorners(blocks, dimension, progress, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
+  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
   Vector3d sides = frame.Box.Lengths();
   if (!isFlat(sides))
   {
     std::sort(sides.data(), sides.data() + 3);
-    failFlat(dimension, sides[2 - dimension], sides[2]);
+    failFlat(dimension, cells.AreClosedLines, sides[2 - dimension], sides[2]);
   }
   return frame;
 }
 
 } // namespace
 
-ImageGrid meshGrid(
-  const std::vector<DensityBlock>& blocks, int dimension, int resolution, Progress& progress)
+ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cells, int resolution,
+  Progress& progress)
 {
-  Frame frame = frameOf(blocks, dimension, progress);
+  const int dimension = cells.Dimension;
+  Frame frame = frameOf(blocks, cells, progress);
   // Flat axes are those of the shortest sides.
   Vector3d sides = frame.Box.Lengths();
   double box[6];

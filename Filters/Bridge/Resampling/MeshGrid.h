@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_MeshGrid_h
 #define RectifiedTransport_MeshGrid_h
 
-#include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Resampling/MassCells.h"
 #include "Core/Geometry/ImageGrid.h"
 
 #include <vector>
@@ -16,10 +16,10 @@ class Progress;
 // Values on cells, with `resolution` cells along the longest axis and the others as near to cubes
 // as whole numbers allow. The axes are those of space, or where cells of a plane or a line are
 // oblique, axes in it. Throws Failure for blocks without cells of a measure, for surfaces that are
-// not plane and lines that are not straight, and for a resolution out of range; and
-// Cancelled.
-ImageGrid meshGrid(
-  const std::vector<DensityBlock>& blocks, int dimension, int resolution, Progress& progress);
+// not plane and lines that are not straight, for points of cells that are not finite, and for a
+// resolution out of range; and Cancelled.
+ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cells, int resolution,
+  Progress& progress);
 
 } // namespace RectifiedTransport
 

@@ -35,7 +35,7 @@ CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
     vtkNew<vtkIdList> points;
     for (std::int64_t cell = first; cell < last; ++cell)
     {
-      if (!values.IsCounted(cell))
+      if (!values.IsDivided(cell))
       {
         continue;
       }

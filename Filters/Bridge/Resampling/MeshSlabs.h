@@ -38,7 +38,7 @@ struct MeshSlabs
   std::int64_t Count;
 };
 
-// The counted cells of a block that reach each slab, in their order.
+// The cells of a block that are divided and reach each slab, in their order.
 struct CellsOfSlabs
 {
   std::vector<vtkIdType> Cells;

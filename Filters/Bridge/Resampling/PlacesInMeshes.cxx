@@ -3,6 +3,8 @@
 
 #include "Bridge/Resampling/CellPieces.h"
 #include "Bridge/Resampling/MeshSlabs.h"
+#include "Bridge/Resampling/PlacesInRegions.h"
+#include "Bridge/Resampling/RegionShapes.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -187,10 +189,76 @@ public:
         }
       },
       1);
+    if constexpr (D == 2)
+    {
+      visitRegions(blocks, grid, slabs, reach, progress,
+        [&](const RegionBatch& batch) { searchRegions(batch, numbers, index, progress, found); });
+    }
   }
 
 private:
   static constexpr std::int64_t cellsBetweenPolls = 64;
+
+  static void searchRegions(const RegionBatch& batch,
+    const std::vector<std::vector<std::int64_t>>& numbers, const std::vector<Point<D>>& index,
+    Progress& progress, Place* found)
+  {
+    progress.For(
+      static_cast<std::int64_t>(numbers.size()), 1,
+      [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t s = begin; s < end; ++s)
+        {
+          const auto slab = static_cast<std::size_t>(s);
+          if (numbers[slab].empty() || batch.Begin[slab] == batch.Begin[slab + 1])
+          {
+            continue;
+          }
+          const PlaceBins<D> bins(index, numbers[slab]);
+          for (std::size_t first = batch.Begin[slab]; first < batch.Begin[slab + 1];)
+          {
+            std::size_t last = first + 1;
+            while (
+              last < batch.Begin[slab + 1] && batch.IsSame(batch.Edges[first], batch.Edges[last]))
+            {
+              ++last;
+            }
+            if (progress.ShouldStop())
+            {
+              return;
+            }
+            searchRegion(RegionRows(batch, first, last),
+              batch.Shapes[static_cast<std::size_t>(batch.Edges[first].Shape)].Block, bins, index,
+              found);
+            first = last;
+          }
+        }
+      },
+      1);
+  }
+
+  static void searchRegion(const RegionRows& region, int set, const PlaceBins<D>& bins,
+    const std::vector<Point<D>>& index, Place* found)
+  {
+    const Point<2> low{ region.Low()[0] - reach, region.Low()[1] - reach };
+    const Point<2> high{ region.High()[0] + reach, region.High()[1] + reach };
+    bins.VisitBox(low, high, [&](std::int64_t number) {
+      Place& best = found[number];
+      const bool isFound = best.Distance == 0.0;
+      if (isFound && best.Set <= set)
+      {
+        return;
+      }
+      const RegionRows::Found place = region.Find(index[static_cast<std::size_t>(number)]);
+      if (place.Distance < best.Distance || (isFound && place.Distance == 0.0))
+      {
+        best.Distance = place.Distance;
+        best.Cell = place.Cell;
+        best.Set = set;
+        std::copy_n(place.Points, 4, best.Points);
+        std::copy_n(place.Weights, 4, best.Weights);
+      }
+    });
+  }
 
   static void search(const CellPieces<D>& pieces, vtkIdType cell, int set, const PlaceBins<D>& bins,
     const std::vector<Point<D>>& index, Place* found)

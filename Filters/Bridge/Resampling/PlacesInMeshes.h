@@ -17,7 +17,8 @@ class ImageGrid;
 class Progress;
 
 // In the first cell that has the place, else in the one that is nearest of those within a grid
-// cell. Between points linearly on the simplices of the cell.
+// cell. Between points linearly on the simplices of the cell, in a region from the outline to the
+// left to that to the right.
 class PlacesInMeshes : public SampledPlaces
 {
 public:

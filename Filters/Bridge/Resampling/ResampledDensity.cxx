@@ -3,6 +3,7 @@
 
 #include "Bridge/Resampling/MeshDensity.h"
 #include "Bridge/Resampling/MeshGrid.h"
+#include "Bridge/Resampling/RegionShapes.h"
 #include "Bridge/Resampling/TiledImages.h"
 #include "Bridge/Resampling/UnusualBlocks.h"
 
@@ -47,12 +48,17 @@ void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPo
   }
   else
   {
-    const ImageGrid grid = meshGrid(blocks, dimension, resolution, progress);
-    this->Blocks = readBlocks(blocks, onPoints, dimension, rules, progress);
+    const MassCells cells = massCells(blocks, dimension, progress);
+    const ImageGrid grid = meshGrid(blocks, cells, resolution, progress);
+    this->Blocks = readBlocks(blocks, onPoints, cells, rules, progress);
+    if (cells.Dimension == 2)
+    {
+      markRegions(this->Blocks, grid, progress);
+    }
     const char* called = name ? name : "Density";
     const MeshDensity made = MeshDensity::Make(this->Blocks, grid, called, progress);
     this->Made = made.Image;
-    this->LeftOut = made.CellsLeftOut;
+    this->Lost = made.Warnings;
     this->Resampled = true;
     this->Density = made.Image->GetCellData()->GetScalars();
     this->Unusual = describeUnusual(this->Blocks, grid, rules.Invert, progress);

@@ -38,7 +38,8 @@ public:
   bool IsResampled() const { return this->Resampled; }
   // The data sets, where the image was resampled.
   const std::vector<BlockValues>& Meshes() const { return this->Blocks; }
-  vtkIdType CellsLeftOut() const { return this->LeftOut; }
+  // Of what carries no mass.
+  const std::vector<std::string>& Warnings() const { return this->Lost; }
   // What is to be said of values that are probably not meant, where the image was resampled.
   const std::vector<std::string>& Findings() const { return this->Unusual; }
 
@@ -49,8 +50,8 @@ private:
   bool OnPoints = false;
   bool Resampled = false;
   std::vector<BlockValues> Blocks;
-  vtkIdType LeftOut = 0;
   std::vector<std::string> Unusual;
+  std::vector<std::string> Lost;
 };
 
 } // namespace RectifiedTransport

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The value of a region whose outline's points have values.
+#ifndef RectifiedTransport_RegionValue_h
+#define RectifiedTransport_RegionValue_h
+
+#include "Core/Overlap/RingCrossings.h"
+
+#include "vtkType.h"
+
+namespace RectifiedTransport
+{
+
+// The plane of least squares through the values at the points of a ring, each of which weighs as
+// much as the edges beside it are long.
+class RingValues
+{
+public:
+  // `points` are those of all rings, whose values are `values[point]`.
+  RingValues(const Rings& rings, std::int64_t ring, const vtkIdType* points, const double* values);
+
+  double Mean() const { return this->Value; }
+  // Not beyond the smallest and the largest value.
+  double At(const Point<2>& x) const;
+
+private:
+  Point<2> Middle{ 0.0, 0.0 };
+  Point<2> Slope{ 0.0, 0.0 };
+  double Value = 0.0;
+  double Smallest = 0.0;
+  double Largest = 0.0;
+};
+
+} // namespace RectifiedTransport
+
+#endif
