@@ -8,6 +8,7 @@
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/RankRun.h"
+#include "Bridge/Run/RequestedTimes.h"
 #include "Bridge/Run/SMPExecutor.h"
 #include "Bridge/Run/WholeInputs.h"
 
@@ -94,10 +95,12 @@ void clearImages(vtkInformationVector* outputVector)
   }
 }
 
-// A rank's own piece; where `ranks` is nullptr, what was requested last.
+// A rank's own piece; where `ranks` is nullptr, what was requested last. What is requested
+// upstream, as of an input that this one depends on, stays as it is.
 void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks* ranks)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const RectifiedTransport::RequestedTimes kept(producer);
   if (!ranks)
   {
     producer->Update(port);
@@ -162,7 +165,9 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
     {
       this->Whole->Record(this, request, inputVector, outputVector);
-      return this->RequestUpdateExtent(request, inputVector, outputVector);
+      const int result = this->RequestUpdateExtent(request, inputVector, outputVector);
+      this->Whole->UpdateSeparately(this, inputVector, outputVector);
+      return result;
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
     {
@@ -173,6 +178,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
   catch (...)
   {
     this->IsAlone = false;
+    this->Whole->Separate().End();
     const std::unique_ptr<RectifiedTransport::RankRun> run = std::move(this->Run);
     return RectifiedTransport::handleException(this, outputVector, run.get());
   }
@@ -184,6 +190,7 @@ int vtkGuardedAlgorithm::ProcessInformation(
 {
   try
   {
+    this->Whole->RequestFirstTimes(this, inputVector, outputVector);
     const int result = this->RequestInformation(request, inputVector, outputVector);
     this->EndRun();
     return result;
@@ -214,11 +221,13 @@ int vtkGuardedAlgorithm::ProcessData(
   {
     RectifiedTransport::requireSameProperties(this, *this->Run);
   }
-  this->Whole->Require(this, inputVector, this->Run.get());
+  vtkInformationVector** inputs = this->Whole->Separate().Inputs(this, inputVector);
+  this->Whole->Require(this, inputs, this->Run.get());
   const int result = this->Run && !this->Gathered.empty()
-    ? this->GatherAndRun(request, inputVector, outputVector)
-    : this->RequestData(request, inputVector, outputVector);
+    ? this->GatherAndRun(request, inputs, outputVector)
+    : this->RequestData(request, inputs, outputVector);
   this->EndRun();
+  this->Whole->Separate().End();
   return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
 }
 

@@ -7,7 +7,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/SeparateInputs.h"
 #include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -100,7 +99,6 @@ vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
   , BlocksAreInputs(blocksAreInputs)
-  , Separate(new SeparateInputs)
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -193,7 +191,6 @@ int vtkTransportBlend::RequestInformation(
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
-  this->Separate->Update(this, inputVector, this->GetRanks());
   const std::vector<GivenInput> allGiven =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   if (const Ranks* ranks = this->GetRanks())

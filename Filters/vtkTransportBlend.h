@@ -43,14 +43,12 @@
 #include "vtkTransportAlgorithm.h"
 
 #include <cstdint>
-#include <memory> // for std::unique_ptr
 #include <vector> // for the inputs
 
 namespace RectifiedTransport
 {
 struct BlendInput;
 struct BlendSettings;
-class SeparateInputs;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -159,7 +157,6 @@ protected:
 
 private:
   const bool BlocksAreInputs;
-  std::unique_ptr<RectifiedTransport::SeparateInputs> Separate;
 
   vtkTransportBlend(const vtkTransportBlend&) = delete;
   void operator=(const vtkTransportBlend&) = delete;

@@ -4,6 +4,7 @@
 #include "Bridge/Blend/DensityBlend.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/SeparateInputs.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -117,6 +118,7 @@ void vtkTransportInterpolator::RequestFirstTime(vtkInformationVector** inputVect
       input->Remove(Pipeline::UPDATE_TIME_STEP());
     }
   }
+  SeparateInputs::RequestFirstTimes(this, inputVector);
 }
 
 //------------------------------------------------------------------------------

@@ -1,184 +1,363 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SeparateInputs.h"
 
-#include "Core/Parallel/Ranks.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/RequestedTimes.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationIntegerVectorKey.h"
 #include "vtkInformationVector.h"
-#include "vtkSmartPointer.h"
+#include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <iterator>
-#include <set>
-#include <utility>
 
 namespace RectifiedTransport
 {
 
-namespace
-{
+using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-using Arrays = std::set<std::pair<std::uint64_t, std::uint64_t>>; // addresses and times
-
-struct Connection
+// A connection of an input, and all that it depends on, its producer among it.
+struct SeparateInputs::Branch
 {
   vtkAlgorithm* Producer;
   int OutputPort;
-  int InputPort;
+  int Port;
   int Index;
+  vtkInformation* Information; // the producer's, with what is requested of it
+  Algorithms Upstream;
+  // The last source with times on which another input depends, too.
+  struct SharedSource
+  {
+    std::size_t Depth; // how many algorithms it depends on, itself included; 0 without a source
+    TimeRange Times;
+  };
+  SharedSource Source{ 0, {} };
+
+  void Take(const SharedSource& source)
+  {
+    const bool isEarlier =
+      source.Depth == this->Source.Depth && source.Times.First < this->Source.Times.First;
+    this->Source = source.Depth > this->Source.Depth || isEarlier ? source : this->Source;
+  }
+  SeparateInputs::Output Given() const { return { this->Producer, this->OutputPort }; }
 };
 
-void addArrays(vtkDataObject* data, Arrays& arrays)
+namespace
 {
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+
+// What is requested of an output.
+vtkSmartPointer<vtkInformation> requestOf(vtkInformation* output)
+{
+  auto request = vtkSmartPointer<vtkInformation>::New();
+  request->CopyEntry(output, Pipeline::UPDATE_TIME_STEP());
+  request->CopyEntry(output, Pipeline::UPDATE_EXTENT());
+  request->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
+  request->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
+  request->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+  return request;
+}
+
+void applyRequest(vtkInformation* request, vtkInformation* output)
+{
+  output->Append(request);
+  if (!request->Has(Pipeline::UPDATE_TIME_STEP()))
   {
-    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    {
-      addArrays(leaves->GetCurrentDataObject(), arrays);
-    }
-    return;
-  }
-  auto* set = vtkDataSet::SafeDownCast(data);
-  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = set ? set->GetAttributes(owner) : nullptr;
-    for (int i = 0; attributes && i < attributes->GetNumberOfArrays(); ++i)
-    {
-      if (vtkDataArray* array = attributes->GetArray(i))
-      {
-        arrays.emplace(reinterpret_cast<std::uintptr_t>(array), array->GetMTime());
-      }
-    }
+    output->Remove(Pipeline::UPDATE_TIME_STEP());
   }
 }
 
-// Whether a source upstream of a filter has times.
-bool hasTimes(vtkAlgorithm* filter)
+std::optional<double> dataTime(vtkDataObject* data)
 {
-  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
-  {
-    vtkInformation* output = filter->GetOutputInformation(port);
-    if (output->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) ||
-      output->Has(vtkStreamingDemandDrivenPipeline::TIME_RANGE()))
-    {
-      return true;
-    }
-  }
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-  {
-    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
-    {
-      vtkAlgorithm* upstream = filter->GetInputAlgorithm(port, i);
-      if (upstream && hasTimes(upstream))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+  vtkInformation* information = data ? data->GetInformation() : nullptr;
+  return information && information->Has(vtkDataObject::DATA_TIME_STEP())
+    ? std::optional<double>(information->Get(vtkDataObject::DATA_TIME_STEP()))
+    : std::nullopt;
 }
 
-std::vector<Connection> timedConnections(vtkAlgorithm* filter)
+// Whether data are of a time that they may have, where `asked` was requested: a source without data
+// of that time gives those of the step before or after it. Of one time they have that one.
+bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange& announced)
 {
-  std::vector<Connection> connections;
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  if (announced.First == announced.Last)
   {
-    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
-    {
-      Connection connection{ nullptr, 0, port, i };
-      connection.Producer = filter->GetInputAlgorithm(port, i, connection.OutputPort);
-      if (connection.Producer && connection.Producer->GetTotalNumberOfInputConnections() > 0 &&
-        hasTimes(connection.Producer))
-      {
-        connections.push_back(connection);
-      }
-    }
+    return time == announced.First;
   }
-  return connections;
+  double before = announced.Steps > 0 ? announced.First : asked;
+  double after = announced.Steps > 0 ? announced.Last : asked;
+  for (int i = 0; i < announced.Steps; ++i)
+  {
+    const double step = output->Get(Pipeline::TIME_STEPS(), i);
+    before = step <= asked ? std::max(before, step) : before;
+    after = step >= asked ? std::min(after, step) : after;
+  }
+  return time == asked || time == before || time == after ||
+    time == std::clamp(asked, announced.First, announced.Last);
 }
 
-// The arrays that inputs from different producers have in common.
-std::vector<std::uint64_t> sharedArrays(
-  const std::vector<Connection>& connections, vtkInformationVector** inputVector)
+// The time that an output was last made for, which the executive keeps for itself.
+struct ExecutiveKeys : Pipeline
 {
-  Arrays shared;
-  for (std::size_t i = 0; i < connections.size(); ++i)
+  static vtkInformationDoubleKey* MadeFor() { return PREVIOUS_UPDATE_TIME_STEP(); }
+};
+
+// Whether a filter has made an output of data of another time than was requested.
+bool hasWrongTime(vtkAlgorithm* filter, int port)
+{
+  vtkInformation* output = filter->GetOutputInformation(port);
+  const auto announced = announcedTimes(output);
+  const auto time = dataTime(filter->GetOutputDataObject(port));
+  if (filter->GetTotalNumberOfInputConnections() == 0 || !announced || !time)
   {
-    Arrays own;
-    addArrays(
-      vtkDataObject::GetData(inputVector[connections[i].InputPort], connections[i].Index), own);
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      if (connections[j].Producer == connections[i].Producer)
-      {
-        continue;
-      }
-      Arrays other;
-      addArrays(
-        vtkDataObject::GetData(inputVector[connections[j].InputPort], connections[j].Index), other);
-      std::set_intersection(
-        own.begin(), own.end(), other.begin(), other.end(), std::inserter(shared, shared.end()));
-    }
+    return false;
   }
-  std::vector<std::uint64_t> flat;
-  for (const auto& [address, time] : shared)
-  {
-    flat.insert(flat.end(), { address, time });
-  }
-  return flat;
+  const bool isAsked = output->Has(ExecutiveKeys::MadeFor());
+  const double asked = isAsked ? output->Get(ExecutiveKeys::MadeFor()) : announced->First;
+  return (isAsked || announced->First == announced->Last) &&
+    !isTimeOf(*time, asked, output, *announced);
 }
 
-// A filter that has data does not ask upstream. A source sees that it has those of another time.
-void release(vtkAlgorithm* filter, int outputPort)
+// The information of a port with other data of some connections.
+vtkSmartPointer<vtkInformationVector> copyWith(vtkInformationVector* inputs, int port,
+  const std::map<std::pair<int, int>, vtkDataObject*>& replaced)
 {
-  if (filter->GetTotalNumberOfInputConnections() == 0)
+  auto vector = vtkSmartPointer<vtkInformationVector>::New();
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
   {
-    return;
-  }
-  if (vtkDataObject* data = filter->GetOutputDataObject(outputPort))
-  {
-    data->ReleaseData();
-  }
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-  {
-    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    vtkNew<vtkInformation> copy;
+    copy->Copy(inputs->GetInformationObject(i));
+    const auto found = replaced.find({ port, i });
+    if (found != replaced.end())
     {
-      int upstreamPort = 0;
-      vtkAlgorithm* upstream = filter->GetInputAlgorithm(port, i, upstreamPort);
-      if (upstream && hasTimes(upstream))
-      {
-        release(upstream, upstreamPort);
-      }
+      copy->Set(vtkDataObject::DATA_OBJECT(), found->second);
     }
+    vector->Append(copy);
   }
+  return vector;
 }
 
 } // namespace
 
-void SeparateInputs::Update(
-  vtkAlgorithm* filter, vtkInformationVector** inputVector, const Ranks* ranks)
+SeparateInputs::SeparateInputs() = default;
+
+SeparateInputs::~SeparateInputs() = default;
+
+// An output of one time has always the same data, of the same time.
+SeparateInputs::State SeparateInputs::StateOf(const Output& output)
 {
-  const std::vector<Connection> connections = timedConnections(filter);
-  const std::vector<std::uint64_t> shared = sharedArrays(connections, inputVector);
-  if (onAllRanks(ranks, shared.empty() || shared == this->Shared))
+  const auto announced = announcedTimes(output.first->GetOutputInformation(output.second));
+  const bool hasOne = announced && announced->First == announced->Last;
+  const auto time = dataTime(output.first->GetOutputDataObject(output.second));
+  return { output.first->GetMTime(), hasOne ? time : std::nullopt };
+}
+
+// The connections that depend on a source with times on which another one depends, too. Those that
+// depend on most come first: what is an input itself, and the source of others, is made last.
+std::vector<SeparateInputs::Branch> SeparateInputs::FindBranches(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  std::vector<Branch> branches;
+  std::map<vtkAlgorithm*, std::set<Output>> dependents;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      Branch branch{ nullptr, 0, port, i, inputVector[port]->GetInformationObject(i), {} };
+      branch.Producer = filter->GetInputAlgorithm(port, i, branch.OutputPort);
+      if (branch.Producer && Pipeline::SafeDownCast(branch.Producer->GetExecutive()))
+      {
+        branch.Upstream = upstreamOf(branch.Producer);
+        for (vtkAlgorithm* upstream : branch.Upstream)
+        {
+          dependents[upstream].insert(branch.Given());
+        }
+        branches.push_back(std::move(branch));
+      }
+    }
+  }
+  for (Branch& branch : branches)
+  {
+    for (vtkAlgorithm* source : branch.Upstream)
+    {
+      const auto times = timesOf(source);
+      if (times && dependents.at(source).size() > 1)
+      {
+        branch.Take({ upstreamOf(source).size(), *times });
+      }
+    }
+  }
+  const auto sharesNone = [](const Branch& branch) { return branch.Source.Depth == 0; };
+  branches.erase(std::remove_if(branches.begin(), branches.end(), sharesNone), branches.end());
+  std::stable_sort(branches.begin(), branches.end(), [](const Branch& one, const Branch& other) {
+    return one.Upstream.size() > other.Upstream.size();
+  });
+  return branches;
+}
+
+void SeparateInputs::RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  const std::vector<Branch> branches = FindBranches(filter, inputVector);
+  const auto hasTimesOfSource = [](const Branch& branch) {
+    return announcedTimes(branch.Information) == branch.Source.Times;
+  };
+  if (std::all_of(branches.begin(), branches.end(), hasTimesOfSource))
   {
     return;
   }
-  for (const Connection& connection : connections)
+  for (const Branch& branch : branches)
   {
-    release(connection.Producer, connection.OutputPort);
-    connection.Producer->Update(connection.OutputPort);
+    if (const auto times = announcedTimes(branch.Information))
+    {
+      branch.Information->Set(Pipeline::UPDATE_TIME_STEP(),
+        std::clamp(branch.Source.Times.First, times->First, times->Last));
+    }
   }
-  this->Shared = sharedArrays(connections, inputVector);
+}
+
+void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  this->End();
+  const std::vector<Branch> branches = FindBranches(filter, inputVector);
+  if (branches.empty())
+  {
+    return;
+  }
+  this->UpdateEach(branches);
+  if (this->ForgetWrongTimes(branches))
+  {
+    this->UpdateEach(branches);
+    this->Untold.clear();
+    for (const Output& output : WrongOutputs(branches))
+    {
+      this->Untold[output] = StateOf(output);
+    }
+  }
+}
+
+void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)
+{
+  this->End();
+  std::vector<vtkSmartPointer<vtkInformation>> requests;
+  for (const Branch& branch : branches)
+  {
+    requests.push_back(requestOf(branch.Information));
+  }
+  for (std::size_t i = 0; i < branches.size(); ++i)
+  {
+    const Branch& branch = branches[i];
+    applyRequest(requests[i], branch.Information);
+    const RequestedTimes kept(branch.Producer);
+    auto* pipeline = Pipeline::SafeDownCast(branch.Producer->GetExecutive());
+    if (!pipeline->Update(branch.OutputPort) && this->Failed.empty())
+    {
+      this->Failed = "Input port " + std::to_string(branch.Port) +
+        " could not be updated; mend the error of a filter before it";
+    }
+    if (vtkDataObject* data = branch.Producer->GetOutputDataObject(branch.OutputPort))
+    {
+      auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+      copy->ShallowCopy(data);
+      this->Data.push_back({ branch.Port, branch.Index, data, data->GetUpdateTime(), copy });
+    }
+  }
+  for (std::size_t i = 0; i < branches.size(); ++i)
+  {
+    applyRequest(requests[i], branches[i].Information);
+  }
+}
+
+// A filter that is none of ours may have requested several times together, so that filters before
+// it got data of another time than they asked for: the executive does not make them again for that
+// time, and some filters keep them. Returns whether there are such, which the next update then
+// makes anew. Filters that do not tell which time their data have are not tried again.
+bool SeparateInputs::ForgetWrongTimes(const std::vector<Branch>& branches)
+{
+  const std::set<Output> wrong = WrongOutputs(branches);
+  const auto isKnown = [this](const Output& output) {
+    const auto known = this->Untold.find(output);
+    return known != this->Untold.end() && known->second == StateOf(output);
+  };
+  if (std::all_of(wrong.begin(), wrong.end(), isKnown))
+  {
+    return false;
+  }
+  for (const Output& output : wrong)
+  {
+    for (vtkAlgorithm* filter : upstreamOf(output.first))
+    {
+      if (filter->GetTotalNumberOfInputConnections() > 0)
+      {
+        filter->Modified();
+      }
+    }
+  }
+  return true;
+}
+
+// The outputs before these inputs whose data are not of the time that was requested.
+std::set<SeparateInputs::Output> SeparateInputs::WrongOutputs(const std::vector<Branch>& branches)
+{
+  std::set<Output> wrong;
+  for (const Branch& branch : branches)
+  {
+    for (vtkAlgorithm* filter : branch.Upstream)
+    {
+      for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+      {
+        if (hasWrongTime(filter, port))
+        {
+          wrong.insert({ filter, port });
+        }
+      }
+    }
+  }
+  return wrong;
+}
+
+// While the executive iterates over blocks the input is one of them, and cannot be replaced.
+vtkInformationVector** SeparateInputs::Inputs(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  if (!this->Failed.empty())
+  {
+    throw Failure(this->Failed);
+  }
+  std::map<std::pair<int, int>, vtkDataObject*> replaced;
+  for (const Made& made : this->Data)
+  {
+    if (made.Data->GetUpdateTime() == made.Time)
+    {
+      continue;
+    }
+    if (vtkDataObject::GetData(inputVector[made.Port], made.Index) != made.Data)
+    {
+      throw Failure("Input port " + std::to_string(made.Port) +
+        " was made anew for another input; give each input a source of its own");
+    }
+    replaced[{ made.Port, made.Index }] = made.Copy;
+  }
+  if (replaced.empty())
+  {
+    return inputVector;
+  }
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    this->Vectors.push_back(copyWith(inputVector[port], port, replaced));
+    this->Pointers.push_back(this->Vectors.back());
+  }
+  return this->Pointers.data();
+}
+
+void SeparateInputs::End()
+{
+  this->Data.clear();
+  this->Failed.clear();
+  this->Vectors.clear();
+  this->Pointers.clear();
 }
 
 } // namespace RectifiedTransport

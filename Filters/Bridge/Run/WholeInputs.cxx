@@ -77,6 +77,18 @@ void requireWholeExtent(vtkInformation* input, const std::string& what)
   }
 }
 
+bool isTimeRequested(vtkInformationVector* outputs)
+{
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    if (outputs->GetInformationObject(i)->Has(Pipeline::UPDATE_TIME_STEP()))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string describeDifference(const std::string& input, const char* here, int rank)
 {
   return "The data on " + input + " are not the same " + here + " and on rank " +
@@ -201,6 +213,27 @@ void WholeInputs::RequestOutputs(vtkInformation* request, vtkInformationVector* 
     {
       output->Set(key, requested->Get(key));
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+void WholeInputs::RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector) const
+{
+  if (!isTimeRequested(outputVector) && !this->IsIteratingOverBlocks(filter, inputVector))
+  {
+    SeparateInputs::RequestFirstTimes(filter, inputVector);
+  }
+}
+
+//------------------------------------------------------------------------------
+void WholeInputs::UpdateSeparately(
+  vtkAlgorithm* filter, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->IsIteratingOverBlocks(filter, inputVector))
+  {
+    this->RequestFirstTimes(filter, inputVector, outputVector);
+    this->Separated.Update(filter, inputVector);
   }
 }
 

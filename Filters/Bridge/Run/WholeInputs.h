@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
 
+#include "Bridge/Run/SeparateInputs.h"
 #include "Bridge/VTKCompatibility.h"
 
 #include "vtkType.h"
@@ -57,6 +58,14 @@ public:
   // where it is not asked itself, and afterwards has all outputs for the piece of that one.
   void RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const;
 
+  // As SeparateInputs, but while the executive iterates over blocks: the producer of a block must
+  // not run. Where no time is requested of the outputs, the first ones are requested of the inputs.
+  void RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) const;
+  void UpdateSeparately(
+    vtkAlgorithm* filter, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
+  SeparateInputs& Separate() { return this->Separated; }
+
   // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
   // RankRun::Begin.
   std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
@@ -80,6 +89,7 @@ private:
   std::set<int> Excepted;
   std::map<int, bool> Shared; // whether points alone
   bool Iterates = false;      // the executive over blocks, for each of which a rank runs alone
+  SeparateInputs Separated;
   int Piece = 0;
   int NumberOfPieces = 1;
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port
