@@ -8,6 +8,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Bridge/Resampling/BlockArrays.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Resampling/GatheredBlocks.h"
 #include "Bridge/Resampling/ResampledDensity.h"
@@ -26,6 +27,7 @@
 #include "vtkInformationVector.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -102,6 +104,7 @@ void vtkDensityAlgorithm::FillDensityPortInformation(vtkInformation* info)
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   // Without this the executive would execute the filter once for each block.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkHyperTreeGrid");
 }
 
 //------------------------------------------------------------------------------
@@ -138,7 +141,8 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   auto* image = vtkImageData::SafeDownCast(input);
   const Ranks* ranks = this->GetRanks();
-  std::string kind = hasElements(input) ? image ? "an image" : "no image" : "";
+  const bool hasData = image || ranks ? hasElements(input) : input != nullptr;
+  std::string kind = !hasData ? "" : image ? "an image" : "no image";
   if (ranks) // of which those without data take part
   {
     kind = requireSameOnRanks(*ranks, kind, "The density is ");
@@ -215,49 +219,44 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* imag
 std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
-  std::vector<DensityBlock> blocks = densityBlocks(input);
-  if (const Ranks* ranks = this->GetRanks())
+  OtherLeaves others;
+  std::vector<DensityBlock> blocks = densityBlocks(input, &others);
+  const Ranks* ranks = this->GetRanks();
+  if (ranks)
   {
-    blocks = this->Internals->Gathered[number].Gather(blocks, *ranks);
+    blocks = this->Internals->Gathered[number].Gather(blocks, *ranks, progress);
   }
+  this->ReportOthers(others);
   if (blocks.empty())
   {
     return nullptr;
   }
-  const int dimension = largestCellDimension(blocks);
-  if (dimension == 0)
-  {
-    throw Failure("The input has no cells of a length, area or volume, so that it has no density; "
-                  "Splat Mass makes one of points");
-  }
-  keepBlocksOfDimension(dimension, blocks);
-  int association = 0;
-  blocks[0].Array =
-    this->RequireDensityArray(blocks[0].Data, arrayIndex, blocks[0].Name, association);
-  const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  const char* name = blocks[0].Array->GetName();
-  for (std::size_t i = 1; i < blocks.size(); ++i)
-  {
-    DensityBlock& block = blocks[i];
-    vtkDataSetAttributes* attributes =
-      block.Data->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-    block.Array = name ? attributes->GetArray(name) : nullptr;
-    if (!block.Array)
-    {
-      throw Failure("The " + block.Name + " has no numeric " + (onPoints ? "point" : "cell") +
-        " array '" + (name ? name : "") + "', but the " + blocks[0].Name + " has; it has " +
-        listArrays(block.Data->GetPointData(), "point") + " and " +
-        listArrays(block.Data->GetCellData(), "cell") +
-        ". All blocks must have it (Extract Block leaves blocks out)");
-    }
-  }
+  const char* name = this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_NAME());
+  const bool isNamed = name && *name;
+  const BlockArrays arrays = BlockArrays::Set(
+    [&](const DensityBlock& block, int& association) {
+      return this->RequireDensityArray(block.Data, arrayIndex, block.Name, association);
+    },
+    [&](vtkDataSet* data) { return isNamed || !hasArrays(data); }, blocks);
   for (const DensityBlock& block : blocks)
   {
-    requireTuples(block.Array, block.Data, onPoints, block.Name);
+    if (block.Array)
+    {
+      requireTuples(block.Array, block.Data, arrays.OnPoints, block.Name);
+    }
+  }
+  if (arrays.Without > 0 && (!ranks || ranks->Own() == 0))
+  {
+    const DensityBlock& first = *std::find_if(
+      blocks.begin(), blocks.end(), [](const DensityBlock& block) { return block.Array; });
+    const char* found = first.Array->GetName();
+    vtkWarningMacro(<< arrays.Without << " of " << arrays.All << " blocks of the input have no "
+                    << (arrays.OnPoints ? "point" : "cell") << " array '" << (found ? found : "")
+                    << "' and carry no mass");
   }
   ResampledDensity& made = this->Internals->Resampled[number];
-  made.Update(
-    blocks, onPoints, dimension, this->DensityResolution, this->GetDensityRules(), progress);
+  made.Update(blocks, arrays.OnPoints, arrays.Dimension, this->DensityResolution,
+    this->GetDensityRules(), progress);
   for (const std::string& warning : made.Warnings())
   {
     if (!this->GetRanks() || this->GetRanks()->Own() == 0)
@@ -272,6 +271,25 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
     density->SetFindings(made.Findings());
   }
   return density;
+}
+
+//------------------------------------------------------------------------------
+void vtkDensityAlgorithm::ReportOthers(const OtherLeaves& others)
+{
+  const Ranks* ranks = this->GetRanks();
+  const auto count = sumOverRanks(ranks, others.Count);
+  const auto sets = sumOverRanks(ranks, others.DataSets);
+  const std::string first = others.First.empty() ? "" : " (the first a " + others.First + ")";
+  if (count > 0 && sets == 0)
+  {
+    throw Failure("The density has no image, mesh or grid, but " + std::to_string(count) +
+      (count == 1 ? " block" : " blocks") + " of another type" + first);
+  }
+  if (count > 0 && (!ranks || ranks->Own() == 0))
+  {
+    vtkWarningMacro(<< count << (count == 1 ? " block" : " blocks")
+                    << " of the input without cells of a data set" << first << " passed over");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -298,16 +316,18 @@ vtkDataArray* vtkDensityAlgorithm::RequireDensityArray(
   vtkDataSet* data, int arrayIndex, const std::string& what, int& association)
 {
   const char* name = this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_NAME());
+  const bool isNamed = name && *name;
   vtkAbstractArray* chosen = this->FindDensityArray(data, arrayIndex, association);
   vtkDataArray* array = vtkDataArray::SafeDownCast(chosen);
   if (!array)
   {
     throw Failure(
-      (chosen ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
-          : name && *name ? "The " + what + " has no density array '" + std::string(name) + "'"
-                          : "The " + what + " has no active scalars for a density") +
+      (chosen       ? "The density array '" + std::string(name ? name : "") + "' is not numeric"
+          : isNamed ? "The " + what + " has no density array '" + std::string(name) + "'"
+                    : "The " + what + " has no active scalars for a density") +
       "; it has " + listArrays(data->GetPointData(), "point") + " and " +
-      listArrays(data->GetCellData(), "cell"));
+      listArrays(data->GetCellData(), "cell") +
+      (isNamed || !hasIds(data) ? "" : " (ids and flags are a density only where they are named)"));
   }
   return array;
 }
@@ -324,7 +344,13 @@ vtkAbstractArray* vtkDensityAlgorithm::FindDensityArray(
   }
   const char* name = choice->Get(vtkDataObject::FIELD_NAME());
   vtkAbstractArray* chosen = this->GetInputAbstractArrayToProcess(arrayIndex, data, association);
-  return chosen || (name && *name) ? chosen : defaultArray(data, association);
+  const bool isNamed = name && *name;
+  const bool isDefault = !isNamed && chosen &&
+    isIds(data->GetAttributes(association == vtkDataObject::FIELD_ASSOCIATION_CELLS
+              ? vtkDataObject::CELL
+              : vtkDataObject::POINT),
+      chosen);
+  return isNamed || (chosen && !isDefault) ? chosen : defaultArray(data, association);
 }
 
 //------------------------------------------------------------------------------

@@ -4,15 +4,15 @@
  * @brief   superclass of the filters that read a density
  *
  * The density is an array of a data set, or of the data sets of a composite one, chosen with
- * SetInputArrayToProcess(0, ...), where the port is that of the image; without a choice it is the
- * active scalars of the points, else of the cells, else the only array. That of a vtkImageData is
- * piecewise constant on cells: cell arrays are taken as they are; the values of a point array are
- * those of the dual cells, so that the domain is the image's bounds grown by half a spacing on each
- * side of every axis. An axis of one point is no axis, so that images may be 1D, 2D (in any
- * coordinate plane) or 3D; one cell between two points is an axis of one cell. Origin, spacing,
- * extent and direction matrix are arbitrary, and so is the numeric type. Cells and points that the
- * ghost array marks as duplicate or hidden carry no mass, and neither do the cells of a hidden
- * point.
+ * SetInputArrayToProcess(0, ...), where the port is that of the image; without a choice it is
+ * the active scalars of the points, else of the cells, else the only array, ids and flags aside.
+ * That of a vtkImageData is piecewise constant on cells: cell arrays are taken as they are; the
+ * values of a point array are those of the dual cells, so that the domain is the image's bounds
+ * grown by half a spacing on each side of every axis. An axis of one point is no axis, so that
+ * images may be 1D, 2D (in any coordinate plane) or 3D; one cell between two points is an axis
+ * of one cell. Origin, spacing, extent and direction matrix are arbitrary, and so is the numeric
+ * type. Cells and points that the ghost array marks as duplicate or hidden carry no mass, and
+ * neither do the cells of a hidden point.
  *
  * Any other data set (rectilinear, structured and unstructured grids, polygons in one plane, lines
  * on one straight line), and any composite of data sets, is one domain: an image on the bounds of
@@ -20,7 +20,10 @@
  * value of a grid cell is the mean over it, 0 outside the data sets: point arrays are linear on the
  * simplices into which VTK divides the cells, cell arrays constant, cells that overlap add up.
  * Cells of a plane or line that is oblique get an image in it. Images that tile one lattice are
- * joined to one image instead, value by value. Blanked cells and cells of AMR grids that finer ones
+ * joined to one image instead, value by value, and cells of one lattice, as vtkThreshold leaves of
+ * an image, are the image that they are of. The leaves of a vtkHyperTreeGrid are its cells. Blocks
+ * without the array carry no mass, and those without cells, such as tables, are passed over; both
+ * are a warning. Blanked cells and cells of AMR grids that finer ones
  * cover carry no mass. An input of surfaces that lie in no plane, or without cells of a measure, is
  * an error.
  *
@@ -55,6 +58,7 @@ class DensityImage;
 struct DensityRules;
 class FlowCache;
 class ImageGrid;
+struct OtherLeaves;
 class Progress;
 } // namespace RectifiedTransport
 
@@ -119,7 +123,8 @@ public:
   /**
    * For inputs that are no images: the number of cells along the longest axis of the image that the
    * density is put on; along the others as many as make the cells nearest to cubes. From 1 to 2^30.
-   * Default 256. Images, and images that tile one lattice, are taken as they are.
+   * Default 256. Images, images that tile one lattice, and cell values of cells of one lattice are
+   * taken as they are.
    */
   vtkSetMacro(DensityResolution, int);
   vtkGetMacro(DensityResolution, int);
@@ -197,6 +202,8 @@ private:
     vtkImageData* image, int arrayIndex);
   std::unique_ptr<RectifiedTransport::DensityImage> ReadResampled(
     vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
+
+  void ReportOthers(const RectifiedTransport::OtherLeaves& others);
 
   const int DensityPort;
   struct vtkInternals;

@@ -16,7 +16,9 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -43,7 +45,12 @@ struct GivenInput
   int Port;
 };
 
-// The leaves of composite data that are not null, where these are inputs; other data are one.
+bool isDensity(vtkDataObject* leaf)
+{
+  return vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf);
+}
+
+// The leaves of composite data that may be densities, where these are inputs; other data are one.
 void gatherBlocks(vtkDataObject* data, bool blocksAreInputs, std::vector<vtkDataObject*>& blocks)
 {
   auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
@@ -55,8 +62,34 @@ void gatherBlocks(vtkDataObject* data, bool blocksAreInputs, std::vector<vtkData
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    blocks.push_back(leaves->GetCurrentDataObject());
+    if (isDensity(leaves->GetCurrentDataObject()))
+    {
+      blocks.push_back(leaves->GetCurrentDataObject());
+    }
   }
+}
+
+// How many leaves of composite data are passed over.
+std::int64_t countOthers(vtkInformationVector** inputVector, int numberOfPorts)
+{
+  std::int64_t others = 0;
+  for (int port = 0; port < numberOfPorts; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      auto* composite = vtkCompositeDataSet::GetData(inputVector[port], i);
+      if (!composite)
+      {
+        continue;
+      }
+      const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+      for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+      {
+        others += isDensity(leaves->GetCurrentDataObject()) ? 0 : 1;
+      }
+    }
+  }
+  return others;
 }
 
 std::vector<GivenInput> gatherInputs(
@@ -197,6 +230,11 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
   {
     requireSameNumber(allGiven.size(), *ranks);
   }
+  if (this->BlocksAreInputs)
+  {
+    this->ReportOtherBlocks(
+      countOthers(inputVector, this->GetNumberOfInputPorts()), allGiven.empty());
+  }
   std::vector<BlendInput> inputs;
   for (const GivenInput& given : allGiven)
   {
@@ -223,6 +261,22 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
     input.Density->SetInputName(input.Name);
   }
   return inputs;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportBlend::ReportOtherBlocks(std::int64_t others, bool areAll)
+{
+  if (others > 0 && areAll)
+  {
+    throw Failure("The inputs have no image, mesh or grid, but " + std::to_string(others) +
+      (others == 1 ? " block" : " blocks") + " of another type");
+  }
+  if (others > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
+  {
+    vtkWarningMacro(<< others
+                    << (others == 1 ? " block of the inputs is" : " blocks of the inputs are")
+                    << " no data set of cells and passed over");
+  }
 }
 
 //------------------------------------------------------------------------------

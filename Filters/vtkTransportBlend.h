@@ -142,6 +142,11 @@ protected:
    */
   void WarnOfMoved(std::int64_t particles);
 
+  /**
+   * Warn of blocks that are no data sets of cells; it is an error if all are such.
+   */
+  void ReportOtherBlocks(std::int64_t others, bool areAll);
+
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;

@@ -9,8 +9,7 @@ from rt_testing import (Listener, SOURCE, density_image, digest, load_plugin, ma
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (VTK_TETRA, vtkDataSetAttributes, vtkMultiBlockDataSet,
-                                           vtkPolyData, vtkRectilinearGrid, vtkTable,
-                                           vtkUnstructuredGrid)
+                                           vtkPolyData, vtkRectilinearGrid, vtkUnstructuredGrid)
 
 simple = load_plugin()
 DATA = os.path.join(SOURCE, "Testing", "Data")
@@ -361,14 +360,6 @@ class AnyData(unittest.TestCase):
         total = output_of(sampler).GetFieldData().GetArray("TotalMass").GetValue(0)
         expected = self.mass(producer(simple, self.changed(uneven_grid(), 0)), ("CELLS", "c"))
         self.assertAlmostEqual(total / expected, 1, 9)
-
-    def test_blocks_that_do_not_fit(self):
-        self.check_error(blocks_of(uneven_grid(), vtkTable()), "block of type vtkTable",
-                         "block 2 of the input", "Extract Block")
-        other = as_unstructured(uneven_grid())
-        other.GetCellData().RemoveArray("c")
-        self.check_error(blocks_of(uneven_grid(), other),
-                         "block 2 of the input has no numeric cell array 'c'")
 
     def test_cells_without_a_density(self):
         sphere = simple.Elevation(simple.Sphere())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Image/DefaultArray.h"
 
+#include "Bridge/Image/IdNames.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
@@ -10,13 +12,20 @@
 namespace RectifiedTransport
 {
 
+bool isIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
+{
+  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
+    isIdName(array->GetName() ? array->GetName() : "");
+}
+
 namespace
 {
 
 struct Arrays
 {
   vtkDataArray* First = nullptr;
-  int Count = 0; // numeric ones, ghost flags aside
+  int Count = 0; // numeric ones, ids and ghost flags aside
+  int Ids = 0;   // and these
 };
 
 Arrays arraysOf(vtkDataSetAttributes* attributes)
@@ -25,7 +34,11 @@ Arrays arraysOf(vtkDataSetAttributes* attributes)
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = attributes->GetArray(i);
-    if (array && array != attributes->GetArray(vtkDataSetAttributes::GhostArrayName()))
+    if (array && isIds(attributes, array))
+    {
+      ++arrays.Ids;
+    }
+    else if (array)
     {
       arrays.First = arrays.First ? arrays.First : array;
       ++arrays.Count;
@@ -44,7 +57,8 @@ vtkDataArray* defaultArray(vtkDataSet* data, int& association)
     { vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataObject::FIELD_ASSOCIATION_CELLS })
   {
     vtkDataSetAttributes* attributes = data->GetAttributes(owner);
-    if (vtkDataArray* scalars = attributes->GetScalars())
+    vtkDataArray* scalars = attributes->GetScalars();
+    if (scalars && !isIds(attributes, scalars))
     {
       association = owner;
       return scalars;
@@ -58,6 +72,18 @@ vtkDataArray* defaultArray(vtkDataSet* data, int& association)
     }
   }
   return count == 1 ? only : nullptr;
+}
+
+bool hasArrays(vtkDataSet* data)
+{
+  return arraysOf(data->GetAttributes(vtkDataObject::POINT)).Count > 0 ||
+    arraysOf(data->GetAttributes(vtkDataObject::CELL)).Count > 0;
+}
+
+bool hasIds(vtkDataSet* data)
+{
+  return arraysOf(data->GetAttributes(vtkDataObject::POINT)).Ids > 0 ||
+    arraysOf(data->GetAttributes(vtkDataObject::CELL)).Ids > 0;
 }
 
 bool hasPointValues(vtkDataSet* data)

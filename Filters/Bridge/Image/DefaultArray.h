@@ -7,17 +7,27 @@
 #include "Bridge/VTKCompatibility.h"
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
 class vtkDataArray;
 class vtkDataSet;
+class vtkDataSetAttributes;
 class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
 
+// Whether an array numbers or marks points or cells, by its attribute or its name.
+bool isIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array);
+
 // The active scalars of the points, else of the cells, else the only numeric array; nullptr where
-// there are none or several. Sets `association`, of vtkDataObject::FieldAssociations.
+// there are none or several. Ids and ghost flags do not count. Sets `association`, of
+// vtkDataObject::FieldAssociations.
 vtkDataArray* defaultArray(vtkDataSet* data, int& association);
+
+// Whether there are numeric arrays, ids and ghost flags aside; whether there are any of these.
+bool hasArrays(vtkDataSet* data);
+bool hasIds(vtkDataSet* data);
 
 // Whether the default array is point data; where there is no default, whether there are numeric
 // point arrays.

@@ -36,6 +36,11 @@ vtkDataSet* BlockValues::Data() const
   return this->Set;
 }
 
+void BlockValues::SetData(vtkDataSet* data)
+{
+  this->Set = data;
+}
+
 BlockValues BlockValues::Only(double value) const
 {
   BlockValues only;

@@ -21,6 +21,8 @@ class BlockValues
 {
 public:
   vtkDataSet* Data() const;
+  // Takes another data set of the same points and cells, which may have other arrays.
+  void SetData(vtkDataSet* data);
   bool IsOnPoints() const { return this->OnPoints; }
   // Of the points or the cells; 0 where no cell that counts needs them.
   const double* Values() const { return this->Density.data(); }

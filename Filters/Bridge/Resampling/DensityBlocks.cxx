@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/DensityBlocks.h"
 
+#include "Bridge/Resampling/HyperTreeCells.h"
 #include "Bridge/Run/Failure.h"
 
+#include "vtkAMRBox.h"
 #include "vtkAMRUtilities.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
@@ -11,9 +13,11 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
@@ -26,10 +30,14 @@
 #include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
+#if __has_include("vtkOverlappingAMRMetaData.h")
+#include "vtkOverlappingAMRMetaData.h"
+#else
+#include "vtkAMRInformation.h"
+#endif
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace RectifiedTransport
 {
@@ -47,6 +55,25 @@ std::string nameOfBlock(vtkCompositeDataIterator* leaves)
     name += " ('" + std::string(information->Get(vtkCompositeDataSet::NAME())) + "')";
   }
   return name + " of the input";
+}
+
+// The newest of a data object's own and of all that are in it, whose arrays count.
+std::uint64_t timeOf(vtkDataObject* data)
+{
+  vtkMTimeType newest = data ? data->GetMTime() : 0;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto nodes = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    if (auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes))
+    {
+      tree->VisitOnlyLeavesOff();
+    }
+    for (nodes->InitTraversal(); !nodes->IsDoneWithTraversal(); nodes->GoToNextItem())
+    {
+      newest = std::max(newest, nodes->GetCurrentDataObject()->GetMTime());
+    }
+  }
+  return static_cast<std::uint64_t>(newest);
 }
 
 bool hasGhosts(vtkOverlappingAMR* grids)
@@ -84,72 +111,65 @@ vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids)
   return marked;
 }
 
-// The time of a data set itself does not do: in ParaView it is new at every run.
-std::vector<std::uint64_t> geometryOf(vtkDataSet* data)
+// Of the versions of VTK that have the one or the other. vtkOverlappingAMR itself reports an error
+// of its own where it is asked for a box that is not set.
+template <class Grids>
+auto metaDataOf(Grids* grids, int) -> decltype(grids->GetOverlappingAMRMetaData())
 {
-  std::vector<std::uint64_t> stamp{ static_cast<std::uint64_t>(data->GetDataObjectType()),
-    static_cast<std::uint64_t>(data->GetNumberOfPoints()),
-    static_cast<std::uint64_t>(data->GetNumberOfCells()) };
-  const auto add = [&stamp](vtkObject* object) {
-    stamp.push_back(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(object)));
-    stamp.push_back(object ? static_cast<std::uint64_t>(object->GetMTime()) : 0);
-  };
-  const auto addNumbers = [&stamp](const double* numbers, int count) {
-    for (int i = 0; i < count; ++i)
+  return grids->GetOverlappingAMRMetaData();
+}
+
+template <class Grids>
+auto metaDataOf(Grids* grids, long) -> decltype(grids->GetAMRInfo())
+{
+  return grids->GetAMRInfo();
+}
+
+// Without boxes VTK neither knows where grids are nor which cells finer ones cover.
+void requireBoxes(vtkOverlappingAMR* grids)
+{
+  for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
+  {
+    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
     {
-      stamp.emplace_back();
-      std::memcpy(&stamp.back(), numbers + i, sizeof(double));
-    }
-  };
-  const auto addExtent = [&stamp](
-                           const int* extent) { stamp.insert(stamp.end(), extent, extent + 6); };
-  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
-  {
-    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
-    if (auto* flags = attributes->GetArray(vtkDataSetAttributes::GhostArrayName()))
-    {
-      add(flags);
-    }
-  }
-  if (auto* points = vtkPointSet::SafeDownCast(data))
-  {
-    add(points->GetPoints() ? points->GetPoints()->GetData() : nullptr);
-  }
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    addExtent(image->GetExtent());
-    addNumbers(image->GetOrigin(), 3);
-    addNumbers(image->GetSpacing(), 3);
-    addNumbers(image->GetDirectionMatrix()->GetData(), 9);
-  }
-  else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
-  {
-    addExtent(lattice->GetExtent());
-    add(lattice->GetXCoordinates());
-    add(lattice->GetYCoordinates());
-    add(lattice->GetZCoordinates());
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
-  {
-    addExtent(structured->GetExtent());
-  }
-  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
-  {
-    add(grid->GetCells());
-    add(grid->GetCellTypesArray());
-  }
-  else if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    for (vtkCellArray* cells : { surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-    {
-      add(cells);
+      const auto* data = metaDataOf(grids, 0);
+      const bool hasBox = data && !data->GetAMRBox(level, i).IsInvalid();
+      if (!hasBox || !metaDataOf(grids, 0)->HasSpacing(level))
+      {
+        throw Failure("The overlapping AMR has no " +
+          std::string(hasBox ? "spacing" : "box for block " + std::to_string(i)) + " of level " +
+          std::to_string(level) + "; its origin, the spacing of every level and the box of every " +
+          "block must be set (SetOrigin, SetSpacing, SetAMRBox), as readers do");
+      }
     }
   }
-  else
+}
+
+void addCells(vtkCellArray* cells, DataContent& content)
+{
+  content.AddTimeOf(cells);
+  content.AddArray(cells ? cells->GetOffsetsArray() : nullptr);
+  content.AddArray(cells ? cells->GetConnectivityArray() : nullptr);
+}
+
+bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
+{
+  auto* types = vtkUnsignedCharArray::SafeDownCast(grid->GetCellTypesArray());
+  if (!types)
   {
-    add(data);
+    return grid->GetNumberOfCells() > 0;
   }
-  return stamp;
+  const unsigned char* first = types->GetPointer(0);
+  const unsigned char* last = first + types->GetNumberOfValues();
+  return std::find(first, last, static_cast<unsigned char>(VTK_POLYHEDRON)) != last;
+}
+
+void addExtent(const int* extent, DataContent& content)
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    content.AddNumber(static_cast<std::uint64_t>(extent[i]));
+  }
 }
 
 std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
@@ -163,50 +183,114 @@ std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
   return dimensions;
 }
 
-int largestDimension(vtkDataSet* data)
-{
-  int largest = 0;
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells() && largest < 3; ++cell)
-  {
-    largest = std::max(largest, dimensionOfCellType(data->GetCellType(cell)));
-  }
-  return largest;
-}
-
 } // namespace
 
-std::vector<DensityBlock> densityBlocks(vtkDataObject* data)
+std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others)
 {
   std::vector<DensityBlock> blocks;
-  const auto add = [&blocks](vtkDataObject* object, const std::string& name, std::int64_t number) {
-    auto* set = vtkDataSet::SafeDownCast(object);
+  OtherLeaves left;
+  const std::uint64_t time = timeOf(data);
+  const auto add = [&](vtkDataObject* object, const std::string& name, std::int64_t number) {
+    vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
+    if (auto* trees = vtkHyperTreeGrid::SafeDownCast(object))
+    {
+      set = cellsOfTrees(trees);
+    }
     if (object && !set)
     {
-      throw Failure("The density has a block of type " + std::string(object->GetClassName()) +
-        ", " + name + "; it must be a data set of cells: Extract Block leaves it out");
+      left.First = left.Count++ == 0 ? object->GetClassName() + (", " + name) : left.First;
     }
+    left.DataSets += set ? 1 : 0;
     if (set && set->GetNumberOfPoints() > 0)
     {
-      blocks.push_back({ set, name, number, geometryOf(set) });
+      blocks.push_back({ set, name, number, time });
     }
   };
   vtkSmartPointer<vtkCompositeDataSet> composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (auto* grids = vtkOverlappingAMR::SafeDownCast(data))
+  {
+    requireBoxes(grids);
+    if (grids->GetNumberOfLevels() > 1 && !hasGhosts(grids))
+    {
+      composite = withRefinedMarked(grids);
+    }
+  }
   if (!composite)
   {
     add(data, "input", 0);
-    return blocks;
   }
-  auto* grids = vtkOverlappingAMR::SafeDownCast(data);
-  if (grids && grids->GetNumberOfLevels() > 1 && !hasGhosts(grids))
+  else
   {
-    composite = withRefinedMarked(grids);
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), leaves->GetCurrentFlatIndex());
+    }
   }
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  if (others)
   {
-    add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), leaves->GetCurrentFlatIndex());
+    *others = left;
   }
   return blocks;
+}
+
+void addGeometry(const DensityBlock& block, DataContent& content)
+{
+  vtkDataSet* data = block.Data;
+  content.AddTime(block.Time);
+  content.AddNumber(static_cast<std::uint64_t>(data->GetDataObjectType()));
+  content.AddNumber(static_cast<std::uint64_t>(data->GetNumberOfPoints()));
+  content.AddNumber(static_cast<std::uint64_t>(data->GetNumberOfCells()));
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    content.AddArray(data->GetAttributes(owner)->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  }
+  if (auto* points = vtkPointSet::SafeDownCast(data))
+  {
+    content.AddArray(points->GetPoints() ? points->GetPoints()->GetData() : nullptr);
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    addExtent(image->GetExtent(), content);
+    content.AddNumbers(image->GetOrigin(), 3);
+    content.AddNumbers(image->GetSpacing(), 3);
+    content.AddNumbers(image->GetDirectionMatrix()->GetData(), 9);
+  }
+  else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    addExtent(lattice->GetExtent(), content);
+    for (vtkDataArray* coordinates :
+      { lattice->GetXCoordinates(), lattice->GetYCoordinates(), lattice->GetZCoordinates() })
+    {
+      content.AddArray(coordinates);
+    }
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    addExtent(structured->GetExtent(), content);
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    addCells(grid->GetCells(), content);
+    content.AddArray(grid->GetCellTypesArray());
+    if (mayHavePolyhedra(grid))
+    {
+      // Their faces are in no array that all versions of VTK give.
+      content.AddNumber(block.Time);
+    }
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells : { surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      addCells(cells, content);
+    }
+  }
+  else
+  {
+    // How its cells are kept is not known.
+    content.AddNumber(static_cast<std::uint64_t>(data->GetMTime()));
+  }
 }
 
 int dimensionOfCellType(int type)
@@ -216,22 +300,14 @@ int dimensionOfCellType(int type)
                                                       : 0;
 }
 
-int largestCellDimension(const std::vector<DensityBlock>& blocks)
+int largestCellDimension(vtkDataSet* data)
 {
   int largest = 0;
-  for (const DensityBlock& block : blocks)
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells() && largest < 3; ++cell)
   {
-    largest = std::max(largest, largestDimension(block.Data));
+    largest = std::max(largest, dimensionOfCellType(data->GetCellType(cell)));
   }
   return largest;
-}
-
-void keepBlocksOfDimension(int dimension, std::vector<DensityBlock>& blocks)
-{
-  blocks.erase(
-    std::remove_if(blocks.begin(), blocks.end(),
-      [=](const DensityBlock& block) { return largestDimension(block.Data) < dimension; }),
-    blocks.end());
 }
 
 } // namespace RectifiedTransport

@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_DensityBlocks_h
 #define RectifiedTransport_DensityBlocks_h
 
+#include "Bridge/Resampling/DataContent.h"
 #include "Bridge/VTKCompatibility.h"
 
 #include "vtkSmartPointer.h"
@@ -24,22 +25,31 @@ namespace RectifiedTransport
 struct DensityBlock
 {
   vtkSmartPointer<vtkDataSet> Data;
-  std::string Name;                    // that messages call it by
-  std::int64_t Number;                 // among the leaves of a composite data set
-  std::vector<std::uint64_t> Geometry; // changes with the input's own points and cells
-  vtkDataArray* Array = nullptr;       // the density; set by those who know its name
+  std::string Name;              // that messages call it by
+  std::int64_t Number;           // among the leaves of a composite data set
+  std::uint64_t Time;            // of the data object that the block is of
+  vtkDataArray* Array = nullptr; // the density; set by those who know its name, none: no mass
 };
 
-// The data sets with points: the object itself, or the leaves of composite ones. Cells of AMR grids
-// that finer ones cover are marked as refined. Throws Failure for a leaf of another type.
-std::vector<DensityBlock> densityBlocks(vtkDataObject* data);
+// The leaves of a composite data set that are no data sets of cells, such as tables.
+struct OtherLeaves
+{
+  std::int64_t Count = 0;
+  std::int64_t DataSets = 0; // the number of the other leaves
+  std::string First;         // the class and the name of the first one
+};
 
-// The largest dimension of a cell of any block, and of the cells of a type.
-int largestCellDimension(const std::vector<DensityBlock>& blocks);
+// The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
+// tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
+// out, and told to `others`. Throws Failure for AMR grids without boxes.
+std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr);
+
+// Adds all that a block's points and cells are made of, its ghost flags too.
+void addGeometry(const DensityBlock& block, DataContent& content);
+
+// The largest dimension of the cells of a data set, and that of the cells of a type.
+int largestCellDimension(vtkDataSet* data);
 int dimensionOfCellType(int type);
-
-// Removes the blocks whose cells are all of fewer dimensions: only the others have mass.
-void keepBlocksOfDimension(int dimension, std::vector<DensityBlock>& blocks);
 
 } // namespace RectifiedTransport
 

@@ -8,28 +8,28 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 
+#include <utility>
+
 namespace RectifiedTransport
 {
 
 namespace
 {
 
-std::vector<std::uint64_t> contentOf(const std::vector<DensityBlock>& blocks)
+DataContent contentOf(const std::vector<DensityBlock>& blocks)
 {
-  std::vector<std::uint64_t> content;
+  DataContent content;
   for (const DensityBlock& block : blocks)
   {
-    content.push_back(static_cast<std::uint64_t>(block.Number));
-    content.insert(content.end(), block.Geometry.begin(), block.Geometry.end());
+    content.AddNumber(static_cast<std::uint64_t>(block.Number));
+    addGeometry(block, content);
     for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
     {
       vtkDataSetAttributes* attributes = block.Data->GetAttributes(owner);
       for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
       {
-        vtkAbstractArray* array = attributes->GetAbstractArray(i);
-        content.push_back(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(array)));
-        content.push_back(static_cast<std::uint64_t>(array->GetMTime()));
-        content.push_back(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
+        content.AddArray(attributes->GetAbstractArray(i));
+        content.AddNumber(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
       }
     }
   }
@@ -39,10 +39,10 @@ std::vector<std::uint64_t> contentOf(const std::vector<DensityBlock>& blocks)
 } // namespace
 
 const std::vector<DensityBlock>& GatheredBlocks::Gather(
-  const std::vector<DensityBlock>& own, const Ranks& ranks)
+  const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
 {
-  std::vector<std::uint64_t> content = contentOf(own);
-  if (onAllRanks(&ranks, this->HasBlocks && content == this->Content))
+  DataContent content = contentOf(own);
+  if (onAllRanks(&ranks, this->HasBlocks && content.IsSameAs(this->Content, progress)))
   {
     return this->Blocks;
   }
@@ -55,13 +55,10 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::All);
   for (const DataPart& part : gathered.Parts)
   {
-    for (DensityBlock block : densityBlocks(part.Data))
-    {
-      block.Name = part.Name;
-      block.Number = part.Number;
-      this->Blocks.push_back(block);
-    }
+    const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
+    this->Blocks.push_back({ part.Data, part.Name, part.Number, time });
   }
+  content.Keep(progress);
   this->Content = std::move(content);
   this->HasBlocks = true;
   return this->Blocks;

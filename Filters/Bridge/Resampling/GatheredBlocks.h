@@ -3,25 +3,28 @@
 #ifndef RectifiedTransport_GatheredBlocks_h
 #define RectifiedTransport_GatheredBlocks_h
 
+#include "Bridge/Resampling/DataContent.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Core/Parallel/Ranks.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace RectifiedTransport
 {
+
+class Progress;
 
 // Keeps those of the last run: they are gathered again only where those of a rank change.
 class GatheredBlocks
 {
 public:
   // By the numbers of the blocks, and the parts of one by rank; what is the same on several ranks
-  // once. Called by all ranks. Throws Failure and std::bad_alloc.
-  const std::vector<DensityBlock>& Gather(const std::vector<DensityBlock>& own, const Ranks& ranks);
+  // once. Called by all ranks. Throws Failure, Cancelled and std::bad_alloc.
+  const std::vector<DensityBlock>& Gather(
+    const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress);
 
 private:
-  std::vector<std::uint64_t> Content; // of this rank's blocks
+  DataContent Content; // of this rank's blocks
   bool HasBlocks = false;
   std::vector<DensityBlock> Blocks;
 };

@@ -5,11 +5,11 @@
 
 #include "Bridge/Density/DensityReader.h"
 #include "Bridge/Resampling/BlockValues.h"
+#include "Bridge/Resampling/DataContent.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 
 #include "vtkSmartPointer.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,7 +26,8 @@ class Progress;
 class ResampledDensity
 {
 public:
-  // Of blocks that have an array each, of one name and association. Throws Failure and Cancelled.
+  // Of blocks whose arrays have one name and association; those without carry no mass, but are part
+  // of the domain. One has an array at least. Throws Failure and Cancelled.
   void Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension, int resolution,
     const DensityRules& rules, Progress& progress);
 
@@ -44,7 +45,12 @@ public:
   const std::vector<std::string>& Findings() const { return this->Unusual; }
 
 private:
-  std::vector<std::uint64_t> Content; // of the last Update
+  bool Join(const std::vector<DensityBlock>& blocks, bool onPoints);
+  void Resample(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension,
+    int resolution, const DensityRules& rules, Progress& progress);
+  void Attach(const std::vector<DensityBlock>& blocks);
+
+  DataContent Content; // of the last Update
   vtkSmartPointer<vtkImageData> Made;
   vtkDataArray* Density = nullptr;
   bool OnPoints = false;

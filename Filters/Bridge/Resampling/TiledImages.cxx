@@ -31,7 +31,7 @@ struct Tile
 {
   vtkImageData* Image;
   std::string Name;
-  vtkDataArray* Array;
+  vtkDataArray* Array;              // none: an image without mass
   Extent Place;                     // in the lattice of the first image
   std::vector<unsigned char> Flags; // of the cells, where points of theirs may be hidden
 };
@@ -89,16 +89,22 @@ std::optional<Extent> placeIn(const ImageGrid& lattice, const ImageGrid& grid)
   return place;
 }
 
+bool areOfOneKind(vtkDataArray* a, vtkDataArray* b)
+{
+  return a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfComponents() == b->GetNumberOfComponents();
+}
+
 std::optional<std::vector<Tile>> tilesOf(
   const std::vector<DensityBlock>& blocks, bool onPoints, ImageGrid& lattice)
 {
   std::vector<Tile> tiles;
+  vtkDataArray* first = nullptr;
   for (const DensityBlock& block : blocks)
   {
     auto* image = vtkImageData::SafeDownCast(block.Data);
-    const vtkDataArray* first = blocks.front().Array;
-    if (!image || block.Array->GetDataType() != first->GetDataType() ||
-      block.Array->GetNumberOfComponents() != first->GetNumberOfComponents())
+    first = first ? first : block.Array;
+    if (!image || (block.Array && !areOfOneKind(block.Array, first)))
     {
       return std::nullopt;
     }
@@ -145,11 +151,15 @@ struct Lattice
   std::array<std::int64_t, 3> Size;
 };
 
-// Calls visit(from, to, count) for runs of values of a tile that are no ghosts, until it returns
-// false. Returns whether it never did.
+// Calls visit(from, to, count) for runs of values of a tile with mass that are no ghosts, until it
+// returns false. Returns whether it never did.
 template <class Visit>
 bool visitRuns(const Tile& tile, const Lattice& all, const ImageGrid& like, const Visit& visit)
 {
+  if (!tile.Array)
+  {
+    return true;
+  }
   const bool onPoints = like.IsOnPoints();
   const Lattice own(tile.Place, like);
   const unsigned char* flags = !onPoints && !tile.Flags.empty()
@@ -230,9 +240,9 @@ bool allHave(const std::vector<Tile>& tiles, int owner, vtkDataArray* array)
 {
   return std::all_of(tiles.begin(), tiles.end(), [&](const Tile& tile) {
     vtkDataArray* own = tile.Image->GetAttributes(owner)->GetArray(array->GetName());
-    return own && own->GetDataType() == array->GetDataType() &&
-      own->GetNumberOfComponents() == array->GetNumberOfComponents() &&
-      own->GetNumberOfTuples() == tile.Image->GetNumberOfElements(owner);
+    return !tile.Array ||
+      (own && areOfOneKind(own, array) &&
+        own->GetNumberOfTuples() == tile.Image->GetNumberOfElements(owner));
   });
 }
 
@@ -310,7 +320,9 @@ vtkSmartPointer<vtkImageData> joinTiles(const std::vector<DensityBlock>& blocks,
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     const ImageGrid grid = lattice.WithValuesOn(owner == vtkDataObject::POINT);
-    vtkDataSetAttributes* from = tiles->front().Image->GetAttributes(owner);
+    const auto first = std::find_if(
+      tiles->begin(), tiles->end(), [](const Tile& tile) { return tile.Array != nullptr; });
+    vtkDataSetAttributes* from = first->Image->GetAttributes(owner);
     for (int i = 0; i < from->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = from->GetArray(i);

@@ -16,9 +16,9 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The arrays that all images have; what none of them covers is hidden. nullptr where a block is no
-// image, where they are not of one lattice, or most of its box is empty, and where cells overlap or
-// points that images share have two values: these are resampled.
+// The arrays that all images with mass have, at least one; what none of these covers is hidden.
+// nullptr where a block is no image, where they are not of one lattice, or most of its box is
+// empty, and where cells overlap or points that images share have two values: these are resampled.
 vtkSmartPointer<vtkImageData> joinTiles(const std::vector<DensityBlock>& blocks, bool onPoints);
 
 } // namespace RectifiedTransport

@@ -6,6 +6,8 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkSmartPointer.h"
 
@@ -51,6 +53,30 @@ void visitSamples(vtkIdType count, const Visit& visit)
   }
 }
 
+void addArrays(vtkFieldData* attributes, Mixer& mixer)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = attributes->GetArray(i))
+    {
+      visitSamples(array->GetNumberOfTuples(),
+        [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
+    }
+  }
+}
+
+void addTrees(vtkHyperTreeGrid* grid, Mixer& mixer)
+{
+  double bounds[6];
+  grid->GetBounds(bounds);
+  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
+  mixer.Add(grid->GetNumberOfCells());
+  if (vtkFieldData* values = grid->GetAttributesAsFieldData(vtkDataObject::CELL))
+  {
+    addArrays(values, mixer);
+  }
+}
+
 void addDataSet(vtkDataSet* data, Mixer& mixer)
 {
   double bounds[6];
@@ -68,15 +94,7 @@ void addDataSet(vtkDataSet* data, Mixer& mixer)
   }
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    vtkDataSetAttributes* attributes = data->GetAttributes(owner);
-    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-    {
-      if (vtkDataArray* array = attributes->GetArray(i))
-      {
-        visitSamples(array->GetNumberOfTuples(),
-          [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
-      }
-    }
+    addArrays(data->GetAttributes(owner), mixer);
   }
 }
 
@@ -92,6 +110,11 @@ bool addData(vtkDataObject* data, Mixer& mixer)
       hasAny = addData(leaves->GetCurrentDataObject(), mixer) || hasAny;
     }
     return hasAny;
+  }
+  if (auto* trees = vtkHyperTreeGrid::SafeDownCast(data))
+  {
+    addTrees(trees, mixer);
+    return trees->GetNumberOfCells() > 0;
   }
   auto* set = vtkDataSet::SafeDownCast(data);
   if (!set || set->GetNumberOfPoints() == 0)

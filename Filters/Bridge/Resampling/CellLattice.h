@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of an image that have become voxels, hexahedra, pixels, quadrilaterals or lines, as by
+// Threshold: the image that they are of.
+#ifndef RectifiedTransport_CellLattice_h
+#define RectifiedTransport_CellLattice_h
+
+#include "Bridge/Resampling/BlockValues.h"
+#include "Bridge/Resampling/DensityBlocks.h"
+#include "Core/Geometry/ImageGrid.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkImageData;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+class CellLattice
+{
+public:
+  // Of the cells of the dimension. None where one of them is no box of the lattice of the first
+  // one, in any order of its corners and in any direction of its axes, and where far fewer cells
+  // than the lattice's box has are there. Corners may be off by what single precision rounds them,
+  // and by 1e-4 of a cell. Throws Failure and Cancelled.
+  static std::optional<CellLattice> Find(
+    const std::vector<DensityBlock>& blocks, int dimension, Progress& progress);
+
+  // Values on cells, on the box of the cells of all blocks. The axes are those of space, or nearest
+  // to them.
+  const ImageGrid& Grid() const { return this->Box; }
+
+  // The grid with each of its cells divided so often along each axis that it has about `resolution`
+  // along its longest one, or as it is.
+  ImageGrid DividedGrid(int resolution) const;
+
+  // Whether no two of the cells that count are in one place. The places of a block are those of
+  // `blocks` in Find with the same data set.
+  bool HasEachOnce(const std::vector<BlockValues>& values) const;
+  // The grid with the cell values in their places, 0 where there is none. Throws Failure.
+  vtkSmartPointer<vtkImageData> MakeImage(
+    const std::vector<BlockValues>& values, const char* name) const;
+  // Sets to 0 what rounding put outside the cells, in an image of the divided grid.
+  void ClearAround(
+    const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells) const;
+
+private:
+  const std::vector<std::int64_t>& PlacesIn(const BlockValues& block) const;
+  template <class Visit>
+  void VisitCounted(const std::vector<BlockValues>& values, const Visit& visit) const;
+
+  ImageGrid Box;
+  std::vector<vtkDataSet*> Sets;
+  std::vector<std::vector<std::int64_t>> Places; // of the cells of each; -1: of fewer dimensions
+};
+
+} // namespace RectifiedTransport
+
+#endif

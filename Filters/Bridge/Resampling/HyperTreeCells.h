@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The leaves of hyper tree grids as cells.
+#ifndef RectifiedTransport_HyperTreeCells_h
+#define RectifiedTransport_HyperTreeCells_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkSmartPointer.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkHyperTreeGrid;
+class vtkUnstructuredGrid;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// Voxels, pixels or lines, with the values of the cell arrays; leaves that the mask hides are left
+// out. Throws Failure where memory is short.
+vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Display/vtkSMDensityArrayDomain.h"
+
+#include "Bridge/Image/IdNames.h"
+
+#include "vtkClientServerInterpreter.h"
+#include "vtkClientServerInterpreterInitializer.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
+#include "vtkSMArrayListDomain.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+
+#include <string>
+
+vtkStandardNewMacro(vtkSMDensityArrayDomain);
+
+namespace
+{
+
+struct Choice
+{
+  int Association = -1; // none
+  std::string Name;
+};
+
+// How an array of the data is used: a vtkDataSetAttributes::AttributeTypes, or -1.
+int attributeOf(vtkPVDataInformation* data, int association, const std::string& name)
+{
+  vtkPVDataSetAttributesInformation* arrays = data->GetAttributeInformation(association);
+  for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+  {
+    vtkPVArrayInformation* array = arrays->GetArrayInformation(i);
+    if (array && array->GetName() && name == array->GetName())
+    {
+      return arrays->IsArrayAnAttribute(i);
+    }
+  }
+  return -1;
+}
+
+// The active scalars, or else the first array that all blocks have, or else the first one; neither
+// ids nor flags.
+Choice choose(vtkSMArrayListDomain* list, vtkPVDataInformation* data)
+{
+  Choice first;
+  Choice partial;
+  for (unsigned int i = 0; i < list->GetNumberOfStrings(); ++i)
+  {
+    const std::string name = list->GetString(i);
+    const int association = list->GetDomainAssociation(i);
+    const int attribute = attributeOf(data, association, name);
+    if (attribute == vtkDataSetAttributes::GLOBALIDS ||
+      attribute == vtkDataSetAttributes::PEDIGREEIDS || RectifiedTransport::isIdName(name))
+    {
+      continue;
+    }
+    if (attribute == vtkDataSetAttributes::SCALARS)
+    {
+      return { list->GetFieldAssociation(i), name };
+    }
+    Choice& rest = list->IsArrayPartial(i) ? partial : first;
+    if (rest.Association < 0)
+    {
+      rest = { list->GetFieldAssociation(i), name };
+    }
+  }
+  return first.Association < 0 ? partial : first;
+}
+
+} // namespace
+
+int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
+{
+  constexpr unsigned int elements = 5; // of SetInputArrayToProcess
+  auto* list = vtkSMArrayListDomain::SafeDownCast(property->FindDomain("vtkSMArrayListDomain"));
+  vtkPVDataInformation* data = this->GetInputDataInformation("Input");
+  vtkSMPropertyHelper helper(property);
+  helper.SetUseUnchecked(useUncheckedValues);
+  if (!list || !data || list->GetNumberOfStrings() == 0 || helper.GetNumberOfElements() != elements)
+  {
+    return 0;
+  }
+  const Choice choice = choose(list, data);
+  if (choice.Association >= 0)
+  {
+    helper.Set(3, std::to_string(choice.Association).c_str());
+  }
+  helper.Set(4, choice.Name.c_str()); // none where all are ids or flags
+  return 1;
+}
+
+namespace
+{
+
+vtkObjectBase* newDomain(void*)
+{
+  return vtkSMDensityArrayDomain::New();
+}
+
+void addDomain(vtkClientServerInterpreter* interpreter)
+{
+  interpreter->AddNewInstanceFunction("vtkSMDensityArrayDomain", newDomain);
+}
+
+// When the plugin's library is loaded. ParaView makes domains by the names of their classes.
+const bool isRegistered = []() {
+  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(addDomain);
+  return true;
+}();
+
+} // namespace
