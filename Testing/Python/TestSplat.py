@@ -52,21 +52,32 @@ class Splat(unittest.TestCase):
             self.assertAlmostEqual(total(splat) / weight_of(points), 1, delta=1e-12)
 
     def test_no_mass_array_is_chosen_by_itself(self):
-        for masses in (True, False):
-            splat = simple.SplatMass(Input=producer(simple, cloud(masses=masses)),
-                                     Dimensions=[4, 4, 4])
-            self.assertEqual(splat.MassArray[1], "None")
-            reported = Listener(splat.GetClientSideObject())
-            self.assertAlmostEqual(total(splat), 400, delta=1e-9)
-            self.assertEqual(reported.errors, [])
-
-    def test_mass_is_chosen_by_itself(self):
+        """Whatever arrays there are, and whether or not the points have been made before."""
         image = producer(simple, density_image((6, 5, 4)))
-        dots = simple.SampleDensity(image, NumberOfParticles=100)
-        mass = output_of(dots).GetFieldData().GetArray("TotalMass").GetValue(0)
-        splat = simple.SplatMass(dots, Dimensions=[4, 4, 4])
-        self.assertEqual(list(splat.MassArray), ["POINTS", "Mass"])
-        self.assertAlmostEqual(total(splat) / mass, 1, delta=1e-12)
+        for updated in (True, False):
+            for make, count in ((lambda: simple.SampleDensity(image, NumberOfParticles=100), 100),
+                                (lambda: producer(simple, cloud()), 400),
+                                (lambda: producer(simple, cloud(masses=False)), 400)):
+                points = make()
+                if updated:
+                    points.UpdatePipeline()
+                splat = simple.SplatMass(Input=points, Dimensions=[4, 4, 4])
+                self.assertEqual(list(splat.MassArray), ["POINTS", "None"])
+                points.UpdatePipeline()
+                self.assertEqual(list(splat.MassArray), ["POINTS", "None"])
+                reported = Listener(splat.GetClientSideObject())
+                self.assertAlmostEqual(total(splat), count, delta=1e-9)
+                self.assertEqual(reported.errors, [])
+
+    def test_masses_of_a_sampled_density(self):
+        image = producer(simple, density_image((6, 5, 4)))
+        for updated in (True, False):
+            dots = simple.SampleDensity(image, NumberOfParticles=100)
+            if updated:
+                dots.UpdatePipeline()
+            splat = simple.SplatMass(dots, Dimensions=[4, 4, 4], MassArray=["POINTS", "Mass"])
+            mass = output_of(dots).GetFieldData().GetArray("TotalMass").GetValue(0)
+            self.assertAlmostEqual(total(splat) / mass, 1, delta=1e-12)
 
     def test_a_choice_of_no_mass_is_kept(self):
         """In a script, and in a state, as those of before the default have it."""
