@@ -185,43 +185,6 @@ class Morph(Blend):
             accepted.SetUncheckedInputConnection(0, table.SMProxy, 0)
             self.assertFalse(accepted.IsInDomains())
 
-    def test_two_times_of_one_reader(self):
-        """The executive passes both requests to the reader before it reads, so that both inputs get the
-        data of one; after a state is loaded nothing has been read yet."""
-        files = []
-        for i in range(4):
-            values = np.zeros((16, 4))
-            values[4 * i + 1] = 1
-            files.append(os.path.join(OUTPUT, "two-times-%d.vti" % i))
-            writer = vtkXMLImageDataWriter()
-            writer.SetFileName(files[-1])
-            writer.SetInputData(density_image((16, 4), values=values.ravel(order="F")))
-            writer.Write()
-        way = 12 * density_image((16, 4)).GetSpacing()[0]
-        for name, first, second in (
-                ("ForceTime", {"ForcedTime": 0.0}, {"ForcedTime": 3.0}),
-                ("TemporalShiftScale", {"PostShift": 0}, {"PostShift": -3}),
-                ("ExtractTimeSteps", {"TimeStepIndices": [0]}, {"TimeStepIndices": [3]})):
-            with self.subTest(name):
-                reader = simple.XMLImageDataReader(FileName=files, TimeArray="None")
-                reader.UpdatePipelineInformation()
-                if name == "ExtractTimeSteps":
-                    first["SelectionMode"] = second["SelectionMode"] = "Select Time Steps"
-                one = getattr(simple, name)(reader, **first)
-                other = getattr(simple, name)(reader, **second)
-                morph = simple.MorphDensities(one, Target=other)
-                for array in ("DensityArray", "TargetArray"):
-                    setattr(morph, array, ["CELLS", "Density"])
-                for _ in range(2):
-                    reader.GetClientSideObject().Modified()
-                    morph.UpdatePipeline(0.0)
-                    cost = output_of(morph).GetFieldData().GetArray("TransportCost").GetValue(0)
-                    self.assertAlmostEqual(cost / way ** 2, 1, 1)
-                before = built(morph)
-                morph.Parameter = 0.25
-                morph.UpdatePipeline(0.0)
-                self.assertEqual(built(morph), before)
-
     def test_arrays_that_inputs_share_are_made_once(self):
         """Two places of one field are no two times of it."""
         wavelet = simple.TemporalShiftScale(simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 0]))
