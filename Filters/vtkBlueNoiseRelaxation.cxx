@@ -2,6 +2,7 @@
 #include "vtkBlueNoiseRelaxation.h"
 
 #include "Bridge/Density/DensityImage.h"
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Relaxation/BlueNoiseRelaxation.h"
@@ -117,6 +118,7 @@ int vtkBlueNoiseRelaxation::RequestData(
     return 1;
   }
   const CountedPoints counted(input, "input point set");
+  requireCells(input, "input");
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());

@@ -6,6 +6,7 @@
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Resampling/BlockArrays.h"
@@ -230,6 +231,10 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   if (blocks.empty())
   {
     return nullptr;
+  }
+  for (const DensityBlock& block : blocks)
+  {
+    requireCells(block.Data, block.Name);
   }
   const char* name = this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_NAME());
   const bool isNamed = name && *name;

@@ -3,6 +3,7 @@
 
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Flow/DensityEqualizingWarp.h"
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
@@ -101,6 +102,7 @@ int vtkDensityEqualizingWarp::RequestData(
   {
     return 1;
   }
+  requireCells(input, "input");
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());

@@ -4,6 +4,7 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedImage.h"
 #include "Bridge/Run/AlgorithmProgress.h"
@@ -206,6 +207,7 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
+  requireCells(input, "input");
   vtkDataObject* domain = vtkDataObject::GetData(inputVector[1], 0);
   if (this->Measure == DENSITY && inputVector[1]->GetNumberOfInformationObjects() == 0)
   {

@@ -16,4 +16,9 @@
 #define VTK_ABI_NAMESPACE_END
 #endif
 
+// Later the faces of polyhedra are cell arrays.
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 4, 0)
+#define RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
+#endif
+
 #endif

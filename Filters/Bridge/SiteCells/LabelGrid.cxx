@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Resampling/DensityBlocks.h"
@@ -63,6 +64,7 @@ ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks* ranks) const
     vtkBoundingBox all;
     for (const DensityBlock& block : densityBlocks(domain))
     {
+      requireCells(block.Data, block.Name);
       double bounds[6];
       block.Data->GetBounds(bounds);
       all.AddBounds(bounds);

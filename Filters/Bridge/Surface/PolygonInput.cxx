@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surface/PolygonInput.h"
 
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
@@ -22,23 +23,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// vtkDataArray::GetRange caches its result, which is outdated where ids were changed without
-// Modified().
-void requireIds(vtkCellArray* cells, std::int64_t points)
-{
-  visitIds(cells, [points](const auto& ids) {
-    for (const auto id : ids)
-    {
-      const auto point = static_cast<std::int64_t>(id);
-      if (point < 0 || point >= points)
-      {
-        throw Failure("A polygon of the input surface has the point " + std::to_string(point) +
-          "; there are points 0 to " + std::to_string(points - 1));
-      }
-    }
-  });
-}
 
 std::int64_t countTriangles(vtkCellArray* cells)
 {
@@ -164,8 +148,7 @@ void requirePolygons(vtkPolyData* surface, const std::string& need)
     throw Failure("The input surface has " + std::to_string(points) + " points and no polygons; " +
       need + " of polygons (lines and vertices do not count)");
   }
-  requireIds(surface->GetPolys(), points);
-  requireIds(surface->GetStrips(), points);
+  requireCells(surface, "input surface");
 }
 
 bool isAllTriangles(vtkPolyData* surface)

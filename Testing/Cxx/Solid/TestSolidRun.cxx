@@ -254,7 +254,7 @@ void checkSurfaceErrors(Checks& checks)
   expect(makePolyhedron(wrong, faces),
     "The input surface has 2 points that are NaN or infinite, the first at index 1", __LINE__);
   expect(makePolyhedron(corners, { 3, 0, 2, 1, 3, 0, 1, 17 }),
-    "A polygon of the input surface has the point 17; there are points 0 to 3", __LINE__);
+    "of the input surface has the point 17; there are points 0 to 3", __LINE__);
   expect(makePolyhedron(corners, { 3, 0, 2, 1, 3, 0, 1, 4 }),
     "has the point 4; there are points 0 to 3", __LINE__);
   expect(makePolyhedron(corners, { 4, 0, 1, -2, 1 }), "has the point -2", __LINE__);

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Points/CellCheck.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkArrayDispatch.h"
+#include "vtkCell.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArrayRange.h"
+#include "vtkExplicitStructuredGrid.h"
+#include "vtkGenericCell.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Calls visit(values) with an array of integers in its value type.
+template <class Visit>
+void visitIntegers(vtkDataArray* array, const Visit& visit)
+{
+  using Integers = vtkTypeList::Create<int, long, long long>; // that cell arrays store
+  using Dispatch = vtkArrayDispatch::DispatchByValueType<Integers>;
+  const auto call = [&visit](auto* typed) { visit(vtk::DataArrayValueRange<1>(typed)); };
+  if (!Dispatch::Execute(array, call))
+  {
+    call(array);
+  }
+}
+
+std::string cellOf(vtkIdType cell, const std::string& name)
+{
+  return "Cell " + std::to_string(cell) + " of the " + name;
+}
+
+[[noreturn]] void failPoint(
+  vtkIdType cell, std::int64_t point, std::int64_t points, const std::string& name)
+{
+  throw Failure(cellOf(cell, name) + " has the point " + std::to_string(point) + "; there are " +
+    (points > 0 ? "points 0 to " + std::to_string(points - 1) : std::string("no points")));
+}
+
+// Of cells that are numbered from `first` on.
+void requireIds(vtkCellArray* cells, std::int64_t points, vtkIdType first, const std::string& name)
+{
+  if (!cells || cells->GetNumberOfCells() <= 0)
+  {
+    return;
+  }
+  const std::int64_t ids = cells->GetConnectivityArray()->GetNumberOfValues();
+  visitIntegers(cells->GetOffsetsArray(), [&](const auto& offsets) {
+    std::int64_t before = 0;
+    vtkIdType cell = first - 1;
+    for (const auto offset : offsets)
+    {
+      const auto end = static_cast<std::int64_t>(offset);
+      if (end < before || end > ids)
+      {
+        throw Failure(cellOf(std::max(cell, first), name) + " has its points from place " +
+          std::to_string(before) + " to " + std::to_string(end) + " of " + std::to_string(ids) +
+          " of the cells; the offsets must not descend, nor be past the end");
+      }
+      before = end;
+      ++cell;
+    }
+  });
+  visitIntegers(cells->GetConnectivityArray(), [&](const auto& connectivity) {
+    const auto isWrong = [points](const auto id) {
+      return static_cast<std::int64_t>(id) < 0 || static_cast<std::int64_t>(id) >= points;
+    };
+    // Those between the cells are not read.
+    for (auto found = std::find_if(connectivity.begin(), connectivity.end(), isWrong);
+         found != connectivity.end(); found = std::find_if(found + 1, connectivity.end(), isWrong))
+    {
+      const auto place = static_cast<std::int64_t>(found - connectivity.begin());
+      visitIntegers(cells->GetOffsetsArray(), [&](const auto& offsets) {
+        const auto after = std::upper_bound(
+          offsets.begin(), offsets.end(), place, [](std::int64_t value, const auto offset) {
+            return value < static_cast<std::int64_t>(offset);
+          });
+        if (after != offsets.begin() && after != offsets.end())
+        {
+          const auto cell = static_cast<vtkIdType>(after - offsets.begin()) - 1;
+          failPoint(first + cell, static_cast<std::int64_t>(*found), points, name);
+        }
+      });
+    }
+  });
+}
+
+// Of every type the number of points, 0 where that is not fixed and -1 where VTK has no such type.
+using PointsOfTypes = std::array<vtkIdType, 256>;
+
+PointsOfTypes pointsOfTypes()
+{
+  PointsOfTypes counts;
+  for (int type = 0; type < 256; ++type)
+  {
+    vtkIdType& count = counts[static_cast<std::size_t>(type)];
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    count = cell ? cell->GetNumberOfPoints() : -1;
+    const bool isFixed = (type >= VTK_TRIANGLE && type <= VTK_HEXAGONAL_PRISM) ||
+      (type >= VTK_QUADRATIC_EDGE && type < VTK_CONVEX_POINT_SET) || type == VTK_VERTEX ||
+      type == VTK_LINE;
+    const bool isOfAnyNumber =
+      type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_QUADRATIC_POLYGON;
+    count = count >= 0 && (!isFixed || isOfAnyNumber) ? 0 : count;
+  }
+  counts[VTK_EMPTY_CELL] = 0;
+  return counts;
+}
+
+// Whether Lagrange and Bezier cells of this type can have so many points.
+bool isOfSomeOrder(int type, vtkIdType points)
+{
+  const auto isAny = [points](const auto& count) {
+    vtkIdType order = 1;
+    while (count(order) < points)
+    {
+      ++order;
+    }
+    return count(order) == points;
+  };
+  switch (type)
+  {
+    case VTK_LAGRANGE_CURVE:
+    case VTK_BEZIER_CURVE:
+      return points >= 2;
+    case VTK_LAGRANGE_TRIANGLE:
+    case VTK_BEZIER_TRIANGLE:
+      return points == 7 || isAny([](vtkIdType n) { return (n + 1) * (n + 2) / 2; });
+    case VTK_LAGRANGE_TETRAHEDRON:
+    case VTK_BEZIER_TETRAHEDRON:
+      return points == 15 || isAny([](vtkIdType n) { return (n + 1) * (n + 2) * (n + 3) / 6; });
+    case VTK_LAGRANGE_WEDGE:
+    case VTK_BEZIER_WEDGE:
+      return points == 21 || isAny([](vtkIdType n) { return (n + 1) * (n + 1) * (n + 2) / 2; });
+    case VTK_LAGRANGE_QUADRILATERAL:
+    case VTK_BEZIER_QUADRILATERAL:
+      return isAny([](vtkIdType n) { return (n + 1) * (n + 1); });
+    case VTK_LAGRANGE_HEXAHEDRON:
+    case VTK_BEZIER_HEXAHEDRON:
+      return isAny([](vtkIdType n) { return (n + 1) * (n + 1) * (n + 1); });
+    default:
+      return true;
+  }
+}
+
+// Faces are a number, and of each a number of points and these.
+void requireFaces(vtkUnstructuredGrid* grid, vtkIdType cell, const std::string& name)
+{
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
+  const std::int64_t points = grid->GetNumberOfPoints();
+  vtkIdTypeArray* faces = grid->GetFaces();
+  vtkIdTypeArray* places = grid->GetFaceLocations();
+  const vtkIdType size = faces ? faces->GetNumberOfValues() : 0;
+  vtkIdType place = places && cell < places->GetNumberOfValues() ? places->GetValue(cell) : -1;
+  const auto next = [&]() {
+    if (place < 0 || place >= size)
+    {
+      throw Failure(cellOf(cell, name) + " is a polyhedron whose faces are not there");
+    }
+    return faces->GetValue(place++);
+  };
+  const vtkIdType count = next();
+  for (vtkIdType face = 0; face < count; ++face)
+  {
+    const vtkIdType corners = next();
+    for (vtkIdType i = 0; i < corners; ++i)
+    {
+      const vtkIdType point = next();
+      if (point < 0 || point >= points)
+      {
+        failPoint(cell, point, points, name);
+      }
+    }
+  }
+#else
+  vtkCellArray* places = grid->GetPolyhedronFaceLocations();
+  vtkCellArray* faces = grid->GetPolyhedronFaces();
+  if (!faces || !places || cell >= places->GetNumberOfCells() || places->GetCellSize(cell) == 0)
+  {
+    throw Failure(cellOf(cell, name) + " is a polyhedron whose faces are not there");
+  }
+#endif
+}
+
+void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
+{
+  static const PointsOfTypes pointsOfType = pointsOfTypes();
+  const vtkIdType cells = grid->GetNumberOfCells();
+  auto* types = cells > 0 ? vtkUnsignedCharArray::SafeDownCast(grid->GetCellTypesArray()) : nullptr;
+  if (cells > 0 && (!types || types->GetNumberOfValues() < cells))
+  {
+    throw Failure("The " + name + " has types of " +
+      std::to_string(types ? types->GetNumberOfValues() : 0) + " cells, but " +
+      std::to_string(cells) + " cells; there must be one for each");
+  }
+  const bool hasDegrees = grid->GetCellData()->GetHigherOrderDegrees() != nullptr;
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const int type = types->GetValue(cell);
+    const vtkIdType needed = pointsOfType[static_cast<std::size_t>(type)];
+    const vtkIdType points = grid->GetCells()->GetCellSize(cell);
+    if (needed < 0)
+    {
+      throw Failure(
+        cellOf(cell, name) + " is of type " + std::to_string(type) + ", which VTK does not have");
+    }
+    if (needed > points || (!hasDegrees && !isOfSomeOrder(type, points)))
+    {
+      throw Failure(cellOf(cell, name) + " is of type " + std::to_string(type) + " and has " +
+        std::to_string(points) + " points; it must have " +
+        (needed > 0 ? std::to_string(needed) : std::string("as many as its order asks")));
+    }
+    if (type == VTK_POLYHEDRON)
+    {
+      requireFaces(grid, cell, name);
+    }
+  }
+}
+
+void requirePlaces(std::int64_t places, std::int64_t found, const std::string& name)
+{
+  if (places > found)
+  {
+    throw Failure("The " + name + " has " + std::to_string(found) +
+      " points, but its extent is of " + std::to_string(places) + "; there must be one for each");
+  }
+}
+
+void requireCoordinates(vtkRectilinearGrid* grid, const std::string& name)
+{
+  int size[3];
+  grid->GetDimensions(size);
+  vtkDataArray* coordinates[3] = { grid->GetXCoordinates(), grid->GetYCoordinates(),
+    grid->GetZCoordinates() };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const vtkIdType found = coordinates[axis] ? coordinates[axis]->GetNumberOfTuples() : 0;
+    if (found < size[axis])
+    {
+      throw Failure("The " + name + " has " + std::to_string(found) + " coordinates along axis " +
+        std::to_string(axis) + ", but " + std::to_string(size[axis]) +
+        " points; there must be one for each");
+    }
+  }
+}
+
+} // namespace
+
+void requireCells(vtkDataSet* data, const std::string& name)
+{
+  const std::int64_t points = data ? data->GetNumberOfPoints() : 0;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    vtkIdType first = 0;
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      requireIds(cells, points, first, name);
+      first += cells ? std::max<vtkIdType>(cells->GetNumberOfCells(), 0) : 0;
+    }
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    requireIds(grid->GetCells(), points, 0, name);
+#ifndef RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
+    vtkCellArray* faces = grid->GetPolyhedronFaces();
+    requireIds(faces, points, 0, "polyhedra's faces of the " + name);
+    requireIds(grid->GetPolyhedronFaceLocations(), faces ? faces->GetNumberOfCells() : 0, 0, name);
+#endif
+    requireTypes(grid, name);
+  }
+  else if (auto* hexahedra = vtkExplicitStructuredGrid::SafeDownCast(data))
+  {
+    requireIds(hexahedra->GetCells(), points, 0, name);
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    int size[3];
+    structured->GetDimensions(size);
+    requirePlaces(std::int64_t{ size[0] } * size[1] * size[2], points, name);
+  }
+  else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    requireCoordinates(lattice, name);
+  }
+}
+
+} // namespace RectifiedTransport
