@@ -172,7 +172,7 @@ class Regions(unittest.TestCase):
         particles, _ = sample(data, 4000, SampleArrays=True, DensityResolution=512)
         cells = vtk_to_numpy(particles.GetPointData().GetArray("pop"))
         x = positions(particles)
-        self.assertTrue(np.all((cells == 1) == (x[:, 0] < 1.6)))
+        self.assertTrue(np.all((cells == 1) == (x[:, 0] < 1.8)))
         in_hole = np.all((x[:, :2] > 3.02) & (x[:, :2] < 4.98), axis=1)
         self.assertEqual(in_hole.sum(), 0)
 
@@ -233,7 +233,7 @@ class Regions(unittest.TestCase):
         data.SetLines(data.GetPolys())
         data.SetPolys(vtkCellArray())
         _, listener = sample(data)
-        self.assertEqual(len(listener.errors), 1)
+        self.assertEqual(len(listener.errors), 2)  # VTK adds one
         self.assertIn("closed ones in a plane", listener.errors[0])
 
     def test_coordinates_that_are_not_finite(self):
@@ -247,7 +247,7 @@ class Regions(unittest.TestCase):
                 for given, where in ((data, "the input"), (blocks, "the block 2 of the input")):
                     particles, listener = sample(given)
                     self.assertEqual(particles.GetNumberOfPoints(), 0)
-                    self.assertEqual(len(listener.errors), 1, listener.errors)
+                    self.assertEqual(len(listener.errors), 2, listener.errors)  # VTK adds one
                     self.assertIn("Point 6 of %s is at (5, " % where, listener.errors[0])
         # A point of no cell does not matter.
         data = data_of([square(0, 4)])
