@@ -174,6 +174,11 @@ bool CellPieces<D>::Divide(vtkIdType cell)
     return true;
   }
   this->Data->GetCell(cell, this->Cell);
+  if (this->Cell->GetNumberOfPoints() <= D) // which VTK's strips do not expect
+  {
+    this->Ids->Reset();
+    return true;
+  }
   const bool divided = this->Cell->Triangulate(0, this->Ids, this->Corners) != 0;
   // vtkPyramid divides itself, and then says that it has not where one diagonal is the shorter.
   return divided || (D == 3 && this->Ids->GetNumberOfIds() > 0);

@@ -145,7 +145,7 @@ bool RegionRows::FindInside(const Point<2>& x, Found& found) const
 void RegionRows::FindNearest(const Point<2>& x, Found& found) const
 {
   RegionBatch::Edge nearest{ -1, 0 };
-  double best = 1.0; // a grid cell
+  double best = 2.0 + 1e-9; // the diagonal of a grid cell
   double bestPart = 0.0;
   const std::int64_t last = this->RowOf(x[1] + 1.0);
   for (std::int64_t row = this->RowOf(x[1] - 1.0); row <= last; ++row)

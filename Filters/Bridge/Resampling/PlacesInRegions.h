@@ -30,7 +30,8 @@ public:
     double Weights[4];
   };
   // A place in the region is between the outline to its left and to its right, else at the nearest
-  // point of the outline. Infinitely far where that is not within a grid cell.
+  // point of the outline. Infinitely far where that is not within the diagonal of a grid
+  // cell.
   Found Find(const Point<2>& x) const;
 
 private:
