@@ -190,6 +190,7 @@ int vtkGuardedAlgorithm::ProcessInformation(
 {
   try
   {
+    const RectifiedTransport::RequestedTimes kept(this);
     this->Whole->RequestFirstTimes(this, inputVector, outputVector);
     const int result = this->RequestInformation(request, inputVector, outputVector);
     this->EndRun();

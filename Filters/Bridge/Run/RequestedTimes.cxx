@@ -71,15 +71,13 @@ std::optional<TimeRange> timesOf(vtkAlgorithm* algorithm)
   return std::nullopt;
 }
 
-RequestedTimes::RequestedTimes(vtkAlgorithm* producer)
+RequestedTimes::RequestedTimes(vtkAlgorithm* algorithm)
 {
-  Algorithms upstream = upstreamOf(producer);
-  upstream.erase(producer);
-  for (vtkAlgorithm* algorithm : upstream)
+  for (vtkAlgorithm* upstream : upstreamOf(algorithm))
   {
-    for (int port = 0; port < algorithm->GetNumberOfOutputPorts(); ++port)
+    for (int port = 0; port < upstream->GetNumberOfOutputPorts() && upstream != algorithm; ++port)
     {
-      vtkInformation* output = algorithm->GetOutputInformation(port);
+      vtkInformation* output = upstream->GetOutputInformation(port);
       std::optional<double>& time = this->Times[output];
       if (output->Has(Pipeline::UPDATE_TIME_STEP()))
       {

@@ -39,12 +39,12 @@ std::optional<TimeRange> announcedTimes(vtkInformation* output);
 // The same of the first output that has times.
 std::optional<TimeRange> timesOf(vtkAlgorithm* algorithm);
 
-// Sets the requested times of all outputs upstream of a producer back at the end: those that
-// another consumer has requested, before it was given the data.
+// The times that are requested of all outputs upstream of an algorithm, set again at the end.
+// Another consumer may have requested them, and not have got the data yet.
 class RequestedTimes
 {
 public:
-  explicit RequestedTimes(vtkAlgorithm* producer);
+  explicit RequestedTimes(vtkAlgorithm* algorithm);
   ~RequestedTimes();
 
   RequestedTimes(const RequestedTimes&) = delete;

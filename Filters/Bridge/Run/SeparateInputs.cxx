@@ -80,13 +80,9 @@ std::optional<double> dataTime(vtkDataObject* data)
 }
 
 // Whether data are of a time that they may have, where `asked` was requested: a source without data
-// of that time gives those of the step before or after it. Of one time they have that one.
+// of that time gives those of the step before or after it.
 bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange& announced)
 {
-  if (announced.First == announced.Last)
-  {
-    return time == announced.First;
-  }
   double before = announced.Steps > 0 ? announced.First : asked;
   double after = announced.Steps > 0 ? announced.Last : asked;
   for (int i = 0; i < announced.Steps; ++i)
@@ -97,6 +93,21 @@ bool isTimeOf(double time, double asked, vtkInformation* output, const TimeRange
   }
   return time == asked || time == before || time == after ||
     time == std::clamp(asked, announced.First, announced.Last);
+}
+
+// Whether a filter has one time of several that an input has.
+bool choosesOne(vtkAlgorithm* filter, const TimeRange& announced)
+{
+  bool areSeveral = false;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      const auto given = announcedTimes(filter->GetInputInformation(port, i));
+      areSeveral = areSeveral || (given && given->First != given->Last);
+    }
+  }
+  return areSeveral && announced.First == announced.Last;
 }
 
 // The time that an output was last made for, which the executive keeps for itself.
@@ -115,10 +126,12 @@ bool hasWrongTime(vtkAlgorithm* filter, int port)
   {
     return false;
   }
-  const bool isAsked = output->Has(ExecutiveKeys::MadeFor());
-  const double asked = isAsked ? output->Get(ExecutiveKeys::MadeFor()) : announced->First;
-  return (isAsked || announced->First == announced->Last) &&
-    !isTimeOf(*time, asked, output, *announced);
+  if (choosesOne(filter, *announced))
+  {
+    return *time != announced->First;
+  }
+  return output->Has(ExecutiveKeys::MadeFor()) &&
+    !isTimeOf(*time, output->Get(ExecutiveKeys::MadeFor()), output, *announced);
 }
 
 // The information of a port with other data of some connections.
@@ -146,11 +159,11 @@ SeparateInputs::SeparateInputs() = default;
 
 SeparateInputs::~SeparateInputs() = default;
 
-// An output of one time has always the same data, of the same time.
+// The data of one chosen time have always the same time.
 SeparateInputs::State SeparateInputs::StateOf(const Output& output)
 {
   const auto announced = announcedTimes(output.first->GetOutputInformation(output.second));
-  const bool hasOne = announced && announced->First == announced->Last;
+  const bool hasOne = announced && choosesOne(output.first, *announced);
   const auto time = dataTime(output.first->GetOutputDataObject(output.second));
   return { output.first->GetMTime(), hasOne ? time : std::nullopt };
 }

@@ -279,6 +279,13 @@ void checkBesideOthers(Checks& checks)
     checks.Near(join->Places[0], placeAt(time), 1e-9, "the source's centroid", __LINE__);
     checks.Near(join->Places[1], placeAt(1.0), 0.1, "the morph's centroid", __LINE__);
   }
+
+  // Information that is asked for without a time requests none.
+  series->UpdateTimeStep(5.0);
+  morphOf(series, choose(series, Choice::One, 1.0))->UpdateInformation();
+  runs.clear();
+  series->Update();
+  CHECK(checks, runs.empty());
 }
 
 // Three times of one source, and the source itself.
