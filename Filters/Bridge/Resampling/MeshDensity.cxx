@@ -210,8 +210,9 @@ std::vector<std::string> warningsOf(const Size<D>& size, const std::vector<Block
   if (open > 0)
   {
     warnings.push_back(std::to_string(open) +
-      " lines of the input are not closed and carry no mass; lines around regions must end where "
-      "they begin");
+      (open == 1 ? " line of the input is not closed and carries no mass"
+                 : " lines of the input are not closed and carry no mass") +
+      "; lines around regions must end where they begin");
   }
   return warnings;
 }

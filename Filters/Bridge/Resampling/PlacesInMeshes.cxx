@@ -191,15 +191,16 @@ public:
       1);
     if constexpr (D == 2)
     {
-      visitRegions(blocks, grid, slabs, reach, progress,
-        [&](const RegionBatch& batch) { searchRegions(batch, numbers, index, progress, found); });
+      visitRegions(blocks, grid, slabs, reach, progress, [&](const RegionBatch& batch) {
+        searchRegions(batch, slabs, numbers, index, progress, found);
+      });
     }
   }
 
 private:
   static constexpr std::int64_t cellsBetweenPolls = 64;
 
-  static void searchRegions(const RegionBatch& batch,
+  static void searchRegions(const RegionBatch& batch, const MeshSlabs<D>& slabs,
     const std::vector<std::vector<std::int64_t>>& numbers, const std::vector<Point<D>>& index,
     Progress& progress, Place* found)
   {
@@ -226,7 +227,7 @@ private:
             {
               return;
             }
-            searchRegion(RegionRows(batch, first, last),
+            searchRegion(RegionRows(batch, first, last, s * slabs.Planes, (s + 1) * slabs.Planes),
               batch.Shapes[static_cast<std::size_t>(batch.Edges[first].Shape)].Block, bins, index,
               found);
             first = last;

@@ -31,7 +31,8 @@ double squaredDistance(const Point<2>& a, const Point<2>& b, double part, const 
 
 } // namespace
 
-RegionRows::RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last)
+RegionRows::RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last,
+  std::int64_t low, std::int64_t high)
   : Batch(batch)
   , Lower{ infinity, infinity }
   , Upper{ -infinity, -infinity }
@@ -45,10 +46,12 @@ RegionRows::RegionRows(const RegionBatch& batch, std::size_t first, std::size_t 
       this->Upper[axis] = std::max({ this->Upper[axis], edge.From[axis], edge.To[axis] });
     }
   }
-  this->FirstRow = static_cast<std::int64_t>(std::floor(this->Lower[1]));
-  const auto rows = static_cast<std::size_t>(
-                      static_cast<std::int64_t>(std::floor(this->Upper[1])) - this->FirstRow) +
-    1;
+  // Edges that are within a row of these.
+  this->FirstRow = std::max(low - 1, static_cast<std::int64_t>(std::floor(this->Lower[1])));
+  const std::int64_t lastRow =
+    std::min(high, static_cast<std::int64_t>(std::floor(this->Upper[1])));
+  const auto rows =
+    static_cast<std::size_t>(std::max<std::int64_t>(lastRow - this->FirstRow, 0)) + 1;
   this->Begin.assign(rows + 2, 0);
   const auto visit = [&](const auto& add) {
     for (std::size_t i = first; i < last; ++i)

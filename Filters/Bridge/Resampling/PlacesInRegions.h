@@ -15,8 +15,9 @@ namespace RectifiedTransport
 class RegionRows
 {
 public:
-  // Edges [first, last) of the batch are those of one region.
-  RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last);
+  // Edges [first, last) of the batch are those of one region; places are in rows [low, high).
+  RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last, std::int64_t low,
+    std::int64_t high);
 
   Point<2> Low() const { return this->Lower; }
   Point<2> High() const { return this->Upper; }

@@ -137,7 +137,7 @@ public:
   bool Run(Progress& progress)
   {
     constexpr std::size_t betweenPolls = std::size_t{ 1 } << 14;
-    const std::vector<Height> heights = this->SortedHeights();
+    const std::vector<Height> heights = this->SortedHeights(progress);
     for (std::size_t i = 0; i < heights.size(); ++i)
     {
       if (i % betweenPolls == 0 && progress.ShouldStop())
@@ -159,7 +159,8 @@ private:
     std::int32_t Number;
   };
 
-  std::vector<Height> SortedHeights() const
+  // Unsorted where it is to stop.
+  std::vector<Height> SortedHeights(Progress& progress) const
   {
     std::vector<Height> heights;
     heights.reserve(static_cast<std::size_t>(this->All.Edges()));
@@ -167,9 +168,24 @@ private:
     {
       heights.push_back({ this->All.At(i)[1], i });
     }
-    std::sort(heights.begin(), heights.end(), [](const Height& a, const Height& b) {
+    const auto isLower = [](const Height& a, const Height& b) {
       return a.Y != b.Y ? a.Y < b.Y : a.Number > b.Number;
-    });
+    };
+    constexpr std::size_t sortedAtOnce = std::size_t{ 1 } << 16;
+    const auto at = [&](std::size_t place) {
+      return heights.begin() + static_cast<std::ptrdiff_t>(std::min(place, heights.size()));
+    };
+    for (std::size_t i = 0; i < heights.size() && !progress.ShouldStop(); i += sortedAtOnce)
+    {
+      std::sort(at(i), at(i + sortedAtOnce), isLower);
+    }
+    for (std::size_t width = sortedAtOnce; width < heights.size(); width *= 2)
+    {
+      for (std::size_t i = 0; i + width < heights.size() && !progress.ShouldStop(); i += 2 * width)
+      {
+        std::inplace_merge(at(i), at(i + width), at(i + 2 * width), isLower);
+      }
+    }
     return heights;
   }
 
