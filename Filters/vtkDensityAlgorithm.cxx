@@ -221,7 +221,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
   OtherLeaves others;
-  std::vector<DensityBlock> blocks = densityBlocks(input, &others);
+  std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress);
   const Ranks* ranks = this->GetRanks();
   if (ranks)
   {

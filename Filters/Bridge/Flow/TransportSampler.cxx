@@ -10,6 +10,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
+#include "Bridge/Resampling/PlacesInLattice.h"
 #include "Bridge/Resampling/PlacesInMeshes.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
@@ -133,12 +134,18 @@ void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>*
   }
   constexpr double partOfSearch = 0.5;
   progress.BeginStage(progress.StageEnd() + partOfSearch * (1.0 - progress.StageEnd()));
-  const PlacesInMeshes places(*meshes, density.Grid(), particles, progress);
   ArraySource source{ {}, "input", false };
   for (const BlockValues& mesh : *meshes)
   {
     source.Sets.push_back(mesh.Data());
   }
+  if (const CellLattice* lattice = meshes->front().Lattice())
+  {
+    const PlacesInLattice places(*lattice, *meshes, particles, progress);
+    sampleArrays(source, places, progress, 1.0, output);
+    return;
+  }
+  const PlacesInMeshes places(*meshes, density.Grid(), particles, progress);
   sampleArrays(source, places, progress, 1.0, output);
 }
 

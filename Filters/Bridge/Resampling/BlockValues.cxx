@@ -18,6 +18,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace RectifiedTransport
 {
@@ -39,6 +40,11 @@ vtkDataSet* BlockValues::Data() const
 void BlockValues::SetData(vtkDataSet* data)
 {
   this->Set = data;
+}
+
+void BlockValues::SetLattice(std::shared_ptr<const CellLattice> lattice)
+{
+  this->CellsOf = std::move(lattice);
 }
 
 BlockValues BlockValues::Only(double value) const

@@ -9,12 +9,14 @@
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace RectifiedTransport
 {
 
+class CellLattice;
 class Progress;
 
 class BlockValues
@@ -23,6 +25,9 @@ public:
   vtkDataSet* Data() const;
   // Takes another data set of the same points and cells, which may have other arrays.
   void SetData(vtkDataSet* data);
+  // Whose cells the blocks are; nullptr where they are of none.
+  const CellLattice* Lattice() const { return this->CellsOf.get(); }
+  void SetLattice(std::shared_ptr<const CellLattice> lattice);
   bool IsOnPoints() const { return this->OnPoints; }
   // Of the points or the cells; 0 where no cell that counts needs them.
   const double* Values() const { return this->Density.data(); }
@@ -54,6 +59,7 @@ private:
   friend class BlockReading;
 
   vtkSmartPointer<vtkDataSet> Set;
+  std::shared_ptr<const CellLattice> CellsOf;
   bool OnPoints = false;
   std::string ArrayName;
   UnusualValues Known;

@@ -76,6 +76,7 @@ std::optional<CellLattice> CellLattice::Find(
     return std::nullopt;
   }
   CellLattice lattice;
+  lattice.Axes = *frame;
   lattice.Box = gridOfFrame(*frame, cells);
   for (const DensityBlock& block : blocks)
   {
@@ -96,7 +97,8 @@ std::optional<CellLattice> CellLattice::Find(
           if (corners.IsOfDimension(cell))
           {
             std::array<std::int64_t, 3> at{};
-            others += corners.Read(cell) && corners.FindPlace(*frame, at) ? 0 : 1;
+            std::array<unsigned, 8> sides{};
+            others += corners.Read(cell) && corners.FindPlace(*frame, at, sides) ? 0 : 1;
             places[static_cast<std::size_t>(cell)] = at[0] + rows[0] * (at[1] + rows[1] * at[2]);
           }
         }
@@ -107,8 +109,10 @@ std::optional<CellLattice> CellLattice::Find(
     {
       return std::nullopt;
     }
-    lattice.Sets.push_back(block.Data);
-    lattice.Places.push_back(std::move(places));
+    if (block.Array)
+    {
+      lattice.Places.push_back(std::move(places));
+    }
   }
   return lattice;
 }
@@ -125,34 +129,11 @@ ImageGrid CellLattice::DividedGrid(int resolution) const
   return this->Box.WithValues(values);
 }
 
-const std::vector<std::int64_t>& CellLattice::PlacesIn(const BlockValues& block) const
-{
-  const auto set = std::find(this->Sets.begin(), this->Sets.end(), block.Data());
-  return this->Places[static_cast<std::size_t>(set - this->Sets.begin())];
-}
-
-// Calls visit(place, block, cell) for the cells that count.
-template <class Visit>
-void CellLattice::VisitCounted(const std::vector<BlockValues>& values, const Visit& visit) const
-{
-  for (const BlockValues& block : values)
-  {
-    const std::vector<std::int64_t>& places = this->PlacesIn(block);
-    for (std::size_t cell = 0; cell < places.size(); ++cell)
-    {
-      if (places[cell] >= 0 && block.IsCounted(static_cast<vtkIdType>(cell)))
-      {
-        visit(places[cell], block, cell);
-      }
-    }
-  }
-}
-
-bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values) const
+bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const
 {
   std::vector<bool> taken(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
   bool once = true;
-  this->VisitCounted(values, [&](std::int64_t place, const BlockValues&, std::size_t) {
+  this->VisitCounted(values, progress, [&](std::int64_t place, std::size_t, std::size_t) {
     once = once && !taken[static_cast<std::size_t>(place)];
     taken[static_cast<std::size_t>(place)] = true;
   });
@@ -160,7 +141,7 @@ bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values) const
 }
 
 vtkSmartPointer<vtkImageData> CellLattice::MakeImage(
-  const std::vector<BlockValues>& values, const char* name) const
+  const std::vector<BlockValues>& values, const char* name, Progress& progress) const
 {
   requireMemory("an image of " + describeValues(this->Box) + " cells",
     numberOfValues(this->Box) * sizeof(double));
@@ -171,18 +152,18 @@ vtkSmartPointer<vtkImageData> CellLattice::MakeImage(
   double* cells = density->GetPointer(0);
   std::fill_n(cells, count, 0.0);
   this->VisitCounted(
-    values, [cells](std::int64_t place, const BlockValues& block, std::size_t cell) {
-      cells[place] = block.Values()[cell];
+    values, progress, [&](std::int64_t place, std::size_t block, std::size_t cell) {
+      cells[place] = values[block].Values()[cell];
     });
   image->GetCellData()->SetScalars(density);
   return image;
 }
 
-void CellLattice::ClearAround(
-  const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells) const
+void CellLattice::ClearAround(const std::vector<BlockValues>& values, const ImageGrid& divided,
+  double* cells, Progress& progress) const
 {
   std::vector<bool> taken(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
-  this->VisitCounted(values, [&taken](std::int64_t place, const BlockValues&, std::size_t) {
+  this->VisitCounted(values, progress, [&taken](std::int64_t place, std::size_t, std::size_t) {
     taken[static_cast<std::size_t>(place)] = true;
   });
   const std::array<int, 3> whole = this->Box.NumberOfValues();
@@ -193,6 +174,7 @@ void CellLattice::ClearAround(
   std::int64_t at = 0;
   for (std::int64_t k = 0; k < fine[2]; ++k)
   {
+    progress.Check();
     for (std::int64_t j = 0; j < fine[1]; ++j)
     {
       const std::int64_t row = whole[0] * (j / part[1] + whole[1] * (k / part[2]));

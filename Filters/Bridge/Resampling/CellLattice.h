@@ -6,10 +6,13 @@
 
 #include "Bridge/Resampling/BlockValues.h"
 #include "Bridge/Resampling/DensityBlocks.h"
+#include "Bridge/Resampling/LatticeFrame.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,8 +23,6 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
-
-class Progress;
 
 class CellLattice
 {
@@ -41,25 +42,50 @@ public:
   // along its longest one, or as it is.
   ImageGrid DividedGrid(int resolution) const;
 
-  // Whether no two of the cells that count are in one place. The places of a block are those of
-  // `blocks` in Find with the same data set.
-  bool HasEachOnce(const std::vector<BlockValues>& values) const;
+  // Whether no two of the cells that count are in one place. The values are those of the blocks in
+  // Find that have an array, in their order.
+  bool HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const;
   // The grid with the cell values in their places, 0 where there is none. Throws Failure.
   vtkSmartPointer<vtkImageData> MakeImage(
-    const std::vector<BlockValues>& values, const char* name) const;
+    const std::vector<BlockValues>& values, const char* name, Progress& progress) const;
   // Sets to 0 what rounding put outside the cells, in an image of the divided grid.
-  void ClearAround(
-    const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells) const;
+  void ClearAround(const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells,
+    Progress& progress) const;
+
+  // Calls visit(place, block, cell) for the cells that count; a place is a number in the grid.
+  template <class Visit>
+  void VisitCounted(
+    const std::vector<BlockValues>& values, Progress& progress, const Visit& visit) const;
+
+  const LatticeFrame& Frame() const { return this->Axes; }
 
 private:
-  const std::vector<std::int64_t>& PlacesIn(const BlockValues& block) const;
-  template <class Visit>
-  void VisitCounted(const std::vector<BlockValues>& values, const Visit& visit) const;
-
+  LatticeFrame Axes;
   ImageGrid Box;
-  std::vector<vtkDataSet*> Sets;
-  std::vector<std::vector<std::int64_t>> Places; // of the cells of each; -1: of fewer dimensions
+  std::vector<std::vector<std::int64_t>> Places; // of the cells of each block; -1: none
 };
+
+template <class Visit>
+void CellLattice::VisitCounted(
+  const std::vector<BlockValues>& values, Progress& progress, const Visit& visit) const
+{
+  constexpr std::size_t cellsBetweenPolls = std::size_t{ 1 } << 16;
+  for (std::size_t b = 0; b < values.size(); ++b)
+  {
+    const std::vector<std::int64_t>& places = this->Places[b];
+    for (std::size_t cell = 0; cell < places.size(); ++cell)
+    {
+      if (cell % cellsBetweenPolls == 0)
+      {
+        progress.Check();
+      }
+      if (places[cell] >= 0 && values[b].IsCounted(static_cast<vtkIdType>(cell)))
+      {
+        visit(places[cell], b, cell);
+      }
+    }
+  }
+}
 
 } // namespace RectifiedTransport
 

@@ -185,7 +185,8 @@ std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
 
 } // namespace
 
-std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others)
+std::vector<DensityBlock> densityBlocks(
+  vtkDataObject* data, OtherLeaves* others, Progress* progress)
 {
   std::vector<DensityBlock> blocks;
   OtherLeaves left;
@@ -194,7 +195,7 @@ std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others
     vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
     if (auto* trees = vtkHyperTreeGrid::SafeDownCast(object))
     {
-      set = cellsOfTrees(trees);
+      set = cellsOfTrees(trees, progress);
     }
     if (object && !set)
     {

@@ -22,6 +22,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class Progress;
+
 struct DensityBlock
 {
   vtkSmartPointer<vtkDataSet> Data;
@@ -41,8 +43,9 @@ struct OtherLeaves
 
 // The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
 // tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
-// out, and told to `others`. Throws Failure for AMR grids without boxes.
-std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr);
+// out, and told to `others`. Throws Failure for AMR grids without boxes, and Cancelled.
+std::vector<DensityBlock> densityBlocks(
+  vtkDataObject* data, OtherLeaves* others = nullptr, Progress* progress = nullptr);
 
 // Adds all that a block's points and cells are made of, its ghost flags too.
 void addGeometry(const DensityBlock& block, DataContent& content);

@@ -2,6 +2,7 @@
 #include "Bridge/Resampling/HyperTreeCells.h"
 
 #include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkCellData.h"
@@ -30,13 +31,25 @@ using Bounds = std::array<double, 6>;
 
 constexpr const char* purpose = "the cells of a hyper tree grid";
 
+constexpr std::size_t leavesBetweenPolls = std::size_t{ 1 } << 14;
+
+// Polls for an abort, once in a while.
+void poll(std::size_t leaf, Progress* progress)
+{
+  if (progress && leaf % leavesBetweenPolls == 0)
+  {
+    progress->Check();
+  }
+}
+
 struct Leaves
 {
   std::vector<Bounds> Boxes;
   std::vector<vtkIdType> Numbers; // of their values
 };
 
-void addLeaves(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, Leaves& leaves)
+void addLeaves(
+  vtkHyperTreeGridNonOrientedGeometryCursor* cursor, Progress* progress, Leaves& leaves)
 {
   if (cursor->IsMasked())
   {
@@ -44,6 +57,7 @@ void addLeaves(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, Leaves& leaves
   }
   if (cursor->IsLeaf())
   {
+    poll(leaves.Boxes.size(), progress);
     leaves.Boxes.emplace_back();
     cursor->GetBounds(leaves.Boxes.back().data());
     leaves.Numbers.push_back(cursor->GetGlobalNodeIndex());
@@ -53,12 +67,12 @@ void addLeaves(vtkHyperTreeGridNonOrientedGeometryCursor* cursor, Leaves& leaves
   for (int child = 0; child < children; ++child)
   {
     cursor->ToChild(static_cast<unsigned char>(child));
-    addLeaves(cursor, leaves);
+    addLeaves(cursor, progress, leaves);
     cursor->ToParent();
   }
 }
 
-Leaves leavesOf(vtkHyperTreeGrid* grid)
+Leaves leavesOf(vtkHyperTreeGrid* grid, Progress* progress)
 {
   Leaves leaves;
   vtkHyperTreeGrid::vtkHyperTreeGridIterator trees;
@@ -68,7 +82,7 @@ Leaves leavesOf(vtkHyperTreeGrid* grid)
   while (trees.GetNextTree(tree))
   {
     grid->InitializeNonOrientedGeometryCursor(cursor, tree);
-    addLeaves(cursor, leaves);
+    addLeaves(cursor, progress, leaves);
   }
   return leaves;
 }
@@ -154,7 +168,7 @@ void copyValues(vtkHyperTreeGrid* grid, const Leaves& leaves, vtkCellData* to)
 
 } // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid)
+vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progress* progress)
 {
   auto cells = vtkSmartPointer<vtkUnstructuredGrid>::New();
   const std::vector<int> axes = axesOf(grid);
@@ -163,7 +177,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid)
     return cells;
   }
   withMemory(purpose, static_cast<double>(grid->GetNumberOfCells()) * sizeof(Bounds), [&]() {
-    const Leaves leaves = leavesOf(grid);
+    const Leaves leaves = leavesOf(grid, progress);
     const int corners = 1 << axes.size();
     vtkNew<vtkPoints> points;
     points->SetData(cornersOf(leaves, axes));
@@ -173,6 +187,7 @@ vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid)
     std::array<vtkIdType, 8> ids{};
     for (std::size_t leaf = 0; leaf < leaves.Boxes.size(); ++leaf)
     {
+      poll(leaf, progress);
       for (int corner = 0; corner < corners; ++corner)
       {
         ids[static_cast<std::size_t>(corner)] = static_cast<vtkIdType>(leaf) * corners + corner;

@@ -15,9 +15,11 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class Progress;
+
 // Voxels, pixels or lines, with the values of the cell arrays; leaves that the mask hides are left
-// out. Throws Failure where memory is short.
-vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid);
+// out. Throws Failure where memory is short and, where there is a progress, Cancelled.
+vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progress* progress);
 
 } // namespace RectifiedTransport
 

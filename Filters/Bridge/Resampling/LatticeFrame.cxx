@@ -355,14 +355,21 @@ bool BoxCorners::Read(vtkIdType cell)
     {
       return false;
     }
+    this->Points[static_cast<std::size_t>(i)] = id;
     this->Data->GetPoint(id, this->Corners[static_cast<std::size_t>(i)].data());
   }
   return true;
 }
 
-bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3>& place) const
+vtkIdType BoxCorners::PointOf(int corner) const
 {
-  std::array<unsigned, 8> sides{}; // of the corners along the lattice's axes, as bits
+  return this->Points[static_cast<std::size_t>(corner)];
+}
+
+bool BoxCorners::FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3>& place,
+  std::array<unsigned, 8>& sides) const
+{
+  sides.fill(0);
   place = { 0, 0, 0 };
   unsigned allAxes = 0;
   for (std::size_t a = 0; a < 3; ++a)

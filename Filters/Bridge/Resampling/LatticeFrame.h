@@ -59,13 +59,19 @@ public:
     return this->Corners[static_cast<std::size_t>(corner)];
   }
 
-  // The place in the lattice of the cell that was read; false where it is not a cell of it.
-  bool FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3>& place) const;
+  // The point of the data set that is a corner.
+  vtkIdType PointOf(int corner) const;
+
+  // The place in the lattice of the cell that was read, and on which side of it each corner is
+  // along the lattice's axes, as bits; false where it is not a cell of it.
+  bool FindPlace(const LatticeFrame& frame, std::array<std::int64_t, 3>& place,
+    std::array<unsigned, 8>& sides) const;
 
 private:
   vtkDataSet* Data;
   const int Dimension;
   vtkNew<vtkIdList> Ids;
+  std::array<vtkIdType, 8> Points;
   std::array<Eigen::Vector3d, 8> Corners;
 };
 

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -115,16 +116,19 @@ void ResampledDensity::Resample(const std::vector<DensityBlock>& blocks, bool on
 {
   // A mesh is checked by meshGrid before its values are read.
   const MassCells cells = massCells(blocks, dimension, progress);
-  std::optional<CellLattice> lattice;
+  std::shared_ptr<const CellLattice> lattice;
   if (!cells.AreClosedLines)
   {
-    lattice = CellLattice::Find(blocks, dimension, progress);
+    if (std::optional<CellLattice> found = CellLattice::Find(blocks, dimension, progress))
+    {
+      lattice = std::make_shared<const CellLattice>(std::move(*found));
+    }
   }
   ImageGrid grid = !lattice ? meshGrid(blocks, cells, resolution, progress)
     : onPoints              ? lattice->DividedGrid(resolution)
                             : lattice->Grid();
   this->Blocks = readBlocks(withMass(blocks), onPoints, cells, rules, progress);
-  if (lattice && !lattice->HasEachOnce(this->Blocks))
+  if (lattice && !lattice->HasEachOnce(this->Blocks, progress))
   {
     lattice.reset();
     grid = meshGrid(blocks, cells, resolution, progress);
@@ -133,7 +137,7 @@ void ResampledDensity::Resample(const std::vector<DensityBlock>& blocks, bool on
   const char* called = name ? name : "Density";
   if (lattice && !onPoints)
   {
-    this->Made = lattice->MakeImage(this->Blocks, called);
+    this->Made = lattice->MakeImage(this->Blocks, called, progress);
   }
   else
   {
@@ -149,7 +153,11 @@ void ResampledDensity::Resample(const std::vector<DensityBlock>& blocks, bool on
   if (lattice && onPoints)
   {
     auto* values = vtkDoubleArray::SafeDownCast(this->Density);
-    lattice->ClearAround(this->Blocks, grid, values->GetPointer(0));
+    lattice->ClearAround(this->Blocks, grid, values->GetPointer(0), progress);
+  }
+  for (BlockValues& block : this->Blocks)
+  {
+    block.SetLattice(lattice);
   }
   this->Resampled = true;
   this->Unusual = describeUnusual(this->Blocks, grid, rules.Invert, progress);

@@ -176,19 +176,21 @@ void checkErrors(Checks& checks)
   barycenter->SetMassMode(7);
   ErrorTest(checks, barycenter).Expect("MassMode is 7; it must be 0 (Linear)", __LINE__);
 
-  // A block that is no data set is an error.
+  // A block that is no data set is passed over; it is an error if all are such.
   vtkNew<vtkTable> table;
-  auto blocks = makeBlocks({ in.A, table });
+  auto blocks = makeBlocks({ table, table });
   barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
   barycenter->SetInputDataObject(blocks);
   ErrorTest(checks, barycenter)
-    .Expect("Input 2 of 2: The density has a block of type vtkTable, input; it must be a data set",
-      __LINE__);
-  blocks->SetBlock(1, in.B);
+    .Expect("The inputs have no image, mesh or grid, but 2 blocks of another type", __LINE__);
+  blocks->SetBlock(1, in.A);
+  blocks->SetBlock(2, in.B);
   blocks->Modified();
   Messages messages(barycenter);
   CHECK(checks, runDensity(barycenter) == runDensity(makeBarycenter({ in.A, in.B })));
   CHECK(checks, messages.Errors.empty());
+  CHECK(checks, messages.Warnings.size() == 1);
+  CHECK(checks, contains(messages.Warnings.front(), "1 block of the inputs is no data set"));
 }
 
 } // namespace

@@ -133,13 +133,18 @@ void checkComposite(Checks& checks)
   // What is passed on is that of all of them.
   CHECK(checks, imageValues(map->GetOutput(), "Density") == imageValues(image, "Density"));
 
-  // A block that is no data set is an error.
+  // A block that is no data set is passed over; it is an error if all are such.
   Messages messages(map);
   vtkNew<vtkTable> table;
-  blocks->SetBlock(1, table);
+  blocks->SetBlock(2, table);
   map->Modified();
   map->Update();
-  CHECK(checks, messages.IsOneError("a block of type vtkTable, block 2 of the input; it must be"));
+  CHECK(checks, imageValues(map->GetOutput(), "Divergence") == expected);
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 1);
+  CHECK(checks, contains(messages.Warnings.front(), "the first a vtkTable, block 3 of the input"));
+  map->SetInputDataObject(makeBlocks({ table, table }));
+  map->Update();
+  CHECK(checks, messages.IsOneError("no image, mesh or grid, but 2 blocks of another type"));
 }
 
 // One table serves both directions and all samples.
