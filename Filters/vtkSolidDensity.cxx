@@ -96,7 +96,7 @@ int vtkSolidDensity::RequestData(
   vtkSmartPointer<vtkPolyData> surface = input;
   if (ranks)
   {
-    const GatheredPoints gathered(input, *ranks, Receivers::All, PointSetKind::Surface);
+    const GatheredPoints gathered(input, *ranks, Receivers::All, PointSetKind::Polygons);
     surface = vtkPolyData::SafeDownCast(gathered.All());
   }
   if (!surface || surface->GetNumberOfPoints() == 0)

@@ -9,7 +9,12 @@ from ranks_rows import RANK, gathered, give, give_row, redistributed, tiles, tur
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
 from ranks_table_points import give_qualities, give_splats
-from rt_testing import load_plugin
+from rt_testing import load_plugin, producer
+from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 
 def give_tiled():
@@ -35,6 +40,27 @@ def give_tiled():
     give("long warp", simple.DensityEqualizingWarp(Input=simple.Contour(
         Input=image, ContourBy=["POINTS", "RTData"], Isosurfaces=[260.0], ComputeNormals=0),
         Density=image, **tiled))
+
+
+def scattered_torus():
+    """Every so many triangles on a rank, with points of their own; its seams close but for rounding."""
+    ranks = vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses()
+    source = vtkParametricFunctionSource()
+    source.SetParametricFunction(vtkParametricTorus())
+    source.SetUResolution(20)
+    source.SetVResolution(15)
+    source.Update()
+    torus = source.GetOutput()
+    points, faces = vtkPoints(), vtkCellArray()
+    for cell in range(RANK, torus.GetNumberOfCells(), ranks):
+        corners = torus.GetCell(cell).GetPoints()
+        faces.InsertNextCell(3)
+        for corner in range(3):
+            faces.InsertCellPoint(points.InsertNextPoint(corners.GetPoint(corner)))
+    part = vtkPolyData()
+    part.SetPoints(points)
+    part.SetPolys(faces)
+    return producer(simple, part)
 
 
 def give_data():
@@ -71,7 +97,10 @@ def give_data():
     for name, surface in (("drum", drum), ("hill", hill),
                           ("hill apart", simple.ExtractSurface(
                               Input=redistributed(Input=hill))),
-                          ("ball", simple.Sphere(ThetaResolution=24))):
+                          ("ball", simple.Sphere(ThetaResolution=24)),
+                          ("ball apart", simple.ExtractSurface(
+                              Input=redistributed(Input=simple.Sphere(ThetaResolution=24)))),
+                          ("torus by triangles", scattered_torus())):
         for association in ("Points", "Cells"):
             give("solid %s %s" % (name, association), simple.SolidDensity(
                 Input=surface, Resolution=14, Association=association))

@@ -20,7 +20,8 @@ namespace RectifiedTransport
 enum class PointSetKind
 {
   Points,
-  Surface
+  Surface,
+  Polygons // a surface whose points the caller merges
 };
 
 // The points and cells of rank 0 first, with the arrays that all have. What is the same on several

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -28,22 +29,33 @@ namespace
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
+// The largest coordinate of a polygon, without its sign.
+double farthestOf(vtkPolyData* surface)
+{
+  const std::array<double, 6> bounds = polygonBounds(surface);
+  return std::accumulate(bounds.begin(), bounds.end(), 0.0,
+    [](double farthest, double x) { return std::max(farthest, std::abs(x)); });
+}
+
 // Distances within which points may differ by rounding: of any coordinates, and of float ones.
 std::array<double, 2> roundingsOf(vtkPolyData* surface)
 {
   const std::array<double, 6> bounds = polygonBounds(surface);
-  double longest = 0.0;
-  double farthest = 0.0;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    longest = std::max(longest, bounds[2 * a + 1] - bounds[2 * a]);
-    farthest = std::max({ farthest, std::abs(bounds[2 * a]), std::abs(bounds[2 * a + 1]) });
-  }
+  const double longest =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
   constexpr double units = 4.0;
   const double near = ClosedMesh::NearDistance * longest;
   return { std::isfinite(near) ? near : 0.0,
-    isFloat ? units * farthest * std::numeric_limits<float>::epsilon() : 0.0 };
+    isFloat ? units * farthestOf(surface) * std::numeric_limits<float>::epsilon() : 0.0 };
+}
+
+// Four units in the last place of the largest coordinate, a power of two; 0 if there is none.
+double lastPlacesOf(vtkPolyData* surface)
+{
+  const double farthest = farthestOf(surface);
+  const double places = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 50) : 0.0;
+  return places >= std::numeric_limits<double>::min() ? places : 0.0;
 }
 
 } // namespace
@@ -85,6 +97,7 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
     coordinates = readPoints(input, progress);
   });
   requirePolygons(input, "a solid needs a closed surface");
+  this->Rounding = lastPlacesOf(input);
   progress.BeginStage(at(0.25));
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
@@ -196,15 +209,16 @@ SolidSurface ClosedSurface::InCells(const ImageGrid& grid, Progress& progress, d
   double* points = this->Mesh->Points().data();
   const double spacing = grid.Spacing()[0];
   const Eigen::Vector3d corner = grid.Origin();
+  const double rounding = this->Rounding;
   progress.BeginStage(0.5 * (progress.StageEnd() + end));
   progress.For(this->NumberOfPoints, Grain, [=](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
       for (std::size_t a = 0; a < 3; ++a)
       {
-        points[3 * i + static_cast<std::int64_t>(a)] =
-          (points[3 * i + static_cast<std::int64_t>(a)] - corner[static_cast<Eigen::Index>(a)]) /
-          spacing;
+        double& x = points[3 * i + static_cast<std::int64_t>(a)];
+        const double rounded = rounding > 0.0 ? std::nearbyint(x / rounding) * rounding : x;
+        x = (rounded - corner[static_cast<Eigen::Index>(a)]) / spacing;
       }
     }
   });

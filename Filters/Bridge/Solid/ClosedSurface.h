@@ -38,8 +38,9 @@ public:
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // Returns the surface in the index coordinates of a grid, the triangles of each component with
-  // one orientation, as stages up to the progress `end`. Throws Failure where a component is not
-  // orientable, and Cancelled.
+  // one orientation. Coordinates are rounded to four units in the last place of the largest one, so
+  // that what differs by less, as on several ranks, has the same bits. As stages up to the progress
+  // `end`. Throws Failure where a component is not orientable, and Cancelled.
   SolidSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:
@@ -49,6 +50,7 @@ private:
   std::string Openness() const;
 
   std::int64_t NumberOfPoints;
+  double Rounding = 0.0; // what coordinates are multiples of
   std::optional<ClosedMesh> Mesh;
 };
 

@@ -52,22 +52,22 @@ void SignedVolumes::Begin(std::int64_t layer)
 
 void SignedVolumes::Add(const std::array<Corner, 3>& triangle, int weight)
 {
-  CutPolygon polygon(triangle);
-  const std::array<double, 2> range = polygon.Range(2);
-  CutPolygon rest;
+  const CutPolygon whole(triangle);
+  const std::array<double, 2> range = whole.Range(2);
+  CutPolygon parts[2];
+  CutPolygon outside;
+  const CutPolygon* polygon = &whole;
   if (range[0] < this->Layer)
   {
-    CutPolygon below;
-    cutPolygon<2>(polygon, this->Layer, below, rest);
-    polygon = rest;
+    cutPolygon<2>(*polygon, this->Layer, outside, parts[0]);
+    polygon = &parts[0];
   }
   if (range[1] > this->Layer + 1.0)
   {
-    CutPolygon above;
-    cutPolygon<2>(polygon, this->Layer + 1.0, rest, above);
-    polygon = rest;
+    cutPolygon<2>(*polygon, this->Layer + 1.0, parts[1], outside);
+    polygon = &parts[1];
   }
-  forSlabs<1>(polygon, this->Rows, [this, weight](std::int64_t row, const CutPolygon& part) {
+  forSlabs<1>(*polygon, this->Rows, [this, weight](std::int64_t row, const CutPolygon& part) {
     if (row >= this->FirstRow && row < this->FirstRow + this->NumberOfRows)
     {
       this->AddToRow(row - this->FirstRow, part, static_cast<double>(-weight));

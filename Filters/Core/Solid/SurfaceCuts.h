@@ -38,7 +38,9 @@ struct CutPolygon
   explicit CutPolygon(const std::array<Corner, 3>& triangle)
     : Size(3)
   {
-    std::copy(triangle.begin(), triangle.end(), this->Corners.begin());
+    this->Corners[0] = triangle[0];
+    this->Corners[1] = triangle[1];
+    this->Corners[2] = triangle[2];
   }
   void Add(const Corner& corner) { this->Corners[static_cast<std::size_t>(this->Size++)] = corner; }
   const Corner& operator[](int i) const { return this->Corners[static_cast<std::size_t>(i)]; }
@@ -108,6 +110,11 @@ void forSlabs(const CutPolygon& polygon, std::int64_t slabs, const Visit& visit)
     return;
   }
   auto i = range[0] < 0.0 ? std::int64_t{ -1 } : static_cast<std::int64_t>(range[0]);
+  if (range[1] <= static_cast<double>(i + 1)) // as of most small triangles
+  {
+    visit(i, polygon);
+    return;
+  }
   CutPolygon rests[2];
   const CutPolygon* rest = &polygon;
   for (int turn = 0; i < slabs; ++i, turn = 1 - turn)
