@@ -116,6 +116,10 @@ INPUTS = {
     "Clip, inverted": (lambda: clip(simple.Sphere(), Invert=0), True),
     "Clip, Clean": (lambda: simple.Clean(Input=simple.ExtractSurface(
         Input=clip(simple.Sphere()))), True),
+    "Clip, Triangulate": (lambda: simple.Triangulate(Input=simple.ExtractSurface(
+        Input=clip(simple.Sphere()))), True),
+    "Clip, Clean, Triangulate": (lambda: simple.Triangulate(Input=simple.Clean(
+        Input=simple.ExtractSurface(Input=clip(simple.Sphere())))), True),
     "Clip, moved": (lambda: moved(clip(simple.Sphere()), Rotate=[13, 27, 41],
                                   Translate=[100, 0, 20]), True),
     "Clip of quads": (lambda: clip(simple.Plane(XResolution=10, YResolution=10), (1, 1, 0)), True),

@@ -86,6 +86,18 @@ RepairedDisk::RepairedDisk(const TriangleSurface& surface, double rounding, cons
   };
   if (isDiskWith(false))
   {
+    // Where a filter has dropped triangles without area, as vtkTriangleFilter does, there are
+    // cracks between points at one place. A cut that makes the surface a disk stays open.
+    if (this->Repairs().FlatTriangles > 0)
+    {
+      std::optional<RepairedSurface> repaired = std::move(this->Repaired);
+      std::optional<DiskMesh> disk = std::move(this->Disk);
+      if (!isDiskWith(true))
+      {
+        this->Repaired = std::move(repaired);
+        this->Disk = std::move(disk);
+      }
+    }
     return;
   }
   const NotADisk apart = *this->Defect;

@@ -16,8 +16,9 @@ namespace RectifiedTransport
 {
 
 // The surface as it is where that is a disk. Else it is repaired as little as makes it one: first
-// without points at one place being merged that no edge joins, then with. "Given" are the points
-// and triangles of the surface.
+// without points at one place being merged that no edge joins, then with; also where triangles had
+// no area and it is a disk without the cracks that these leave. "Given" are the points and
+// triangles of the surface.
 class RepairedDisk
 {
 public:

@@ -177,6 +177,38 @@ TEST(RepairedDisk, ACutStaysOpen)
   EXPECT_EQ(disk.PointOf(18), -1);
 }
 
+// Where a flat triangle was, its points may be there twice: a crack from the boundary inwards.
+TEST(RepairedDisk, CracksAreClosed)
+{
+  Mesh mesh = makeSquare(4);
+  std::vector<std::int64_t> twins;
+  for (const std::int64_t id : { 2, 7 })
+  {
+    twins.push_back(addPoint(mesh, mesh.Points[static_cast<std::size_t>(id)]));
+  }
+  for (auto& triangle : mesh.Triangles) // those on the right have the twins
+  {
+    double x = 0.0;
+    for (const std::int64_t id : triangle)
+    {
+      x += mesh.Points[static_cast<std::size_t>(id)][0] / 3.0;
+    }
+    if (x > 0.5)
+    {
+      std::replace(triangle.begin(), triangle.end(), std::int64_t{ 2 }, twins[0]);
+      std::replace(triangle.begin(), triangle.end(), std::int64_t{ 7 }, twins[1]);
+    }
+  }
+  // As such it may be a cut that somebody has made.
+  expectRepairs(RepairedDisk(mesh.Surface(), 0.0), 0, 0, 0);
+  const std::int64_t flat = addPoint(mesh, { 0.1, 1.0, 0.0 });
+  mesh.Triangles.push_back({ 21, 20, flat });
+  const RepairedDisk disk(mesh.Surface(), 0.0);
+  expectRepairs(disk, 0, 1, 2);
+  EXPECT_EQ(disk.Mesh().Boundary().size(), 17u);
+  expectGiven(mesh, disk);
+}
+
 TEST(RepairedDisk, UnusedPoints)
 {
   Mesh mesh = makeSquare(4);
