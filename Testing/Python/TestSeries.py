@@ -191,9 +191,9 @@ class Series(unittest.TestCase):
                                  lambda m: update(m, 6), 3, 3)
 
     def test_filters_that_mixed_up_the_times(self):
-        """ParaView's own filters of several inputs get all of them from the last request, and Force Time
-        keeps what it got."""
-        for name in ("force", "extract", "passed, force", "force, passed"):
+        """ParaView's own filters of several inputs get all of them from the last request; Force Time and
+        Temporal Interpolator keep what they got."""
+        for name in WAYS:
             for time in (0, 11, 5):
                 with self.subTest(way=name, time=time):
                     reset()

@@ -239,6 +239,7 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
   {
     return;
   }
+  this->ForgetKeptSteps(branches);
   this->UpdateEach(branches);
   if (this->ForgetWrongTimes(branches))
   {
@@ -249,6 +250,35 @@ void SeparateInputs::Update(vtkAlgorithm* filter, vtkInformationVector** inputVe
       this->Untold[output] = StateOf(output);
     }
   }
+  for (auto& [keeper, time] : this->Keepers)
+  {
+    time = keeper->GetOutputDataObject(0)->GetUpdateTime();
+  }
+}
+
+// Filters that make data of several time steps, as Temporal Interpolator does, keep these steps,
+// and do not tell what their data are made of. They begin again where another filter has updated
+// them.
+void SeparateInputs::ForgetKeptSteps(const std::vector<Branch>& branches)
+{
+  std::map<vtkAlgorithm*, vtkMTimeType> keepers;
+  for (const Branch& branch : branches)
+  {
+    for (vtkAlgorithm* filter : branch.Upstream)
+    {
+      vtkDataObject* data =
+        filter->IsA("vtkMultiTimeStepAlgorithm") ? filter->GetOutputDataObject(0) : nullptr;
+      if (data && keepers.emplace(filter, 0).second)
+      {
+        const auto known = this->Keepers.find(filter);
+        if (known == this->Keepers.end() || known->second != data->GetUpdateTime())
+        {
+          filter->Modified();
+        }
+      }
+    }
+  }
+  this->Keepers = keepers;
 }
 
 void SeparateInputs::UpdateEach(const std::vector<Branch>& branches)

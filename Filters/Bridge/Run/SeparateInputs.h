@@ -69,11 +69,14 @@ private:
   static std::set<Output> WrongOutputs(const std::vector<Branch>& branches);
   static State StateOf(const Output& output);
   void UpdateEach(const std::vector<Branch>& branches);
+  void ForgetKeptSteps(const std::vector<Branch>& branches);
   bool ForgetWrongTimes(const std::vector<Branch>& branches);
 
   std::vector<Made> Data;
   std::string Failed;             // the error message; empty where all inputs were made
   std::map<Output, State> Untold; // whose data have another time even if made alone
+
+  std::map<vtkAlgorithm*, vtkMTimeType> Keepers; // of steps, and when their data were made last
 
   // What replaces the executive's inputs.
   std::vector<vtkSmartPointer<vtkInformationVector>> Vectors;
