@@ -14,8 +14,9 @@
  * type. Cells and points that the ghost array marks as duplicate or hidden carry no mass, and
  * neither do the cells of a hidden point.
  *
- * Any other data set (rectilinear, structured and unstructured grids, polygons in one plane, lines
- * on one straight line), and any composite of data sets, is one domain: an image on the bounds of
+ * Any other data set (rectilinear, structured and unstructured grids, polygons in one plane, closed
+ * lines around regions of one, lines on one straight line), and any composite of data sets, is one
+ * domain: an image on the bounds of
  * its cells of the highest dimension, with DensityResolution cells along the longest axis. The
  * value of a grid cell is the mean over it, 0 outside the data sets: point arrays are linear on the
  * simplices into which VTK divides the cells, cell arrays constant, cells that overlap add up.
