@@ -145,10 +145,8 @@ std::array<std::int64_t, 3> RepairedDisk::GivenCorners(std::int64_t triangle) co
   {
     return { points[0], points[1], points[2] };
   }
-  // The disk may have the corners in the opposite order.
   const std::int64_t* corners = this->Repaired->Corners(triangle);
-  const bool isTurned = this->Repaired->NewPoint(corners[1]) != points[1];
-  return { corners[0], corners[isTurned ? 2 : 1], corners[isTurned ? 1 : 2] };
+  return { corners[0], corners[1], corners[2] };
 }
 
 GivenTriangles::GivenTriangles(const RepairedDisk& disk, const std::int64_t* given)

@@ -459,6 +459,15 @@ TEST(RepairedDisk, WhatIsNone)
   EXPECT_EQ(defectOf(notFinite).find("has 1 point that is not finite"), 0u);
 }
 
+// A flat triangle whose side cannot be flipped, as its far points have an edge already.
+TEST(RepairedDisk, AnEdgeIsNotMadeTwice)
+{
+  const Mesh mesh{ { { 0, 0, 0 }, { 2, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 3, 2, 0 } },
+    { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 4 } } };
+  EXPECT_EQ(defectOf(mesh),
+    "has 1 triangle without area, the first is triangle 0; move their points apart");
+}
+
 // Coordinates whose squares no double is.
 TEST(RepairedDisk, WhateverTheSize)
 {
