@@ -63,6 +63,7 @@ struct vtkDensityAlgorithm::vtkInternals
   std::map<int, ResampledDensity> Resampled; // by the number of the input
   std::map<int, GatheredBlocks> Gathered;    // where it lies on several ranks
   std::map<int, DensityImage::Content> Told; // of whose unusual values a warning told
+  bool IsAnnouncing = false;                 // the run that follows gives the warnings
 };
 
 //------------------------------------------------------------------------------
@@ -250,7 +251,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
       requireTuples(block.Array, block.Data, arrays.OnPoints, block.Name);
     }
   }
-  if (arrays.Without > 0 && (!ranks || ranks->Own() == 0))
+  if (arrays.Without > 0 && this->Warns())
   {
     const DensityBlock& first = *std::find_if(
       blocks.begin(), blocks.end(), [](const DensityBlock& block) { return block.Array; });
@@ -264,7 +265,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
     this->GetDensityRules(), progress);
   for (const std::string& warning : made.Warnings())
   {
-    if (!this->GetRanks() || this->GetRanks()->Own() == 0)
+    if (this->Warns())
     {
       vtkWarningMacro(<< warning);
     }
@@ -279,6 +280,12 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
 }
 
 //------------------------------------------------------------------------------
+bool vtkDensityAlgorithm::Warns()
+{
+  return !this->Internals->IsAnnouncing && (!this->GetRanks() || this->GetRanks()->Own() == 0);
+}
+
+//------------------------------------------------------------------------------
 void vtkDensityAlgorithm::ReportOthers(const OtherLeaves& others)
 {
   const Ranks* ranks = this->GetRanks();
@@ -290,7 +297,7 @@ void vtkDensityAlgorithm::ReportOthers(const OtherLeaves& others)
     throw Failure("The density has no image, mesh or grid, but " + std::to_string(count) +
       (count == 1 ? " block" : " blocks") + " of another type" + first);
   }
-  if (count > 0 && (!ranks || ranks->Own() == 0))
+  if (count > 0 && this->Warns())
   {
     vtkWarningMacro(<< count << (count == 1 ? " block" : " blocks")
                     << " of the input without cells of a data set" << first << " passed over");
@@ -375,8 +382,19 @@ ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
 ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayIndex, int number)
 {
   AlgorithmProgress progress(this, this->Threading);
-  const auto density = this->ReadDensity(data, progress, arrayIndex, number);
-  return density ? density->Grid() : ImageGrid();
+  bool& isAnnouncing = this->Internals->IsAnnouncing;
+  isAnnouncing = true;
+  try
+  {
+    const auto density = this->ReadDensity(data, progress, arrayIndex, number);
+    isAnnouncing = false;
+    return density ? density->Grid() : ImageGrid();
+  }
+  catch (...)
+  {
+    isAnnouncing = false;
+    throw;
+  }
 }
 
 //------------------------------------------------------------------------------

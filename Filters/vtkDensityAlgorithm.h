@@ -205,6 +205,7 @@ private:
     vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
 
   void ReportOthers(const RectifiedTransport::OtherLeaves& others);
+  bool Warns();
 
   const int DensityPort;
   struct vtkInternals;
