@@ -58,7 +58,6 @@ POINT_MESSAGES = {
 GATHERED = {
     "sample mesh not a number": "has 1 value that is NaN or infinite",
     "map mesh not a number": "has 1 value that is NaN or infinite",
-    "sample mesh array": "has no numeric cell array 'Density'",
     "sample mesh type": "The density is no image on rank 0, but an image on rank 1",
     "cells not finite": "has 1 point that is NaN or infinite",
     "relaxation not a number": "has 1 value that is NaN or infinite",
@@ -134,6 +133,11 @@ class RanksErrors(unittest.TestCase):
                 self.assertEqual(others, [[]] * (RANKS - 1))
                 self.assertEqual(len(first), 1)
                 self.assertIn(text, first[0])
+
+    def test_a_mesh_without_the_array_on_one_has_no_mass_there(self):
+        self.assertEqual(self.errors("sample mesh array"), [[]] * RANKS)
+        points = self.points("sample mesh array")
+        self.assertEqual((sum(points), points[1]), (60, 0))
 
     def test_no_memory_on_one(self):
         """The others would wait for its messages."""
