@@ -55,7 +55,8 @@ struct Voxels
   Mesh Surface() const
   {
     Mesh mesh;
-    for (std::int64_t i = 0; i < numberOfCells<3>(this->Size); ++i)
+    const auto count = static_cast<std::int64_t>(numberOfCells<3>(this->Size));
+    for (std::int64_t i = 0; i < count; ++i)
     {
       const std::int64_t at[3] = { i % this->Size[0], i / this->Size[0] % this->Size[1],
         i / this->Size[0] / this->Size[1] };
@@ -99,7 +100,8 @@ Voxels randomVoxels(std::mt19937_64& random, double share)
                    2 + static_cast<std::int64_t>(random() % 6) },
     {} };
   std::uniform_real_distribution<double> unit;
-  for (std::int64_t i = 0; i < numberOfCells<3>(voxels.Size); ++i)
+  const auto count = static_cast<std::int64_t>(numberOfCells<3>(voxels.Size));
+  for (std::int64_t i = 0; i < count; ++i)
   {
     voxels.Values.push_back(unit(random) < share ? 1.0 : 0.0);
   }
