@@ -46,45 +46,83 @@ public:
   std::int64_t Count() const override { return this->Places.size(); }
   SampledPlace Find(std::int64_t place) const override
   {
+    SampledPlace found{};
+    this->FindBlock(place, 1, &found);
+    return found;
+  }
+  void FindBlock(std::int64_t first, std::int64_t count, SampledPlace* found) const override
+  {
     const GridSize<D> cells = this->Points.template Size<D>();
-    double index[D];
-    this->Points.template ToIndex<D>(this->Places[place], index);
-    SampledPlace found{ { 0 }, { 1.0 }, 1, 0 };
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      double index[D];
+      this->Points.template ToIndex<D>(this->Places[first + i], index);
+      this->FindAt(index, cells, found[i]);
+    }
+  }
+
+private:
+  void FindAt(const double* index, const GridSize<D>& cells, SampledPlace& found) const
+  {
+    double parts[D];
+    vtkIdType steps[D];
     vtkIdType cellStep = 1;
     vtkIdType pointStep = 1;
+    bool isBetween = true; // points along every axis
+    found.Set = 0;
+    found.Cell = 0;
+    found.Points[0] = 0;
     for (int a = 0; a < D; ++a)
     {
       const double x = std::clamp(index[a], 0.0, static_cast<double>(cells[a]));
       const auto cell = std::min(static_cast<std::int64_t>(x), cells[a] - 1);
-      const double part = x - static_cast<double>(cell);
-      const std::int64_t inPart = cell - this->Start[a];
-      found.Cell += static_cast<vtkIdType>(inPart) * cellStep;
-      for (int i = 0; i < found.Count; ++i)
-      {
-        found.Points[i] += static_cast<vtkIdType>(inPart) * pointStep;
-      }
-      // A weight of 0 would not keep out values that are not finite.
-      const int before = part < 1.0 ? found.Count : 0;
-      if (part > 0.0)
-      {
-        for (int i = 0; i < found.Count; ++i)
-        {
-          found.Points[before + i] = found.Points[i] + pointStep;
-          found.Weights[before + i] = found.Weights[i] * part;
-        }
-        for (int i = 0; i < before; ++i)
-        {
-          found.Weights[i] *= 1.0 - part;
-        }
-        found.Count += before;
-      }
+      const auto inPart = static_cast<vtkIdType>(cell - this->Start[a]);
+      parts[a] = x - static_cast<double>(cell);
+      steps[a] = pointStep;
+      isBetween = isBetween && parts[a] > 0.0 && parts[a] < 1.0;
+      found.Cell += inPart * cellStep;
+      found.Points[0] += inPart * pointStep;
       cellStep *= static_cast<vtkIdType>(this->PartCells[a]);
       pointStep *= static_cast<vtkIdType>(this->PartCells[a] + 1);
     }
-    return found;
+    found.Weights[0] = 1.0;
+    if (isBetween)
+    {
+      found.Count = 1 << D;
+      for (int a = 0; a < D; ++a)
+      {
+        divide(1 << a, 1 << a, parts[a], steps[a], found);
+      }
+      return;
+    }
+    found.Count = 1;
+    for (int a = 0; a < D; ++a)
+    {
+      // A weight of 0 would not keep out values that are not finite.
+      const int before = parts[a] < 1.0 ? found.Count : 0;
+      if (parts[a] > 0.0)
+      {
+        divide(found.Count, before, parts[a], steps[a], found);
+        found.Count += before;
+      }
+    }
   }
 
-private:
+  // Divides the weights of the first points between them and the next ones along an axis, which are
+  // written behind `before` of them.
+  static void divide(int count, int before, double part, vtkIdType step, SampledPlace& found)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      found.Points[before + i] = found.Points[i] + step;
+      found.Weights[before + i] = found.Weights[i] * part;
+    }
+    for (int i = 0; i < before; ++i)
+    {
+      found.Weights[i] *= 1.0 - part;
+    }
+  }
+
   const ImageGrid Points; // its grid cells are the image's cells
   GridSize<D> Start{};
   GridSize<D> PartCells{};

@@ -3,8 +3,8 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
+#include "Core/Parallel/Reduction.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkDataObject.h"
 
 #include <algorithm>
@@ -16,6 +16,51 @@
 namespace RectifiedTransport
 {
 
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::array<double, 6> noBounds = { infinity, -infinity, infinity, -infinity, infinity,
+  -infinity };
+
+struct BoundsOfPoints
+{
+  std::array<double, 6> Found = noBounds;
+
+  template <class ArrayT>
+  void operator()(ArrayT* array, Progress& progress)
+  {
+    constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
+    const auto ofChunk = [array](std::int64_t first, std::int64_t last) {
+      std::array<double, 6> bounds = noBounds;
+      for (const auto tuple : vtk::DataArrayTupleRange<3>(array, first, last))
+      {
+        const double x[3] = { static_cast<double>(tuple[0]), static_cast<double>(tuple[1]),
+          static_cast<double>(tuple[2]) };
+        const bool isFinite = std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+        for (std::size_t a = 0; isFinite && a < 3; ++a)
+        {
+          bounds[2 * a] = std::min(bounds[2 * a], x[a]);
+          bounds[2 * a + 1] = std::max(bounds[2 * a + 1], x[a]);
+        }
+      }
+      return bounds;
+    };
+    const auto join = [](std::array<double, 6> all, const std::array<double, 6>& chunk) {
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        all[2 * a] = std::min(all[2 * a], chunk[2 * a]);
+        all[2 * a + 1] = std::max(all[2 * a + 1], chunk[2 * a + 1]);
+      }
+      return all;
+    };
+    this->Found =
+      reduceChunks(progress, array->GetNumberOfTuples(), grain, noBounds, ofChunk, join);
+  }
+};
+
+} // namespace
+
 vtkPointSet* pointSetOf(vtkInformationVector* port)
 {
   return requireBlock<vtkPointSet>(
@@ -24,7 +69,9 @@ vtkPointSet* pointSetOf(vtkInformationVector* port)
 
 void findBounds(vtkPointSet* points, double bounds[6])
 {
-  vtkBoundingBox::ComputeBounds(points->GetPoints(), bounds);
+  const SerialExecutor serial;
+  Progress all{ Context(serial) };
+  findBounds(points, all, bounds);
 }
 
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own)
@@ -48,8 +95,7 @@ std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6
 
 void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 6> found{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  std::array<double, 6> found = noBounds;
   if (points && points->GetNumberOfPoints() > 0)
   {
     findBounds(points, found.data());
@@ -59,6 +105,33 @@ void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
     found = boundsOfAll(*ranks, found);
   }
   std::copy_n(found.begin(), 6, bounds);
+}
+
+void findBounds(vtkPointSet* points, Progress& progress, double bounds[6])
+{
+  BoundsOfPoints pass;
+  if (points && points->GetNumberOfPoints() > 0)
+  {
+    vtkDataArray* coordinates = points->GetPoints()->GetData();
+    using Dispatch = vtkArrayDispatch::DispatchByValueType<vtkArrayDispatch::Reals>;
+    if (!Dispatch::Execute(coordinates, pass, progress))
+    {
+      pass(coordinates, progress);
+    }
+  }
+  std::copy_n(pass.Found.begin(), 6, bounds);
+}
+
+void findBounds(vtkPointSet* points, const Ranks* ranks, Progress& progress, double bounds[6])
+{
+  findBounds(points, progress, bounds);
+  if (ranks)
+  {
+    std::array<double, 6> own;
+    std::copy_n(bounds, 6, own.begin());
+    const std::array<double, 6> all = boundsOfAll(*ranks, own);
+    std::copy_n(all.begin(), 6, bounds);
+  }
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)

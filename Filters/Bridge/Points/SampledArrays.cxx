@@ -5,6 +5,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -19,7 +20,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
@@ -117,54 +120,172 @@ vtkSmartPointer<vtkAbstractArray> makeLike(vtkAbstractArray* array, std::int64_t
   return made;
 }
 
-// Writes tuples of an array whose values lie apart in memory: on any threads.
-struct SampleValues
+// Writes the tuples of one array for a block of places: on any thread, as no two of them share a
+// value's memory.
+class ArraySampler
 {
-  template <class Array>
-  void operator()(Array* first, const NewArray& array, vtkDataArray* to,
-    const SampledPlaces& places, bool ofCells, Progress& progress) const
+public:
+  virtual ~ArraySampler() = default;
+  virtual void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const = 0;
+};
+
+template <class Value>
+Value noValue()
+{
+  constexpr bool hasNaN = std::numeric_limits<Value>::has_quiet_NaN;
+  return hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0);
+}
+
+// The mean of value(point) with a place's weights.
+template <class Value, class ValueAt>
+Value interpolate(const SampledPlace& place, const ValueAt& valueAt)
+{
+  double sum = 0.0;
+  for (int k = 0; k < place.Count; ++k)
   {
-    using Value = vtk::GetAPIType<Array>;
-    std::vector<decltype(vtk::DataArrayTupleRange(first))> sets;
+    sum += place.Weights[k] * static_cast<double>(valueAt(place.Points[k]));
+  }
+  Value value;
+  vtkMath::RoundDoubleToIntegralIfNecessary(sum, &value);
+  return value;
+}
+
+// Of arrays whose tuples are contiguous, with `N` components; 0 for any number.
+template <class Value, int N>
+class ContiguousSampler final : public ArraySampler
+{
+public:
+  ContiguousSampler(const NewArray& array, vtkDataArray* to, bool ofCells)
+    : To(static_cast<Value*>(to->GetVoidPointer(0)))
+    , Components(to->GetNumberOfComponents())
+    , OfCells(ofCells)
+  {
     for (vtkAbstractArray* from : array.From)
     {
-      sets.push_back(vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(from)));
+      this->From.push_back(static_cast<const Value*>(from->GetVoidPointer(0)));
     }
-    auto found = vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(to));
-    const auto components = static_cast<vtk::ComponentIdType>(first->GetNumberOfComponents());
-    progress.For(
-      places.Count(), Grain,
-      [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          const SampledPlace place = places.Find(i);
-          auto tuple = found[static_cast<vtk::TupleIdType>(i)];
-          if (place.Cell < 0)
-          {
-            constexpr bool hasNaN = std::numeric_limits<Value>::has_quiet_NaN;
-            tuple.fill(hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0));
-            continue;
-          }
-          const auto& given = sets[static_cast<std::size_t>(place.Set)];
-          if (ofCells)
-          {
-            tuple = given[static_cast<vtk::TupleIdType>(place.Cell)];
-            continue;
-          }
-          for (vtk::ComponentIdType c = 0; c < components; ++c)
-          {
-            double sum = 0.0;
-            for (int k = 0; k < place.Count; ++k)
-            {
-              sum += place.Weights[k] * static_cast<double>(given[place.Points[k]][c]);
-            }
-            Value value;
-            vtkMath::RoundDoubleToIntegralIfNecessary(sum, &value);
-            tuple[c] = value;
-          }
-        }
-      },
-      Units);
+  }
+
+  void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const override
+  {
+    const int components = N > 0 ? N : this->Components;
+    Value* tuple = this->To + first * components;
+    for (std::int64_t i = 0; i < count; ++i, tuple += components)
+    {
+      const SampledPlace& place = places[i];
+      if (place.Cell < 0)
+      {
+        std::fill_n(tuple, components, noValue<Value>());
+        continue;
+      }
+      const Value* given = this->From[static_cast<std::size_t>(place.Set)];
+      if (this->OfCells)
+      {
+        std::copy_n(given + place.Cell * components, components, tuple);
+        continue;
+      }
+      for (int c = 0; c < components; ++c)
+      {
+        tuple[c] =
+          interpolate<Value>(place, [=](vtkIdType point) { return given[point * components + c]; });
+      }
+    }
+  }
+
+private:
+  std::vector<const Value*> From; // of each data set
+  Value* To;
+  const int Components;
+  const bool OfCells;
+};
+
+// Of arrays of any layout.
+template <class Array>
+class RangeSampler final : public ArraySampler
+{
+public:
+  RangeSampler(const NewArray& array, vtkDataArray* to, bool ofCells)
+    : To(vtkArrayDownCast<Array>(to))
+    , OfCells(ofCells)
+  {
+    for (vtkAbstractArray* from : array.From)
+    {
+      this->From.push_back(vtk::DataArrayTupleRange(vtkArrayDownCast<Array>(from)));
+    }
+  }
+
+  void Sample(const SampledPlace* places, std::int64_t first, std::int64_t count) const override
+  {
+    using Value = vtk::GetAPIType<Array>;
+    auto tuples = vtk::DataArrayTupleRange(this->To);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const SampledPlace& place = places[i];
+      auto tuple = tuples[static_cast<vtk::TupleIdType>(first + i)];
+      if (place.Cell < 0)
+      {
+        tuple.fill(noValue<Value>());
+        continue;
+      }
+      const auto& given = this->From[static_cast<std::size_t>(place.Set)];
+      if (this->OfCells)
+      {
+        tuple = given[static_cast<vtk::TupleIdType>(place.Cell)];
+        continue;
+      }
+      for (vtk::ComponentIdType c = 0; c < tuples.GetTupleSize(); ++c)
+      {
+        tuple[c] = interpolate<Value>(place, [&](vtkIdType point) { return given[point][c]; });
+      }
+    }
+  }
+
+private:
+  std::vector<decltype(vtk::DataArrayTupleRange(std::declval<Array*>()))> From;
+  Array* To;
+  const bool OfCells;
+};
+
+struct MakeSampler
+{
+  std::unique_ptr<ArraySampler> Made;
+
+  template <class Value>
+  void operator()(
+    vtkAOSDataArrayTemplate<Value>*, const NewArray& array, vtkDataArray* to, bool ofCells)
+  {
+    if (!areAll<vtkAOSDataArrayTemplate<Value>>(array, to))
+    {
+      return;
+    }
+    switch (to->GetNumberOfComponents())
+    {
+      case 1:
+        this->Made = std::make_unique<ContiguousSampler<Value, 1>>(array, to, ofCells);
+        break;
+      case 3:
+        this->Made = std::make_unique<ContiguousSampler<Value, 3>>(array, to, ofCells);
+        break;
+      default:
+        this->Made = std::make_unique<ContiguousSampler<Value, 0>>(array, to, ofCells);
+    }
+  }
+  template <class Array>
+  void operator()(Array*, const NewArray& array, vtkDataArray* to, bool ofCells)
+  {
+    if (areAll<Array>(array, to))
+    {
+      this->Made = std::make_unique<RangeSampler<Array>>(array, to, ofCells);
+    }
+  }
+
+  // Arrays of one type may be of several classes.
+  template <class Array>
+  static bool areAll(const NewArray& array, vtkDataArray* to)
+  {
+    return vtkArrayDownCast<Array>(to) &&
+      std::all_of(array.From.begin(), array.From.end(),
+        [](vtkAbstractArray* from) { return vtkArrayDownCast<Array>(from) != nullptr; });
   }
 };
 
@@ -199,23 +320,40 @@ void sampleTuples(const NewArray& array, vtkAbstractArray* to, const SampledPlac
     Units);
 }
 
-void sample(const std::vector<NewArray>& arrays, const SampledPlaces& places, bool ofCells,
-  bool keepActive, Progress& progress, double end, vtkPointData* output)
+// The arrays of an output that are to be sampled.
+struct Sampling
 {
-  const double begin = progress.StageEnd();
-  for (std::size_t i = 0; i < arrays.size(); ++i)
+  std::vector<std::unique_ptr<ArraySampler>> Blocks;
+  struct InOrder
   {
-    const NewArray& array = arrays[i];
-    progress.BeginStage(
-      begin + (end - begin) * static_cast<double>(i + 1) / static_cast<double>(arrays.size()));
-    const auto made = makeLike(array.From.front(), places.Count());
+    NewArray From;
+    vtkSmartPointer<vtkAbstractArray> To;
+    bool OfCells;
+  };
+  std::vector<InOrder> Others; // a tuple at a time, on one thread
+};
+
+// Adds arrays without values to the output.
+void prepare(const std::vector<NewArray>& arrays, std::int64_t places, bool ofCells,
+  bool keepActive, Sampling& sampling, vtkPointData* output)
+{
+  for (const NewArray& array : arrays)
+  {
+    const auto made = makeLike(array.From.front(), places);
     auto* from = vtkDataArray::SafeDownCast(array.From.front());
     auto* to = vtkDataArray::SafeDownCast(made);
-    if (!from || from->GetDataType() == VTK_BIT ||
-      !vtkArrayDispatch::Dispatch::Execute(
-        from, SampleValues(), array, to, places, ofCells, progress))
+    MakeSampler make;
+    if (from && from->GetDataType() != VTK_BIT)
     {
-      sampleTuples(array, made, places, ofCells, progress);
+      vtkArrayDispatch::Dispatch::Execute(from, make, array, to, ofCells);
+    }
+    if (make.Made)
+    {
+      sampling.Blocks.push_back(std::move(make.Made));
+    }
+    else
+    {
+      sampling.Others.push_back({ array, made, ofCells });
     }
     const int index = output->AddArray(made);
     if (keepActive && array.Attribute >= 0 && !output->GetAbstractAttribute(array.Attribute))
@@ -225,19 +363,49 @@ void sample(const std::vector<NewArray>& arrays, const SampledPlaces& places, bo
   }
 }
 
+// Each place is found once for all arrays.
+void sampleBlocks(const Sampling& sampling, const SampledPlaces& places, Progress& progress)
+{
+  constexpr std::int64_t block = 128;
+  progress.For(
+    places.Count(), Grain,
+    [&](std::int64_t begin, std::int64_t end) {
+      SampledPlace found[block];
+      for (std::int64_t first = begin; first < end; first += block)
+      {
+        const std::int64_t count = std::min(block, end - first);
+        places.FindBlock(first, count, found);
+        for (const auto& array : sampling.Blocks)
+        {
+          array->Sample(found, first, count);
+        }
+      }
+    },
+    Units);
+}
+
 } // namespace
 
 void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
   double end, vtkPointData* output)
 {
-  vtkDataSet* data = source.Sets.front();
-  const auto ofPointsAlone = static_cast<double>(data->GetPointData()->GetNumberOfArrays());
-  const double all = ofPointsAlone + data->GetCellData()->GetNumberOfArrays();
+  Sampling sampling;
+  const std::int64_t count = places.Count();
+  prepare(newArrays(source, false, output), count, false, source.KeepActive, sampling, output);
+  prepare(newArrays(source, true, output), count, true, false, sampling, output);
   const double begin = progress.StageEnd();
-  const double middle = begin + (end - begin) * ofPointsAlone / std::max(all, 1.0);
-  sample(
-    newArrays(source, false, output), places, false, source.KeepActive, progress, middle, output);
-  sample(newArrays(source, true, output), places, true, false, progress, end, output);
+  const auto stages = static_cast<double>(sampling.Others.size() + 1);
+  if (!sampling.Blocks.empty())
+  {
+    progress.BeginStage(begin + (end - begin) / stages);
+    sampleBlocks(sampling, places, progress);
+  }
+  for (std::size_t i = 0; i < sampling.Others.size(); ++i)
+  {
+    const Sampling::InOrder& array = sampling.Others[i];
+    progress.BeginStage(begin + (end - begin) * static_cast<double>(i + 2) / stages);
+    sampleTuples(array.From, array.To, places, array.OfCells, progress);
+  }
 }
 
 } // namespace RectifiedTransport

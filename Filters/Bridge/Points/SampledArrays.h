@@ -38,6 +38,14 @@ public:
   virtual std::int64_t Count() const = 0;
   // On any thread.
   virtual SampledPlace Find(std::int64_t place) const = 0;
+  // The same for `count` places from `first` on; of a place it writes only the points that it has.
+  virtual void FindBlock(std::int64_t first, std::int64_t count, SampledPlace* found) const
+  {
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      found[i] = this->Find(first + i);
+    }
+  }
 };
 
 struct ArraySource

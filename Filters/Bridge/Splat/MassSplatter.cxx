@@ -28,6 +28,7 @@ namespace
 // The work before the splat, and the splat, of all.
 constexpr double endOfPoints = 0.1;
 constexpr double endOfMasses = 0.2;
+constexpr double endOfBounds = 0.25;
 constexpr double endOfSplat = 0.95;
 
 PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& progress)
@@ -106,7 +107,8 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   else
   {
     double bounds[6];
-    findBounds(points, bounds);
+    progress.BeginStage(endOfBounds);
+    findBounds(points, progress, bounds);
     cells = this->CellsIn(bounds);
   }
   requireAxis(cells, reference != nullptr);
@@ -151,7 +153,8 @@ MassSplatter::Report MassSplatter::RunOnRanks(vtkPointSet* points, vtkDataArray*
   else if (shared.All() > 0)
   {
     double bounds[6];
-    findBounds(shared.Set(), &ranks, bounds);
+    progress.BeginStage(endOfBounds);
+    findBounds(shared.Set(), &ranks, progress, bounds);
     cells = this->CellsIn(bounds);
     requireMemoryFor(numberOfValues(cells) / ranks.Count(), cells);
   }

@@ -32,12 +32,12 @@ bool GraphLaplacian::Factorize(double damping, Progress& progress)
     lower.setFromTriplets(entries.begin(), entries.end());
   }
   progress.Check();
-  this->Analyze(lower);
+  this->Analyze(lower, progress);
   progress.Check();
   return this->System.Factorize(lower, progress);
 }
 
-void GraphLaplacian::Analyze(const SparseCholesky::Matrix& lower)
+void GraphLaplacian::Analyze(const SparseCholesky::Matrix& lower, Progress& progress)
 {
   constexpr double mostGrowth = 1.1;
   if (this->Ordered > 0)
@@ -49,7 +49,8 @@ void GraphLaplacian::Analyze(const SparseCholesky::Matrix& lower)
       return;
     }
   }
-  this->System.Analyze(lower);
+  progress.Check();
+  this->System.Analyze(lower, progress);
   this->Ordered = this->System.NonZeros();
 }
 

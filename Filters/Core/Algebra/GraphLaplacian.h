@@ -45,7 +45,7 @@ public:
   bool Solve(std::vector<double>& values) const;
 
 private:
-  void Analyze(const SparseCholesky::Matrix& lower);
+  void Analyze(const SparseCholesky::Matrix& lower, Progress& progress);
 
   std::vector<double> Diagonal;
   std::vector<Eigen::Triplet<InterruptibleReal>> Edges; // of the lower triangle

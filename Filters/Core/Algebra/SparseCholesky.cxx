@@ -45,12 +45,27 @@ void SparseCholesky::Analyze(const Matrix& lower)
   this->Factor->analyzePattern(lower);
 }
 
+void SparseCholesky::Analyze(const Matrix& lower, Progress& progress)
+{
+  this->Factor->Analyze(lower, progress);
+}
+
 void SparseCholesky::AnalyzeInOrder(const Matrix& lower)
 {
   this->Factor->AnalyzeInOrder(lower);
 }
 
-// Eigen's analyzePattern() after its search of an order.
+// Eigen's analyzePattern(), with a poll after its search of an order.
+void SparseCholesky::Factorization::Analyze(const Matrix& lower, Progress& progress)
+{
+  Matrix upper(lower.rows(), lower.cols());
+  CholMatrixType const* pattern = nullptr;
+  this->ordering(lower, pattern, upper);
+  progress.Check();
+  this->analyzePattern_preordered(*pattern, true);
+}
+
+// Without the search.
 void SparseCholesky::Factorization::AnalyzeInOrder(const Matrix& lower)
 {
   Matrix upper(lower.rows(), lower.cols());

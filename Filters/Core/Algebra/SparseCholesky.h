@@ -26,6 +26,8 @@ public:
   // The order of elimination of a pattern, which the matrices to come have, and the pattern of the
   // factor.
   void Analyze(const Matrix& lower);
+  // With a poll between the two. Throws Cancelled.
+  void Analyze(const Matrix& lower, Progress& progress);
   // The pattern of the factor of another pattern, in the order that was found last.
   void AnalyzeInOrder(const Matrix& lower);
   // Of the factor, known from the analysis on.
@@ -38,6 +40,7 @@ public:
 private:
   struct Factorization : Eigen::SimplicialLDLT<Matrix, Eigen::Lower>
   {
+    void Analyze(const Matrix& lower, Progress& progress);
     void AnalyzeInOrder(const Matrix& lower);
     Eigen::Index NonZeros() const { return this->m_matrix.nonZeros(); }
   };

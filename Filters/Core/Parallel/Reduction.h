@@ -17,21 +17,25 @@ namespace RectifiedTransport
 // Calls kernel(first, last), which returns a Part, once for each chunk of `grain` of [0, count), on
 // the progress's threads as the work of its current stage, and returns
 // combine(combine(nothing, part), part)... of the parts in the order of the chunks, `nothing` where
-// there are none. Memory: a Part a chunk. Throws std::bad_alloc, Cancelled, and what the kernel
-// throws.
+// there are none. The first slice has `units`, as in Progress::For. Memory: a Part a chunk. Throws
+// std::bad_alloc, Cancelled, and what the kernel throws.
 template <class Part, class Kernel, class Combine>
 Part reduceChunks(Progress& progress, std::int64_t count, std::int64_t grain, const Part& nothing,
-  const Kernel& kernel, const Combine& combine)
+  const Kernel& kernel, const Combine& combine, std::int64_t units = std::int64_t{ 1 } << 18)
 {
   static_assert(!std::is_same_v<Part, bool>, "threads write to bits of one word");
   std::vector<Part> parts(static_cast<std::size_t>((count + grain - 1) / grain), nothing);
-  progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
-    // Ranges may hold several times the grain.
-    for (std::int64_t begin = first; begin < last; begin += grain)
-    {
-      parts[static_cast<std::size_t>(begin / grain)] = kernel(begin, std::min(begin + grain, last));
-    }
-  });
+  progress.For(
+    count, grain,
+    [&](std::int64_t first, std::int64_t last) {
+      // Ranges may hold several times the grain.
+      for (std::int64_t begin = first; begin < last; begin += grain)
+      {
+        parts[static_cast<std::size_t>(begin / grain)] =
+          kernel(begin, std::min(begin + grain, last));
+      }
+    },
+    units);
   Part all = nothing;
   for (const Part& part : parts)
   {

@@ -64,7 +64,8 @@ DensitySummary RowMoments::ReadValues(const DensityValues& values, Progress& pro
     all.Empty = all.Empty || part.Empty;
     return all;
   };
-  const Part all = reduceChunks(progress, this->Size[1], 1, Part(), read, combine);
+  const Part all =
+    reduceChunks(progress, this->Size[1], 1, Part(), read, combine, this->RowsOfSlice());
   this->Empty = all.Empty;
   return all.Summary;
 }
@@ -82,10 +83,11 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
     }
     return mass;
   };
-  const double all =
-    reduceChunks(progress, this->Size[1], 1, 0.0, sum, [](double a, double b) { return a + b; });
+  const double all = reduceChunks(
+    progress, this->Size[1], 1, 0.0, sum, [](double a, double b) { return a + b; },
+    this->RowsOfSlice());
   const double scale = total / all;
-  progress.For(this->Size[1], 1, [&](std::int64_t first, std::int64_t last) {
+  const auto accumulate = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t j = first; j < last; ++j)
     {
       double before = 0.0;
@@ -100,7 +102,15 @@ void RowMoments::Accumulate(double total, const DensitySummary& found, Progress&
         blocks[i / cellsOfBlock].Add(own, static_cast<double>(i % cellsOfBlock));
       }
     }
-  });
+  };
+  progress.For(this->Size[1], 1, accumulate, this->RowsOfSlice());
+}
+
+// A slice that takes some milliseconds, however long rows are: new memory is touched.
+std::int64_t RowMoments::RowsOfSlice() const
+{
+  constexpr std::int64_t cells = std::int64_t{ 1 } << 17;
+  return std::max<std::int64_t>(1, cells / this->Size[0]);
 }
 
 TableView<2> RowMoments::Occupation() const

@@ -120,6 +120,7 @@ private:
     return { point[0] / this->Scale[0], point[1] / this->Scale[1] };
   }
   std::int64_t WordsPerRow() const { return (this->Size[0] + 63) / 64; }
+  std::int64_t RowsOfSlice() const;
   DensitySummary ReadValues(const DensityValues& values, Progress& progress);
   void Accumulate(double total, const DensitySummary& found, Progress& progress);
   const Masses* RowAt(std::int64_t row) const

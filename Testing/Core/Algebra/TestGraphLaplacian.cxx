@@ -153,5 +153,22 @@ TEST(GraphLaplacian, IsCancelled)
   EXPECT_THROW(system.Factorize(1.0, progress), Cancelled);
 }
 
+// Between any two of: the entries, the matrix, the pattern in the last order, another order, the
+// pattern in that, the factors.
+TEST(GraphLaplacian, PollsBetweenItsSteps)
+{
+  const SerialExecutor serial;
+  RecordingContext recorded(serial);
+  Progress progress(recorded.Context());
+  GraphLaplacian system(400);
+  setEdges(system, grid(20, false));
+  EXPECT_TRUE(system.Factorize(1.0, progress));
+  EXPECT_GE(recorded.Queries, 4);
+  recorded.Queries = 0;
+  setEdges(system, grid(20, true)); // for which the order is a bad one
+  EXPECT_TRUE(system.Factorize(1.0, progress));
+  EXPECT_GE(recorded.Queries, 5);
+}
+
 } // namespace
 } // namespace RectifiedTransport

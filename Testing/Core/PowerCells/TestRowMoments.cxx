@@ -5,8 +5,11 @@
 #include "TestPowerCells.h"
 #include "ThreadsExecutor.h"
 
+#include "Core/Parallel/Progress.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -39,6 +42,33 @@ Points<2> randomPolygon(
 Points<2> rectangle(double x0, double x1, double y0, double y1)
 {
   return { { x0, y0 }, { x1, y0 }, { x1, y1 }, { x0, y1 } };
+}
+
+// Counts the values that are read.
+class CountedDensity final : public DensityValues
+{
+public:
+  void Read(std::int64_t, std::int64_t count, double* values) const override
+  {
+    std::fill_n(values, count, 1.0);
+    this->Count += count;
+  }
+  mutable std::int64_t Count = 0;
+};
+
+// Long rows are as many cells between polls as short ones.
+TEST(RowMoments, PollAfterAFixedNumberOfCells)
+{
+  for (const GridSize<2>& size : { GridSize<2>{ 3000, 1000 }, GridSize<2>{ 50, 60000 } })
+  {
+    const CountedDensity values;
+    const SerialExecutor serial;
+    Progress progress(Context(serial, {}, []() { return true; }));
+    EXPECT_THROW(
+      RowMoments(DensitySource<2>{ size, values }, { 1.0, 1.0 }, 1.0, progress), Cancelled);
+    EXPECT_GT(values.Count, 0);
+    EXPECT_LE(values.Count, std::int64_t{ 1 } << 18);
+  }
 }
 
 TEST(RowMoments, OfAnEvenDensityHaveClosedForms)

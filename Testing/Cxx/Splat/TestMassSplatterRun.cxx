@@ -159,7 +159,7 @@ void checkProgressAndAbort(Checks& checks)
     splatter->Update();
     test.ExpectRising(checks, 6, __LINE__);
   }
-  for (const double from : { 0.0, 0.15, 0.3, 0.8 })
+  for (const double from : { 0.0, 0.15, 0.21, 0.3, 0.8 })
   {
     checkAbort(
       checks, splatter, from, [&]() { splatter->Modified(); }, __LINE__);
