@@ -53,7 +53,7 @@ def voxels(labels):
     return producer(simple, image)
 
 
-def volume(source, **properties):
+def solid_volume(source, **properties):
     solid = simple.SolidDensity(Input=source, **properties)
     image = output_of(solid)
     values = vtk_to_numpy(image.GetPointData().GetArray("Density"))
@@ -74,7 +74,7 @@ def by_triangles(source):
 
 class Solids(unittest.TestCase):
     def check(self, source, right, relative=1e-9, **properties):
-        self.assertLess(abs(volume(source, **properties) / right - 1), relative)
+        self.assertLess(abs(solid_volume(source, **properties) / right - 1), relative)
 
     def test_beams_plates_and_rods(self):
         """The sides are exact in float."""
