@@ -156,13 +156,13 @@ class ContiguousSampler final : public ArraySampler
 {
 public:
   ContiguousSampler(const NewArray& array, vtkDataArray* to, bool ofCells)
-    : To(static_cast<Value*>(to->GetVoidPointer(0)))
+    : To(vtkArrayDownCast<vtkAOSDataArrayTemplate<Value>>(to)->GetPointer(0))
     , Components(to->GetNumberOfComponents())
     , OfCells(ofCells)
   {
     for (vtkAbstractArray* from : array.From)
     {
-      this->From.push_back(static_cast<const Value*>(from->GetVoidPointer(0)));
+      this->From.push_back(vtkArrayDownCast<vtkAOSDataArrayTemplate<Value>>(from)->GetPointer(0));
     }
   }
 

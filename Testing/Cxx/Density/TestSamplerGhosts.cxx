@@ -155,9 +155,9 @@ void checkKeptTables(Checks& checks)
     cells->Update();
     if (runsTwice)
     {
-      cells->SetNormExponent(1.0);
+      cells->SetResolution(32);
       cells->Update();
-      cells->SetNormExponent(2.0);
+      cells->SetResolution(64);
       cells->Update();
     }
     return arrayValues(cells->GetSites()->GetPointData()->GetArray("CellMass"));
