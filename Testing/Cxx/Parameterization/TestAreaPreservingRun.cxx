@@ -207,7 +207,7 @@ void checkSurfaceErrors(Checks& checks)
   tube->Update();
   expect(tube->GetOutput(), "The input surface has 2 boundary loops; it must have one", __LINE__);
   expect(makePolygons(corners, { 3, 0, 1, 2, 3, 0, 2, 17 }),
-    "A polygon of the input surface has the point 17; there are points 0 to 4", __LINE__);
+    "Cell 1 of the input surface has the point 17; there are points 0 to 4", __LINE__);
   expect(makePolygons(corners, { 4, 0, 1, 2, -3 }), "has the point -3", __LINE__);
   expect(makePolygons({ 0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0 }, { 4, 0, 1, 2, 3 }),
     "The input surface has polygons that cannot be cut into triangles", __LINE__);
