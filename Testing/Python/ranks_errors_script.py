@@ -9,6 +9,7 @@ from rectifiedtransport import (vtkAreaPreservingParameterization, vtkBlueNoiseR
                                 vtkEqualMassCells, vtkMassSplatter, vtkSolidDensity,
                                 vtkTransportBarycenter, vtkTransportInterpolator,
                                 vtkTransportMap, vtkTransportQuality, vtkTransportSampler)
+from ranks_errors_above import report_above
 from rt_testing import Listener
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -199,55 +200,7 @@ for name, make in IMAGES.items():
         report("%s %s" % ("sample" if kind is vtkTransportSampler else "map", name), algorithm,
                source)
 
-# Extents that do not begin at 0, and ranks that have no part, as an image or as another type.
-ABOVE = [3, 9, 2, 7, 5, 17]
-LAYERS = {
-    "last has none": [(5, 11), (11, 17), None],
-    "first has none": [None, (5, 11), (11, 17)],
-    "one has all": [None, (5, 17), None],
-}
-
-
-def layers_above(low, high, cells):
-    """Of an image whose values are those of the whole one."""
-    image = vtkImageData()
-    image.SetExtent(*ABOVE[:4], low, high)
-    count = image.GetNumberOfCells() if cells else image.GetNumberOfPoints()
-    first = (low - ABOVE[4]) * (30 if cells else 42)
-    array = numpy_to_vtk(1.0 + np.arange(first, first + count) % 7, deep=1)
-    array.SetName("Density")
-    (image.GetCellData() if cells else image.GetPointData()).SetScalars(array)
-    return image
-
-
-for name, layers in LAYERS.items():
-    for cells in (True, False):
-        for nothing in (vtkImageData, vtkRectilinearGrid, vtkMultiBlockDataSet):
-            for kind in (vtkTransportSampler, vtkTransportMap, vtkEqualMassCells):
-                own = layers[RANK]
-                source = vtkTrivialProducer()
-                source.SetOutput(layers_above(*own, cells) if own else nothing())
-                if own:
-                    source.SetWholeExtent(ABOVE)
-                algorithm = kind()
-                row = " ".join((kind.__name__, "above", "cells" if cells else "points", name,
-                                nothing.__name__))
-                if kind is vtkEqualMassCells:
-                    sites = produce(vtkPolyData())
-                    points_there = vtkPoints()
-                    for i in range(4):
-                        points_there.InsertNextPoint(4.0 + i, 4.0, 7.0 + 2.0 * i)
-                    sites.GetOutputDataObject(0).SetPoints(points_there)
-                    errors = Listener(algorithm).errors
-                    algorithm.SetInputConnection(0, sites.GetOutputPort())
-                    algorithm.SetInputConnection(1, source.GetOutputPort())
-                    algorithm.SetResolution(12)
-                    algorithm.SetMeasureToDensity()
-                    finish(row, algorithm, errors)
-                    continue
-                if kind is vtkTransportSampler:
-                    algorithm.SetNumberOfParticles(60)
-                report(row, algorithm, source)
+report_above(report, finish, produce)
 
 # One rank has given up the tables that the others keep.
 for kind in (vtkTransportSampler, vtkTransportMap):

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How ranks of MPI learn that all of them run a filter.
+#ifndef RectifiedTransport_RankMeeting_h
+#define RectifiedTransport_RankMeeting_h
+
+#include <string>
+
+namespace RectifiedTransport
+{
+
+// Waits until all ranks have come here for the same filter. `withData` where its data are to be
+// made; else before, as in REQUEST_INFORMATION. Throws Failure, or FailedElsewhere on the ranks
+// that need not report it, where a rank does not come within a time
+// (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds), and at once where it waits here for another filter.
+// Only where VTK has MPI.
+void meetRanks(const std::string& filter, bool withData);
+
+} // namespace RectifiedTransport
+
+#endif
