@@ -118,7 +118,7 @@ int vtkBlueNoiseRelaxation::RequestData(
     return 1;
   }
   const CountedPoints counted(input, "input point set");
-  requireCells(input, "input");
+  requireReadableCells(input, "input");
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());

@@ -235,7 +235,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   }
   for (const DensityBlock& block : blocks)
   {
-    requireCells(block.Data, block.Name);
+    requireReadableCells(block.Data, block.Name);
   }
   const char* name = this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_NAME());
   const bool isNamed = name && *name;

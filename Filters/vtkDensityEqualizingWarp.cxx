@@ -102,7 +102,7 @@ int vtkDensityEqualizingWarp::RequestData(
   {
     return 1;
   }
-  requireCells(input, "input");
+  requireReadableCells(input, "input");
   vtkPointSet* output = vtkPointSet::GetData(outputVector);
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());

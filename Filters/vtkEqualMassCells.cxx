@@ -207,7 +207,7 @@ int vtkEqualMassCells::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  requireCells(input, "input");
+  requireReadableCells(input, "input");
   vtkDataObject* domain = vtkDataObject::GetData(inputVector[1], 0);
   if (this->Measure == DENSITY && inputVector[1]->GetNumberOfInformationObjects() == 0)
   {

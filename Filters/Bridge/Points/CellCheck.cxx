@@ -264,7 +264,7 @@ void requireCoordinates(vtkRectilinearGrid* grid, const std::string& name)
 
 } // namespace
 
-void requireCells(vtkDataSet* data, const std::string& name)
+void requireReadableCells(vtkDataSet* data, const std::string& name)
 {
   const std::int64_t points = data ? data->GetNumberOfPoints() : 0;
   if (auto* surface = vtkPolyData::SafeDownCast(data))

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 // not have, of a type that VTK does not know, or with too few points for its type; for cell arrays
 // whose offsets are not in order, and for lattices with more places than points or coordinates.
 // Reads all ids, nothing else.
-void requireCells(vtkDataSet* data, const std::string& name);
+void requireReadableCells(vtkDataSet* data, const std::string& name);
 
 } // namespace RectifiedTransport
 

@@ -64,7 +64,7 @@ ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks* ranks) const
     vtkBoundingBox all;
     for (const DensityBlock& block : densityBlocks(domain))
     {
-      requireCells(block.Data, block.Name);
+      requireReadableCells(block.Data, block.Name);
       double bounds[6];
       block.Data->GetBounds(bounds);
       all.AddBounds(bounds);

@@ -148,7 +148,7 @@ void requirePolygons(vtkPolyData* surface, const std::string& need)
     throw Failure("The input surface has " + std::to_string(points) + " points and no polygons; " +
       need + " of polygons (lines and vertices do not count)");
   }
-  requireCells(surface, "input surface");
+  requireReadableCells(surface, "input surface");
 }
 
 bool isAllTriangles(vtkPolyData* surface)
