@@ -253,7 +253,7 @@ def one_slice(check):
 def tiles_of_a_mosaic(check):
     """Two tiles of a mosaic that meet, of other types, in one multi-block data set.
 
-    Source: qgis/QGIS issue 59457 (a virtual mosaic lost its missing values), OSGeo/gdal issue 11041.
+    Source: qgis/QGIS issue 59457 (of a virtual mosaic of tiles statistics were not to be had).
     Right: the sum of both, as of one raster.
     """
     left = np.random.default_rng(10).integers(0, 9, (10, 12)).astype(np.uint8)

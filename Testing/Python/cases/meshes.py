@@ -290,8 +290,8 @@ def patches_beside_the_volume(check):
 def faces_of_the_boundary_in_the_mesh(check):
     """Tetrahedra and the triangles of their boundary in one mesh, as mesh generators write them.
 
-    Source: MPAS-Dev/MPAS-Tools issue 262 and nschloe/meshio issue 507 (files of cells of more than one
-    kind read as something else).
+    Source: meshpro/pygalmesh issues 172 and 212 (triangles among the tetrahedra), nschloe/meshio issue
+    470 (the volume came out larger).
     Right: the tetrahedra's mass.
     """
     cells = [(VTK_TETRA, ids) for ids in tetrahedra_of_a_cube()]

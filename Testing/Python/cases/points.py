@@ -44,7 +44,7 @@ def particles_on_the_far_face(check):
 
 @case(92)
 def masses_of_ten_billion(check):
-    """Masses of 1e10 suns in single precision, a million of them.
+    """Masses of 1e10 suns in single precision, 300,000 of them.
 
     Source: kateharborne/SimSpin issue 8 (units of 1e10), pynbody/pynbody issue 321.
     Right: their sum in double precision; in single precision it is 1e-4 off.
@@ -198,8 +198,7 @@ def particles_beyond_the_border(check):
 def one_particle(check):
     """A halo of one particle.
 
-    Source: yt-project/yt pull request 2034 (haloes of few particles), pelahi/VELOCIraptor-STF issue
-    112.
+    Source: yt-project/yt pull request 2034 (haloes of few particles).
     Right: without a box an error that says what to connect; with one its mass.
     """
     expect_error(check, splat(cloud([[0.5, 0.5, 0.5]])), "Reference")

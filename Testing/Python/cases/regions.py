@@ -140,7 +140,7 @@ def holes_that_touch(check):
 def sliver(check):
     """A strip between two countries that do not quite meet, a billionth as wide as long.
 
-    Source: mapbox/earcut issue 3 and pull request 177; slivers of map overlays.
+    Source: locationtech/jts issue 652 (polygons that are nearly lines).
     Right: the areas add up, the sliver's among them.
     """
     width = 1e-9
