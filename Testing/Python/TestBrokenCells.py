@@ -155,6 +155,27 @@ class BrokenCells(unittest.TestCase):
             sampler.SetInputDataObject(add_values(data, 6))
             self.expect(sampler, part)
 
+    def test_ghosts_of_another_length(self):
+        """Lattices read them for the types of their cells."""
+        for owner, kind in (("CellData", "cells"), ("PointData", "points")):
+            structured = vtkStructuredGrid()
+            structured.SetDimensions(2, 2, 2)
+            structured.SetPoints(corner_points())
+            add_values(structured)
+            flags = vtkUnsignedCharArray()
+            flags.SetName("vtkGhostType")
+            getattr(structured, "Get" + owner)().AddArray(flags)
+            for make in (rt.vtkTransportSampler, rt.vtkTransportMap, rt.vtkDensityEqualizingWarp,
+                         rt.vtkBlueNoiseRelaxation, rt.vtkEqualMassCells):
+                with self.subTest(owner, kind=make.__name__):
+                    algorithm = make()
+                    algorithm.SetInputDataObject(0, structured)
+                    if algorithm.GetNumberOfInputPorts() > 1:
+                        algorithm.SetInputDataObject(1, density_image((4, 3)))
+                    if make is rt.vtkTransportSampler:
+                        algorithm.SetInputDataObject(1, None)
+                    self.expect(algorithm, "The ghost array 'vtkGhostType' of the %s of the " % kind)
+
     def test_surfaces(self):
         for kind, prepare in ((rt.vtkSurfaceSampler, None), (rt.vtkSolidDensity, None),
                               (rt.vtkAreaPreservingParameterization, None)):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/CellCheck.h"
 
+#include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Failure.h"
 
 #include "vtkArrayDispatch.h"
@@ -300,6 +301,14 @@ void requireReadableCells(vtkDataSet* data, const std::string& name)
   else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
   {
     requireCoordinates(lattice, name);
+  }
+  // VTK reads them for the types of the cells of lattices.
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    if (data)
+    {
+      ghostFlags(data, owner, name.c_str());
+    }
   }
 }
 

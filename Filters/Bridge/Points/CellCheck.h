@@ -16,7 +16,8 @@ namespace RectifiedTransport
 
 // Throws Failure that names the first cell that has points which the data set, called `name`, does
 // not have, of a type that VTK does not know, or with too few points for its type; for cell arrays
-// whose offsets are not in order, and for lattices with more places than points or coordinates.
+// whose offsets are not in order, for lattices with more places than points or coordinates, and for
+// ghost arrays of another length than points or cells have.
 // Reads all ids, nothing else.
 void requireReadableCells(vtkDataSet* data, const std::string& name);
 
