@@ -2,7 +2,6 @@
 // Runs cases and prints a line for each: its number, a digest of what came out, the number of
 // findings and the filter. run.py compares the lines of several settings.
 #include "Case.h"
-#include "Crafted.h"
 
 #include "vtkLogger.h"
 #include "vtkMassSplatter.h"
@@ -24,9 +23,7 @@ namespace
 
 const char* const usage =
   "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
-  "                [--crafted FOLDER]\n"
-  "  --case N   runs one case and prints its steps and findings\n"
-  "  --crafted FOLDER   cases of broken inputs, whose files are written there\n";
+  "  --case N   runs one case and prints its steps and findings\n";
 
 struct Arguments
 {
@@ -34,7 +31,6 @@ struct Arguments
   std::uint64_t Count = 100;
   std::uint64_t Seed = 1;
   std::string Backend;
-  std::string Folder; // of crafted files; without one cases are random pipelines
   int Threads = 1;
   bool PrintsLog = false;
 };
@@ -52,11 +48,6 @@ bool parse(int argc, char* argv[], Arguments& arguments)
     if (name == "--backend")
     {
       arguments.Backend = value;
-      continue;
-    }
-    if (name == "--crafted")
-    {
-      arguments.Folder = value;
       continue;
     }
     const std::uint64_t number = std::strtoull(value, nullptr, 10);
@@ -132,9 +123,7 @@ int main(int argc, char* argv[])
   {
     startWatch();
     const std::clock_t start = std::clock();
-    const Campaign::CaseResult result = arguments.Folder.empty()
-      ? Campaign::runCase(arguments.Seed, number)
-      : Campaign::runCraftedCase(arguments.Seed, number, arguments.Folder);
+    const Campaign::CaseResult result = Campaign::runCase(arguments.Seed, number);
     const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     failed = failed || !result.Findings.empty();
     std::printf("%llu %016llx %zu %s %d %d %d %d %.1f\n", static_cast<unsigned long long>(number),

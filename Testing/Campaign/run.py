@@ -3,12 +3,7 @@
 """Random pipelines through all filters, each case under several numbers of threads, threading
 backends and instruction sets.
 
-usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] [--crafted]
-                     [--once] PROGRAM
-
-With --crafted the cases are inputs that are broken on purpose, through all filters: files that
-VTK's readers read, and data objects with the same defects. Where a reader itself ends the program,
-the case is counted and left out. --once runs each case under the last setting alone, for sanitizers.
+usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] PROGRAM
 
 PROGRAM (Campaign.cxx) runs the cases and looks at each output. This script compares what comes out
 under every setting, to the last bit, and goes on where PROGRAM does not: a case that crashes or
@@ -21,7 +16,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 
 # (name, instruction set, VTK's backend, threads). Auto and OpenMP run on OMP_NUM_THREADS threads,
 # VTK on its backend. Where a machine lacks an instruction set it runs the widest that it has.
@@ -44,8 +38,8 @@ class Case:
         self.findings = []
 
 
-def run_cases(program, setting, seed, first, count, limit, crafted):
-    """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files."""
+def run_cases(program, setting, seed, first, count, limit):
+    """The cases of a block, and the ends of processes: [(case, text)]."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
                        OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false")
@@ -54,10 +48,6 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
     while first < end:
         command = [program, "--first", str(first), "--count", str(end - first), "--seed", str(seed),
                    "--backend", backend, "--threads", str(threads)]
-        if crafted:
-            folder = os.path.join(crafted, f"{backend}-{threads}-{first}")
-            os.makedirs(folder)
-            command += ["--crafted", folder]
         process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         try:
@@ -67,11 +57,8 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
             process.kill()
             output, errors = process.communicate()
             code = None
-        doing = ""
         for line in output.splitlines():
-            if line.startswith("#"):
-                doing = line[2:]
-            elif line.startswith("!"):
+            if line.startswith("!"):
                 if line[2:] not in cases[-1].findings:
                     cases[-1].findings.append(line[2:])
             elif line:
@@ -83,7 +70,7 @@ def run_cases(program, setting, seed, first, count, limit, crafted):
             how = "did not end"
         else:
             how = f"ended the program with {code}"
-        ends.append((first, doing, f"{how}{' while ' + doing if doing else ''}: {errors.strip()[-2000:]}"))
+        ends.append((first, f"{how}: {errors.strip()[-2000:]}"))
         first += 1
     return cases, ends
 
@@ -106,7 +93,6 @@ class Campaign:
         self.settings = settings
         self.done = 0
         self.wrong = 0
-        self.readers = set()  # cases whose reader or writer ended the program
         self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0.0])
 
     def report(self, number, text):
@@ -116,10 +102,7 @@ class Campaign:
         """The block's results of all settings."""
         failed = set()
         for setting, (cases, ends) in zip(self.settings, results):
-            for number, doing, text in ends:
-                if doing.startswith(("reading", "making")):
-                    self.readers.add(number)
-                    continue
+            for number, text in ends:
                 failed.add(number)
                 self.report(number, f"{setting[0]}: {text}")
             for case in cases:
@@ -150,8 +133,6 @@ class Campaign:
         for name, row in rows + [("all", totals)]:
             mean = f"{row[5] / max(1, row[0]):.1f}"
             print("| " + " | ".join([name] + [str(value) for value in row[:5]] + [mean]) + " |")
-        if self.readers:
-            print(f"left out, VTK's own reader ends the program: {len(self.readers)}")
         print(f"{totals[0]} cases under {len(self.settings)} settings each, {self.wrong} of them wrong")
 
 
@@ -162,19 +143,15 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--limit", type=int, default=600, help="seconds for a block of cases")
-    parser.add_argument("--crafted", action="store_true", help="broken inputs")
-    parser.add_argument("--once", action="store_true", help="under the last setting alone")
     parser.add_argument("program")
     arguments = parser.parse_args()
-    settings = available(arguments.program)[-1 if arguments.once else 0:]
+    settings = available(arguments.program)
     campaign = Campaign(settings)
     end = arguments.first + arguments.count
     blocks = [(first, min(BLOCK, end - first)) for first in range(arguments.first, end, BLOCK)]
-    with tempfile.TemporaryDirectory() as folder, \
-            concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = [[pool.submit(run_cases, arguments.program, setting, arguments.seed, first, count,
-                             arguments.limit, arguments.crafted and folder) for setting in settings]
-                for first, count in blocks]
+                             arguments.limit) for setting in settings] for first, count in blocks]
         for block in jobs:
             campaign.judge([job.result() for job in block])
     campaign.summarize()
