@@ -50,7 +50,7 @@ SURVIVED = [
       "std::uint64_t{ 0 }"),
     E(CORE + "Quality/ParticleQuality.cxx", "static_cast<double>(size[axis]) / scale.ToUnits(aspect[axis])",
       "1.0"),
-    E(CORE + "Mesh/SurfaceOrientation.cxx", "area += this->Orientations.data()[queue[next]] * «this->AreaOf(queue[next])»",
+    E(CORE + "Mesh/SurfaceOrientation.cxx", "area += this->Signs[queue[next]] * «this->AreaOf(queue[next])»",
       "1.0"),
     S(BRIDGE + "Blend/DensityBlend.cxx", "array->Modified();", ";"),
     E(CORE + "Flow/PivotLattice.cxx", "«report.MovedToMass» +=", "report.MovedToMass = 0"),

@@ -290,8 +290,7 @@ void DiskMesh::FindBoundary(Progress& progress)
     do
     {
       ++reached;
-      const std::int64_t entering = side % 3 == 0 ? side + 2 : side - 1;
-      side = this->Sides->Other(entering);
+      side = this->Sides->Other(lastSide(side));
     } while (side >= 0 && side != first);
     if (reached != valence[static_cast<std::size_t>(point)])
     {
@@ -323,7 +322,7 @@ void DiskMesh::FindBoundary(Progress& progress)
       const std::int64_t point = from[next];
       passed[static_cast<std::size_t>(point)] = 1;
       this->Loop.push_back(point);
-      const std::int64_t end = from[next % 3 == 2 ? next - 2 : next + 1];
+      const std::int64_t end = from[nextSide(next)];
       next = start[static_cast<std::size_t>(end)];
     }
   }

@@ -16,16 +16,6 @@ namespace RectifiedTransport
 namespace
 {
 
-std::int64_t nextSide(std::int64_t side)
-{
-  return side % 3 == 2 ? side - 2 : side + 1;
-}
-
-std::int64_t lastSide(std::int64_t side)
-{
-  return side % 3 == 0 ? side + 2 : side - 1;
-}
-
 class FlatTriangleRun
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/MergePoints.h"
 
+#include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -108,16 +109,6 @@ public:
     }
   }
 
-  std::int64_t RootOf(std::int64_t point)
-  {
-    while (this->Parents[point] != point)
-    {
-      this->Parents[point] = this->Parents[this->Parents[point]];
-      point = this->Parents[point];
-    }
-    return point;
-  }
-
 private:
   Box BoxOf(std::int64_t point) const
   {
@@ -145,8 +136,8 @@ private:
 
   void Join(std::int64_t a, std::int64_t b)
   {
-    a = this->RootOf(a);
-    b = this->RootOf(b);
+    a = rootOf(this->Parents, a);
+    b = rootOf(this->Parents, b);
     if (a != b)
     {
       const bool isLess = std::lexicographical_compare(
@@ -234,7 +225,7 @@ bool mergeNearPoints(
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        firsts[i] = clusters.RootOf(i);
+        firsts[i] = rootOf(firsts, i);
         isMerged = isMerged || !std::equal(points[i], points[i] + 3, points[firsts[i]]);
       }
     },

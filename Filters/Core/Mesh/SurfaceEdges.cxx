@@ -25,7 +25,7 @@ struct Ends
 Ends endsOf(const std::int64_t* triangles, std::int64_t side)
 {
   const std::int64_t from = triangles[side];
-  const std::int64_t to = triangles[side % 3 == 2 ? side - 2 : side + 1];
+  const std::int64_t to = triangles[nextSide(side)];
   return { std::min(from, to), std::max(from, to), from < to };
 }
 

@@ -15,6 +15,15 @@ namespace RectifiedTransport
 
 // Side 3t+i of triangle t goes from its corner i to the next. Two sides that join the same two
 // points are one edge.
+inline std::int64_t nextSide(std::int64_t side)
+{
+  return side % 3 == 2 ? side - 2 : side + 1;
+}
+inline std::int64_t lastSide(std::int64_t side)
+{
+  return side % 3 == 0 ? side + 2 : side - 1;
+}
+
 class SurfaceEdges
 {
 public:

@@ -13,37 +13,33 @@ namespace RectifiedTransport
 namespace
 {
 
-class OrientationRun
+class PatchSearch
 {
 public:
-  OrientationRun(const TriangleSurface& surface, const SurfaceEdges& edges, std::int64_t* oriented)
+  PatchSearch(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs)
     : Surface(surface)
     , Edges(edges)
-    , Oriented(oriented)
-    , Orientations(surface.NumberOfTriangles)
+    , Signs(signs)
     , Queue(surface.NumberOfTriangles)
   {
-    std::fill_n(this->Orientations.data(), surface.NumberOfTriangles, static_cast<signed char>(0));
+    std::fill_n(this->Signs, surface.NumberOfTriangles, static_cast<signed char>(0));
   }
 
-  SurfaceOrientation Run(Progress& progress)
+  bool Run(Progress& progress, const std::function<void(const SurfacePatch&)>& visit)
   {
-    const std::int64_t count = this->Orientations.size();
-    progress.BeginStage(1.0, count);
-    for (std::int64_t start = 0; start < count; ++start)
+    for (std::int64_t start = 0; start < this->Queue.size(); ++start)
     {
-      if (this->Orientations.data()[start] == 0)
+      if (this->Signs[start] == 0)
       {
-        ++this->Found.Components;
-        this->OrientComponent(start, progress);
+        visit(this->Find(start, progress));
       }
     }
-    return this->Found;
+    return this->IsOrientable;
   }
 
 private:
-  // Orients the component of a triangle, breadth first.
-  void OrientComponent(std::int64_t start, Progress& progress)
+  // The patch of a triangle, breadth first.
+  SurfacePatch Find(std::int64_t start, Progress& progress)
   {
     std::int64_t* queue = this->Queue.data();
     this->QueueEnd = 0;
@@ -51,29 +47,26 @@ private:
     double area = 0.0; // of triangles oriented as the first one, less that of the others
     for (std::int64_t next = 0; next < this->QueueEnd; ++next)
     {
-      area += this->Orientations.data()[queue[next]] * this->AreaOf(queue[next]);
+      area += this->Signs[queue[next]] * this->AreaOf(queue[next]);
       this->EnterNeighbours(queue[next]);
       progress.Add(1);
     }
-    const signed char keep = area < 0.0 ? -1 : 1;
-    for (std::int64_t i = 0; i < this->QueueEnd; ++i)
+    for (std::int64_t i = 0; area < 0.0 && i < this->QueueEnd; ++i)
     {
-      const bool turn = this->Orientations.data()[queue[i]] != keep;
-      const std::int64_t* ids = this->Surface.Triangles + 3 * queue[i];
-      const std::int64_t corners[3] = { ids[0], ids[turn ? 2 : 1], ids[turn ? 1 : 2] };
-      std::copy_n(corners, 3, this->Oriented + 3 * queue[i]);
+      this->Signs[queue[i]] = static_cast<signed char>(-this->Signs[queue[i]]);
     }
+    return { queue, this->QueueEnd, std::abs(area) };
   }
 
-  void Enter(std::int64_t triangle, signed char orientation)
+  void Enter(std::int64_t triangle, signed char sign)
   {
-    this->Orientations.data()[triangle] = orientation;
+    this->Signs[triangle] = sign;
     this->Queue.data()[this->QueueEnd++] = triangle;
   }
 
   void EnterNeighbours(std::int64_t triangle)
   {
-    const signed char orientation = this->Orientations.data()[triangle];
+    const signed char sign = this->Signs[triangle];
     for (std::int64_t side = 3 * triangle; side < 3 * triangle + 3; ++side)
     {
       const std::int64_t other = this->Edges.Other(side);
@@ -83,15 +76,15 @@ private:
       }
       // Sides of consistently oriented triangles begin at different ends of the edge.
       const bool same = this->Surface.Triangles[side] != this->Surface.Triangles[other];
-      const auto wanted = static_cast<signed char>(same ? orientation : -orientation);
-      const signed char found = this->Orientations.data()[other / 3];
+      const auto wanted = static_cast<signed char>(same ? sign : -sign);
+      const signed char found = this->Signs[other / 3];
       if (found == 0)
       {
         this->Enter(other / 3, wanted);
       }
       else if (found != wanted)
       {
-        this->Found.IsOrientable = false;
+        this->IsOrientable = false;
       }
     }
   }
@@ -112,20 +105,41 @@ private:
 
   const TriangleSurface& Surface;
   const SurfaceEdges& Edges;
-  std::int64_t* Oriented;
-  LargeBuffer<signed char> Orientations; // 0 not reached, 1 as the component's first, -1 opposite
-  LargeBuffer<std::int64_t> Queue;       // the triangles of a component
+  signed char* const Signs;        // 0 not reached, 1 as given, -1 opposite
+  LargeBuffer<std::int64_t> Queue; // the triangles of a patch
   std::int64_t QueueEnd = 0;
-  SurfaceOrientation Found{ true, 0 };
+  bool IsOrientable = true;
 };
 
 } // namespace
 
+bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs,
+  Progress& progress, const std::function<void(const SurfacePatch&)>& visit)
+{
+  return PatchSearch(surface, edges, signs).Run(progress, visit);
+}
+
 SurfaceOrientation orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,
   std::int64_t* oriented, const Context& context)
 {
+  const std::int64_t count = surface.NumberOfTriangles;
+  LargeBuffer<signed char> signs(count);
+  SurfaceOrientation found{ true, 0 };
   Progress progress(context);
-  return OrientationRun(surface, edges, oriented).Run(progress);
+  progress.BeginStage(1.0, count);
+  found.IsOrientable =
+    visitPatches(surface, edges, signs.data(), progress, [&](const SurfacePatch& patch) {
+      ++found.Components;
+      for (std::int64_t i = 0; i < patch.Count; ++i)
+      {
+        const std::int64_t triangle = patch.Triangles[i];
+        const bool turn = signs.data()[triangle] < 0;
+        const std::int64_t* ids = surface.Triangles + 3 * triangle;
+        const std::int64_t corners[3] = { ids[0], ids[turn ? 2 : 1], ids[turn ? 1 : 2] };
+        std::copy_n(corners, 3, oriented + 3 * triangle);
+      }
+    });
+  return found;
 }
 
 } // namespace RectifiedTransport

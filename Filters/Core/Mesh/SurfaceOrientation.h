@@ -7,15 +7,33 @@
 #include "Core/Parallel/Context.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace RectifiedTransport
 {
+
+class Progress;
 
 struct SurfaceOrientation
 {
   bool IsOrientable; // not so: a Klein bottle or a Moebius strip
   std::int64_t Components;
 };
+
+// Triangles joined by edges of two sides.
+struct SurfacePatch
+{
+  const std::int64_t* Triangles;
+  std::int64_t Count;
+  double Area; // of those that agree, as the patch is oriented, less that of the others
+};
+
+// Orients each patch as most of its area is, and calls visit(patch), in the order of their first
+// triangles. By then `signs` has of each of its triangles whether it stays (1) or is turned (-1).
+// As the work of the current stage, of which each triangle is a unit. Returns whether all patches
+// can be oriented. Memory: 8 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs,
+  Progress& progress, const std::function<void(const SurfacePatch&)>& visit);
 
 // Writes the triangles of a surface to `oriented`, which may be their own memory: each with its
 // corners as given or in the opposite order. A component, that is triangles joined by edges of two

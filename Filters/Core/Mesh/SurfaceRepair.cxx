@@ -5,6 +5,7 @@
 #include "Core/Mesh/FlatTriangles.h"
 #include "Core/Mesh/MergePoints.h"
 #include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Mesh/Trees.h"
 #include "Core/Parallel/Progress.h"
 
 #include <algorithm>
@@ -86,16 +87,7 @@ public:
   }
 
 private:
-  std::int64_t RootOf(std::int64_t point)
-  {
-    std::int64_t* roots = this->Roots.data();
-    while (roots[point] != point)
-    {
-      roots[point] = roots[roots[point]];
-      point = roots[point];
-    }
-    return point;
-  }
+  std::int64_t RootOf(std::int64_t point) { return rootOf(this->Roots.data(), point); }
 
   // Of each point the first one that it is merged with.
   void FindRoots(Progress& progress)
@@ -145,24 +137,16 @@ private:
       mergePoints({ cells.data(), points }, firsts.data(), progress.Stage());
       for (std::int64_t i = 0; i < points; ++i)
       {
-        this->Merge(this->RootOf(i), this->RootOf(firsts.data()[i]));
+        joinTrees(this->Roots.data(), i, firsts.data()[i]);
       }
     }
   }
 
-  void Merge(std::int64_t rootA, std::int64_t rootB)
-  {
-    this->Roots.data()[std::max(rootA, rootB)] = std::min(rootA, rootB);
-  }
-
   void MergeEnds(std::int64_t a, std::int64_t b)
   {
-    const std::int64_t rootA = this->RootOf(a);
-    const std::int64_t rootB = this->RootOf(b);
-    if (rootA != rootB &&
-      isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
+    if (isSamePlace(this->Given.Points[a], this->Given.Points[b], this->Options.Rounding))
     {
-      this->Merge(rootA, rootB);
+      joinTrees(this->Roots.data(), a, b);
     }
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Solid/OrientedBodies.h"
 
+#include "Core/Mesh/SurfaceOrientation.h"
+#include "Core/Mesh/Trees.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
@@ -100,70 +102,19 @@ private:
   // Numbers the patches and orients each by most of its area.
   bool FindPatches(Progress& progress)
   {
-    const Index count = this->Surface.NumberOfTriangles;
-    LargeBuffer<Index> queueMemory(count);
-    Index* queue = queueMemory.data();
-    std::fill_n(this->Signs.data(), count, static_cast<signed char>(0));
-    progress.BeginStage(0.8, count);
-    for (Index start = 0; start < count; ++start)
-    {
-      if (this->Signs.data()[start] != 0)
-      {
-        continue;
-      }
-      Index end = 0;
-      const auto enter = [&](Index triangle, signed char sign) {
-        this->Signs.data()[triangle] = sign;
-        this->Patches.data()[triangle] = static_cast<Index>(this->Areas.size());
-        queue[end++] = triangle;
-      };
-      enter(start, 1);
-      double area = 0.0; // of triangles oriented as the first one, less that of the others
-      for (Index next = 0; next < end; ++next)
-      {
-        const Index triangle = queue[next];
-        const signed char sign = this->Signs.data()[triangle];
-        area += sign * this->AreaOf(triangle);
-        for (Index side = 3 * triangle; side < 3 * triangle + 3; ++side)
+    progress.BeginStage(0.8, this->Surface.NumberOfTriangles);
+    return visitPatches(
+      this->Surface, this->Edges, this->Signs.data(), progress, [this](const SurfacePatch& patch) {
+        bool isMended = false;
+        for (Index i = 0; i < patch.Count; ++i)
         {
-          const Index other = this->Edges.Other(side);
-          if (other < 0)
-          {
-            continue;
-          }
-          const bool same = this->Surface.Triangles[side] != this->Surface.Triangles[other];
-          const auto wanted = static_cast<signed char>(same ? sign : -sign);
-          if (this->Signs.data()[other / 3] == 0)
-          {
-            enter(other / 3, wanted);
-          }
-          else if (this->Signs.data()[other / 3] != wanted)
-          {
-            return false;
-          }
+          const Index triangle = patch.Triangles[i];
+          this->Patches.data()[triangle] = static_cast<Index>(this->Areas.size());
+          isMended = isMended || this->Signs.data()[triangle] < 0;
         }
-        progress.Add(1);
-      }
-      if (area < 0.0)
-      {
-        std::for_each(queue, queue + end, [this](Index triangle) {
-          this->Signs.data()[triangle] = static_cast<signed char>(-this->Signs.data()[triangle]);
-        });
-      }
-      this->Areas.push_back(std::abs(area));
-      const auto isTurned = [this](Index triangle) { return this->Signs.data()[triangle] < 0; };
-      this->IsMended.push_back(std::any_of(queue, queue + end, isTurned));
-    }
-    return true;
-  }
-
-  double AreaOf(Index triangle) const
-  {
-    const Index* ids = this->Surface.Triangles + 3 * triangle;
-    const double* a = this->Surface.Points[ids[0]];
-    const Vector n =
-      cross(between(a, this->Surface.Points[ids[1]]), between(a, this->Surface.Points[ids[2]]));
-    return std::hypot(n[0], n[1], n[2]);
+        this->Areas.push_back(patch.Area);
+        this->IsMended.push_back(isMended);
+      });
   }
 
   // The sides at edges of more than two, by edges.
@@ -175,7 +126,7 @@ private:
       if (this->Edges.Other(side) < 0)
       {
         const Index from = this->Surface.Triangles[side];
-        const Index to = this->Surface.Triangles[side % 3 == 2 ? side - 2 : side + 1];
+        const Index to = this->Surface.Triangles[nextSide(side)];
         this->Fans.push_back({ std::min(from, to), std::max(from, to), side, 0.0 });
       }
       progress.Add(side % 3 == 2 ? 1 : 0);
@@ -211,23 +162,8 @@ private:
     return this->Surface.Triangles[side.Side] == side.Low ? sign : -sign;
   }
 
-  // Trees of patches.
-  Index RootOf(Index patch)
-  {
-    Index* roots = this->Roots.data();
-    while (roots[patch] != patch)
-    {
-      roots[patch] = roots[roots[patch]];
-      patch = roots[patch];
-    }
-    return patch;
-  }
-  void Join(Index a, Index b)
-  {
-    a = this->RootOf(a);
-    b = this->RootOf(b);
-    this->Roots[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
+  Index RootOf(Index patch) { return rootOf(this->Roots.data(), patch); }
+  void Join(Index a, Index b) { joinTrees(this->Roots.data(), a, b); }
 
   // Joins patches into bodies that are closed each: at an edge those that pass it one way with as
   // many that pass it the other way, of the same body where there are such.
@@ -356,8 +292,7 @@ private:
     Vector normal{};
     for (FanSide* side = begin; side < end; ++side)
     {
-      const Index* ids = this->Surface.Triangles + side->Side / 3 * 3;
-      const Index third = ids[(side->Side % 3 + 2) % 3];
+      const Index third = this->Surface.Triangles[lastSide(side->Side)];
       const Vector out = between(low, this->Surface.Points[third]);
       if (side == begin)
       {
