@@ -183,7 +183,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* imag
   {
     return nullptr;
   }
-  // The array, as its association and its name; empty on ranks without points.
+  // The array, by its association and its name; empty on ranks without points.
   std::string chosen;
   if (image && image->GetNumberOfPoints() > 0)
   {
@@ -195,24 +195,11 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* imag
     {
       throw Failure("The density array has no name; on several ranks it must have one");
     }
-    chosen = (onPoints ? "point array " : "cell array ") + std::string(array->GetName());
+    chosen = (onPoints ? "the point array " : "the cell array ") + std::string(array->GetName());
   }
-  std::string common;
-  std::size_t first = 0;
-  const std::vector<Bytes> all = ranks.Gather(Bytes(chosen.begin(), chosen.end()));
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    const std::string there(all[rank].begin(), all[rank].end());
-    first = common.empty() ? rank : first;
-    common = common.empty() ? there : common;
-    if (!there.empty() && there != common)
-    {
-      throw Failure("The density is the " + common + " on rank " + std::to_string(first) +
-        ", but the " + there + " on rank " + std::to_string(rank) +
-        "; it must be the same array on all");
-    }
-  }
-  const bool onPoints = common.front() == 'p';
+  const std::string common =
+    requireSameOnRanks(ranks, chosen, "The density is ", "it must be the same array on all");
+  const bool onPoints = common.rfind("the point", 0) == 0;
   const std::string name = common.substr(common.find("array ") + 6);
   return std::make_unique<DensityImage>(std::move(pieces), name, onPoints, this->GetDensityRules());
 }

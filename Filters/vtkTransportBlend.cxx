@@ -45,66 +45,54 @@ struct GivenInput
   int Port;
 };
 
-bool isDensity(vtkDataObject* leaf)
-{
-  return vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf);
-}
-
 // The leaves of composite data that may be densities, where these are inputs; other data are one.
-void gatherBlocks(vtkDataObject* data, bool blocksAreInputs, std::vector<vtkDataObject*>& blocks)
+// Returns how many leaves are passed over.
+std::int64_t gatherBlocks(
+  vtkDataObject* data, bool blocksAreInputs, std::vector<vtkDataObject*>& blocks)
 {
   auto* composite = blocksAreInputs ? vtkCompositeDataSet::SafeDownCast(data) : nullptr;
   if (!composite)
   {
     blocks.push_back(data);
-    return;
+    return 0;
   }
+  std::int64_t others = 0;
   const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    if (isDensity(leaves->GetCurrentDataObject()))
+    vtkDataObject* leaf = leaves->GetCurrentDataObject();
+    if (vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf))
     {
-      blocks.push_back(leaves->GetCurrentDataObject());
+      blocks.push_back(leaf);
     }
-  }
-}
-
-// How many leaves of composite data are passed over.
-std::int64_t countOthers(vtkInformationVector** inputVector, int numberOfPorts)
-{
-  std::int64_t others = 0;
-  for (int port = 0; port < numberOfPorts; ++port)
-  {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    else
     {
-      auto* composite = vtkCompositeDataSet::GetData(inputVector[port], i);
-      if (!composite)
-      {
-        continue;
-      }
-      const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-      for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-      {
-        others += isDensity(leaves->GetCurrentDataObject()) ? 0 : 1;
-      }
+      ++others;
     }
   }
   return others;
 }
 
-std::vector<GivenInput> gatherInputs(
+struct GivenInputs
+{
+  std::vector<GivenInput> All;
+  std::int64_t Others = 0; // the leaves that are passed over
+};
+
+GivenInputs gatherInputs(
   vtkInformationVector** inputVector, int numberOfPorts, bool blocksAreInputs)
 {
-  std::vector<GivenInput> inputs;
+  GivenInputs inputs;
   for (int port = 0; port < numberOfPorts; ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       std::vector<vtkDataObject*> blocks;
-      gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs, blocks);
+      inputs.Others +=
+        gatherBlocks(vtkDataObject::GetData(inputVector[port], i), blocksAreInputs, blocks);
       for (vtkDataObject* block : blocks)
       {
-        inputs.push_back({ block, port });
+        inputs.All.push_back({ block, port });
       }
     }
   }
@@ -224,31 +212,26 @@ int vtkTransportBlend::RequestInformation(
 std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inputVector,
   const char* const* names, RectifiedTransport::Progress& progress)
 {
-  const std::vector<GivenInput> allGiven =
+  const GivenInputs given =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
   if (const Ranks* ranks = this->GetRanks())
   {
-    requireSameNumber(allGiven.size(), *ranks);
+    requireSameNumber(given.All.size(), *ranks);
   }
-  if (this->BlocksAreInputs)
-  {
-    this->ReportOtherBlocks(
-      countOthers(inputVector, this->GetNumberOfInputPorts()), allGiven.empty());
-  }
+  this->ReportOtherBlocks(given.Others, given.All.empty());
   std::vector<BlendInput> inputs;
-  for (const GivenInput& given : allGiven)
+  for (const GivenInput& one : given.All)
   {
     inputs.emplace_back();
     BlendInput& input = inputs.back();
     const std::size_t number = inputs.size();
     input.Name = names
       ? names[number - 1]
-      : "Input " + std::to_string(number) + " of " + std::to_string(allGiven.size());
+      : "Input " + std::to_string(number) + " of " + std::to_string(given.All.size());
     input.PositionName = names ? input.Name + "Position" : "";
     try
     {
-      input.Density =
-        this->ReadDensity(given.Data, progress, given.Port, static_cast<int>(number) - 1);
+      input.Density = this->ReadDensity(one.Data, progress, one.Port, static_cast<int>(number) - 1);
     }
     catch (const Failure& failure)
     {

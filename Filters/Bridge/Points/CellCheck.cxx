@@ -2,14 +2,13 @@
 #include "Bridge/Points/CellCheck.h"
 
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/IntegerArrays.h"
 #include "Bridge/Run/Failure.h"
 
-#include "vtkArrayDispatch.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkDataArrayRange.h"
 #include "vtkExplicitStructuredGrid.h"
 #include "vtkGenericCell.h"
 #include "vtkIdTypeArray.h"
@@ -30,19 +29,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-// Calls visit(values) with an array of integers in its value type.
-template <class Visit>
-void visitIntegers(vtkDataArray* array, const Visit& visit)
-{
-  using Integers = vtkTypeList::Create<int, long, long long>; // that cell arrays store
-  using Dispatch = vtkArrayDispatch::DispatchByValueType<Integers>;
-  const auto call = [&visit](auto* typed) { visit(vtk::DataArrayValueRange<1>(typed)); };
-  if (!Dispatch::Execute(array, call))
-  {
-    call(array);
-  }
-}
 
 std::string cellOf(vtkIdType cell, const std::string& name)
 {

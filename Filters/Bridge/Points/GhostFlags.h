@@ -14,6 +14,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
+class vtkIdList;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -28,6 +29,23 @@ constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
 // The values of the ghost array of the points or cells (vtkDataObject::POINT or CELL); nullptr
 // where there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
+
+// The cells that ghost flags keep from having mass.
+class BlankedCells
+{
+public:
+  // Throws as ghostFlags.
+  BlankedCells(vtkDataSet* data, const char* what);
+
+  bool Has(vtkIdType cell) const { return this->OfCells && (this->OfCells[cell] & ghostCell); }
+  // Whether points are hidden, with the cells that have them.
+  bool MayHavePoints() const { return this->OfPoints != nullptr; }
+  bool HasPointOf(vtkIdList* points) const;
+
+private:
+  const unsigned char* OfCells;
+  const unsigned char* OfPoints;
+};
 
 // Writes the flags of the cells of an image in some of its rows of cells along its first axis:
 // ghostCell where a point of the cell is hidden, else the cell's own, 0 where `cells` is nullptr.

@@ -95,16 +95,9 @@ std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6
 
 void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
 {
-  std::array<double, 6> found = noBounds;
-  if (points && points->GetNumberOfPoints() > 0)
-  {
-    findBounds(points, found.data());
-  }
-  if (ranks)
-  {
-    found = boundsOfAll(*ranks, found);
-  }
-  std::copy_n(found.begin(), 6, bounds);
+  const SerialExecutor serial;
+  Progress all{ Context(serial) };
+  findBounds(points, ranks, all, bounds);
 }
 
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6])

@@ -10,7 +10,8 @@
 namespace RectifiedTransport
 {
 
-std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what)
+std::string requireSameOnRanks(
+  const Ranks& ranks, const std::string& own, const std::string& what, const std::string& rule)
 {
   const std::vector<Bytes> all = ranks.Gather(Bytes(own.begin(), own.end()));
   std::string common;
@@ -23,7 +24,7 @@ std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const
     if (!there.empty() && there != common)
     {
       throw Failure(what + common + " on rank " + std::to_string(first) + ", but " + there +
-        " on rank " + std::to_string(rank) + "; it must be of one type on all");
+        " on rank " + std::to_string(rank) + "; " + rule);
     }
   }
   return common;

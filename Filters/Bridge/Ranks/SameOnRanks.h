@@ -17,8 +17,9 @@ namespace RectifiedTransport
 {
 
 // Throws Failure where a text is not the same on all ranks that have one; `what` begins the
-// message. Returns it; empty where no rank has one. Called by all ranks.
-std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what);
+// message, and `rule` ends it. Returns the text; empty where no rank has one. Called by all ranks.
+std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what,
+  const std::string& rule = "it must be of one type on all");
 
 // The part of an image that this rank is to give: the one that is requested, with a layer of cells
 // at least, if all ranks have announced the whole extent, wherever it lies, else its piece of it,

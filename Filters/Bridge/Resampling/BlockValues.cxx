@@ -146,8 +146,7 @@ private:
   void FindCounted(const DensityBlock& block, Progress& progress)
   {
     vtkDataSet* data = block.Data;
-    const unsigned char* cellFlags = ghostFlags(data, vtkDataObject::CELL, block.Name.c_str());
-    const unsigned char* pointFlags = ghostFlags(data, vtkDataObject::POINT, block.Name.c_str());
+    const BlankedCells blanked(data, block.Name.c_str());
     const vtkIdType cells = data->GetNumberOfCells();
     this->Read.Counted.assign(static_cast<std::size_t>(cells), 0);
     this->Flags.assign(
@@ -160,7 +159,7 @@ private:
         progress.Check();
       }
       const MassCells& mass = this->Read.Cells;
-      if (!mass.HasDimension(data, cell) || (cellFlags && (cellFlags[cell] & ghostCell)))
+      if (!mass.HasDimension(data, cell) || blanked.Has(cell))
       {
         continue;
       }
@@ -170,13 +169,10 @@ private:
         continue;
       }
       bool counts = true;
-      if (pointFlags || this->Read.OnPoints)
+      if (blanked.MayHavePoints() || this->Read.OnPoints)
       {
         data->GetCellPoints(cell, points);
-        for (vtkIdType i = 0; pointFlags && i < points->GetNumberOfIds(); ++i)
-        {
-          counts = counts && !(pointFlags[points->GetId(i)] & vtkDataSetAttributes::HIDDENPOINT);
-        }
+        counts = !blanked.HasPointOf(points);
       }
       this->Read.Counted[static_cast<std::size_t>(cell)] = counts ? 1 : 0;
       if (counts && mass.AreClosedLines)

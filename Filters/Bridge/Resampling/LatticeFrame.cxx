@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/LatticeFrame.h"
 
+#include "Bridge/Resampling/MeshGrid.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
@@ -176,10 +177,7 @@ void completeAxes(int dimension, LatticeFrame& frame)
   {
     const auto main = static_cast<Eigen::Index>(
       std::find(frame.IsAxis.begin(), frame.IsAxis.end(), true) - frame.IsAxis.begin());
-    const Eigen::Index next = (main + 1) % 3;
-    const Vector3d direction = axes.col(main);
-    axes.col(next) = (Vector3d::Unit(next) - direction * direction[next]).normalized();
-    axes.col((main + 2) % 3) = direction.cross(Vector3d(axes.col(next)));
+    axes = axesAround(axes.col(main), main);
     return;
   }
   Eigen::Index flat = 2;
@@ -210,37 +208,49 @@ Box boxOf(Box a, const Box& b)
   return { a.Low.cwiseMin(b.Low), a.High.cwiseMax(b.High), std::max(a.Rounding, b.Rounding) };
 }
 
+// Combines what visit(corners, block, part) adds of all cells of the dimension, until it returns
+// false. As the work of the current stage.
+template <class Part, class Visit, class Combine>
+Part reduceCells(const std::vector<DensityBlock>& blocks, int dimension, Progress& progress,
+  const Visit& visit, const Combine& combine)
+{
+  Part all;
+  for (const DensityBlock& block : blocks)
+  {
+    all = combine(all,
+      reduceChunks(
+        progress, block.Data->GetNumberOfCells(), grain, Part(),
+        [&](std::int64_t first, std::int64_t last) {
+          BoxCorners corners(block.Data, dimension);
+          Part part;
+          bool goesOn = true;
+          for (std::int64_t cell = first; cell < last && goesOn; ++cell)
+          {
+            goesOn = !corners.IsOfDimension(cell) || visit(corners, cell, part);
+          }
+          return part;
+        },
+        combine));
+  }
+  return all;
+}
+
 Box boxOfCells(const std::vector<DensityBlock>& blocks, int dimension,
   const ImageGrid::Matrix& axes, Progress& progress)
 {
   const ImageGrid::Matrix toFrame = axes.transpose();
-  Box all;
-  for (const DensityBlock& block : blocks)
-  {
-    const double rounding = roundingOf(block.Data);
-    all = boxOf(all,
-      reduceChunks(
-        progress, block.Data->GetNumberOfCells(), grain, Box(),
-        [&](std::int64_t first, std::int64_t last) {
-          BoxCorners corners(block.Data, dimension);
-          Box part;
-          for (std::int64_t cell = first; cell < last; ++cell)
-          {
-            if (!corners.IsOfDimension(cell) || !corners.Read(cell))
-            {
-              continue;
-            }
-            for (int i = 0; i < corners.Count(); ++i)
-            {
-              const Vector3d x = toFrame * corners[i];
-              part = boxOf(part, { x, x, rounding * corners[i].cwiseAbs().maxCoeff() });
-            }
-          }
-          return part;
-        },
-        boxOf));
-  }
-  return all;
+  return reduceCells<Box>(
+    blocks, dimension, progress,
+    [&](BoxCorners& corners, vtkIdType cell, Box& part) {
+      const bool isRead = corners.Read(cell);
+      for (int i = 0; isRead && i < corners.Count(); ++i)
+      {
+        const Vector3d x = toFrame * corners[i];
+        part = boxOf(part, { x, x, corners.Rounding() * corners[i].cwiseAbs().maxCoeff() });
+      }
+      return true;
+    },
+    boxOf);
 }
 
 } // namespace
@@ -253,34 +263,19 @@ std::optional<LatticeFrame> LatticeFrame::Of(
   {
     return std::nullopt;
   }
-  Sums sums;
   std::atomic<bool> misfits{ false };
-  for (const DensityBlock& block : blocks)
-  {
-    sums = sumOf(sums,
-      reduceChunks(
-        progress, block.Data->GetNumberOfCells(), grain, Sums(),
-        [&](std::int64_t first, std::int64_t last) {
-          BoxCorners corners(block.Data, dimension);
-          Sums part;
-          for (std::int64_t cell = first; cell < last && !misfits; ++cell)
-          {
-            if (!corners.IsOfDimension(cell))
-            {
-              continue;
-            }
-            ++part.Cells;
-            if (!corners.Read(cell) ||
-              !addEdges(edgesOf(corners, dimension), *like, dimension, part))
-            {
-              ++part.Misfits;
-              misfits = true; // the others need no look
-            }
-          }
-          return part;
-        },
-        sumOf));
-  }
+  const Sums sums = reduceCells<Sums>(
+    blocks, dimension, progress,
+    [&](BoxCorners& corners, vtkIdType cell, Sums& part) {
+      ++part.Cells;
+      if (!corners.Read(cell) || !addEdges(edgesOf(corners, dimension), *like, dimension, part))
+      {
+        ++part.Misfits;
+        misfits = true; // the others need no look
+      }
+      return !misfits;
+    },
+    sumOf);
   LatticeFrame frame;
   Vector3d edge = Vector3d::Zero();
   if (sums.Misfits > 0 || !setAxes(sums, dimension, frame, edge))
@@ -325,6 +320,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
 BoxCorners::BoxCorners(vtkDataSet* data, int dimension)
   : Data(data)
   , Dimension(dimension)
+  , RoundingOfPoints(roundingOf(data))
 {
 }
 

@@ -50,6 +50,8 @@ public:
   BoxCorners(vtkDataSet* data, int dimension);
   ~BoxCorners();
 
+  // That of coordinates, as a share of them.
+  double Rounding() const { return this->RoundingOfPoints; }
   bool IsOfDimension(vtkIdType cell) const;
   // Returns false for cells of another type, and where a corner is no point of the data set.
   bool Read(vtkIdType cell);
@@ -70,6 +72,7 @@ public:
 private:
   vtkDataSet* Data;
   const int Dimension;
+  const double RoundingOfPoints;
   vtkNew<vtkIdList> Ids;
   std::array<vtkIdType, 8> Points;
   std::array<Eigen::Vector3d, 8> Corners;

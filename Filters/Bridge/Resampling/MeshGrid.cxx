@@ -6,9 +6,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/Progress.h"
 
-#include "vtkDataObject.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
@@ -40,31 +38,6 @@ std::string describe(const Vector3d& x)
   return text.str();
 }
 
-// The cells that ghost flags keep from having mass.
-class BlankedCells
-{
-public:
-  BlankedCells(vtkDataSet* data, const std::string& name)
-    : OfCells(ghostFlags(data, vtkDataObject::CELL, name.c_str()))
-    , OfPoints(ghostFlags(data, vtkDataObject::POINT, name.c_str()))
-  {
-  }
-
-  bool Has(vtkIdType cell, vtkIdList* points) const
-  {
-    bool has = this->OfCells && (this->OfCells[cell] & ghostCell);
-    for (vtkIdType i = 0; this->OfPoints && i < points->GetNumberOfIds(); ++i)
-    {
-      has = has || (this->OfPoints[points->GetId(i)] & vtkDataSetAttributes::HIDDENPOINT);
-    }
-    return has;
-  }
-
-private:
-  const unsigned char* OfCells;
-  const unsigned char* OfPoints;
-};
-
 // Calls visit(x) for the corners of all cells with mass, each point once. Throws Failure for one
 // that is not finite.
 template <class Visit>
@@ -75,7 +48,7 @@ void visitCorners(const std::vector<DensityBlock>& blocks, const MassCells& cell
   for (const DensityBlock& block : blocks)
   {
     vtkDataSet* data = block.Data;
-    const BlankedCells blanked(data, block.Name);
+    const BlankedCells blanked(data, block.Name.c_str());
     std::vector<bool> visited(static_cast<std::size_t>(data->GetNumberOfPoints()), false);
     vtkIdType notFinite = -1;
     for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
@@ -102,7 +75,7 @@ void visitCorners(const std::vector<DensityBlock>& blocks, const MassCells& cell
           visited[static_cast<std::size_t>(point)] = true;
           visit(x);
         }
-        else if (!blanked.Has(cell, points))
+        else if (!blanked.Has(cell) && !blanked.HasPointOf(points))
         {
           notFinite = notFinite < 0 ? point : std::min(notFinite, point);
         }
@@ -159,19 +132,6 @@ Vector3d roundedDirection(Vector3d v, Eigen::Index& largest)
   v *= v[largest] < 0.0 ? -1.0 : 1.0;
   v = (v / step).array().round() * step;
   return v.normalized();
-}
-
-// Columns: right-handed axes, each nearest to that of space with its number, of which `flat` is the
-// one across a plane or, where `isLine`, the one along a line.
-ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
-{
-  ImageGrid::Matrix axes;
-  const Eigen::Index next = (main + 1) % 3;
-  const Vector3d along = (Vector3d::Unit(next) - direction * direction[next]).normalized();
-  axes.col(main) = direction;
-  axes.col(next) = along;
-  axes.col((main + 2) % 3) = direction.cross(along);
-  return axes;
 }
 
 struct Frame
@@ -236,6 +196,17 @@ Frame frameOf(const std::vector<DensityBlock>& blocks, const MassCells& cells, P
 }
 
 } // namespace
+
+ImageGrid::Matrix axesAround(const Vector3d& direction, Eigen::Index main)
+{
+  ImageGrid::Matrix axes;
+  const Eigen::Index next = (main + 1) % 3;
+  const Vector3d along = (Vector3d::Unit(next) - direction * direction[next]).normalized();
+  axes.col(main) = direction;
+  axes.col(next) = along;
+  axes.col((main + 2) % 3) = direction.cross(along);
+  return axes;
+}
 
 ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cells, int resolution,
   Progress& progress)

@@ -13,6 +13,10 @@ namespace RectifiedTransport
 
 class Progress;
 
+// Columns: right-handed axes, each nearest to that of space with its number, of which `main` is the
+// direction: that across a plane, or along a line.
+ImageGrid::Matrix axesAround(const Eigen::Vector3d& direction, Eigen::Index main);
+
 // Values on cells, with `resolution` cells along the longest axis and the others as near to cubes
 // as whole numbers allow. The axes are those of space, or where cells of a plane or a line are
 // oblique, axes in it. Throws Failure for blocks without cells of a measure, for surfaces that are

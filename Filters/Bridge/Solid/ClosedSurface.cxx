@@ -29,31 +29,28 @@ namespace
 
 constexpr std::int64_t Grain = std::int64_t{ 1 } << 13;
 
-// The largest coordinate of a polygon, without its sign.
-double farthestOf(vtkPolyData* surface)
+// The largest coordinate, without its sign.
+double farthestIn(const std::array<double, 6>& bounds)
 {
-  const std::array<double, 6> bounds = polygonBounds(surface);
   return std::accumulate(bounds.begin(), bounds.end(), 0.0,
     [](double farthest, double x) { return std::max(farthest, std::abs(x)); });
 }
 
 // Distances within which points may differ by rounding: of any coordinates, and of float ones.
-std::array<double, 2> roundingsOf(vtkPolyData* surface)
+std::array<double, 2> roundingsIn(const std::array<double, 6>& bounds, bool isFloat)
 {
-  const std::array<double, 6> bounds = polygonBounds(surface);
   const double longest =
     std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  const bool isFloat = surface->GetPoints()->GetDataType() == VTK_FLOAT;
   constexpr double units = 4.0;
   const double near = ClosedMesh::NearDistance * longest;
   return { std::isfinite(near) ? near : 0.0,
-    isFloat ? units * farthestOf(surface) * std::numeric_limits<float>::epsilon() : 0.0 };
+    isFloat ? units * farthestIn(bounds) * std::numeric_limits<float>::epsilon() : 0.0 };
 }
 
 // Four units in the last place of the largest coordinate, a power of two; 0 if there is none.
-double lastPlacesOf(vtkPolyData* surface)
+double lastPlacesIn(const std::array<double, 6>& bounds)
 {
-  const double farthest = farthestOf(surface);
+  const double farthest = farthestIn(bounds);
   const double places = farthest > 0.0 ? std::ldexp(1.0, std::ilogb(farthest) - 50) : 0.0;
   return places >= std::numeric_limits<double>::min() ? places : 0.0;
 }
@@ -67,7 +64,7 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface)
   const auto points = static_cast<std::int64_t>(used.size());
   for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
   {
-    visitIds(cells, [&used, points](const auto& ids) {
+    visitIntegers(cells->GetConnectivityArray(), [&used, points](const auto& ids) {
       for (const auto id : ids)
       {
         const auto point = static_cast<std::int64_t>(id);
@@ -97,7 +94,8 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
     coordinates = readPoints(input, progress);
   });
   requirePolygons(input, "a solid needs a closed surface");
-  this->Rounding = lastPlacesOf(input);
+  this->Box = polygonBounds(input);
+  this->Rounding = lastPlacesIn(this->Box);
   progress.BeginStage(at(0.25));
   withMemory("the table of the surface's " + points,
     static_cast<double>(this->NumberOfPoints) * 4.0 * sizeof(std::int64_t),
@@ -116,7 +114,8 @@ ClosedSurface::ClosedSurface(vtkPolyData* input, Progress& progress, double end)
   {
     problem = failure.what(); // corners that differ by rounding may be the reason
   }
-  const std::array<double, 2> roundings = roundingsOf(input);
+  const std::array<double, 2> roundings =
+    roundingsIn(this->Box, input->GetPoints()->GetDataType() == VTK_FLOAT);
   if (this->CloseNear(input, roundings[0], progress, at(0.7), at(0.85)))
   {
     return;

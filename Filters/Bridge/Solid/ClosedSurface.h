@@ -37,6 +37,9 @@ public:
   // finite, or edges of an odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
+  // Those of polygonBounds.
+  const std::array<double, 6>& Bounds() const { return this->Box; }
+
   // Returns the surface in the index coordinates of a grid, the triangles of each component with
   // one orientation. Coordinates are rounded to four units in the last place of the largest one, so
   // that what differs by less, as on several ranks, has the same bits. As stages up to the progress
@@ -50,6 +53,7 @@ private:
   std::string Openness() const;
 
   std::int64_t NumberOfPoints;
+  std::array<double, 6> Box{};
   double Rounding = 0.0; // what coordinates are multiples of
   std::optional<ClosedMesh> Mesh;
 };

@@ -74,7 +74,7 @@ ImageGrid SolidDensity::Run(vtkPolyData* surface,
   vtkImageData* output) const
 {
   ClosedSurface closed(surface, progress, 0.4);
-  const ImageGrid cells = solidGrid(polygonBounds(surface), this->Resolution, this->Padding);
+  const ImageGrid cells = solidGrid(closed.Bounds(), this->Resolution, this->Padding);
   const ImageGrid grid = this->OnPoints ? cells.AtCellCentres() : cells;
   const Extent wanted = chooseExtent(grid);
   const SolidSurface triangles = closed.InCells(cells, progress, 0.5);

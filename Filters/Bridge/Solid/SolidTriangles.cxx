@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Surface/PolygonCutter.h"
 #include "Bridge/Surface/PolygonInput.h"
 
 #include "vtkCellArray.h"
@@ -153,7 +154,7 @@ private:
     }
     else if (count == 3)
     {
-      this->CutFan(corners, 0);
+      this->Triangles->InsertNextCell(corners);
     }
     else if (count > 4)
     {
@@ -173,30 +174,23 @@ private:
     }
   }
 
+  // What cannot be cut becomes a fan.
   void CutEach(Progress& progress)
   {
-    const Context quiet(progress.Threads());
-    vtkNew<vtkCellArray> none;
-    vtkNew<vtkCellArray> one;
+    vtkPoints* points = this->Surface->GetPoints();
+    PolygonCutter cutter(points, roundingOf(points));
     vtkNew<vtkIdList> corners;
     for (vtkIdType polygon = 0; polygon < this->Others->GetNumberOfCells(); ++polygon)
     {
       this->Others->GetCellAtId(polygon, corners);
-      one->Reset();
-      one->InsertNextCell(corners);
-      try
-      {
-        Progress alone(quiet);
-        this->Triangles->Append(triangulate(this->Surface->GetPoints(), one, none, alone));
-      }
-      catch (const Failure&)
+      if (!cutter.Cut(corners->GetNumberOfIds(), corners->GetPointer(0), this->Triangles))
       {
         this->CutFan(corners, 0);
       }
       progress.Check();
     }
-    this->Triangles->Append(
-      triangulate(this->Surface->GetPoints(), none, this->Surface->GetStrips(), progress));
+    vtkNew<vtkCellArray> none;
+    this->Triangles->Append(triangulate(points, none, this->Surface->GetStrips(), progress));
   }
 
   vtkPolyData* Surface;

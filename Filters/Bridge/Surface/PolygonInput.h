@@ -3,13 +3,12 @@
 #ifndef RectifiedTransport_PolygonInput_h
 #define RectifiedTransport_PolygonInput_h
 
+#include "Bridge/Points/IntegerArrays.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 
-#include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"
-#include "vtkDataArrayRange.h"
 #include "vtkSmartPointer.h"
 
 #include <array>
@@ -52,20 +51,6 @@ std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);
 
-// Calls visit(ids) with the values of the connectivity array, in its value type.
-template <class Visit>
-void visitIds(vtkCellArray* cells, const Visit& visit)
-{
-  using Integers = vtkTypeList::Create<int, long, long long>; // that cell arrays store
-  using Dispatch = vtkArrayDispatch::DispatchByValueType<Integers>;
-  const auto call = [&visit](auto* array) { visit(vtk::DataArrayValueRange<1>(array)); };
-  vtkDataArray* ids = cells->GetConnectivityArray();
-  if (!Dispatch::Execute(ids, call))
-  {
-    call(ids);
-  }
-}
-
 // Calls visit(i, points) for every triangle i in order, as the work of the current stage. All cells
 // must be triangles. Throws Cancelled.
 template <class Visit>
@@ -73,7 +58,7 @@ void visitTriangles(vtkCellArray* triangles, Progress& progress, const Visit& vi
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
   const std::int64_t count = triangles->GetNumberOfCells();
-  visitIds(triangles, [&](const auto& ids) {
+  visitIntegers(triangles->GetConnectivityArray(), [&](const auto& ids) {
     progress.ForInOrder(
       count, grain,
       [&](std::int64_t first, std::int64_t last) {

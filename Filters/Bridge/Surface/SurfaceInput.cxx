@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Surface/SurfaceInput.h"
 
+#include "Bridge/Points/CellCheck.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/Memory.h"
@@ -17,7 +18,6 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
@@ -154,22 +154,6 @@ vtkSmartPointer<vtkPolyData> surfaceOf(vtkPointSet* grid, const PolyDataCells& c
   return surface;
 }
 
-void requirePoints(vtkUnstructuredGrid* grid)
-{
-  const std::int64_t points = grid->GetNumberOfPoints();
-  visitIds(grid->GetCells(), [points](const auto& ids) {
-    for (const auto id : ids)
-    {
-      const auto point = static_cast<std::int64_t>(id);
-      if (point < 0 || point >= points)
-      {
-        throw Failure("A cell of the input surface has the point " + std::to_string(point) +
-          "; there are points 0 to " + std::to_string(points - 1));
-      }
-    }
-  });
-}
-
 } // namespace
 
 void SurfaceInput::Require(vtkInformation* info)
@@ -197,10 +181,7 @@ SurfaceInput::SurfaceInput(vtkDataObject* input, Progress& progress)
     "the surface of " + std::to_string(set->GetNumberOfCells()) + " cells of the input";
   constexpr double bytesOfCell = 16.0 * sizeof(vtkIdType);
   requireMemory(purpose, cells * bytesOfCell);
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(set))
-  {
-    requirePoints(grid);
-  }
+  requireReadableCells(set, "input surface");
   const PolyDataCells found = cellsOf(set, progress);
   this->Cells = joined(found.Ids);
   this->Surface = surfaceOf(set, found, this->Cells, progress);

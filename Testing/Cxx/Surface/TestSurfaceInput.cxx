@@ -108,7 +108,7 @@ void checkOthers(Checks& checks)
   const std::vector<vtkIdType> wrong{ 0, 1, 10 };
   grid->InsertNextCell(VTK_TRIANGLE, 3, wrong.data());
   CHECK(checks,
-    failureOf(grid) == "A cell of the input surface has the point 10; there are points 0 to 9");
+    failureOf(grid) == "Cell 7 of the input surface has the point 10; there are points 0 to 9");
   CHECK(checks,
     contains(failureOf(vtkSmartPointer<vtkImageData>::New()),
       "has a block of type vtkImageData; it must be a vtkPolyData or a grid"));
