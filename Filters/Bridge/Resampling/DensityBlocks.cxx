@@ -2,10 +2,9 @@
 #include "Bridge/Resampling/DensityBlocks.h"
 
 #include "Bridge/Resampling/HyperTreeCells.h"
+#include "Bridge/Resampling/RefinedGrids.h"
 #include "Bridge/Run/Failure.h"
 
-#include "vtkAMRBox.h"
-#include "vtkAMRUtilities.h"
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
@@ -27,14 +26,8 @@
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkStructuredGrid.h"
-#include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
-#if __has_include("vtkOverlappingAMRMetaData.h")
-#include "vtkOverlappingAMRMetaData.h"
-#else
-#include "vtkAMRInformation.h"
-#endif
 
 #include <algorithm>
 #include <array>
@@ -74,75 +67,6 @@ std::uint64_t timeOf(vtkDataObject* data)
     }
   }
   return static_cast<std::uint64_t>(newest);
-}
-
-bool hasGhosts(vtkOverlappingAMR* grids)
-{
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(grids->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    auto* data = vtkDataSet::SafeDownCast(leaves->GetCurrentDataObject());
-    if (data && data->GetCellGhostArray())
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Of its own grids: marking would write into those of the input.
-vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids)
-{
-  const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
-  marked->CopyStructure(grids);
-  for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
-  {
-    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
-    {
-      if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
-      {
-        vtkNew<vtkUniformGrid> copy;
-        copy->ShallowCopy(grid);
-        marked->SetDataSet(level, i, copy);
-      }
-    }
-  }
-  vtkAMRUtilities::BlankCells(marked);
-  return marked;
-}
-
-// Of the versions of VTK that have the one or the other. vtkOverlappingAMR itself reports an error
-// of its own where it is asked for a box that is not set.
-template <class Grids>
-auto metaDataOf(Grids* grids, int) -> decltype(grids->GetOverlappingAMRMetaData())
-{
-  return grids->GetOverlappingAMRMetaData();
-}
-
-template <class Grids>
-auto metaDataOf(Grids* grids, long) -> decltype(grids->GetAMRInfo())
-{
-  return grids->GetAMRInfo();
-}
-
-// Without boxes VTK neither knows where grids are nor which cells finer ones cover.
-void requireBoxes(vtkOverlappingAMR* grids)
-{
-  for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
-  {
-    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
-    {
-      const auto* data = metaDataOf(grids, 0);
-      const bool hasBox = data && !data->GetAMRBox(level, i).IsInvalid();
-      if (!hasBox || !metaDataOf(grids, 0)->HasSpacing(level))
-      {
-        throw Failure("The overlapping AMR has no " +
-          std::string(hasBox ? "spacing" : "box for block " + std::to_string(i)) + " of level " +
-          std::to_string(level) + "; its origin, the spacing of every level and the box of every " +
-          "block must be set (SetOrigin, SetSpacing, SetAMRBox), as readers do");
-      }
-    }
-  }
 }
 
 void addCells(vtkCellArray* cells, DataContent& content)
@@ -210,11 +134,7 @@ std::vector<DensityBlock> densityBlocks(
   vtkSmartPointer<vtkCompositeDataSet> composite = vtkCompositeDataSet::SafeDownCast(data);
   if (auto* grids = vtkOverlappingAMR::SafeDownCast(data))
   {
-    requireBoxes(grids);
-    if (grids->GetNumberOfLevels() > 1 && !hasGhosts(grids))
-    {
-      composite = withRefinedMarked(grids);
-    }
+    composite = withRefinedMarked(grids);
   }
   if (!composite)
   {

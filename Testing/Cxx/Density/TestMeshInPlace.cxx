@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A density of a mesh that a program writes into, with Modified() of the data set only; and grids
-// of which too little is known.
+// A density of a mesh that a program writes into, with Modified() of the data set only.
 #include "BlocksTest.h"
 #include "TestData.h"
 
-#include "vtkAMRBox.h"
 #include "vtkAppendFilter.h"
 #include "vtkCellArray.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkIdTypeArray.h"
-#include "vtkNonOverlappingAMR.h"
-#include "vtkOverlappingAMR.h"
 #include "vtkRectilinearGrid.h"
 #include "vtkTransportSampler.h"
-#include "vtkUniformGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <vector>
@@ -196,39 +191,9 @@ void checkOtherArrays(Checks& checks)
   }
 }
 
-void checkGridsWithoutBoxes(Checks& checks)
-{
-  const int perLevel[2] = { 1, 2 };
-  vtkNew<vtkOverlappingAMR> grids;
-  auto sampler = makeSampler(grids);
-  ErrorTest test(checks, sampler);
-  test.ExpectNone(__LINE__); // nothing yet
-  grids->Initialize(2, perLevel);
-  test.Expect({ "overlapping AMR has no box for block 0 of level 0", "SetAMRBox" }, __LINE__);
-  const int low[3] = { 0, 0, 0 };
-  const int high[3] = { 3, 3, 3 };
-  grids->SetAMRBox(0, 0, vtkAMRBox(low, high));
-  grids->Modified();
-  test.Expect("overlapping AMR has no spacing of level 0", __LINE__);
-  const double spacing[3] = { 1.0, 1.0, 1.0 };
-  grids->SetSpacing(0, spacing);
-  grids->Modified();
-  test.Expect("overlapping AMR has no box for block 0 of level 1", __LINE__);
-
-  vtkNew<vtkNonOverlappingAMR> apart; // needs none
-  apart->Initialize(2, perLevel);
-  vtkNew<vtkUniformGrid> grid;
-  grid->ShallowCopy(makeImage(4, 4, 4, true, [](vtkIdType) { return 1.0; }));
-  apart->SetDataSet(1, 1, grid);
-  sampler->SetInputDataObject(apart);
-  test.ExpectNone(__LINE__);
-  CHECK_NEAR(checks, massOf(sampler), 27.0, 1e-9);
-}
-
 } // namespace
 
 int TestMeshInPlace(int, char*[])
 {
-  return runChecks(
-    { checkMesh, checkCells, checkGrid, checkBlocks, checkOtherArrays, checkGridsWithoutBoxes });
+  return runChecks({ checkMesh, checkCells, checkGrid, checkBlocks, checkOtherArrays });
 }

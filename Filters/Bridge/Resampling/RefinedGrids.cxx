@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Resampling/RefinedGrids.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkAMRBox.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
+#include "vtkOverlappingAMR.h"
+#include "vtkStructuredData.h"
+#include "vtkUniformGrid.h"
+#include "vtkUnsignedCharArray.h"
+#if __has_include("vtkOverlappingAMRMetaData.h")
+#include "vtkOverlappingAMRMetaData.h"
+#else
+#include "vtkAMRInformation.h"
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the versions of VTK that have the one or the other. vtkOverlappingAMR itself reports an error
+// of its own where it is asked for a box that is not set.
+template <class Grids>
+auto metaDataOf(Grids* grids, int) -> decltype(grids->GetOverlappingAMRMetaData())
+{
+  return grids->GetOverlappingAMRMetaData();
+}
+
+template <class Grids>
+auto metaDataOf(Grids* grids, long) -> decltype(grids->GetAMRInfo())
+{
+  return grids->GetAMRInfo();
+}
+
+std::string nameOf(unsigned int level, unsigned int block)
+{
+  return "block " + std::to_string(block) + " of level " + std::to_string(level);
+}
+
+template <class Visit>
+void visitBlocks(vtkOverlappingAMR* grids, const Visit& visit)
+{
+  for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
+  {
+    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+    {
+      visit(level, i);
+    }
+  }
+}
+
+// Without boxes VTK neither knows where grids are nor which cells finer ones cover.
+void requireBoxes(vtkOverlappingAMR* grids)
+{
+  visitBlocks(grids, [grids](unsigned int level, unsigned int i) {
+    const auto* data = metaDataOf(grids, 0);
+    const bool hasBox = data && !data->GetAMRBox(level, i).IsInvalid();
+    if (!hasBox || !metaDataOf(grids, 0)->HasSpacing(level))
+    {
+      throw Failure("The overlapping AMR has no " +
+        (hasBox ? "spacing of level " + std::to_string(level) : "box for " + nameOf(level, i)) +
+        "; its origin, the spacing of every level and the box of every block must be set "
+        "(SetOrigin, SetSpacing, SetAMRBox), as readers do");
+    }
+  });
+}
+
+bool hasGhosts(vtkOverlappingAMR* grids)
+{
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(grids->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    auto* data = vtkDataSet::SafeDownCast(leaves->GetCurrentDataObject());
+    if (data && data->GetCellGhostArray())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::array<bool, 3> flatAxes(int description)
+{
+  switch (description)
+  {
+    case VTK_XY_PLANE:
+      return { false, false, true };
+    case VTK_YZ_PLANE:
+      return { true, false, false };
+    case VTK_XZ_PLANE:
+      return { false, true, false };
+    case VTK_X_LINE:
+      return { false, true, true };
+    case VTK_Y_LINE:
+      return { true, false, true };
+    case VTK_Z_LINE:
+      return { true, true, false };
+    case VTK_SINGLE_POINT:
+      return { true, true, true };
+    default:
+      return { false, false, false };
+  }
+}
+
+template <class Number>
+std::string textOf(const std::array<Number, 3>& counts)
+{
+  return std::to_string(counts[0]) + " x " + std::to_string(counts[1]) + " x " +
+    std::to_string(counts[2]);
+}
+
+// How many cells of a finer level are along one of a level, by the spacings.
+int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int finer)
+{
+  constexpr double most = 1e6;
+  constexpr double tolerance = 1e-3;
+  std::array<double, 3> coarse;
+  std::array<double, 3> fine;
+  grids->GetSpacing(level, coarse.data());
+  grids->GetSpacing(finer, fine.data());
+  const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
+  double common = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (isFlat[a])
+    {
+      continue;
+    }
+    const double ratio = coarse[a] / fine[a];
+    common = common == 0.0 ? std::round(ratio) : common;
+    if (!(coarse[a] > 0.0 && ratio < most && common >= 1.0 &&
+          std::abs(ratio - common) < tolerance * common))
+    {
+      std::ostringstream text;
+      text << "The overlapping AMR has the spacing " << coarse[a] << " of level " << level
+           << ", but " << fine[a] << " of level " << finer << " along axis " << a
+           << "; spacings must be positive, and a level's a whole multiple of the finer one's, the "
+              "same along all axes";
+      throw Failure(text.str());
+    }
+  }
+  return std::max(static_cast<int>(common), 1);
+}
+
+// Cells of a level along its axes, from the first to the last one, 0 along axes without any.
+struct Cells
+{
+  std::array<int, 3> First{};
+  std::array<int, 3> Last{};
+
+  bool AreNone() const
+  {
+    return this->Last[0] < this->First[0] || this->Last[1] < this->First[1] ||
+      this->Last[2] < this->First[2];
+  }
+};
+
+// Files and programs give flat boxes a cell across the plane, or none.
+Cells cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
+{
+  Cells cells;
+  grids->GetAMRBox(level, block).GetDimensions(cells.First.data(), cells.Last.data());
+  const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    cells.First[a] = isFlat[a] ? 0 : cells.First[a];
+    cells.Last[a] = isFlat[a] ? 0 : cells.Last[a];
+  }
+  return cells;
+}
+
+// The grid's cells are marked by their places in the box.
+void requireCellsOfBox(
+  vtkUniformGrid* grid, const Cells& box, int description, unsigned int level, unsigned int block)
+{
+  std::array<int, 3> points;
+  grid->GetDimensions(points.data());
+  std::array<std::int64_t, 3> counts;
+  bool isFilled = vtkStructuredData::GetDataDescription(points.data()) == description;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    counts[a] = std::int64_t{ box.Last[a] } - box.First[a] + 1;
+    isFilled = isFilled && counts[a] == std::max(points[a] - 1, 1);
+  }
+  if (!isFilled)
+  {
+    throw Failure("The overlapping AMR has " + textOf(counts) + " cells in the box of " +
+      nameOf(level, block) + ", but a grid of " + textOf(points) +
+      " points there; all grids must "
+      "have the cells of their boxes, and lie along the axes of the grid description");
+  }
+}
+
+int coarsened(int cell, int ratio)
+{
+  return (cell >= 0 ? cell : cell - ratio + 1) / ratio;
+}
+
+struct Block
+{
+  Cells Own;
+  vtkUniformGrid* Grid;
+};
+
+// The blocks of a level that have a grid, by their first cells along axis 0.
+std::vector<Block> blocksOf(vtkOverlappingAMR* grids, unsigned int level)
+{
+  std::vector<Block> blocks;
+  for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+  {
+    if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
+    {
+      blocks.push_back({ cellsOf(grids, level, i), grid });
+    }
+  }
+  std::sort(blocks.begin(), blocks.end(),
+    [](const Block& a, const Block& b) { return a.Own.First[0] < b.Own.First[0]; });
+  return blocks;
+}
+
+// Marks the cells of a block that are in others of its level, too.
+void mark(const Block& block, const Cells& covered)
+{
+  Cells common;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    common.First[a] = std::max(covered.First[a], block.Own.First[a]) - block.Own.First[a];
+    common.Last[a] = std::min(covered.Last[a], block.Own.Last[a]) - block.Own.First[a];
+  }
+  if (common.AreNone())
+  {
+    return;
+  }
+  vtkSmartPointer<vtkUnsignedCharArray> flags = block.Grid->GetCellGhostArray();
+  if (!flags)
+  {
+    flags = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    flags->SetName(vtkDataSetAttributes::GhostArrayName());
+    flags->SetNumberOfValues(block.Grid->GetNumberOfCells());
+    flags->FillValue(0);
+    block.Grid->GetCellData()->AddArray(flags);
+  }
+  const std::int64_t width = std::int64_t{ block.Own.Last[0] } - block.Own.First[0] + 1;
+  const std::int64_t height = std::int64_t{ block.Own.Last[1] } - block.Own.First[1] + 1;
+  for (std::int64_t z = common.First[2]; z <= common.Last[2]; ++z)
+  {
+    for (std::int64_t y = common.First[1]; y <= common.Last[1]; ++y)
+    {
+      unsigned char* row = flags->GetPointer((z * height + y) * width);
+      std::fill(row + common.First[0], row + common.Last[0] + 1,
+        static_cast<unsigned char>(vtkDataSetAttributes::REFINEDCELL));
+    }
+  }
+}
+
+// vtkAMRUtilities::BlankCells would do, but reads past its arrays for boxes outside of the coarser
+// level's, for empty levels and for flat boxes with a cell across the plane.
+void markRefined(const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio)
+{
+  int widest = 0;
+  for (const Block& block : coarse)
+  {
+    widest = std::max(widest, block.Own.Last[0] - block.Own.First[0]);
+  }
+  for (const Block& child : fine)
+  {
+    Cells covered;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      covered.First[a] = coarsened(child.Own.First[a], ratio);
+      covered.Last[a] = coarsened(child.Own.Last[a], ratio);
+    }
+    const std::int64_t first = std::int64_t{ covered.First[0] } - widest;
+    auto block = std::lower_bound(coarse.begin(), coarse.end(), first,
+      [](const Block& one, std::int64_t cell) { return one.Own.First[0] < cell; });
+    for (; block != coarse.end() && block->Own.First[0] <= covered.Last[0]; ++block)
+    {
+      mark(*block, covered);
+    }
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids)
+{
+  requireBoxes(grids);
+  if (grids->GetNumberOfLevels() < 2 || hasGhosts(grids))
+  {
+    return grids;
+  }
+  // Of its own grids: marking would write into those of the input.
+  const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
+  marked->CopyStructure(grids);
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
+    {
+      requireCellsOfBox(grid, cellsOf(grids, level, i), grids->GetGridDescription(), level, i);
+      vtkNew<vtkUniformGrid> copy;
+      copy->ShallowCopy(grid);
+      marked->SetDataSet(level, i, copy);
+    }
+  });
+  unsigned int level = 0;
+  std::vector<Block> coarse;
+  for (unsigned int finer = 0; finer < grids->GetNumberOfLevels(); ++finer)
+  {
+    std::vector<Block> fine = blocksOf(marked, finer);
+    if (fine.empty())
+    {
+      continue;
+    }
+    if (!coarse.empty())
+    {
+      markRefined(coarse, fine, refinementOf(grids, level, finer));
+    }
+    coarse = std::move(fine);
+    level = finer;
+  }
+  return marked;
+}
+
+} // namespace RectifiedTransport
