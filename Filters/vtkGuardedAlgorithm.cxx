@@ -7,6 +7,7 @@
 #include "Bridge/Resampling/GatheredInputs.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/RequestedTimes.h"
 #include "Bridge/Run/SMPExecutor.h"
@@ -223,6 +224,7 @@ int vtkGuardedAlgorithm::ProcessData(
     RectifiedTransport::requireSameProperties(this, *this->Run);
   }
   vtkInformationVector** inputs = this->Whole->Separate().Inputs(this, inputVector);
+  RectifiedTransport::requireExtents(this, inputs);
   this->Whole->Require(this, inputs, this->Run.get());
   const int result = this->Run && !this->Gathered.empty()
     ? this->GatherAndRun(request, inputs, outputVector)

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/InputExtents.h"
+
+#include "Bridge/Run/Failure.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkExplicitStructuredGrid.h"
+#include "vtkImageData.h"
+#include "vtkInformationVector.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
+#include "vtkStructuredGrid.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+template <class Grid>
+bool findExtentOf(vtkDataObject* data, std::array<int, 6>& extent)
+{
+  auto* grid = Grid::SafeDownCast(data);
+  if (grid)
+  {
+    grid->GetExtent(extent.data());
+  }
+  return grid != nullptr;
+}
+
+void requireExtent(vtkDataObject* data, const std::string& name)
+{
+  std::array<int, 6> extent;
+  const bool has = findExtentOf<vtkImageData>(data, extent) ||
+    findExtentOf<vtkRectilinearGrid>(data, extent) ||
+    findExtentOf<vtkStructuredGrid>(data, extent) ||
+    findExtentOf<vtkExplicitStructuredGrid>(data, extent);
+  constexpr int most = std::numeric_limits<int>::max();
+  for (std::size_t a = 0; has && a < 6; a += 2)
+  {
+    const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
+    if (points < 0 || points > most)
+    {
+      std::string text;
+      for (const int end : extent)
+      {
+        text += (text.empty() ? "" : " ") + std::to_string(end);
+      }
+      throw Failure(name + " has the extent " + text + "; along no axis it must end before it " +
+        "begins or have more than " + std::to_string(most) + " points");
+    }
+  }
+}
+
+} // namespace
+
+void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
+{
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], i);
+      auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+      const std::string input = "nput port " + std::to_string(port);
+      if (!composite)
+      {
+        requireExtent(data, "I" + input);
+        continue;
+      }
+      const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+      for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+      {
+        requireExtent(leaves->GetCurrentDataObject(),
+          "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of i" + input);
+      }
+    }
+  }
+}
+
+} // namespace RectifiedTransport
