@@ -22,7 +22,8 @@ set(vtk_components CommonCore CommonDataModel CommonExecutionModel FiltersCore)
 set(vtk_optional ParallelMPI WrappingPythonCore WrappingTools)
 if (RectifiedTransport_BUILD_TESTING)
   list(APPEND vtk_components
-    FiltersGeneral FiltersParallel FiltersSources ImagingCore IOImage IOXML TestingCore)
+    FiltersGeneral FiltersParallel FiltersSources ImagingCore IOGeometry IOImage IOLegacy IOPLY IOXML
+    TestingCore)
 endif ()
 if (RectifiedTransport_BUILD_EXAMPLES)
   list(APPEND vtk_components

@@ -2,6 +2,8 @@
 // Runs cases and prints a line for each: its number, a digest of what came out, the number of
 // findings and the filter. run.py compares the lines of several settings.
 #include "Case.h"
+#include "Crafted.h"
+#include "Watch.h"
 
 #include "vtkLogger.h"
 #include "vtkMassSplatter.h"
@@ -14,16 +16,14 @@
 #include <ctime>
 #include <string>
 
-#ifdef __linux__
-#include <sys/time.h>
-#endif
-
 namespace
 {
 
 const char* const usage =
   "usage: campaign [--first N] [--count N] [--seed S] [--backend NAME] [--threads N] [--case N]\n"
-  "  --case N   runs one case and prints its steps and findings\n";
+  "                [--crafted FOLDER]\n"
+  "  --case N   runs one case and prints its steps and findings\n"
+  "  --crafted FOLDER   cases of broken inputs, whose files are written there\n";
 
 struct Arguments
 {
@@ -31,6 +31,7 @@ struct Arguments
   std::uint64_t Count = 100;
   std::uint64_t Seed = 1;
   std::string Backend;
+  std::string Folder; // of crafted files; without one cases are random pipelines
   int Threads = 1;
   bool PrintsLog = false;
 };
@@ -48,6 +49,11 @@ bool parse(int argc, char* argv[], Arguments& arguments)
     if (name == "--backend")
     {
       arguments.Backend = value;
+      continue;
+    }
+    if (name == "--crafted")
+    {
+      arguments.Folder = value;
       continue;
     }
     const std::uint64_t number = std::strtoull(value, nullptr, 10);
@@ -74,17 +80,6 @@ bool parse(int argc, char* argv[], Arguments& arguments)
     }
   }
   return true;
-}
-
-// A case that does not end by itself is ended by a signal, by the time that its own threads use:
-// what else the machine does is no matter.
-void startWatch()
-{
-#ifdef __linux__
-  itimerval limit{};
-  limit.it_value.tv_sec = 60;
-  setitimer(ITIMER_PROF, &limit, nullptr);
-#endif
 }
 
 // OpenMP keeps its threads; it ends the program where a case with little memory is the first that
@@ -121,14 +116,17 @@ int main(int argc, char* argv[])
   const std::uint64_t count = arguments.PrintsLog ? 1 : arguments.Count;
   for (std::uint64_t number = arguments.First; number < arguments.First + count; ++number)
   {
-    startWatch();
+    Campaign::startWatch(60);
     const std::clock_t start = std::clock();
-    const Campaign::CaseResult result = Campaign::runCase(arguments.Seed, number);
+    const Campaign::CaseResult result = arguments.Folder.empty()
+      ? Campaign::runCase(arguments.Seed, number)
+      : Campaign::runCraftedCase(arguments.Seed, number, arguments.Folder);
     const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     failed = failed || !result.Findings.empty();
-    std::printf("%llu %016llx %zu %s %d %d %d %d %.1f\n", static_cast<unsigned long long>(number),
-      static_cast<unsigned long long>(result.Digest), result.Findings.size(), result.Filter.c_str(),
-      result.Runs, result.Errors, result.Aborts, result.Limits, ms);
+    std::printf("%llu %016llx %zu %s %d %d %d %d %.1f %016llx\n",
+      static_cast<unsigned long long>(number), static_cast<unsigned long long>(result.Digest),
+      result.Findings.size(), result.Filter.c_str(), result.Runs, result.Errors, result.Aborts,
+      result.Limits, ms, static_cast<unsigned long long>(result.Input));
     if (arguments.PrintsLog)
     {
       std::printf("%s", result.Log.c_str());

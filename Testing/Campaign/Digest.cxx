@@ -2,6 +2,7 @@
 #include "Outcome.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -9,6 +10,7 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
+#include "vtkHyperTreeGrid.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
@@ -16,11 +18,15 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace Campaign
 {
@@ -84,6 +90,19 @@ public:
       {
         vtkAbstractArray* active = attributes->GetAbstractAttribute(type);
         this->Text(active ? active->GetName() : "");
+      }
+    }
+  }
+
+  template <class Grid>
+  void Axes(Grid* grid)
+  {
+    for (vtkDataArray* places :
+      { grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates() })
+    {
+      if (places)
+      {
+        this->Array(places);
       }
     }
   }
@@ -161,6 +180,63 @@ std::uint64_t digest(vtkDataObject* data, std::uint64_t seed)
     { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD, vtkDataObject::ROW })
   {
     if (vtkFieldData* arrays = data->GetAttributesAsFieldData(owner))
+    {
+      mixer.Arrays(arrays);
+    }
+  }
+  return mixer.Value;
+}
+
+std::uint64_t digestOfArrays(vtkDataObject* data, std::uint64_t seed)
+{
+  Mixer mixer(seed);
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      mixer.Value = digestOfArrays(leaves->GetCurrentDataObject(), mixer.Value);
+    }
+    return mixer.Value;
+  }
+  auto* set = vtkPointSet::SafeDownCast(data);
+  if (set && set->GetPoints())
+  {
+    mixer.Array(set->GetPoints()->GetData());
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    mixer.Image(image);
+  }
+  if (auto* grid = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    mixer.Axes(grid);
+  }
+  if (auto* trees = vtkHyperTreeGrid::SafeDownCast(data))
+  {
+    mixer.Axes(trees);
+  }
+  std::vector<vtkCellArray*> cells;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    cells = { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() };
+  }
+  else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    cells = { mesh->GetCells() };
+  }
+  for (vtkCellArray* some : cells)
+  {
+    if (some)
+    {
+      mixer.Array(some->GetOffsetsArray());
+      mixer.Array(some->GetConnectivityArray());
+    }
+  }
+  for (const int owner :
+    { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD, vtkDataObject::ROW })
+  {
+    if (vtkFieldData* arrays = data ? data->GetAttributesAsFieldData(owner) : nullptr)
     {
       mixer.Arrays(arrays);
     }

@@ -52,6 +52,9 @@ Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& f
 // Of geometry, cells, arrays and their values to the last bit.
 std::uint64_t digest(vtkDataObject* data, std::uint64_t seed);
 
+// Of the arrays, those of points, cells and axes among them, whatever these say.
+std::uint64_t digestOfArrays(vtkDataObject* data, std::uint64_t seed);
+
 bool isEmpty(vtkDataObject* data);
 
 } // namespace Campaign

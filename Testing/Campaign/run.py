@@ -3,7 +3,12 @@
 """Random pipelines through all filters, each case under several numbers of threads, threading
 backends and instruction sets.
 
-usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] PROGRAM
+usage: python3 run.py [--first N] [--count N] [--seed S] [--jobs N] [--limit SECONDS] [--crafted]
+                     [--once] PROGRAM
+
+With --crafted the cases are inputs that are broken on purpose, through all filters: files that
+VTK's readers read, and data objects with the same defects. Where a reader itself ends the program,
+the case is counted and left out. --once runs each case under the last setting alone, for sanitizers.
 
 PROGRAM (Campaign.cxx) runs the cases and looks at each output. This script compares what comes out
 under every setting, to the last bit, and goes on where PROGRAM does not: a case that crashes or
@@ -16,6 +21,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 
 # (name, instruction set, VTK's backend, threads). Auto and OpenMP run on OMP_NUM_THREADS threads,
 # VTK on its backend. Where a machine lacks an instruction set it runs the widest that it has.
@@ -35,11 +41,12 @@ class Case:
         self.filter = fields[3]
         self.counts = [int(field) for field in fields[4:8]]
         self.milliseconds = float(fields[8])
+        self.input = fields[9]
         self.findings = []
 
 
-def run_cases(program, setting, seed, first, count, limit):
-    """The cases of a block, and the ends of processes: [(case, text)]."""
+def run_cases(program, setting, seed, first, count, limit, crafted):
+    """The cases of a block, and the ends of processes: [(case, text)]. Crafted: the folder of files."""
     _, instructions, backend, threads = setting
     environment = dict(os.environ, RECTIFIEDTRANSPORT_ISA=instructions, OMP_NUM_THREADS=str(threads),
                        OMP_WAIT_POLICY="passive", OMP_DYNAMIC="false")
@@ -48,6 +55,10 @@ def run_cases(program, setting, seed, first, count, limit):
     while first < end:
         command = [program, "--first", str(first), "--count", str(end - first), "--seed", str(seed),
                    "--backend", backend, "--threads", str(threads)]
+        if crafted:
+            folder = os.path.join(crafted, f"{backend}-{threads}-{first}")
+            os.makedirs(folder)
+            command += ["--crafted", folder]
         process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         try:
@@ -57,8 +68,11 @@ def run_cases(program, setting, seed, first, count, limit):
             process.kill()
             output, errors = process.communicate()
             code = None
+        doing = ""
         for line in output.splitlines():
-            if line.startswith("!"):
+            if line.startswith("#"):
+                doing = line[2:]
+            elif line.startswith("!"):
                 if line[2:] not in cases[-1].findings:
                     cases[-1].findings.append(line[2:])
             elif line:
@@ -70,7 +84,7 @@ def run_cases(program, setting, seed, first, count, limit):
             how = "did not end"
         else:
             how = f"ended the program with {code}"
-        ends.append((first, f"{how}: {errors.strip()[-2000:]}"))
+        ends.append((first, doing, f"{how}{' while ' + doing if doing else ''}: {errors.strip()[-2000:]}"))
         first += 1
     return cases, ends
 
@@ -83,8 +97,12 @@ def available(program):
                                stderr=subprocess.DEVNULL)
         if probe.returncode == 0:
             settings.append(setting)
-        else:
+        elif probe.returncode == 2:
             print(f"left out, VTK has no backend {setting[2]}: {setting[0]}")
+        else:
+            sys.exit(f"{program} ends with {probe.returncode} before its first case")
+    if not settings:
+        sys.exit("VTK has none of the backends")
     return settings
 
 
@@ -93,6 +111,7 @@ class Campaign:
         self.settings = settings
         self.done = 0
         self.wrong = 0
+        self.readers = set()  # cases whose reader ended the program
         self.by_filter = collections.defaultdict(lambda: [0, 0, 0, 0, 0, 0.0])
 
     def report(self, number, text):
@@ -102,7 +121,10 @@ class Campaign:
         """The block's results of all settings."""
         failed = set()
         for setting, (cases, ends) in zip(self.settings, results):
-            for number, text in ends:
+            for number, doing, text in ends:
+                if doing.startswith("reading"):
+                    self.readers.add(number)
+                    continue
                 failed.add(number)
                 self.report(number, f"{setting[0]}: {text}")
             for case in cases:
@@ -112,8 +134,8 @@ class Campaign:
         digests = collections.defaultdict(set)
         for cases, _ in results:
             for case in cases:
-                digests[case.number].add(case.digest)
-        for number, found in sorted(digests.items()):
+                digests[case.number, case.input].add(case.digest)
+        for (number, _), found in sorted(digests.items()):
             if len(found) > 1:
                 failed.add(number)
                 self.report(number, f"{len(found)} results that differ")
@@ -133,6 +155,8 @@ class Campaign:
         for name, row in rows + [("all", totals)]:
             mean = f"{row[5] / max(1, row[0]):.1f}"
             print("| " + " | ".join([name] + [str(value) for value in row[:5]] + [mean]) + " |")
+        if self.readers:
+            print(f"left out, VTK's own reader ends the program: {len(self.readers)}")
         print(f"{totals[0]} cases under {len(self.settings)} settings each, {self.wrong} of them wrong")
 
 
@@ -143,15 +167,19 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--limit", type=int, default=600, help="seconds for a block of cases")
+    parser.add_argument("--crafted", action="store_true", help="broken inputs")
+    parser.add_argument("--once", action="store_true", help="under the last setting alone")
     parser.add_argument("program")
     arguments = parser.parse_args()
-    settings = available(arguments.program)
+    settings = available(arguments.program)[-1 if arguments.once else 0:]
     campaign = Campaign(settings)
     end = arguments.first + arguments.count
     blocks = [(first, min(BLOCK, end - first)) for first in range(arguments.first, end, BLOCK)]
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+    with tempfile.TemporaryDirectory() as folder, \
+            concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         jobs = [[pool.submit(run_cases, arguments.program, setting, arguments.seed, first, count,
-                             arguments.limit) for setting in settings] for first, count in blocks]
+                             arguments.limit, arguments.crafted and folder) for setting in settings]
+                for first, count in blocks]
         for block in jobs:
             campaign.judge([job.result() for job in block])
     campaign.summarize()
