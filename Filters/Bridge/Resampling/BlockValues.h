@@ -44,12 +44,16 @@ public:
     return this->Counted[static_cast<std::size_t>(cell)] != 0;
   }
   // Counted cells are regions within their outlines, or are divided into simplices and boxes.
-  bool IsRegion(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 2; }
+  bool IsRegion(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] >= 2; }
   bool IsDivided(vtkIdType cell) const
   {
     return this->Counted[static_cast<std::size_t>(cell)] == 1;
   }
   void MarkAsRegion(vtkIdType cell) { this->Counted[static_cast<std::size_t>(cell)] = 2; }
+  // Regions of which it is known that their outline does not cross itself: learnt by the first that
+  // visits them, each on one thread.
+  bool IsSimple(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 3; }
+  void MarkAsSimple(vtkIdType cell) const { this->Counted[static_cast<std::size_t>(cell)] = 3; }
   // Whether the cells are closed lines, which are around regions together.
   bool AreClosedLines() const { return this->Cells.AreClosedLines; }
   // Lines that are not closed, where the others are around regions.
@@ -64,7 +68,7 @@ private:
   std::string ArrayName;
   UnusualValues Known;
   LargeBuffer<double> Density;
-  std::vector<unsigned char> Counted;
+  mutable std::vector<unsigned char> Counted; // 1: divided, 2: a region, 3: a simple one
   MassCells Cells;
   vtkIdType Open = 0;
 };

@@ -7,8 +7,11 @@
 
 #include "vtkCellType.h"
 #include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +55,16 @@ public:
   }
 
   // Edges and the values of regions.
-  void FindRegions(RegionShape& shape, Progress& progress) const
+  void FindRegions(vtkIdType cell, RegionShape& shape, Progress& progress) const
   {
-    shape.Edges = regionOutlines(shape.Outline, shape.Values, progress);
     const BlockValues& values = this->Blocks[static_cast<std::size_t>(shape.Block)];
+    const bool mayBeSimple = cell != allLines && values.IsRegion(cell);
+    bool isSimple = mayBeSimple && values.IsSimple(cell);
+    shape.Edges = regionOutlines(shape.Outline, shape.Values, progress, &isSimple);
+    if (mayBeSimple && isSimple && !values.IsSimple(cell))
+    {
+      values.MarkAsSimple(cell);
+    }
     const OutlineEdge* end = shape.Edges.data() + shape.Edges.size();
     for (const OutlineEdge* first = shape.Edges.data(); values.IsOnPoints() && first != end;)
     {
@@ -75,6 +84,9 @@ private:
     vtkDataSet* data = values.Data();
     data->GetCellPoints(cell, this->Ids);
     const vtkIdType count = this->Ids->GetNumberOfIds();
+    auto* set = vtkPointSet::SafeDownCast(data);
+    auto* doubles = set ? vtkArrayDownCast<vtkDoubleArray>(set->GetPoints()->GetData()) : nullptr;
+    const double* coordinates = doubles ? doubles->GetPointer(0) : nullptr;
     shape.Outline.Reserve(shape.Outline.Edges() + count);
     shape.Points.reserve(shape.Points.size() + static_cast<std::size_t>(count));
     const auto first = shape.Points.size();
@@ -83,7 +95,9 @@ private:
     for (vtkIdType i = 0; i < count; ++i)
     {
       double x[3];
-      data->GetPoint(this->Ids->GetId(i), x);
+      const vtkIdType id = this->Ids->GetId(i);
+      coordinates ? static_cast<void>(std::copy_n(coordinates + 3 * id, 3, x))
+                  : data->GetPoint(id, x);
       Point<2> index;
       this->Grid.ToIndex<2>(x, index.data());
       const bool isFirst = shape.Points.size() == first;
@@ -95,7 +109,7 @@ private:
       }
       before = index;
       shape.Outline.Add(index);
-      shape.Points.push_back(this->Ids->GetId(i));
+      shape.Points.push_back(id);
     }
     shape.Outline.EndRing();
     shape.Cells.push_back(cell);
@@ -157,8 +171,7 @@ public:
     {
       return false;
     }
-    this->Values.Data()->GetCellPoints(cell, this->Ids);
-    const vtkIdType corners = this->Ids->GetNumberOfIds();
+    const vtkIdType corners = this->Values.Data()->GetCellSize(cell);
     if (corners > 4 && (!this->Values.IsOnPoints() || corners > mostDivided))
     {
       return true;
@@ -180,7 +193,7 @@ private:
   bool IsDividedWell(vtkIdType cell, RegionShape& shape, Progress& progress)
   {
     constexpr double tolerance = 1e-9;
-    this->Reader.FindRegions(shape, progress);
+    this->Reader.FindRegions(cell, shape, progress);
     const double area =
       sizeOfRegion(shape.Edges.data(), shape.Edges.data() + shape.Edges.size()).Area;
     const auto size = this->Pieces.SizeOf(cell);
@@ -191,7 +204,6 @@ private:
   const int Block;
   ShapeReader Reader;
   CellPieces<2> Pieces;
-  vtkNew<vtkIdList> Ids;
 };
 
 // Of a batch: a polygon, or the lines of a block.
@@ -281,9 +293,9 @@ void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   const MeshSlabs<2>& slabs, double margin, Progress& progress,
   const std::function<void(const RegionBatch&)>& use)
 {
-  constexpr std::int64_t edgesOfBatch = std::int64_t{ 1 } << 20;
+  constexpr std::int64_t edgesOfBatch = std::int64_t{ 1 } << 18;
   const std::vector<Unit> units = unitsOf(blocks);
-  vtkNew<vtkIdList> ids;
+  RegionBatch batch;
   for (std::size_t first = 0; first < units.size();)
   {
     std::size_t last = first;
@@ -295,10 +307,9 @@ void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
         edges += data->GetNumberOfPoints();
         continue;
       }
-      data->GetCellPoints(units[last].Cell, ids);
-      edges += ids->GetNumberOfIds();
+      edges += data->GetCellSize(units[last].Cell);
     }
-    RegionBatch batch;
+    batch.Shapes.clear();
     batch.Shapes.resize(last - first);
     progress.For(
       static_cast<std::int64_t>(last - first), 1,
@@ -309,7 +320,7 @@ void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
           RegionShape& shape = batch.Shapes[static_cast<std::size_t>(i)];
           const Unit& unit = units[first + static_cast<std::size_t>(i)];
           reader.Read(unit.Block, unit.Cell, shape);
-          reader.FindRegions(shape, progress);
+          reader.FindRegions(unit.Cell, shape, progress);
         }
       },
       1);

@@ -142,7 +142,8 @@ Point<2> crossingOf(const Rings& rings, const EdgePair& pair)
 class OutlineWalk
 {
 public:
-  OutlineWalk(const Rings& rings, const std::vector<double>& values, Progress& progress)
+  OutlineWalk(
+    const Rings& rings, const std::vector<double>& values, Progress& progress, bool& areSimple)
     : All(rings)
     , Values(values)
     , Stop(progress)
@@ -152,8 +153,10 @@ public:
       this->Areas.push_back(std::abs(windingArea(rings, ring)));
     }
     constexpr std::int64_t few = 64; // compared sooner than swept
-    if (rings.Edges() > few && !haveCrossings(rings, progress))
+    areSimple = areSimple || (rings.Edges() > few && !haveCrossings(rings, progress));
+    if (areSimple)
     {
+      areSimple = !progress.ShouldStop(); // which ends the search, too
       return;
     }
     for (const EdgePair& pair : findCrossings(rings, progress))
@@ -319,13 +322,14 @@ private:
 } // namespace
 
 std::vector<OutlineEdge> regionOutlines(
-  const Rings& rings, const std::vector<double>& values, Progress& progress)
+  const Rings& rings, const std::vector<double>& values, Progress& progress, bool* areSimple)
 {
   if (rings.Edges() < 3)
   {
     return {};
   }
-  return OutlineWalk(rings, values, progress).Run();
+  bool ignored = false;
+  return OutlineWalk(rings, values, progress, areSimple ? *areSimple : ignored).Run();
 }
 
 RegionSize sizeOfRegion(const OutlineEdge* first, const OutlineEdge* last)

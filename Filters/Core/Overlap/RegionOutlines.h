@@ -30,8 +30,11 @@ struct OutlineEdge
 //
 // The edges are in the order of the regions; each region is to the left of its own once. The time
 // is that of findCrossings. Incomplete where `progress` says to stop.
-std::vector<OutlineEdge> regionOutlines(
-  const Rings& rings, const std::vector<double>& values, Progress& progress);
+//
+// `areSimple` says whether it is known that no edges cross, and becomes whether it is now; that is
+// not looked into for few edges.
+std::vector<OutlineEdge> regionOutlines(const Rings& rings, const std::vector<double>& values,
+  Progress& progress, bool* areSimple = nullptr);
 
 // Of edges that bound a region: its area, and its centroid where that is not 0.
 struct RegionSize
