@@ -18,11 +18,12 @@ class Advice:
     """An input, the error of a filter on it, and what that says to do: follow(input, filter) returns
     the input to use instead, or changes the filter and returns None."""
 
-    def __init__(self, filters, make, message, follow):
+    def __init__(self, filters, make, message, follow, **settings):
         self.filters = filters
         self.make = make
         self.message = message
         self.follow = follow
+        self.settings = settings or {"Resolution": 32}
 
 
 def polygons(points, cells):
@@ -80,6 +81,13 @@ def clip(source, **properties):
     for name, value in properties.items():
         setattr(made.ClipType, name, value)
     return made
+
+
+def outline_of_sphere():
+    """The segments that a plane cuts out of a sphere, with an array of points."""
+    cut = simple.Slice(Input=simple.Elevation(Input=simple.Sphere(), LowPoint=[-1, -1, -1]))
+    cut.SliceType.Normal = [0, 0, 1]
+    return cut
 
 
 def move_apart(source, _filter):
@@ -142,6 +150,10 @@ TABLE = [
     Advice(SURFACES, grid_in_block,
            "it must be a vtkPolyData or a grid, or what Extract Surface makes of it",
            lambda source, _: simple.ExtractSurface(Input=source)),
+    Advice(("SampleDensity",), outline_of_sphere,
+           "closed ones in a plane, around regions (Triangle Strips joins the segments of a slice)",
+           lambda source, _: simple.TriangleStrips(Input=source),
+           DensityArray=["POINTS", "Elevation"]),
 ]
 
 
@@ -152,7 +164,7 @@ class FollowingAdvice(unittest.TestCase):
                 with self.subTest(filter=name, message=advice.message):
                     source = advice.make()
                     source.UpdatePipeline()
-                    made = getattr(simple, name)(Input=source, Resolution=32)
+                    made = getattr(simple, name)(Input=source, **advice.settings)
                     reported = Listener(made.GetClientSideObject())
                     self.assertEqual(size_of(output_of(made)), 0)
                     self.assertIn(advice.message, reported.errors[0])

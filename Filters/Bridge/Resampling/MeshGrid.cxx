@@ -149,11 +149,12 @@ struct Frame
                                   : "faces that lie in no plane")
           << (dimension == 2 ? "" : " that are not on one straight line") << ": points are " << off
           << " off, with a longest side of " << length << "; "
-          << (areClosedLines ? "they must lie in one plane"
-                 : dimension == 2
-                 ? "they must lie in one plane, as a slice does (Sample Surface "
-                   "takes curved surfaces that are disks)"
-                 : "they must lie on one, or closed ones in a plane, around regions");
+          << (areClosedLines      ? "they must lie in one plane"
+                 : dimension == 2 ? "they must lie in one plane, as a slice does (Sample Surface "
+                                    "takes curved surfaces that are disks)"
+                                  : "they must lie on one, or closed ones in a plane, around "
+                                    "regions (Triangle Strips joins "
+                                    "the segments of a slice)");
   throw Failure(message.str());
 }
 
