@@ -196,6 +196,8 @@ need_to_build $packages_render $packages_test
 need_meshes
 if [ $long = 0 ]; then
   skipped="$skipped|long"
+else
+  export RT_MOST_RANKS=4
 fi
 if [ $gui = 0 ]; then
   skipped="$skipped|gui"
