@@ -209,8 +209,8 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
   OtherLeaves others;
-  std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress);
   const Ranks* ranks = this->GetRanks();
+  std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress, ranks);
   if (ranks)
   {
     blocks = this->Internals->Gathered[number].Gather(blocks, *ranks, progress);

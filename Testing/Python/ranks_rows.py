@@ -6,7 +6,8 @@ import numpy as np
 from paraview import simple
 from rt_testing import reads_appended_data
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonDataModel import (vtkAMRBox, vtkDataObject, vtkImageData,
+                                           vtkMultiBlockDataSet, vtkOverlappingAMR, vtkUniformGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -61,6 +62,38 @@ def tiles():
         image.GetCellData().SetScalars(values)
         blocks.SetBlock(i, image)
     return given_here(blocks)
+
+
+def refined(flat):
+    """Grids of two levels, each on one rank; as after a reader, with flags that know of no other rank."""
+    counts = [2, 3]
+    grids = vtkOverlappingAMR()
+    grids.Initialize(2, counts)
+    grids.SetOrigin([0, 0, 0])
+    grids.SetGridDescription(5 if flat else 8)  # XY plane, volume
+    depth = [0, -1] if flat else [0, 3]
+    blocks = [(0, (0, 3), (0, 3)), (0, (4, 7), (0, 3)), (1, (4, 9), (2, 5)), (1, (10, 11), (0, 3)),
+              (1, (0, 1), (6, 7))]
+    for number, (level, x, y) in enumerate(blocks):
+        step = 1.0 / (level + 1)
+        grids.SetSpacing(level, [step] * 3)
+        index = number - (0 if level == 0 else counts[0])
+        grids.SetAMRBox(level, index, vtkAMRBox([x[0], y[0], depth[0]], [x[1], y[1], depth[1]]))
+        if number % RANKS != RANK:
+            continue
+        grid = vtkUniformGrid()
+        grid.SetOrigin(x[0] * step, y[0] * step, 0)
+        grid.SetSpacing(step, step, step)
+        grid.SetDimensions(x[1] - x[0] + 2, y[1] - y[0] + 2, depth[1] + 2)
+        cells = grid.GetNumberOfCells()
+        values = numpy_to_vtk(1.0 + np.arange(cells) % 7 + 3 * level, deep=1)
+        values.SetName("Density")
+        grid.GetCellData().SetScalars(values)
+        flags = numpy_to_vtk(np.zeros(cells, np.uint8), deep=1)
+        flags.SetName(GHOSTS)
+        grid.GetCellData().AddArray(flags)
+        grids.SetDataSet(level, index, grid)
+    return given_here(grids)
 
 
 def digests(data, owner):

@@ -5,7 +5,7 @@ import pickle
 import sys
 
 from paraview import simple
-from ranks_rows import RANK, gathered, give, give_row, redistributed, tiles, turned
+from ranks_rows import RANK, gathered, give, give_row, redistributed, refined, tiles, turned
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
 from ranks_table_points import give_qualities, give_splats
@@ -80,6 +80,8 @@ def give_data():
             BuildIfRequired=0, MinimumNumberOfGhosts=1),
         "block": simple.GroupDatasets(Input=[simple.ImageDatatoPointSet(Input=cells)]),
         "amr": simple.AMRGaussianPulseSource(Dimension=3, RootSpacing=0.5),
+        "refined": refined(False),
+        "flat refined": refined(True),
         "tiles": tiles(),
     }
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8, DensityResolution=12)

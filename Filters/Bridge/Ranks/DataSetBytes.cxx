@@ -112,7 +112,16 @@ void restoreTypes(vtkDataSet* data, const std::vector<int>& types)
 
 Bytes bytesOfDataSet(vtkDataSet* data)
 {
-  const auto plain = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  // VTK sends images, but not the vtkUniformGrid of AMR.
+  vtkSmartPointer<vtkDataSet> plain;
+  if (data->IsA("vtkUniformGrid"))
+  {
+    plain = vtkSmartPointer<vtkImageData>::New();
+  }
+  else
+  {
+    plain.TakeReference(data->NewInstance());
+  }
   plain->ShallowCopy(data);
   for (const int owner : owners)
   {

@@ -110,7 +110,7 @@ std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
 } // namespace
 
 std::vector<DensityBlock> densityBlocks(
-  vtkDataObject* data, OtherLeaves* others, Progress* progress)
+  vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks* ranks)
 {
   std::vector<DensityBlock> blocks;
   OtherLeaves left;
@@ -131,10 +131,11 @@ std::vector<DensityBlock> densityBlocks(
       blocks.push_back({ set, name, number, time });
     }
   };
-  vtkSmartPointer<vtkCompositeDataSet> composite = vtkCompositeDataSet::SafeDownCast(data);
-  if (auto* grids = vtkOverlappingAMR::SafeDownCast(data))
+  vtkSmartPointer<vtkCompositeDataSet> composite =
+    withRefinedMarked(vtkOverlappingAMR::SafeDownCast(data), ranks);
+  if (!composite)
   {
-    composite = withRefinedMarked(grids);
+    composite = vtkCompositeDataSet::SafeDownCast(data);
   }
   if (!composite)
   {

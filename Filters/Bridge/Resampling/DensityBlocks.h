@@ -23,6 +23,7 @@ namespace RectifiedTransport
 {
 
 class Progress;
+class Ranks;
 
 struct DensityBlock
 {
@@ -43,9 +44,10 @@ struct OtherLeaves
 
 // The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
 // tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
-// out, and told to `others`. Throws Failure for AMR grids without boxes, and Cancelled.
-std::vector<DensityBlock> densityBlocks(
-  vtkDataObject* data, OtherLeaves* others = nullptr, Progress* progress = nullptr);
+// out, and told to `others`. Called by all ranks that are given. Throws Failure as
+// withRefinedMarked, and Cancelled.
+std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
+  Progress* progress = nullptr, const Ranks* ranks = nullptr);
 
 // Adds all that a block's points and cells are made of, its ghost flags too.
 void addGeometry(const DensityBlock& block, DataContent& content);

@@ -2,6 +2,7 @@
 #include "Bridge/Resampling/RefinedGrids.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkAMRBox.h"
 #include "vtkCellData.h"
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -215,18 +217,44 @@ int coarsened(int cell, int ratio)
 struct Block
 {
   Cells Own;
-  vtkUniformGrid* Grid;
+  vtkUniformGrid* Grid; // none where it lies on another rank
 };
 
-// The blocks of a level that have a grid, by their first cells along axis 0.
-std::vector<Block> blocksOf(vtkOverlappingAMR* grids, unsigned int level)
+// Which blocks have a grid on any rank, all levels one after the other.
+std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks* ranks)
+{
+  std::vector<unsigned char> present;
+  if (grids)
+  {
+    visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+      present.push_back(grids->GetDataSet(level, i) ? 1 : 0);
+    });
+  }
+  if (ranks)
+  {
+    for (const Bytes& bytes : ranks->Gather(toBytes(present)))
+    {
+      const auto there = fromBytes<unsigned char>(bytes);
+      for (std::size_t i = 0; i < std::min(there.size(), present.size()); ++i)
+      {
+        present[i] |= there[i];
+      }
+    }
+  }
+  return present;
+}
+
+// The blocks of a level, of which `present` says whether they have a grid, by their first cells
+// along axis 0.
+std::vector<Block> blocksOf(
+  vtkOverlappingAMR* grids, unsigned int level, const unsigned char* present)
 {
   std::vector<Block> blocks;
   for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
   {
-    if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
+    if (present[i])
     {
-      blocks.push_back({ cellsOf(grids, level, i), grid });
+      blocks.push_back({ cellsOf(grids, level, i), grids->GetDataSet(level, i) });
     }
   }
   std::sort(blocks.begin(), blocks.end(),
@@ -234,8 +262,25 @@ std::vector<Block> blocksOf(vtkOverlappingAMR* grids, unsigned int level)
   return blocks;
 }
 
-// Marks the cells of a block that are in others of its level, too.
-void mark(const Block& block, const Cells& covered)
+using Flags = std::map<vtkUniformGrid*, vtkSmartPointer<vtkUnsignedCharArray>>;
+
+// Flags that may be written into; those that a grid has are of the input.
+vtkSmartPointer<vtkUnsignedCharArray> ownFlags(vtkUniformGrid* grid)
+{
+  const auto flags = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  if (vtkUnsignedCharArray* given = grid->GetCellGhostArray())
+  {
+    flags->DeepCopy(given);
+    return flags;
+  }
+  flags->SetName(vtkDataSetAttributes::GhostArrayName());
+  flags->SetNumberOfValues(grid->GetNumberOfCells());
+  flags->FillValue(0);
+  return flags;
+}
+
+// Marks the cells of a block that are among some of its level.
+void mark(const Block& block, const Cells& covered, Flags& flags)
 {
   Cells common;
   for (std::size_t a = 0; a < 3; ++a)
@@ -243,18 +288,15 @@ void mark(const Block& block, const Cells& covered)
     common.First[a] = std::max(covered.First[a], block.Own.First[a]) - block.Own.First[a];
     common.Last[a] = std::min(covered.Last[a], block.Own.Last[a]) - block.Own.First[a];
   }
-  if (common.AreNone())
+  if (!block.Grid || common.AreNone())
   {
     return;
   }
-  vtkSmartPointer<vtkUnsignedCharArray> flags = block.Grid->GetCellGhostArray();
-  if (!flags)
+  vtkSmartPointer<vtkUnsignedCharArray>& own = flags[block.Grid];
+  own = own ? own : ownFlags(block.Grid);
+  if (own->GetNumberOfValues() != block.Grid->GetNumberOfCells())
   {
-    flags = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    flags->SetName(vtkDataSetAttributes::GhostArrayName());
-    flags->SetNumberOfValues(block.Grid->GetNumberOfCells());
-    flags->FillValue(0);
-    block.Grid->GetCellData()->AddArray(flags);
+    return; // an error of whoever reads them
   }
   const std::int64_t width = std::int64_t{ block.Own.Last[0] } - block.Own.First[0] + 1;
   const std::int64_t height = std::int64_t{ block.Own.Last[1] } - block.Own.First[1] + 1;
@@ -262,16 +304,19 @@ void mark(const Block& block, const Cells& covered)
   {
     for (std::int64_t y = common.First[1]; y <= common.Last[1]; ++y)
     {
-      unsigned char* row = flags->GetPointer((z * height + y) * width);
-      std::fill(row + common.First[0], row + common.Last[0] + 1,
-        static_cast<unsigned char>(vtkDataSetAttributes::REFINEDCELL));
+      unsigned char* row = own->GetPointer((z * height + y) * width);
+      for (int x = common.First[0]; x <= common.Last[0]; ++x)
+      {
+        row[x] |= vtkDataSetAttributes::REFINEDCELL;
+      }
     }
   }
 }
 
 // vtkAMRUtilities::BlankCells would do, but reads past its arrays for boxes outside of the coarser
 // level's, for empty levels and for flat boxes with a cell across the plane.
-void markRefined(const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio)
+void findRefined(
+  const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio, Flags& flags)
 {
   int widest = 0;
   for (const Block& block : coarse)
@@ -291,48 +336,80 @@ void markRefined(const std::vector<Block>& coarse, const std::vector<Block>& fin
       [](const Block& one, std::int64_t cell) { return one.Own.First[0] < cell; });
     for (; block != coarse.end() && block->Own.First[0] <= covered.Last[0]; ++block)
     {
-      mark(*block, covered);
+      mark(*block, covered, flags);
     }
   }
 }
 
-} // namespace
-
-vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids)
+Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& present)
 {
-  requireBoxes(grids);
-  if (grids->GetNumberOfLevels() < 2 || hasGhosts(grids))
-  {
-    return grids;
-  }
-  // Of its own grids: marking would write into those of the input.
-  const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
-  marked->CopyStructure(grids);
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
     if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
     {
       requireCellsOfBox(grid, cellsOf(grids, level, i), grids->GetGridDescription(), level, i);
-      vtkNew<vtkUniformGrid> copy;
-      copy->ShallowCopy(grid);
-      marked->SetDataSet(level, i, copy);
     }
   });
+  Flags flags;
+  const unsigned char* ofLevel = present.data();
   unsigned int level = 0;
   std::vector<Block> coarse;
   for (unsigned int finer = 0; finer < grids->GetNumberOfLevels(); ++finer)
   {
-    std::vector<Block> fine = blocksOf(marked, finer);
+    std::vector<Block> fine = blocksOf(grids, finer, ofLevel);
+    ofLevel += grids->GetNumberOfDataSets(finer);
     if (fine.empty())
     {
       continue;
     }
     if (!coarse.empty())
     {
-      markRefined(coarse, fine, refinementOf(grids, level, finer));
+      findRefined(coarse, fine, refinementOf(grids, level, finer), flags);
     }
     coarse = std::move(fine);
     level = finer;
   }
+  return flags;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks* ranks)
+{
+  const std::vector<unsigned char> present = presentBlocks(grids, ranks);
+  if (!grids)
+  {
+    return nullptr;
+  }
+  requireBoxes(grids);
+  Flags flags;
+  try
+  {
+    flags = findRefined(grids, present);
+  }
+  catch (const Failure&)
+  {
+    if (!hasGhosts(grids))
+    {
+      throw;
+    }
+    return grids; // the flags say it
+  }
+  // Grids of its own: those of the input stay as they are.
+  const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
+  marked->CopyStructure(grids);
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    const auto found = flags.find(grid);
+    if (found == flags.end())
+    {
+      marked->SetDataSet(level, i, grid);
+      return;
+    }
+    vtkNew<vtkUniformGrid> copy;
+    copy->ShallowCopy(grid);
+    copy->GetCellData()->AddArray(found->second);
+    marked->SetDataSet(level, i, copy);
+  });
   return marked;
 }
 

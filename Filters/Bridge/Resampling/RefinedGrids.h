@@ -14,10 +14,13 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The grids with cells that finer ones cover marked as such: copies, which share the arrays; the
-// grids themselves where some have ghost flags already, or where there is a single level. Throws
-// Failure where boxes or spacings are not set, and for grids that are not as their boxes say.
-vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids);
+class Ranks;
+
+// The grids with cells that finer ones cover, on any rank, marked as such beside the flags that
+// they have; they share the arrays. Throws Failure where boxes or spacings are not set, and, where
+// no grid has flags, for grids that are not as their boxes say. Called by all ranks; nullptr for
+// nullptr.
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks* ranks);
 
 } // namespace RectifiedTransport
 

@@ -5,11 +5,14 @@
 #include "TestData.h"
 
 #include "vtkAMRBox.h"
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkNonOverlappingAMR.h"
 #include "vtkOverlappingAMR.h"
 #include "vtkStructuredData.h"
 #include "vtkTransportSampler.h"
 #include "vtkUniformGrid.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <array>
@@ -112,6 +115,29 @@ void checkMass(Checks& checks)
   }
 }
 
+// Flags that a grid has stay, and those of the input are not written into.
+void checkWithFlags(Checks& checks)
+{
+  const auto grids = makeGrids({ false, false, false }, 2, false);
+  vtkUniformGrid* coarse = grids->GetDataSet(0, 0);
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName(vtkDataSetAttributes::GhostArrayName());
+  flags->SetNumberOfValues(coarse->GetNumberOfCells());
+  flags->FillValue(0);
+  flags->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
+  coarse->GetCellData()->AddArray(flags);
+  auto sampler = makeSampler(grids);
+  CHECK_NEAR(checks, massOf(sampler), 2.0 * (216 - 27 - 1) + 7.0 * 27, 1e-9);
+  CHECK(checks, flags->GetValue(2 + 6 * (2 + 6 * 2)) == 0);
+
+  // Where boxes contradict the grids, the flags alone count.
+  const int low[3] = { 4, 4, 4 };
+  const int high[3] = { 10, 9, 9 };
+  grids->SetAMRBox(1, 0, vtkAMRBox(low, high));
+  grids->Modified();
+  CHECK_NEAR(checks, massOf(sampler), 2.0 * (216 - 1) + 7.0 * 27, 1e-9);
+}
+
 void checkWithoutBoxes(Checks& checks)
 {
   const int perLevel[2] = { 1, 2 };
@@ -177,5 +203,5 @@ void checkOtherGrids(Checks& checks)
 
 int TestRefinedGrids(int, char*[])
 {
-  return runChecks({ checkMass, checkWithoutBoxes, checkOtherGrids });
+  return runChecks({ checkMass, checkWithFlags, checkWithoutBoxes, checkOtherGrids });
 }
