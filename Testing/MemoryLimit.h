@@ -8,26 +8,29 @@
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 #define HAS_MEMORY_LIMIT
+#include "Benchmarks/FreshMemory.h"
+
 #include <cstdlib>
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
 
-// A process that can have no more than about `bytes` until the end of the scope: it may not grow,
-// and what malloc holds in reserve is taken, but for that room and some small blocks, since VTK's
-// own pipeline ends the program when it cannot have a few for itself. New threads cannot be made
+// A process that can have no more than about `bytes` until the end of the scope: it may not grow by
+// more, and what malloc holds in reserve is taken, but for some small blocks, since VTK's own
+// pipeline ends the program when it cannot have a few for itself. New threads cannot be made
 // meanwhile.
 class MemoryLimit
 {
 public:
   explicit MemoryLimit(std::int64_t bytes)
   {
+    RectifiedTransport::useFreshMemory(); // whatever was freed before
     const std::vector<std::vector<char>> change(400, std::vector<char>(200));
     constexpr std::size_t most = 1 << 16;
     this->Taken.reserve(most);
-    this->Taken.push_back(std::malloc(static_cast<std::size_t>(bytes)));
-    this->StopGrowth();
+    getrlimit(RLIMIT_AS, &this->Before);
+    this->LimitGrowth(0);
     constexpr std::size_t smallest = 1 << 15;
     for (std::size_t size = std::size_t{ 1 } << 26; size >= smallest; size /= 2)
     {
@@ -36,8 +39,7 @@ public:
         this->Taken.push_back(block);
       }
     }
-    std::free(this->Taken[0]);
-    this->Taken[0] = nullptr;
+    this->LimitGrowth(bytes);
   }
   ~MemoryLimit()
   {
@@ -51,14 +53,14 @@ public:
   MemoryLimit& operator=(const MemoryLimit&) = delete;
 
 private:
-  void StopGrowth()
+  void LimitGrowth(std::int64_t bytes) const
   {
     std::ifstream file("/proc/self/statm");
     rlim_t pages = 0;
     file >> pages;
-    getrlimit(RLIMIT_AS, &this->Before);
     rlimit limit = this->Before;
-    limit.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+    limit.rlim_cur =
+      pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + static_cast<rlim_t>(bytes);
     setrlimit(RLIMIT_AS, &limit);
   }
 
