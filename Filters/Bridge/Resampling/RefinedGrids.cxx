@@ -163,8 +163,8 @@ int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int fine
 // Cells of a level along its axes, from the first to the last one, 0 along axes without any.
 struct Cells
 {
-  std::array<int, 3> First{};
-  std::array<int, 3> Last{};
+  std::array<std::int64_t, 3> First{};
+  std::array<std::int64_t, 3> Last{};
 
   bool AreNone() const
   {
@@ -176,13 +176,15 @@ struct Cells
 // Files and programs give flat boxes a cell across the plane, or none.
 Cells cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
 {
-  Cells cells;
-  grids->GetAMRBox(level, block).GetDimensions(cells.First.data(), cells.Last.data());
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+  grids->GetAMRBox(level, block).GetDimensions(low.data(), high.data());
   const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
+  Cells cells;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    cells.First[a] = isFlat[a] ? 0 : cells.First[a];
-    cells.Last[a] = isFlat[a] ? 0 : cells.Last[a];
+    cells.First[a] = isFlat[a] ? 0 : low[a];
+    cells.Last[a] = isFlat[a] ? 0 : high[a];
   }
   return cells;
 }
@@ -197,19 +199,19 @@ void requireCellsOfBox(
   bool isFilled = vtkStructuredData::GetDataDescription(points.data()) == description;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    counts[a] = std::int64_t{ box.Last[a] } - box.First[a] + 1;
+    counts[a] = box.Last[a] - box.First[a] + 1;
     isFilled = isFilled && counts[a] == std::max(points[a] - 1, 1);
   }
   if (!isFilled)
   {
     throw Failure("The overlapping AMR has " + textOf(counts) + " cells in the box of " +
       nameOf(level, block) + ", but a grid of " + textOf(points) +
-      " points there; all grids must "
-      "have the cells of their boxes, and lie along the axes of the grid description");
+      " points there; all grids must have the cells of their boxes, and "
+      "lie along the axes of the grid description");
   }
 }
 
-int coarsened(int cell, int ratio)
+std::int64_t coarsened(std::int64_t cell, int ratio)
 {
   return (cell >= 0 ? cell : cell - ratio + 1) / ratio;
 }
@@ -298,14 +300,14 @@ void mark(const Block& block, const Cells& covered, Flags& flags)
   {
     return; // an error of whoever reads them
   }
-  const std::int64_t width = std::int64_t{ block.Own.Last[0] } - block.Own.First[0] + 1;
-  const std::int64_t height = std::int64_t{ block.Own.Last[1] } - block.Own.First[1] + 1;
+  const std::int64_t width = block.Own.Last[0] - block.Own.First[0] + 1;
+  const std::int64_t height = block.Own.Last[1] - block.Own.First[1] + 1;
   for (std::int64_t z = common.First[2]; z <= common.Last[2]; ++z)
   {
     for (std::int64_t y = common.First[1]; y <= common.Last[1]; ++y)
     {
       unsigned char* row = own->GetPointer((z * height + y) * width);
-      for (int x = common.First[0]; x <= common.Last[0]; ++x)
+      for (std::int64_t x = common.First[0]; x <= common.Last[0]; ++x)
       {
         row[x] |= vtkDataSetAttributes::REFINEDCELL;
       }
@@ -318,7 +320,7 @@ void mark(const Block& block, const Cells& covered, Flags& flags)
 void findRefined(
   const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio, Flags& flags)
 {
-  int widest = 0;
+  std::int64_t widest = 0;
   for (const Block& block : coarse)
   {
     widest = std::max(widest, block.Own.Last[0] - block.Own.First[0]);
@@ -331,7 +333,7 @@ void findRefined(
       covered.First[a] = coarsened(child.Own.First[a], ratio);
       covered.Last[a] = coarsened(child.Own.Last[a], ratio);
     }
-    const std::int64_t first = std::int64_t{ covered.First[0] } - widest;
+    const std::int64_t first = covered.First[0] - widest;
     auto block = std::lower_bound(coarse.begin(), coarse.end(), first,
       [](const Block& one, std::int64_t cell) { return one.Own.First[0] < cell; });
     for (; block != coarse.end() && block->Own.First[0] <= covered.Last[0]; ++block)
