@@ -16,6 +16,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
 
 #include "vtkCellData.h"
@@ -390,7 +391,7 @@ bool vtkDensityAlgorithm::IsDensityOnPoints(vtkInformation* inputInformation, in
   int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   vtkImageData* image = vtkImageData::GetData(inputInformation);
-  if (image && image->GetNumberOfPoints() > 0)
+  if (image && isReadable(image->GetExtent()) && image->GetNumberOfPoints() > 0)
   {
     this->FindDensityArray(image, arrayIndex, association);
   }

@@ -343,7 +343,7 @@ OTHERS = [
     E(BRIDGE + "Resampling/RefinedGrids.cxx",
       "isFilled && counts[a] == «std::max(points[a] - 1, 1)»", "counts[a]"),
     E(BRIDGE + "Ranks/DataSetBytes.cxx", "if («data->IsA(\"vtkUniformGrid\")»)", "false"),
-    E(BRIDGE + "Run/InputExtents.cxx", "if («points < 0» || points > most)", "false"),
+    E(BRIDGE + "Run/InputExtents.cxx", "is && «points >= 0» && points <= most", "true"),
     E(CORE + "Overlap/RegionOutlines.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
     E(BRIDGE + "Resampling/RegionShapes.cxx", "if (mayBeSimple && «isSimple» &&", "true"),

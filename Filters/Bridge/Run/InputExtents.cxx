@@ -24,6 +24,8 @@ namespace RectifiedTransport
 namespace
 {
 
+constexpr int most = std::numeric_limits<int>::max();
+
 template <class Grid>
 bool findExtentOf(vtkDataObject* data, std::array<int, 6>& extent)
 {
@@ -42,24 +44,30 @@ void requireExtent(vtkDataObject* data, const std::string& name)
     findExtentOf<vtkRectilinearGrid>(data, extent) ||
     findExtentOf<vtkStructuredGrid>(data, extent) ||
     findExtentOf<vtkExplicitStructuredGrid>(data, extent);
-  constexpr int most = std::numeric_limits<int>::max();
-  for (std::size_t a = 0; has && a < 6; a += 2)
+  if (has && !isReadable(extent.data()))
   {
-    const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
-    if (points < 0 || points > most)
+    std::string text;
+    for (const int end : extent)
     {
-      std::string text;
-      for (const int end : extent)
-      {
-        text += (text.empty() ? "" : " ") + std::to_string(end);
-      }
-      throw Failure(name + " has the extent " + text + "; along no axis it must end before it " +
-        "begins or have more than " + std::to_string(most) + " points");
+      text += (text.empty() ? "" : " ") + std::to_string(end);
     }
+    throw Failure(name + " has the extent " + text + "; along no axis it must end before it " +
+      "begins or have more than " + std::to_string(most) + " points");
   }
 }
 
 } // namespace
+
+bool isReadable(const int* extent)
+{
+  bool is = true;
+  for (std::size_t a = 0; a < 6; a += 2)
+  {
+    const std::int64_t points = std::int64_t{ extent[a + 1] } - extent[a] + 1; // 0: empty
+    is = is && points >= 0 && points <= most;
+  }
+  return is;
+}
 
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {

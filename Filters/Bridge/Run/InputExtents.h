@@ -17,6 +17,9 @@ namespace RectifiedTransport
 // not there.
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
+// Whether an extent is none of these; that of nothing is none.
+bool isReadable(const int* extent);
+
 } // namespace RectifiedTransport
 
 #endif

@@ -201,7 +201,7 @@ void ImageGrid::FindCells()
     axes.row(a) *= 1.0 / this->CellLength[a];
   }
   this->DomainDiagonal = length(sides);
-  constexpr double parallel = 1e-12;
+  constexpr double parallel = 1e-5; // the places between points lose its square
   this->Valid = this->AxisCount > 0 && std::isfinite(this->Measure) &&
     std::isfinite(length(farthest)) && this->Measure > 0.0 &&
     measure(axes, this->AxisCount) > parallel;

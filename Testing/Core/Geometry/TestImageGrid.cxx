@@ -202,6 +202,11 @@ TEST(ImageGrid, WhatHasNoCells)
   Matrix flat = Matrix::Identity();
   flat.col(2) = flat.col(0) + flat.col(1);
   EXPECT_FALSE(ImageGrid(extent, origin, spacing, flat, false).HasCells());
+  Matrix sheared = Matrix::Identity();
+  sheared(0, 1) = 1e3;
+  EXPECT_TRUE(ImageGrid(extent, origin, spacing, sheared, false).HasCells());
+  sheared(0, 1) = 2147483647.0;
+  EXPECT_FALSE(ImageGrid(extent, origin, spacing, sheared, false).HasCells());
   const Eigen::Vector3d none(1.0, 0.0, 1.0);
   EXPECT_FALSE(ImageGrid(extent, origin, none, Matrix::Identity(), false).HasCells());
   const Eigen::Vector3d lost(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
