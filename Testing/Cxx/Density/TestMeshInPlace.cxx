@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A density of a mesh that a program writes into, with Modified() of the data set only.
 #include "BlocksTest.h"
+#include "MeshSampler.h"
 #include "TestData.h"
 
 #include "vtkAppendFilter.h"
@@ -31,21 +32,6 @@ vtkSmartPointer<vtkUnstructuredGrid> makeMesh(bool isLattice = false)
     x->SetComponent(x->GetNumberOfTuples() - 1, 0, 6.25);
   }
   return mesh;
-}
-
-vtkSmartPointer<vtkTransportSampler> makeSampler(vtkDataObject* data)
-{
-  auto sampler = vtkSmartPointer<vtkTransportSampler>::New();
-  sampler->SetInputDataObject(data);
-  sampler->SetNumberOfParticles(100);
-  sampler->SetDensityResolution(20);
-  return sampler;
-}
-
-double massOf(vtkTransportSampler* sampler)
-{
-  sampler->Update();
-  return fieldValue(sampler->GetOutput(), "TotalMass");
 }
 
 void scale(vtkDataArray* array, double factor)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Overlapping grids of adaptive mesh refinement: cells that finer grids cover do not count, and
 // what is wrong with boxes, spacings and grids is an error.
-#include "BlocksTest.h"
+#include "MeshSampler.h"
 #include "TestData.h"
 
 #include "vtkAMRBox.h"
@@ -10,7 +10,6 @@
 #include "vtkNonOverlappingAMR.h"
 #include "vtkOverlappingAMR.h"
 #include "vtkStructuredData.h"
-#include "vtkTransportSampler.h"
 #include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -21,21 +20,6 @@
 
 namespace
 {
-
-vtkSmartPointer<vtkTransportSampler> makeSampler(vtkDataObject* data)
-{
-  auto sampler = vtkSmartPointer<vtkTransportSampler>::New();
-  sampler->SetInputDataObject(data);
-  sampler->SetNumberOfParticles(100);
-  sampler->SetDensityResolution(20);
-  return sampler;
-}
-
-double massOf(vtkTransportSampler* sampler)
-{
-  sampler->Update();
-  return fieldValue(sampler->GetOutput(), "TotalMass");
-}
 
 // Values of 2 on cells 0 to 5 of length 1 along the axes, and of 7 on 6 fine cells from the coarse
 // cell 2 on. Flat ones have cells in their boxes across the plane or the line, too, if asked for.
