@@ -30,7 +30,8 @@ public:
     constexpr std::size_t most = 1 << 16;
     this->Taken.reserve(most);
     getrlimit(RLIMIT_AS, &this->Before);
-    this->LimitGrowth(0);
+    const rlim_t now = sizeNow(); // later it cannot be read
+    this->LimitSize(now);
     constexpr std::size_t smallest = 1 << 15;
     for (std::size_t size = std::size_t{ 1 } << 26; size >= smallest; size /= 2)
     {
@@ -39,7 +40,7 @@ public:
         this->Taken.push_back(block);
       }
     }
-    this->LimitGrowth(bytes);
+    this->LimitSize(now + static_cast<rlim_t>(bytes));
   }
   ~MemoryLimit()
   {
@@ -53,14 +54,18 @@ public:
   MemoryLimit& operator=(const MemoryLimit&) = delete;
 
 private:
-  void LimitGrowth(std::int64_t bytes) const
+  static rlim_t sizeNow()
   {
     std::ifstream file("/proc/self/statm");
     rlim_t pages = 0;
     file >> pages;
+    return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  }
+
+  void LimitSize(rlim_t bytes) const
+  {
     rlimit limit = this->Before;
-    limit.rlim_cur =
-      pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + static_cast<rlim_t>(bytes);
+    limit.rlim_cur = bytes;
     setrlimit(RLIMIT_AS, &limit);
   }
 
