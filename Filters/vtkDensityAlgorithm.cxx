@@ -142,6 +142,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   requireResolution("DensityResolution", this->DensityResolution);
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
+  requireExtents(input, "input");
   auto* image = vtkImageData::SafeDownCast(input);
   const Ranks* ranks = this->GetRanks();
   const bool hasData = image || ranks ? hasElements(input) : input != nullptr;

@@ -2,6 +2,7 @@
 #include "Bridge/Image/ImageGrids.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Run/RankAgreement.h"
@@ -56,6 +57,10 @@ ImageGrid announcedGrid(vtkInformation* information, bool onPoints)
     }
   };
   get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
+  if (!isReadable(extent.data()))
+  {
+    extent = { 0, -1, 0, -1, 0, -1 }; // an error of the data, when they come
+  }
   get(vtkDataObject::ORIGIN(), origin.data());
   get(vtkDataObject::SPACING(), spacing.data());
   get(vtkDataObject::DIRECTION(), direction.data());

@@ -14,6 +14,7 @@
 #include "vtkStructuredGrid.h"
 
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -69,26 +70,32 @@ bool isReadable(const int* extent)
   return is;
 }
 
+void requireExtents(vtkDataObject* data, const std::string& name)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    std::string first = name;
+    first[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(first[0])));
+    requireExtent(data, first);
+    return;
+  }
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    requireExtent(leaves->GetCurrentDataObject(),
+      "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of " + name);
+  }
+}
+
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector)
 {
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkDataObject* data = vtkDataObject::GetData(inputVector[port], i);
-      auto* composite = vtkCompositeDataSet::SafeDownCast(data);
-      const std::string input = "nput port " + std::to_string(port);
-      if (!composite)
-      {
-        requireExtent(data, "I" + input);
-        continue;
-      }
-      const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-      for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-      {
-        requireExtent(leaves->GetCurrentDataObject(),
-          "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of i" + input);
-      }
+      requireExtents(
+        vtkDataObject::GetData(inputVector[port], i), "input port " + std::to_string(port));
     }
   }
 }

@@ -4,8 +4,11 @@
 
 #include "Bridge/VTKCompatibility.h"
 
+#include <string>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithm;
+class vtkDataObject;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
@@ -16,6 +19,8 @@ namespace RectifiedTransport
 // begins, or is longer than VTK's numbers of points: VTK counts points and cells from it that are
 // not there.
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector);
+// Of one input, which messages call by its name.
+void requireExtents(vtkDataObject* data, const std::string& name);
 
 // Whether an extent is none of these; that of nothing is none.
 bool isReadable(const int* extent);

@@ -86,8 +86,12 @@ private:
 
   Key SquareOf(const Point<2>& x) const
   {
-    return { static_cast<std::int64_t>(std::floor(x[0] / this->Distance)),
-      static_cast<std::int64_t>(std::floor(x[1] / this->Distance)) };
+    // Sites far away from bounds that are small have a number that is none of 64 bits.
+    static constexpr double most = 1e18;
+    const auto along = [this](double place) {
+      return static_cast<std::int64_t>(std::clamp(std::floor(place / this->Distance), -most, most));
+    };
+    return { along(x[0]), along(x[1]) };
   }
 
   bool IsThin(std::size_t axis) const
