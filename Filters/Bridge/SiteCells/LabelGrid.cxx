@@ -8,6 +8,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputExtents.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
@@ -54,6 +55,7 @@ ImageGrid boxOf(Bounds bounds, const Ranks* ranks)
 
 ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks* ranks) const
 {
+  requireExtents(domain, "domain");
   ImageGrid box;
   if (auto* image = vtkImageData::SafeDownCast(domain))
   {
