@@ -142,7 +142,6 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   requireResolution("DensityResolution", this->DensityResolution);
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
-  requireExtents(input, "input");
   auto* image = vtkImageData::SafeDownCast(input);
   const Ranks* ranks = this->GetRanks();
   const bool hasData = image || ranks ? hasElements(input) : input != nullptr;
@@ -375,6 +374,7 @@ ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayInd
   isAnnouncing = true;
   try
   {
+    requireExtents(data, "input"); // of data that come, those of all inputs are looked at
     const auto density = this->ReadDensity(data, progress, arrayIndex, number);
     isAnnouncing = false;
     return density ? density->Grid() : ImageGrid();

@@ -96,16 +96,6 @@ std::string writeXML(RandomSource& random, vtkDataObject* object, const std::str
   return name;
 }
 
-std::string writeLegacy(RandomSource& random, vtkDataObject* object, const std::string& path)
-{
-  vtkNew<vtkGenericDataObjectWriter> writer;
-  writer->SetInputDataObject(object);
-  writer->SetFileName((path + ".vtk").c_str());
-  writer->SetFileType(random.Chance(0.7) ? VTK_ASCII : VTK_BINARY);
-  writer->Write();
-  return path + ".vtk";
-}
-
 template <class Writer>
 std::string writeBy(vtkDataObject* object, const std::string& name)
 {
@@ -116,29 +106,32 @@ std::string writeBy(vtkDataObject* object, const std::string& name)
   return name;
 }
 
+// Of writers that write text or binary.
+template <class Writer>
+std::string writeBy(vtkDataObject* object, const std::string& name, bool asText)
+{
+  vtkNew<Writer> writer;
+  writer->SetInputDataObject(object);
+  writer->SetFileName(name.c_str());
+  writer->SetFileType(asText ? VTK_ASCII : VTK_BINARY);
+  writer->Write();
+  return name;
+}
+
+std::string writeLegacy(RandomSource& random, vtkDataObject* object, const std::string& path)
+{
+  return writeBy<vtkGenericDataObjectWriter>(object, path + ".vtk", random.Chance(0.7));
+}
+
 std::string writeSurface(RandomSource& random, vtkDataObject* object, const std::string& path)
 {
-  const bool ascii = random.Chance(0.6);
+  const bool asText = random.Chance(0.6);
   switch (random.Whole(0, 2))
   {
     case 0:
-    {
-      vtkNew<vtkSTLWriter> writer;
-      writer->SetInputDataObject(object);
-      writer->SetFileName((path + ".stl").c_str());
-      writer->SetFileType(ascii ? VTK_ASCII : VTK_BINARY);
-      writer->Write();
-      return path + ".stl";
-    }
+      return writeBy<vtkSTLWriter>(object, path + ".stl", asText);
     case 1:
-    {
-      vtkNew<vtkPLYWriter> writer;
-      writer->SetInputDataObject(object);
-      writer->SetFileName((path + ".ply").c_str());
-      writer->SetFileType(ascii ? VTK_ASCII : VTK_BINARY);
-      writer->Write();
-      return path + ".ply";
-    }
+      return writeBy<vtkPLYWriter>(object, path + ".ply", asText);
     default:
       return writeBy<vtkOBJWriter>(object, path + ".obj");
   }

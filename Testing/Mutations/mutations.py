@@ -346,5 +346,5 @@ OTHERS = [
     E(BRIDGE + "Run/InputExtents.cxx", "is && «points >= 0» && points <= most", "true"),
     E(CORE + "Overlap/RegionOutlines.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
-    E(BRIDGE + "Resampling/RegionShapes.cxx", "if (mayBeSimple && «isSimple» &&", "true"),
+    E(BRIDGE + "Resampling/RegionShapes.cxx", "if (mayBeSimple && «isSimple»)", "true"),
 ]

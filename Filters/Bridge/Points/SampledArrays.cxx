@@ -185,11 +185,6 @@ public:
         std::copy_n(given + place.Cell * components, components, tuple);
         continue;
       }
-      if constexpr (N > 0)
-      {
-        interpolateTuple(place, given, tuple);
-        continue;
-      }
       for (int c = 0; c < components; ++c)
       {
         tuple[c] =
@@ -221,24 +216,6 @@ private:
       {
         static_cast<void>(given[place.Points[k] * components]);
       }
-    }
-  }
-
-  // As interpolate, of all components.
-  static void interpolateTuple(const SampledPlace& place, const Value* given, Value* tuple)
-  {
-    double sums[N > 0 ? N : 1] = {};
-    for (int k = 0; k < place.Count; ++k)
-    {
-      const Value* values = given + place.Points[k] * N;
-      for (int c = 0; c < N; ++c)
-      {
-        sums[c] += place.Weights[k] * static_cast<double>(values[c]);
-      }
-    }
-    for (int c = 0; c < N; ++c)
-    {
-      vtkMath::RoundDoubleToIntegralIfNecessary(sums[c], tuple + c);
     }
   }
 

@@ -6,8 +6,6 @@
 
 #include "vtkAMRBox.h"
 #include "vtkCellData.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkNew.h"
 #include "vtkOverlappingAMR.h"
@@ -85,16 +83,12 @@ void requireBoxes(vtkOverlappingAMR* grids)
 
 bool hasGhosts(vtkOverlappingAMR* grids)
 {
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(grids->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    auto* data = vtkDataSet::SafeDownCast(leaves->GetCurrentDataObject());
-    if (data && data->GetCellGhostArray())
-    {
-      return true;
-    }
-  }
-  return false;
+  bool has = false;
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    has = has || (grid && grid->GetCellGhostArray());
+  });
+  return has;
 }
 
 std::array<bool, 3> flatAxes(int description)

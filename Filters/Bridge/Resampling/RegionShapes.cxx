@@ -61,7 +61,7 @@ public:
     const bool mayBeSimple = cell != allLines && values.IsRegion(cell);
     bool isSimple = mayBeSimple && values.IsSimple(cell);
     shape.Edges = regionOutlines(shape.Outline, shape.Values, progress, &isSimple);
-    if (mayBeSimple && isSimple && !values.IsSimple(cell))
+    if (mayBeSimple && isSimple)
     {
       values.MarkAsSimple(cell);
     }
@@ -96,8 +96,14 @@ private:
     {
       double x[3];
       const vtkIdType id = this->Ids->GetId(i);
-      coordinates ? static_cast<void>(std::copy_n(coordinates + 3 * id, 3, x))
-                  : data->GetPoint(id, x);
+      if (coordinates)
+      {
+        std::copy_n(coordinates + 3 * id, 3, x);
+      }
+      else
+      {
+        data->GetPoint(id, x);
+      }
       Point<2> index;
       this->Grid.ToIndex<2>(x, index.data());
       const bool isFirst = shape.Points.size() == first;

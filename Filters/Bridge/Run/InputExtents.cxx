@@ -47,17 +47,23 @@ void requireExtent(vtkDataObject* data, const std::string& name)
     findExtentOf<vtkExplicitStructuredGrid>(data, extent);
   if (has && !isReadable(extent.data()))
   {
-    std::string text;
-    for (const int end : extent)
-    {
-      text += (text.empty() ? "" : " ") + std::to_string(end);
-    }
-    throw Failure(name + " has the extent " + text + "; along no axis it must end before it " +
-      "begins or have more than " + std::to_string(most) + " points");
+    throw Failure(name + " has the extent " + textOfExtent(extent.data()) +
+      "; along no axis it must end before it " + "begins or have more than " +
+      std::to_string(most) + " points");
   }
 }
 
 } // namespace
+
+std::string textOfExtent(const int* extent)
+{
+  std::string text;
+  for (int i = 0; i < 6; ++i)
+  {
+    text += (i == 0 ? "" : " ") + std::to_string(extent[i]);
+  }
+  return text;
+}
 
 bool isReadable(const int* extent)
 {

@@ -22,6 +22,7 @@ void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 // Of one input, which messages call by its name.
 void requireExtents(vtkDataObject* data, const std::string& name);
 
+std::string textOfExtent(const int* extent);
 // Whether an extent is none of these; that of nothing is none.
 bool isReadable(const int* extent);
 

@@ -2,6 +2,7 @@
 #include "Bridge/Run/WholeInputs.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/RankAgreement.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SampledFingerprint.h"
@@ -19,7 +20,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -28,14 +28,6 @@ namespace
 {
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-void writeExtent(std::ostream& os, const int* extent)
-{
-  for (int i = 0; i < 6; ++i)
-  {
-    os << (i == 0 ? "" : " ") << extent[i];
-  }
-}
 
 bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 {
@@ -67,13 +59,9 @@ void requireWholeExtent(vtkInformation* input, const std::string& what)
   }
   if (!isWhole)
   {
-    std::ostringstream message;
-    message << what << " is an image of the extent ";
-    writeExtent(message, extent);
-    message << " out of ";
-    writeExtent(message, whole);
-    message << "; it must be whole on every rank: read it so, or gather it before this filter";
-    throw Failure(message.str());
+    throw Failure(what + " is an image of the extent " + textOfExtent(extent) + " out of " +
+      textOfExtent(whole) +
+      "; it must be whole on every rank: read it so, or gather it before this filter");
   }
 }
 
