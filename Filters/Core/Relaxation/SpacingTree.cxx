@@ -38,6 +38,16 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
       std::max<std::int64_t>(1, std::llround(std::ceil(frame.Sides[axis] / (rootSide * finest))));
     this->RootSides[axis] = frame.Sides[axis] / static_cast<double>(this->Roots[axis]);
   }
+  const double widestRoot = *std::max_element(this->RootSides.begin(), this->RootSides.end());
+  for (int axis = 0; axis < Dimension; ++axis)
+  {
+    int& first = this->FirstHalved[axis];
+    for (first = 0; first < DeepestLevel &&
+         4.0 * this->RootSides[axis] < std::ldexp(widestRoot, -first);)
+    {
+      ++first;
+    }
+  }
   this->Divide(finest, progress);
   this->Number(progress);
   this->FindSpacing(progress);
@@ -68,7 +78,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
     Box box{};
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      box.Low[axis] = rest % this->Roots[axis] * this->Width(0);
+      box.Low[axis] = rest % this->Roots[axis] * this->Width(axis, 0);
       rest /= this->Roots[axis];
     }
     this->Boxes.push_back(box);
@@ -78,8 +88,8 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
   {
     const std::size_t last = this->Boxes.size();
     std::vector<char> divided(last - first, 0);
-    const double part = std::ldexp(1.0, -depth);
-    const double widest = part * *std::max_element(this->RootSides.begin(), this->RootSides.end());
+    const Point<Dimension> sides = this->Sides(depth);
+    const double widest = *std::max_element(sides.begin(), sides.end());
     if (depth < DeepestLevel)
     {
       progress.For(
@@ -91,7 +101,7 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
               this->PointOf(this->Boxes[first + static_cast<std::size_t>(i)].Low);
             for (int axis = 0; axis < Dimension; ++axis)
             {
-              centre[axis] += 0.5 * part * this->RootSides[axis];
+              centre[axis] += 0.5 * sides[axis];
             }
             divided[static_cast<std::size_t>(i)] = widest > finest * this->ExactSpacing(centre);
           }
@@ -107,15 +117,18 @@ void SpacingTree<Dimension>::Divide(double finest, Progress& progress)
         continue;
       }
       this->Boxes[i].First = static_cast<std::int64_t>(this->Boxes.size());
-      for (int child = 0; child < hermiteCorners<Dimension>; ++child)
+      this->Boxes.push_back(this->Boxes[i]);
+      ++this->Boxes.back().Depth;
+      for (int axis = 0; axis < Dimension; ++axis)
       {
-        Box box = this->Boxes[i];
-        ++box.Depth;
-        for (int axis = 0; axis < Dimension; ++axis)
+        // The upper halves of those that are there.
+        const std::size_t halves = this->Boxes.size();
+        for (auto k = static_cast<std::size_t>(this->Boxes[i].First);
+             k < halves && this->IsHalved(axis, depth); ++k)
         {
-          box.Low[axis] += (child >> axis & 1) * this->Width(box.Depth);
+          this->Boxes.push_back(this->Boxes[k]);
+          this->Boxes.back().Low[axis] += this->Width(axis, depth + 1);
         }
-        this->Boxes.push_back(box);
       }
     }
     first = last;
@@ -135,7 +148,7 @@ void SpacingTree<Dimension>::Number(Progress& progress)
       Node node = box.Low;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        node[axis] += (corner >> axis & 1) * this->Width(box.Depth);
+        node[axis] += (corner >> axis & 1) * this->Width(axis, box.Depth);
       }
       this->LeafNodes[static_cast<std::size_t>(leaf)][static_cast<std::size_t>(corner)] =
         numbers[node];
@@ -167,8 +180,12 @@ void SpacingTree<Dimension>::FindConstrained()
     const auto node = static_cast<std::size_t>(i);
     const int depth = this->LeafBox(this->NodeLeaf[node]).Depth;
     const Node& place = this->NodePlaces[node];
-    if (std::any_of(place.begin(), place.end(),
-          [&](std::int64_t coordinate) { return coordinate % this->Width(depth) != 0; }))
+    bool isConstrained = false;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      isConstrained = isConstrained || place[axis] % this->Width(axis, depth) != 0;
+    }
+    if (isConstrained)
     {
       ofDepth[static_cast<std::size_t>(depth)].push_back(static_cast<std::int32_t>(i));
     }
@@ -191,7 +208,7 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     {
       // The root above or below the node.
       const std::int64_t at =
-        (side >> axis & 1) ? node[axis] / this->Width(0) : (node[axis] - 1) / this->Width(0);
+        ((side >> axis & 1) ? node[axis] : node[axis] - 1) / this->Width(axis, 0);
       isInside = isInside && at < this->Roots[axis] && (node[axis] > 0 || (side >> axis & 1));
       root = root * this->Roots[axis] + at;
     }
@@ -203,11 +220,17 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     while (box->First >= 0)
     {
       int child = 0;
+      int half = 1;
       for (int axis = 0; axis < Dimension; ++axis)
       {
-        const std::int64_t middle = box->Low[axis] + this->Width(box->Depth + 1);
+        if (!this->IsHalved(axis, box->Depth))
+        {
+          continue;
+        }
+        const std::int64_t middle = box->Low[axis] + this->Width(axis, box->Depth + 1);
         const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
-        child |= isUpper ? 1 << axis : 0;
+        child += isUpper ? half : 0;
+        half *= 2;
       }
       box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
     }
@@ -226,7 +249,7 @@ Point<Dimension> SpacingTree<Dimension>::PointOf(const Node& node) const
   Point<Dimension> point;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double roots = static_cast<double>(node[axis]) / static_cast<double>(this->Width(0));
+    const double roots = static_cast<double>(node[axis]) / static_cast<double>(this->Width(axis, 0));
     point[axis] = std::min(roots * this->RootSides[axis], this->Frame.Sides[axis]);
   }
   return point;
@@ -245,12 +268,12 @@ Point<Dimension> SpacingTree<Dimension>::LeafLow(std::int64_t leaf) const
 }
 
 template <int Dimension>
-Point<Dimension> SpacingTree<Dimension>::LeafSides(std::int64_t leaf) const
+Point<Dimension> SpacingTree<Dimension>::Sides(int depth) const
 {
   Point<Dimension> sides = this->RootSides;
-  for (double& side : sides)
+  for (int axis = 0; axis < Dimension; ++axis)
   {
-    side = std::ldexp(side, -this->LeafBox(leaf).Depth);
+    sides[axis] = std::ldexp(sides[axis], -std::max(0, depth - this->FirstHalved[axis]));
   }
   return sides;
 }
@@ -272,12 +295,18 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
   while (box->First >= 0)
   {
     int child = 0;
+    int half = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      if (!this->IsHalved(axis, box->Depth))
+      {
+        continue;
+      }
       const double twice = 2.0 * place.At[axis];
       const bool isUpper = twice >= 1.0;
       place.At[axis] = isUpper ? twice - 1.0 : twice;
-      child |= isUpper ? 1 << axis : 0;
+      child += isUpper ? half : 0;
+      half *= 2;
     }
     box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
   }
@@ -329,7 +358,7 @@ void SpacingTree<Dimension>::Join(Field& field) const
     for (int axis = 0; axis < Dimension; ++axis)
     {
       place.At[axis] = static_cast<double>(this->NodePlaces[node][axis] - box.Low[axis]) /
-        static_cast<double>(this->Width(box.Depth));
+        static_cast<double>(this->Width(axis, box.Depth));
     }
     field[node] = this->Evaluate(field, place);
   }

@@ -8,6 +8,8 @@
 #include "Core/Relaxation/HermiteCell.h"
 #include "Core/Relaxation/RelaxationFrame.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,7 +21,8 @@ class Progress;
 // All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
 // smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at
 // most twice the distance (the largest along an axis). A leaf is at most `finest` times the spacing
-// at its centre wide: there is a bounded number of leaves a point.
+// at its centre wide, and boxes are not halved along an axis along which they are less than a quarter
+// as wide: there is a bounded number of leaves a point.
 template <int Dimension>
 class SpacingTree
 {
@@ -36,7 +39,10 @@ public:
 
   std::int64_t Leaves() const { return static_cast<std::int64_t>(this->LeafBoxes.size()); }
   Point<Dimension> LeafLow(std::int64_t leaf) const;
-  Point<Dimension> LeafSides(std::int64_t leaf) const;
+  Point<Dimension> LeafSides(std::int64_t leaf) const
+  {
+    return this->Sides(this->LeafBox(leaf).Depth);
+  }
 
   // A place in a leaf.
   struct Place
@@ -73,7 +79,12 @@ private:
   void Number(Progress& progress);
   void FindConstrained();
   void FindSpacing(Progress& progress);
-  std::int64_t Width(int depth) const { return std::int64_t{ 1 } << (DeepestLevel - depth); }
+  bool IsHalved(int axis, int depth) const { return depth >= this->FirstHalved[axis]; }
+  std::int64_t Width(int axis, int depth) const
+  {
+    return std::int64_t{ 1 } << (DeepestLevel - std::max(0, depth - this->FirstHalved[axis]));
+  }
+  Point<Dimension> Sides(int depth) const;
   Point<Dimension> PointOf(const Node& node) const;
   const Box& LeafBox(std::int64_t leaf) const
   {
@@ -92,6 +103,7 @@ private:
   const double Largest;
   Node Roots;
   Point<Dimension> RootSides;
+  std::array<int, Dimension> FirstHalved; // the least depth of boxes that are halved along an axis
   Point<Dimension> Aspect;
   std::vector<Box> Boxes;
   std::vector<std::int64_t> LeafBoxes;

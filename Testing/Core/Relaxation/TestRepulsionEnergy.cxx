@@ -238,6 +238,21 @@ TEST(RepulsionEnergy, SpacingIsSmooth)
   expectSmooth<3>(twoGaussians<3>({ 12, 12, 12 }), 60);
 }
 
+// Boxes as long as the domain is thin would be millions.
+TEST(RepulsionEnergy, NeedlesHaveFewLeaves)
+{
+  expectSmooth<2>(twoGaussians<2>({ 400, 1 }), 60);
+  expectSmooth<3>(twoGaussians<3>({ 200, 2, 1 }), 60);
+  constexpr std::int64_t count = 24;
+  const TestDensity<3> density = dirac<3>({ 4096, 1, 1 }, { 9, 0, 0 });
+  const RectifiedFlow<3> flow(density.Source());
+  Progress work{ Context() };
+  const RelaxationFrame<3> frame(density.Size, { 1.0, 1e-3, 1e-3 }, count);
+  const SpacingTree<3> tree(flow, frame, count, 0.75, infinity, work);
+  EXPECT_GT(tree.Leaves(), count);
+  EXPECT_LT(tree.Leaves(), 100 * count);
+}
+
 // Points all over a domain whose density is in a small part of it would nearly all be neighbours.
 TEST(RepulsionEnergy, NeighboursAreBounded)
 {
