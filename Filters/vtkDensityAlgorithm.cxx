@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityAlgorithm.h"
 
+#include "Bridge/Blocks/BlockArrays.h"
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Blocks/GatheredBlocks.h"
 #include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
@@ -9,9 +12,6 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Resampling/BlockArrays.h"
-#include "Bridge/Resampling/DensityBlocks.h"
-#include "Bridge/Resampling/GatheredBlocks.h"
 #include "Bridge/Resampling/ResampledDensity.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/ArrayList.h"

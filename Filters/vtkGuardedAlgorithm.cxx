@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGuardedAlgorithm.h"
 
+#include "Bridge/Blocks/GatheredInputs.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/SameProperties.h"
-#include "Bridge/Resampling/GatheredInputs.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"

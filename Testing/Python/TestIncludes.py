@@ -28,6 +28,7 @@ CORE = {
 }
 RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
+BLOCKS = RUN | {"Image", "Points", "Ranks", "Density"}
 BRIDGE = {
     "Run": set(),
     "Image": RUN,
@@ -36,10 +37,13 @@ BRIDGE = {
     "Settings": RUN,
     "Surface": RUN | {"Points"},
     "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
-    "Resampling": RUN | {"Image", "Points", "Ranks", "Density"},
+    "Blocks": BLOCKS,
+    "Meshes": BLOCKS | {"Blocks"},
+    "Lattices": BLOCKS | {"Blocks", "Meshes"},
+    "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
     "Blend": WORKERS | {"Splat"},
     **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "Splat")},
-    **{folder: WORKERS | {"Resampling"} for folder in ("Flow", "SiteCells")},
+    **{folder: WORKERS | {"Blocks", "Lattices", "Resampling"} for folder in ("Flow", "SiteCells")},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }

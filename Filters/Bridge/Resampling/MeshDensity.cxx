@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/MeshDensity.h"
 
+#include "Bridge/Blocks/BlockValues.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Resampling/BlockValues.h"
-#include "Bridge/Resampling/CellPieces.h"
-#include "Bridge/Resampling/MeshSlabs.h"
-#include "Bridge/Resampling/RegionShapes.h"
+#include "Bridge/Meshes/CellPieces.h"
+#include "Bridge/Meshes/MeshSlabs.h"
+#include "Bridge/Meshes/RegionShapes.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Overlap/Overlap.h"

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_MeshDensity_h
 #define RectifiedTransport_MeshDensity_h
 
-#include "Bridge/Resampling/BlockValues.h"
+#include "Bridge/Blocks/BlockValues.h"
 #include "Core/Geometry/ImageGrid.h"
 
 #include "vtkSmartPointer.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/PlacesInMeshes.h"
 
-#include "Bridge/Resampling/CellPieces.h"
-#include "Bridge/Resampling/MeshSlabs.h"
-#include "Bridge/Resampling/PlacesInRegions.h"
-#include "Bridge/Resampling/RegionShapes.h"
+#include "Bridge/Meshes/CellPieces.h"
+#include "Bridge/Meshes/MeshSlabs.h"
+#include "Bridge/Meshes/PlacesInRegions.h"
+#include "Bridge/Meshes/RegionShapes.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Geometry/ImageGrid.h"

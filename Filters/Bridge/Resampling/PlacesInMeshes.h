@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_PlacesInMeshes_h
 #define RectifiedTransport_PlacesInMeshes_h
 
+#include "Bridge/Blocks/BlockValues.h"
 #include "Bridge/Points/SampledArrays.h"
-#include "Bridge/Resampling/BlockValues.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Parallel/LargeBuffer.h"
 

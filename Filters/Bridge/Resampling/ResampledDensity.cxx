@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/ResampledDensity.h"
 
-#include "Bridge/Resampling/CellLattice.h"
+#include "Bridge/Lattices/CellLattice.h"
+#include "Bridge/Lattices/TiledImages.h"
+#include "Bridge/Meshes/MeshGrid.h"
+#include "Bridge/Meshes/RegionShapes.h"
 #include "Bridge/Resampling/MeshDensity.h"
-#include "Bridge/Resampling/MeshGrid.h"
-#include "Bridge/Resampling/RegionShapes.h"
-#include "Bridge/Resampling/TiledImages.h"
 #include "Bridge/Resampling/UnusualBlocks.h"
 
 #include "vtkCellData.h"

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_ResampledDensity_h
 #define RectifiedTransport_ResampledDensity_h
 
+#include "Bridge/Blocks/BlockValues.h"
+#include "Bridge/Blocks/DataContent.h"
+#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Density/DensityReader.h"
-#include "Bridge/Resampling/BlockValues.h"
-#include "Bridge/Resampling/DataContent.h"
-#include "Bridge/Resampling/DensityBlocks.h"
 
 #include "vtkSmartPointer.h"
 

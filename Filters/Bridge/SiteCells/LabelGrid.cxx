@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/LabelGrid.h"
 
+#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/ImagePieces.h"
-#include "Bridge/Resampling/DensityBlocks.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which array of the blocks of a density is the density, and which blocks have it.
+#ifndef RectifiedTransport_BlockArrays_h
+#define RectifiedTransport_BlockArrays_h
+
+#include "Bridge/Blocks/DensityBlocks.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+struct BlockArrays
+{
+  // Finds the array of a data set, or else throws Failure; sets its association. What it throws
+  // for the first block of the highest dimension is thrown, where no block has it.
+  using Find = std::function<vtkDataArray*(const DensityBlock&, int& association)>;
+  // Whether another block may be asked where one has none: it has nothing to choose from.
+  using MayLack = std::function<bool(vtkDataSet*)>;
+
+  // Sets the arrays of the blocks, and removes those that cannot carry mass: of fewer dimensions
+  // than the blocks with the array, or of more and without it. Throws Failure.
+  static BlockArrays Set(
+    const Find& find, const MayLack& mayLack, std::vector<DensityBlock>& blocks);
+
+  bool OnPoints = false;
+  int Dimension = 0;
+  std::int64_t Without = 0; // blocks that lack it, of as many dimensions or more
+  std::int64_t All = 0;     // and all of these
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The values of the densities of data sets, and which of their cells carry mass.
+#ifndef RectifiedTransport_BlockValues_h
+#define RectifiedTransport_BlockValues_h
+
+#include "Bridge/Blocks/MassCells.h"
+#include "Bridge/Density/DensityReader.h"
+#include "Bridge/Density/UnusualValues.h"
+#include "Core/Parallel/LargeBuffer.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class CellLattice;
+class Progress;
+
+class BlockValues
+{
+public:
+  vtkDataSet* Data() const;
+  // Takes another data set of the same points and cells, which may have other arrays.
+  void SetData(vtkDataSet* data);
+  // Whose cells the blocks are; nullptr where they are of none.
+  const CellLattice* Lattice() const { return this->CellsOf.get(); }
+  void SetLattice(std::shared_ptr<const CellLattice> lattice);
+  bool IsOnPoints() const { return this->OnPoints; }
+  // Of the points or the cells; 0 where no cell that counts needs them.
+  const double* Values() const { return this->Density.data(); }
+  std::int64_t NumberOfValues() const { return this->Density.size(); }
+  // What messages call the array.
+  const std::string& Name() const { return this->ArrayName; }
+  // What is known of the values; white is that of this block.
+  const UnusualValues& Unusual() const { return this->Known; }
+  // The same cells, with a density in those values alone that are `value`. Throws Failure where
+  // memory is short.
+  BlockValues Only(double value) const;
+  bool IsCounted(vtkIdType cell) const
+  {
+    return this->Counted[static_cast<std::size_t>(cell)] != 0;
+  }
+  // Counted cells are regions within their outlines, or are divided into simplices and boxes.
+  bool IsRegion(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] >= 2; }
+  bool IsDivided(vtkIdType cell) const
+  {
+    return this->Counted[static_cast<std::size_t>(cell)] == 1;
+  }
+  void MarkAsRegion(vtkIdType cell) { this->Counted[static_cast<std::size_t>(cell)] = 2; }
+  // Regions of which it is known that their outline does not cross itself: learnt by the first that
+  // visits them, each on one thread.
+  bool IsSimple(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 3; }
+  void MarkAsSimple(vtkIdType cell) const { this->Counted[static_cast<std::size_t>(cell)] = 3; }
+  // Whether the cells are closed lines, which are around regions together.
+  bool AreClosedLines() const { return this->Cells.AreClosedLines; }
+  // Lines that are not closed, where the others are around regions.
+  vtkIdType OpenLines() const { return this->Open; }
+
+private:
+  friend class BlockReading;
+
+  vtkSmartPointer<vtkDataSet> Set;
+  std::shared_ptr<const CellLattice> CellsOf;
+  bool OnPoints = false;
+  std::string ArrayName;
+  UnusualValues Known;
+  LargeBuffer<double> Density;
+  mutable std::vector<unsigned char> Counted; // 1: divided, 2: a region, 3: a simple one
+  MassCells Cells;
+  vtkIdType Open = 0;
+};
+
+// Cells count if they carry mass, and neither they nor their points are blanked. Throws
+// Failure for values of these that are no density, and Cancelled.
+std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
+  const MassCells& cells, const DensityRules& rules, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

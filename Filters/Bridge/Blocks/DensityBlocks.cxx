@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Blocks/DensityBlocks.h"
+
+#include "Bridge/Blocks/HyperTreeCells.h"
+#include "Bridge/Blocks/RefinedGrids.h"
+#include "Bridge/Run/Failure.h"
+
+#include "vtkCell.h"
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataObjectTreeIterator.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkGenericCell.h"
+#include "vtkHyperTreeGrid.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkOverlappingAMR.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::string nameOfBlock(vtkCompositeDataIterator* leaves)
+{
+  std::string name = "block " + std::to_string(leaves->GetCurrentFlatIndex());
+  vtkInformation* information =
+    leaves->HasCurrentMetaData() ? leaves->GetCurrentMetaData() : nullptr;
+  if (information && information->Has(vtkCompositeDataSet::NAME()))
+  {
+    name += " ('" + std::string(information->Get(vtkCompositeDataSet::NAME())) + "')";
+  }
+  return name + " of the input";
+}
+
+// The newest of a data object's own and of all that are in it, whose arrays count.
+std::uint64_t timeOf(vtkDataObject* data)
+{
+  vtkMTimeType newest = data ? data->GetMTime() : 0;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto nodes = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    if (auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes))
+    {
+      tree->VisitOnlyLeavesOff();
+    }
+    for (nodes->InitTraversal(); !nodes->IsDoneWithTraversal(); nodes->GoToNextItem())
+    {
+      newest = std::max(newest, nodes->GetCurrentDataObject()->GetMTime());
+    }
+  }
+  return static_cast<std::uint64_t>(newest);
+}
+
+void addCells(vtkCellArray* cells, DataContent& content)
+{
+  content.AddTimeOf(cells);
+  content.AddArray(cells ? cells->GetOffsetsArray() : nullptr);
+  content.AddArray(cells ? cells->GetConnectivityArray() : nullptr);
+}
+
+bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
+{
+  auto* types = vtkUnsignedCharArray::SafeDownCast(grid->GetCellTypesArray());
+  if (!types)
+  {
+    return grid->GetNumberOfCells() > 0;
+  }
+  const unsigned char* first = types->GetPointer(0);
+  const unsigned char* last = first + types->GetNumberOfValues();
+  return std::find(first, last, static_cast<unsigned char>(VTK_POLYHEDRON)) != last;
+}
+
+void addExtent(const int* extent, DataContent& content)
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    content.AddNumber(static_cast<std::uint64_t>(extent[i]));
+  }
+}
+
+std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
+{
+  std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions;
+  for (int type = 0; type < VTK_NUMBER_OF_CELL_TYPES; ++type)
+  {
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    dimensions[static_cast<std::size_t>(type)] = cell ? cell->GetCellDimension() : 0;
+  }
+  return dimensions;
+}
+
+} // namespace
+
+std::vector<DensityBlock> densityBlocks(
+  vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks* ranks)
+{
+  std::vector<DensityBlock> blocks;
+  OtherLeaves left;
+  const std::uint64_t time = timeOf(data);
+  const auto add = [&](vtkDataObject* object, const std::string& name, std::int64_t number) {
+    vtkSmartPointer<vtkDataSet> set = vtkDataSet::SafeDownCast(object);
+    if (auto* trees = vtkHyperTreeGrid::SafeDownCast(object))
+    {
+      set = cellsOfTrees(trees, progress);
+    }
+    if (object && !set)
+    {
+      left.First = left.Count++ == 0 ? object->GetClassName() + (", " + name) : left.First;
+    }
+    left.DataSets += set ? 1 : 0;
+    if (set && set->GetNumberOfPoints() > 0)
+    {
+      blocks.push_back({ set, name, number, time });
+    }
+  };
+  vtkSmartPointer<vtkCompositeDataSet> composite =
+    withRefinedMarked(vtkOverlappingAMR::SafeDownCast(data), ranks);
+  if (!composite)
+  {
+    composite = vtkCompositeDataSet::SafeDownCast(data);
+  }
+  if (!composite)
+  {
+    add(data, "input", 0);
+  }
+  else
+  {
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      add(leaves->GetCurrentDataObject(), nameOfBlock(leaves), leaves->GetCurrentFlatIndex());
+    }
+  }
+  if (others)
+  {
+    *others = left;
+  }
+  return blocks;
+}
+
+void addGeometry(const DensityBlock& block, DataContent& content)
+{
+  vtkDataSet* data = block.Data;
+  content.AddTime(block.Time);
+  content.AddNumber(static_cast<std::uint64_t>(data->GetDataObjectType()));
+  content.AddNumber(static_cast<std::uint64_t>(data->GetNumberOfPoints()));
+  content.AddNumber(static_cast<std::uint64_t>(data->GetNumberOfCells()));
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    content.AddArray(data->GetAttributes(owner)->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  }
+  if (auto* points = vtkPointSet::SafeDownCast(data))
+  {
+    content.AddArray(points->GetPoints() ? points->GetPoints()->GetData() : nullptr);
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    addExtent(image->GetExtent(), content);
+    content.AddNumbers(image->GetOrigin(), 3);
+    content.AddNumbers(image->GetSpacing(), 3);
+    content.AddNumbers(image->GetDirectionMatrix()->GetData(), 9);
+  }
+  else if (auto* lattice = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    addExtent(lattice->GetExtent(), content);
+    for (vtkDataArray* coordinates :
+      { lattice->GetXCoordinates(), lattice->GetYCoordinates(), lattice->GetZCoordinates() })
+    {
+      content.AddArray(coordinates);
+    }
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(data))
+  {
+    addExtent(structured->GetExtent(), content);
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    addCells(grid->GetCells(), content);
+    content.AddArray(grid->GetCellTypesArray());
+    if (mayHavePolyhedra(grid))
+    {
+      // Their faces are in no array that all versions of VTK give.
+      content.AddNumber(block.Time);
+    }
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells : { surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      addCells(cells, content);
+    }
+  }
+  else
+  {
+    // How its cells are kept is not known.
+    content.AddNumber(static_cast<std::uint64_t>(data->GetMTime()));
+  }
+}
+
+int dimensionOfCellType(int type)
+{
+  static const std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions = dimensionsOfTypes();
+  return type >= 0 && type < VTK_NUMBER_OF_CELL_TYPES ? dimensions[static_cast<std::size_t>(type)]
+                                                      : 0;
+}
+
+int largestCellDimension(vtkDataSet* data)
+{
+  int largest = 0;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells() && largest < 3; ++cell)
+  {
+    largest = std::max(largest, dimensionOfCellType(data->GetCellType(cell)));
+  }
+  return largest;
+}
+
+} // namespace RectifiedTransport

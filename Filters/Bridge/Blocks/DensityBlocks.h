@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The data sets of a data object, and in each the array that is the density.
+#ifndef RectifiedTransport_DensityBlocks_h
+#define RectifiedTransport_DensityBlocks_h
+
+#include "Bridge/Blocks/DataContent.h"
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkDataObject;
+class vtkDataSet;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Progress;
+class Ranks;
+
+struct DensityBlock
+{
+  vtkSmartPointer<vtkDataSet> Data;
+  std::string Name;              // that messages call it by
+  std::int64_t Number;           // among the leaves of a composite data set
+  std::uint64_t Time;            // of the data object that the block is of
+  vtkDataArray* Array = nullptr; // the density; set by those who know its name, none: no mass
+};
+
+// The leaves of a composite data set that are no data sets of cells, such as tables.
+struct OtherLeaves
+{
+  std::int64_t Count = 0;
+  std::int64_t DataSets = 0; // the number of the other leaves
+  std::string First;         // the class and the name of the first one
+};
+
+// The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
+// tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
+// out, and told to `others`. Called by all ranks that are given. Throws Failure as
+// withRefinedMarked, and Cancelled.
+std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
+  Progress* progress = nullptr, const Ranks* ranks = nullptr);
+
+// Adds all that a block's points and cells are made of, its ghost flags too.
+void addGeometry(const DensityBlock& block, DataContent& content);
+
+// The largest dimension of the cells of a data set, and that of the cells of a type.
+int largestCellDimension(vtkDataSet* data);
+int dimensionOfCellType(int type);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Blocks/GatheredInputs.h"
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Ranks/GatheredPoints.h"
+#include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Ranks/SameOnRanks.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks)
+{
+  const ImagePieces pieces(own, ranks);
+  const Extent none{ 0, -1, 0, -1, 0, -1 };
+  return pieces.Gather(ranks.Own() == 0 ? pieces.Whole() : none);
+}
+
+// As blocks of one data set.
+vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ranks)
+{
+  std::vector<DataPart> parts;
+  for (const DensityBlock& block : densityBlocks(own, nullptr, nullptr, &ranks))
+  {
+    parts.push_back({ block.Number, block.Name, block.Data });
+  }
+  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::First);
+  if (gathered.AreWhole)
+  {
+    return own;
+  }
+  if (gathered.Parts.size() == 1)
+  {
+    return gathered.Parts.front().Data;
+  }
+  const auto all = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const DataPart& part : gathered.Parts)
+  {
+    all->SetBlock(all->GetNumberOfBlocks(), part.Data);
+  }
+  return all;
+}
+
+vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, const Ranks& ranks)
+{
+  if (kind != GatheredKind::Density)
+  {
+    const GatheredPoints points(vtkPointSet::SafeDownCast(own), ranks, Receivers::First,
+      kind == GatheredKind::Surface ? PointSetKind::Surface : PointSetKind::Points);
+    return points.All();
+  }
+  auto* image = vtkImageData::SafeDownCast(own);
+  const bool hasPoints = own && own->GetNumberOfElements(vtkDataObject::POINT) > 0;
+  const char* type = !hasPoints ? "" : image ? "an image" : "no image";
+  return requireSameOnRanks(ranks, type, "The density is ") == "an image"
+    ? gatherImage(image, ranks)
+    : gatherBlocks(own, ranks);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataObject> gatherOnFirst(
+  vtkDataObject* own, GatheredKind kind, const Ranks& ranks)
+{
+  const vtkSmartPointer<vtkDataObject> all = gatherAny(own, kind, ranks);
+  return ranks.Own() == 0 ? all : nullptr;
+}
+
+GatheredInputs::GatheredInputs(
+  vtkInformationVector** inputs, const std::map<int, GatheredKind>& kinds, const Ranks& ranks)
+{
+  for (const auto& [port, kind] : kinds)
+  {
+    const auto vector = vtkSmartPointer<vtkInformationVector>::New();
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputs[port]->GetInformationObject(i);
+      vtkNew<vtkInformation> copy;
+      copy->Copy(input);
+      const auto data = gatherOnFirst(vtkDataObject::GetData(input), kind, ranks);
+      copy->Set(vtkDataObject::DATA_OBJECT(), data);
+      vector->Append(copy);
+    }
+    this->Made.push_back(vector);
+    this->Pointers.push_back(vector);
+  }
+}
+
+} // namespace RectifiedTransport

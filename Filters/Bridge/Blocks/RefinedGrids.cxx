@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Blocks/RefinedGrids.h"
+
+#include "Bridge/Run/Failure.h"
+#include "Core/Parallel/Ranks.h"
+
+#include "vtkAMRBox.h"
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
+#include "vtkOverlappingAMR.h"
+#include "vtkStructuredData.h"
+#include "vtkUniformGrid.h"
+#include "vtkUnsignedCharArray.h"
+#if __has_include("vtkOverlappingAMRMetaData.h")
+#include "vtkOverlappingAMRMetaData.h"
+#else
+#include "vtkAMRInformation.h"
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+// Of the versions of VTK that have the one or the other. vtkOverlappingAMR itself reports an error
+// of its own where it is asked for a box that is not set.
+template <class Grids>
+auto metaDataOf(Grids* grids, int) -> decltype(grids->GetOverlappingAMRMetaData())
+{
+  return grids->GetOverlappingAMRMetaData();
+}
+
+template <class Grids>
+auto metaDataOf(Grids* grids, long) -> decltype(grids->GetAMRInfo())
+{
+  return grids->GetAMRInfo();
+}
+
+std::string nameOf(unsigned int level, unsigned int block)
+{
+  return "block " + std::to_string(block) + " of level " + std::to_string(level);
+}
+
+template <class Visit>
+void visitBlocks(vtkOverlappingAMR* grids, const Visit& visit)
+{
+  for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
+  {
+    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+    {
+      visit(level, i);
+    }
+  }
+}
+
+// Without boxes VTK neither knows where grids are nor which cells finer ones cover.
+void requireBoxes(vtkOverlappingAMR* grids)
+{
+  visitBlocks(grids, [grids](unsigned int level, unsigned int i) {
+    const auto* data = metaDataOf(grids, 0);
+    const bool hasBox = data && !data->GetAMRBox(level, i).IsInvalid();
+    if (!hasBox || !metaDataOf(grids, 0)->HasSpacing(level))
+    {
+      throw Failure("The overlapping AMR has no " +
+        (hasBox ? "spacing of level " + std::to_string(level) : "box for " + nameOf(level, i)) +
+        "; its origin, the spacing of every level and the box of every block must be set "
+        "(SetOrigin, SetSpacing, SetAMRBox), as readers do");
+    }
+  });
+}
+
+bool hasGhosts(vtkOverlappingAMR* grids)
+{
+  bool has = false;
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    has = has || (grid && grid->GetCellGhostArray());
+  });
+  return has;
+}
+
+std::array<bool, 3> flatAxes(int description)
+{
+  switch (description)
+  {
+    case VTK_XY_PLANE:
+      return { false, false, true };
+    case VTK_YZ_PLANE:
+      return { true, false, false };
+    case VTK_XZ_PLANE:
+      return { false, true, false };
+    case VTK_X_LINE:
+      return { false, true, true };
+    case VTK_Y_LINE:
+      return { true, false, true };
+    case VTK_Z_LINE:
+      return { true, true, false };
+    case VTK_SINGLE_POINT:
+      return { true, true, true };
+    default:
+      return { false, false, false };
+  }
+}
+
+template <class Number>
+std::string textOf(const std::array<Number, 3>& counts)
+{
+  return std::to_string(counts[0]) + " x " + std::to_string(counts[1]) + " x " +
+    std::to_string(counts[2]);
+}
+
+// How many cells of a finer level are along one of a level, by the spacings.
+int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int finer)
+{
+  constexpr double most = 1e6;
+  constexpr double tolerance = 1e-3;
+  std::array<double, 3> coarse;
+  std::array<double, 3> fine;
+  grids->GetSpacing(level, coarse.data());
+  grids->GetSpacing(finer, fine.data());
+  const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
+  double common = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    if (isFlat[a])
+    {
+      continue;
+    }
+    const double ratio = coarse[a] / fine[a];
+    common = common == 0.0 ? std::round(ratio) : common;
+    if (!(coarse[a] > 0.0 && ratio < most && common >= 1.0 &&
+          std::abs(ratio - common) < tolerance * common))
+    {
+      std::ostringstream text;
+      text << "The overlapping AMR has the spacing " << coarse[a] << " of level " << level
+           << ", but " << fine[a] << " of level " << finer << " along axis " << a
+           << "; spacings must be positive, and a level's a whole multiple of the finer one's, the "
+              "same along all axes";
+      throw Failure(text.str());
+    }
+  }
+  return std::max(static_cast<int>(common), 1);
+}
+
+// Cells of a level along its axes, from the first to the last one, 0 along axes without any.
+struct Cells
+{
+  std::array<std::int64_t, 3> First{};
+  std::array<std::int64_t, 3> Last{};
+
+  bool AreNone() const
+  {
+    return this->Last[0] < this->First[0] || this->Last[1] < this->First[1] ||
+      this->Last[2] < this->First[2];
+  }
+};
+
+// Files and programs give flat boxes a cell across the plane, or none.
+Cells cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
+{
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+  grids->GetAMRBox(level, block).GetDimensions(low.data(), high.data());
+  const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
+  Cells cells;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    cells.First[a] = isFlat[a] ? 0 : low[a];
+    cells.Last[a] = isFlat[a] ? 0 : high[a];
+  }
+  return cells;
+}
+
+// The grid's cells are marked by their places in the box.
+void requireCellsOfBox(
+  vtkUniformGrid* grid, const Cells& box, int description, unsigned int level, unsigned int block)
+{
+  std::array<int, 3> points;
+  grid->GetDimensions(points.data());
+  std::array<std::int64_t, 3> counts;
+  bool isFilled = vtkStructuredData::GetDataDescription(points.data()) == description;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    counts[a] = box.Last[a] - box.First[a] + 1;
+    isFilled = isFilled && counts[a] == std::max(points[a] - 1, 1);
+  }
+  if (!isFilled)
+  {
+    throw Failure("The overlapping AMR has " + textOf(counts) + " cells in the box of " +
+      nameOf(level, block) + ", but a grid of " + textOf(points) +
+      " points there; all grids must have the cells of their boxes, and "
+      "lie along the axes of the grid description");
+  }
+}
+
+std::int64_t coarsened(std::int64_t cell, int ratio)
+{
+  return (cell >= 0 ? cell : cell - ratio + 1) / ratio;
+}
+
+struct Block
+{
+  Cells Own;
+  vtkUniformGrid* Grid; // none where it lies on another rank
+};
+
+// Which blocks have a grid on any rank, all levels one after the other.
+std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks* ranks)
+{
+  std::vector<unsigned char> present;
+  if (grids)
+  {
+    visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+      present.push_back(grids->GetDataSet(level, i) ? 1 : 0);
+    });
+  }
+  if (ranks)
+  {
+    for (const Bytes& bytes : ranks->Gather(toBytes(present)))
+    {
+      const auto there = fromBytes<unsigned char>(bytes);
+      for (std::size_t i = 0; i < std::min(there.size(), present.size()); ++i)
+      {
+        present[i] |= there[i];
+      }
+    }
+  }
+  return present;
+}
+
+// The blocks of a level, of which `present` says whether they have a grid, by their first cells
+// along axis 0.
+std::vector<Block> blocksOf(
+  vtkOverlappingAMR* grids, unsigned int level, const unsigned char* present)
+{
+  std::vector<Block> blocks;
+  for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+  {
+    if (present[i])
+    {
+      blocks.push_back({ cellsOf(grids, level, i), grids->GetDataSet(level, i) });
+    }
+  }
+  std::sort(blocks.begin(), blocks.end(),
+    [](const Block& a, const Block& b) { return a.Own.First[0] < b.Own.First[0]; });
+  return blocks;
+}
+
+using Flags = std::map<vtkUniformGrid*, vtkSmartPointer<vtkUnsignedCharArray>>;
+
+// Flags that may be written into; those that a grid has are of the input.
+vtkSmartPointer<vtkUnsignedCharArray> ownFlags(vtkUniformGrid* grid)
+{
+  const auto flags = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  if (vtkUnsignedCharArray* given = grid->GetCellGhostArray())
+  {
+    flags->DeepCopy(given);
+    return flags;
+  }
+  flags->SetName(vtkDataSetAttributes::GhostArrayName());
+  flags->SetNumberOfValues(grid->GetNumberOfCells());
+  flags->FillValue(0);
+  return flags;
+}
+
+// Marks the cells of a block that are among some of its level.
+void mark(const Block& block, const Cells& covered, Flags& flags)
+{
+  Cells common;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    common.First[a] = std::max(covered.First[a], block.Own.First[a]) - block.Own.First[a];
+    common.Last[a] = std::min(covered.Last[a], block.Own.Last[a]) - block.Own.First[a];
+  }
+  if (!block.Grid || common.AreNone())
+  {
+    return;
+  }
+  vtkSmartPointer<vtkUnsignedCharArray>& own = flags[block.Grid];
+  own = own ? own : ownFlags(block.Grid);
+  if (own->GetNumberOfValues() != block.Grid->GetNumberOfCells())
+  {
+    return; // an error of whoever reads them
+  }
+  const std::int64_t width = block.Own.Last[0] - block.Own.First[0] + 1;
+  const std::int64_t height = block.Own.Last[1] - block.Own.First[1] + 1;
+  for (std::int64_t z = common.First[2]; z <= common.Last[2]; ++z)
+  {
+    for (std::int64_t y = common.First[1]; y <= common.Last[1]; ++y)
+    {
+      unsigned char* row = own->GetPointer((z * height + y) * width);
+      for (std::int64_t x = common.First[0]; x <= common.Last[0]; ++x)
+      {
+        row[x] |= vtkDataSetAttributes::REFINEDCELL;
+      }
+    }
+  }
+}
+
+// vtkAMRUtilities::BlankCells would do, but reads past its arrays for boxes outside of the coarser
+// level's, for empty levels and for flat boxes with a cell across the plane.
+void findRefined(
+  const std::vector<Block>& coarse, const std::vector<Block>& fine, int ratio, Flags& flags)
+{
+  std::int64_t widest = 0;
+  for (const Block& block : coarse)
+  {
+    widest = std::max(widest, block.Own.Last[0] - block.Own.First[0]);
+  }
+  for (const Block& child : fine)
+  {
+    Cells covered;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      covered.First[a] = coarsened(child.Own.First[a], ratio);
+      covered.Last[a] = coarsened(child.Own.Last[a], ratio);
+    }
+    const std::int64_t first = covered.First[0] - widest;
+    auto block = std::lower_bound(coarse.begin(), coarse.end(), first,
+      [](const Block& one, std::int64_t cell) { return one.Own.First[0] < cell; });
+    for (; block != coarse.end() && block->Own.First[0] <= covered.Last[0]; ++block)
+    {
+      mark(*block, covered, flags);
+    }
+  }
+}
+
+Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& present)
+{
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
+    {
+      requireCellsOfBox(grid, cellsOf(grids, level, i), grids->GetGridDescription(), level, i);
+    }
+  });
+  Flags flags;
+  const unsigned char* ofLevel = present.data();
+  unsigned int level = 0;
+  std::vector<Block> coarse;
+  for (unsigned int finer = 0; finer < grids->GetNumberOfLevels(); ++finer)
+  {
+    std::vector<Block> fine = blocksOf(grids, finer, ofLevel);
+    ofLevel += grids->GetNumberOfDataSets(finer);
+    if (fine.empty())
+    {
+      continue;
+    }
+    if (!coarse.empty())
+    {
+      findRefined(coarse, fine, refinementOf(grids, level, finer), flags);
+    }
+    coarse = std::move(fine);
+    level = finer;
+  }
+  return flags;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks* ranks)
+{
+  const std::vector<unsigned char> present = presentBlocks(grids, ranks);
+  if (!grids)
+  {
+    return nullptr;
+  }
+  requireBoxes(grids);
+  Flags flags;
+  try
+  {
+    flags = findRefined(grids, present);
+  }
+  catch (const Failure&)
+  {
+    if (!hasGhosts(grids))
+    {
+      throw;
+    }
+    return grids; // the flags say it
+  }
+  // Grids of its own: those of the input stay as they are.
+  const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
+  marked->CopyStructure(grids);
+  visitBlocks(grids, [&](unsigned int level, unsigned int i) {
+    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    const auto found = flags.find(grid);
+    if (found == flags.end())
+    {
+      marked->SetDataSet(level, i, grid);
+      return;
+    }
+    vtkNew<vtkUniformGrid> copy;
+    copy->ShallowCopy(grid);
+    copy->GetCellData()->AddArray(found->second);
+    marked->SetDataSet(level, i, copy);
+  });
+  return marked;
+}
+
+} // namespace RectifiedTransport

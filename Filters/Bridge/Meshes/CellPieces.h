@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of a data set as simplices and boxes, in the index space of a grid.
+#ifndef RectifiedTransport_CellPieces_h
+#define RectifiedTransport_CellPieces_h
+
+#include "Bridge/Blocks/BlockValues.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Overlap/Overlap.h"
+
+#include "vtkNew.h"
+#include "vtkType.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataSet;
+class vtkGenericCell;
+class vtkIdList;
+class vtkPoints;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// For one thread.
+template <int D>
+class CellPieces
+{
+public:
+  CellPieces(const BlockValues& values, const ImageGrid& grid);
+  ~CellPieces();
+  CellPieces(const CellPieces&) = delete;
+  CellPieces& operator=(const CellPieces&) = delete;
+
+  // Adds the integrals over a cell, whose dimension is D; those over simplices along lines or
+  // exactly.
+  void AddTo(const GridSlab<D>& slab, vtkIdType cell, bool alongLines);
+
+  struct Size
+  {
+    double Integral = 0.0; // of the density
+    double Measure = 0.0;
+    double Wide = 0.0;            // of the measure, that of simplices which several lines cross
+    std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
+    double LeftOutIntegral = 0.0; // at most: of the boxes around these
+    double LeftOutMeasure = 0.0;
+  };
+  Size SizeOf(vtkIdType cell);
+
+  // Divides a cell, whose dimension is D, into simplices. Returns whether VTK could.
+  bool Divide(vtkIdType cell);
+  // Of the last Divide.
+  vtkIdType NumberOfSimplices() const;
+  // The point of the data set that is a vertex of a simplex, and its place in index space.
+  vtkIdType VertexId(vtkIdType simplex, vtkIdType vertex) const;
+  Point<D> Vertex(vtkIdType simplex, vtkIdType vertex) const;
+
+private:
+  bool FindBox(vtkIdType cell, MultilinearBox<D>& box);
+  void AddBoxAround(vtkIdType cell, Size& size);
+  template <class Visit>
+  bool VisitSimplices(vtkIdType cell, const Visit& visit);
+
+  vtkDataSet* Data;
+  const ImageGrid& Grid;
+  const double* Values;
+  const bool OnPoints;
+  bool HasBoxes; // pixels and voxels are boxes of the grid's axes
+  vtkNew<vtkGenericCell> Cell;
+  vtkNew<vtkIdList> Ids;
+  vtkNew<vtkPoints> Corners;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a grid for threads, and the cells of a data set that reach each.
+#ifndef RectifiedTransport_MeshSlabs_h
+#define RectifiedTransport_MeshSlabs_h
+
+#include "Bridge/Blocks/BlockValues.h"
+#include "Core/Geometry/ImageGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Equal parts of the grid along its last axis, whatever the threads are: enough of them for many,
+// and thick enough for cells to be in few.
+template <int D>
+struct MeshSlabs
+{
+  explicit MeshSlabs(const GridSize<D>& size)
+    : Planes(std::max<std::int64_t>((size[D - 1] + most - 1) / most, std::min(size[D - 1], least)))
+    , Count((size[D - 1] + this->Planes - 1) / this->Planes)
+  {
+  }
+  std::int64_t At(double plane) const
+  {
+    return std::clamp<std::int64_t>(
+      static_cast<std::int64_t>(std::floor(plane)) / this->Planes, 0, this->Count - 1);
+  }
+
+  static constexpr std::int64_t most = 64;
+  static constexpr std::int64_t least = 4;
+  std::int64_t Planes;
+  std::int64_t Count;
+};
+
+// The cells of a block that are divided and reach each slab, in their order.
+struct CellsOfSlabs
+{
+  std::vector<vtkIdType> Cells;
+  std::vector<std::int64_t> Begin; // of each slab, and the end
+};
+
+// Those that are nearer than `margin` grid cells to a slab. Throws Cancelled.
+template <int D>
+CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
+  const MeshSlabs<D>& slabs, double margin, Progress& progress);
+
+} // namespace RectifiedTransport
+
+#endif

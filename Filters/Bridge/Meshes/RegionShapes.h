@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of a plane that are filled by the even-odd rule: polygons, whatever they look like, and
+// closed lines, those of a block together.
+#ifndef RectifiedTransport_RegionShapes_h
+#define RectifiedTransport_RegionShapes_h
+
+#include "Bridge/Blocks/BlockValues.h"
+#include "Bridge/Meshes/MeshSlabs.h"
+#include "Core/Geometry/ImageGrid.h"
+#include "Core/Overlap/RegionOutlines.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+class Progress;
+
+// Marks the cells that are not divided but regions: polygons that are no triangles and no convex
+// quadrilaterals. Where values are on points, polygons stay divided that VTK divides into triangles
+// of their area. Throws Cancelled.
+void markRegions(std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress);
+
+// The regions of one polygon, or of the closed lines of a block; in index space. Read once.
+struct RegionShape
+{
+  int Block;
+  Rings Outline;
+  std::vector<vtkIdType> Points;  // of the rings
+  std::vector<vtkIdType> Cells;   // of each ring
+  std::vector<double> Values;     // of each ring's region
+  std::vector<OutlineEdge> Edges; // of regionOutlines
+};
+
+// Shapes that are worked on together.
+struct RegionBatch
+{
+  std::vector<RegionShape> Shapes;
+  // The edges that reach each slab, in the order of the shapes and their edges.
+  struct Edge
+  {
+    std::int32_t Shape;
+    std::int32_t Edge;
+  };
+  std::vector<Edge> Edges;
+  std::vector<std::size_t> Begin; // of each slab, and the end
+
+  const OutlineEdge& At(const Edge& edge) const
+  {
+    return this->Shapes[static_cast<std::size_t>(edge.Shape)]
+      .Edges[static_cast<std::size_t>(edge.Edge)];
+  }
+  // Whether two are of the same region.
+  bool IsSame(const Edge& a, const Edge& b) const
+  {
+    return a.Shape == b.Shape && this->At(a).Ring == this->At(b).Ring;
+  }
+};
+
+// Calls use(batch) for all regions in their order. Edges reach slabs that are nearer than `margin`
+// grid cells. As the work of the current stage. Throws Cancelled.
+void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
+  const MeshSlabs<2>& slabs, double margin, Progress& progress,
+  const std::function<void(const RegionBatch&)>& use);
+
+} // namespace RectifiedTransport
+
+#endif
