@@ -48,8 +48,8 @@ void requireExtent(vtkDataObject* data, const std::string& name)
   if (has && !isReadable(extent.data()))
   {
     throw Failure(name + " has the extent " + textOfExtent(extent.data()) +
-      "; along no axis it must end before it " + "begins or have more than " +
-      std::to_string(most) + " points");
+      "; each axis must end no earlier than it begins and have at most " + std::to_string(most) +
+      " points");
   }
 }
 

@@ -12,7 +12,6 @@ namespace RectifiedTransport
 TriangleLayers::TriangleLayers(const TriangleSurface& surface, std::int64_t layers,
   std::int64_t firstLayer, std::int64_t endLayer, double counted, double listed, Progress& progress)
   : Surface(surface)
-  , Layers(layers)
   , FirstLayer(firstLayer)
   , EndLayer(endLayer)
   , First(layers + 2)

@@ -41,7 +41,6 @@ private:
   void ForTriangles(Progress& progress, const Visit& visit);
 
   TriangleSurface Surface;
-  std::int64_t Layers;
   std::int64_t FirstLayer;
   std::int64_t EndLayer;
   LargeBuffer<std::int64_t> First;

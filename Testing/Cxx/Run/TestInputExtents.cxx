@@ -45,7 +45,7 @@ vtkSmartPointer<vtkImageData> makeWrong(const Wrong& wrong)
 void expect(Checks& checks, vtkAlgorithm* filter, const char* name, int line)
 {
   ErrorTest test(checks, filter);
-  test.Expect({ name, " has the extent ", "along no axis it must end before it begins" }, line);
+  test.Expect({ name, " has the extent ", "each axis must end no earlier than it begins" }, line);
 }
 
 void checkImages(Checks& checks)

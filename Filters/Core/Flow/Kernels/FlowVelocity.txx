@@ -125,7 +125,7 @@ RT_INLINE void cutBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>&
     for (int i = 0; i < BlockSize; ++i)
     {
       const double before = axis > 0 ? lanes.Outside[i] : 0.0;
-      lanes.Outside[i] = (from[i] < lowest) | (to[i] > highest) ? 1.0 : before;
+      lanes.Outside[i] = ((from[i] < lowest) | (to[i] > highest)) ? 1.0 : before;
       from[i] = smaller(larger(from[i], lowest), highest);
       to[i] = smaller(larger(to[i], lowest), highest);
     }
