@@ -1,130 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples run, take a user's own file, and draw what their reference pictures show.
-
-Call with --update to draw the reference pictures anew.
-"""
+"""The examples run, take a user's own file, and draw what their reference pictures show: see
+rt_examples.py. Those of stippling are in TestStippling.py and TestRelaxation.py, those of shapes in
+TestExampleShapes.py."""
 import os
 import re
-import shutil
 import subprocess
-import sys
-import unittest
 
 import numpy as np
-from PIL import Image
-from rt_testing import OUTPUT, SOURCE, main, need_display
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkTriangleFilter
-from vtkmodules.vtkFiltersSources import vtkCubeSource
-from vtkmodules.vtkIOGeometry import vtkSTLWriter
-from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkPNGReader
-
-DATA = os.path.join(SOURCE, "Testing", "Data")
-SMALL = {"StippleImage": ["--particles", "5000", "--pixels", "800"],
-         "StipplePrint": ["--particles", "3000", "--panel", "160"],
-         "VideoStippling": ["--size", "160", "--frames", "8", "--particles", "1000",
-                            "--panel", "160"],
-         "ColourStippling": ["--particles", "3000", "--iterations", "10", "--pixels", "480"],
-         "Territories": ["--sites", "40", "--iterations", "10", "--resolution", "342", "--pixels",
-                         "480"],
-         "Cartogram": ["--pixels", "480"],
-         "StippleSurface": ["--dots", "3000", "--panel", "300"],
-         "SampleVolume": ["--particles", "50000", "--pixels", "400"],
-         "Figure2Paths": ["--particles", "2000", "--paths", "24", "--pixels", "480"],
-         "Figure4Lookup": ["--resolutions", "16", "64", "--samples", "64", "--published", "48",
-                           "--check", "40", "--size", "128", "--step-samples", "64",
-                           "--steps", "5", "25", "--panel", "96"],
-         "Figure5Cells": ["--sites", "64", "--resolution", "128", "--pixels", "480"],
-         "PowerCells": ["--sites", "64", "--resolution", "64", "--drawn", "20", "--pixels", "480"],
-         "Figure6Map": ["--size", "64", "--panel", "64"],
-         "Figure7Steps": ["--size", "128", "--particles", "1500", "--steps", "2", "10", "50",
-                          "--pictures", "2", "--panel", "128"],
-         "Figure8Samples": ["--samples", "500", "2000", "--size", "256", "--sizes", "64", "128",
-                            "--particles", "1000", "--repeats", "2", "--panel", "128"],
-         "Figure10Relaxation": ["--size", "256", "--particles", "600", "--iterations", "1", "5",
-                                "20", "--panel", "128"],
-         "Table1Stippling": ["--size", "192", "--samples", "400", "600", "--iterations", "10",
-                             "--panel", "96"],
-         "Figure11Parameterization": ["--resolution", "128", "--panel", "160"],
-         "FlowMaps": ["--size", "128", "--particles", "1500", "--panel", "160"],
-         "Morph2D": ["--size", "64", "--frames", "3", "--panel", "96"],
-         "Morph3D": ["--resolution", "32", "--frames", "3", "--panel", "120"],
-         "MorphAnimation": ["--size", "64", "--frames", "5", "--seconds", "1", "--pictures", "3",
-                            "--panel", "120"],
-         "InSitu": ["--particles", "2000", "--panel", "320"],
-         "Barycenters2D": ["--size", "64", "--rows", "3", "--panel", "96"],
-         "Barycenters3D": ["--resolution", "32", "--rows", "3", "--panel", "120"]}
-SHAPES = {"Morph2D": 2, "Morph3D": 2, "MorphAnimation": 2, "Barycenters2D": 4, "Barycenters3D": 3}
-need_meshes = unittest.skipUnless(
-    os.path.isfile(os.path.join(SOURCE, "build-meshes", "complete")),
-    "needs the meshes that Testing/run.sh fetches")
-OWN = {"Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
-
-
-def run(example, *arguments):
-    """What an example prints with arguments, and its exit code; its pictures go to OUTPUT."""
-    script = os.path.join(SOURCE, "Examples", example, "run.py")
-    done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), script, "--output", OUTPUT,
-                           *arguments, *SMALL[example]], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True)
-    return done.stdout, done.returncode
-
-
-def read(path):
-    """A PNG as rows, columns and RGB, and the image itself."""
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height = image.GetDimensions()[:2]
-    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
-    return pixels[..., :3].astype(float), image
-
-
-def blurred(pixels, block=4):
-    """Means over blocks: what a rasteriser does at the edges of dots evens out."""
-    height, width = (n - n % block for n in pixels.shape[:2])
-    shape = (height // block, block, width // block, block, pixels.shape[2])
-    return pixels[:height, :width].reshape(shape).mean(axis=(1, 3))
-
-
-def tables(printed):
-    """The tables that an example prints: rows of cells, under their headings."""
-    blocks = re.findall(r"^(?:  .*\n)+", printed, re.MULTILINE)
-    return [[re.split("  +", line.strip()) for line in block.splitlines()[1:]] for block in blocks]
-
-
-def first(cell):
-    """The first number of a cell."""
-    return float(cell.split()[0])
-
-
-class ExampleTest(unittest.TestCase):
-    """What tests of examples check; those of stippling are in TestStippling.py and
-    TestRelaxation.py."""
-
-    def ran(self, example, *arguments):
-        """The output of an example that runs."""
-        printed, code = run(example, *arguments)
-        self.assertEqual(code, 0, printed)
-        return printed
-
-    def refused(self, example, *arguments):
-        """The output of an example that refuses its arguments."""
-        printed, code = run(example, *arguments)
-        self.assertNotEqual(code, 0)
-        return printed
-
-    def check_picture(self, name):
-        reference = os.path.join(DATA, "Baseline", name)
-        drawn = os.path.join(OUTPUT, name)
-        if "--update" in sys.argv:
-            shutil.copy(drawn, reference)
-        expected, found = read(reference)[0], read(drawn)[0]
-        self.assertEqual(found.shape, expected.shape)
-        difference = np.abs(blurred(found) - blurred(expected))
-        self.assertLess(difference.mean(), 1, drawn)
-        self.assertLess((difference > 40).mean(), 0.002, drawn)
+from rt_examples import DATA, OWN, SHAPES, SMALL, ExampleTest, first, need_meshes, read, tables
+from rt_testing import OUTPUT, main, need_display
+from vtkmodules.vtkIOImage import vtkJPEGWriter
 
 
 class Examples(ExampleTest):
@@ -133,12 +18,6 @@ class Examples(ExampleTest):
         numbers = [first(cell) for cell in numbers]
         self.assertEqual(numbers, sorted(numbers, reverse=True))
         self.assertLess(numbers[-1], numbers[0])
-
-    def stages(self, times):
-        """What was timed; how long it took is the machine's, but the clock's seconds are there."""
-        for row in times:
-            self.assertRegex(row[1], r"^\d+\.\d\d$")
-        return [row[0] for row in times]
 
     def test_stipple_image(self):
         self.ran("StippleImage")
@@ -413,104 +292,6 @@ class Examples(ExampleTest):
             self.assertEqual(polish[4], "0")
         self.check_picture("figure11-nefertiti.png")
         self.check_picture("figure11-mushroom.png")
-
-    @need_meshes
-    def test_morph_2d(self):
-        printed = self.ran("Morph2D")
-        times = tables(printed)[0]
-        self.assertEqual([row[0] for row in times],
-                         ["bunny to camel+dinosaur", "knot to coupling", "bull to rings"])
-        self.check_picture("morph-2d.png")
-
-    def test_morph_of_a_shape_into_itself(self):
-        """All of its frames are alike but for the colour."""
-        self.ran("Morph2D", "spot", "spot")
-        drawn = 255 - read(os.path.join(OUTPUT, "morph-2d.png"))[0].mean(axis=2)
-        frames = [drawn[10:106, left:left + 96] for left in (10, 116, 222)]
-        self.assertTrue(0.1 < (frames[0] > 0.5 * frames[0].max()).mean() < 0.4)
-        for frame in frames[1:]:
-            np.testing.assert_allclose(frame / frame.max(), frames[0] / frames[0].max(), atol=0.02)
-
-    @need_meshes
-    def test_morph_3d(self):
-        printed = self.ran("Morph3D")
-        steps = ["two maps, step t = 0", "its surface", "step t = 0.50", "its surface",
-                 "step t = 1.00", "its surface"]
-        self.assertEqual(
-            [self.stages(times) for times in tables(printed)],
-            [["solid of spot", "solid of " + other, *steps] for other in ("bunny", "eight")])
-        self.check_picture("morph-3d.png")
-
-    def test_morph_of_an_own_surface(self):
-        """A cube of separate triangles to itself stays a cube."""
-        source = vtkCubeSource()
-        triangles = vtkTriangleFilter()
-        triangles.SetInputConnection(source.GetOutputPort())
-        writer = vtkSTLWriter()
-        writer.SetInputConnection(triangles.GetOutputPort())
-        writer.SetFileName(os.path.join(OUTPUT, "own.stl"))
-        writer.Write()
-        self.ran("Morph3D", *[os.path.join(OUTPUT, "own.stl")] * 2)
-        drawn = read(os.path.join(OUTPUT, "morph-3d.png"))[0]
-        inked = [(drawn[10:130, left:left + 120] < 250).any(axis=2).mean() for left in
-                 (10, 140, 270)]
-        self.assertGreater(inked[0], 0.3)
-        np.testing.assert_allclose(inked, inked[0], rtol=0.02)
-
-    def test_not_a_surface(self):
-        for name, text in (("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
-                           ("binary.off", "OFF BINARY\n3 1 0\n"), ("broken.stl", "solid\n")):
-            path = os.path.join(OUTPUT, name)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(text)
-            printed = self.refused("Morph3D", path, "spot")
-            self.assertIn(path + " holds no ", printed)
-        printed = self.refused("Barycenters3D", "spot", "brain", "knot")
-        self.assertIn("the shapes with names are armadillo, bear", printed)
-
-    @need_meshes
-    def test_an_open_surface(self):
-        """The filter's error is printed, and no picture is left."""
-        drawn = os.path.join(OUTPUT, "morph-3d.png")
-        if os.path.exists(drawn):
-            os.remove(drawn)
-        mesh = os.path.join(SOURCE, "build-meshes", "lion-head.off")
-        printed = self.refused("Morph3D", mesh, "spot")
-        self.assertIn("The input surface is not closed: it has ", printed)
-        self.assertIn("every edge must be one of two triangles, or of another even number", printed)
-        self.assertFalse(os.path.exists(drawn))
-
-    def test_number_of_shapes(self):
-        for example, number in SHAPES.items():
-            printed = self.refused(example, "spot")
-            self.assertIn("1 shapes are given; it must be", printed)
-
-    @need_meshes
-    def test_morph_animation(self):
-        """The cross-fade's middle is the mean of its ends; the morph's is not, for mass moves."""
-        self.ran("MorphAnimation")
-        with Image.open(os.path.join(OUTPUT, "morph-animation.gif")) as film:
-            self.assertEqual((film.n_frames, film.info["duration"], film.info["loop"]), (8, 250, 0))
-        drawn = read(os.path.join(OUTPUT, "morph-animation.png"))[0]
-        for low, fades in (10, True), (166, False):
-            start, middle, end = (drawn[low:low + 120, left:left + 120]
-                                  for left in (10, 140, 270))
-            difference = np.abs(middle - (start + end) / 2)
-            self.assertEqual((difference > 12).mean() < 0.01, fades)
-        self.check_picture("morph-animation.png")
-
-    @need_meshes
-    def test_barycenters_2d(self):
-        self.ran("Barycenters2D")
-        self.check_picture("barycenters-2d.png")
-
-    @need_meshes
-    def test_barycenters_3d(self):
-        printed = self.ran("Barycenters3D")
-        self.assertEqual(self.stages(tables(printed)[0]),
-                         ["three solids", "three maps, the first barycenter and surface",
-                          "another barycenter and surface"])
-        self.check_picture("barycenters-3d.png")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import sys
 import unittest
 
 import numpy as np
-from TestExamples import DATA, ExampleTest, first, read, tables
+from rt_examples import DATA, ExampleTest, first, read, tables
 from rt_testing import OUTPUT, SOURCE, main, need_display
 
 PHOTOGRAPHS = [os.path.join(DATA, name) for name in ("raccoon.png", "ascent.png")]

@@ -13,7 +13,7 @@ from base64 import a85decode
 
 import numpy as np
 from PIL import Image
-from TestExamples import DATA, ExampleTest, blurred, first, read, run, tables
+from rt_examples import DATA, ExampleTest, blurred, first, read, run, tables
 from rt_testing import OUTPUT, load_plugin, main, need_display, positions
 
 PHOTOGRAPH = os.path.join(DATA, "raccoon.png")

@@ -52,8 +52,12 @@ CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
         low = std::min(low, index[D - 1]);
         high = std::max(high, index[D - 1]);
       }
-      reaches[static_cast<std::size_t>(cell)] = { static_cast<std::int32_t>(slabs.At(low - margin)),
-        static_cast<std::int32_t>(slabs.At(high + margin)) };
+      if (low <= high)
+      {
+        reaches[static_cast<std::size_t>(cell)] = { static_cast<std::int32_t>(
+                                                      slabs.At(low - margin)),
+          static_cast<std::int32_t>(slabs.At(high + margin)) };
+      }
     }
   });
   CellsOfSlabs found;

@@ -7,7 +7,6 @@
 #include "Core/Geometry/ImageGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +27,9 @@ struct MeshSlabs
   }
   std::int64_t At(double plane) const
   {
-    return std::clamp<std::int64_t>(
-      static_cast<std::int64_t>(std::floor(plane)) / this->Planes, 0, this->Count - 1);
+    const double end = static_cast<double>(this->Planes * this->Count); // far ones are no integers
+    return std::min(
+      static_cast<std::int64_t>(std::clamp(plane, 0.0, end)) / this->Planes, this->Count - 1);
   }
 
   static constexpr std::int64_t most = 64;
