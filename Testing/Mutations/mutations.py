@@ -68,7 +68,7 @@ SURVIVED = [
     T(CORE + "Flow/Kernels/MultistepLanes.txx", "constexpr double rounding = 1e-9;\n    alignas(64) Lanes mass;",
       "const double rounding = MUTANT ? 1e-3 : 1e-9;\n    alignas(64) Lanes mass;"),
     S(CORE + "Flow/Kernels/FlowKernels.cxx", "c[0] = c[1] = 0.5;", "c[0] = 1.0; c[1] = 0.0;"),
-    E(CORE + "Seeds/BlueNoise.cxx", "*last + 0.5 * (next - *last)", "*last + 0.999 * (next - *last)"),
+    E(CORE + "Seeds/BlueNoiseWindow.h", "*last + 0.5 * (next - *last)", "*last + 0.999 * (next - *last)"),
 ]
 
 # The same kinds of mistakes in other places: an operator, a bound, an index, a factor, a unit, a line
@@ -94,7 +94,7 @@ OTHERS = [
       "if (i < high[0] || i == low[0]) { visit(row * this->Tiles[0] + i); }"),
     E(CORE + "Flow/PivotLattice.cxx", "placeInCell<Dimension>(«i», perCell)", "(i ^ 1) % perCell"),
     # seeds
-    E(CORE + "Seeds/BlueNoise.cxx", "«coordinates[a] * 0x1p-16»", "coordinates[a] * 0x1.01p-16"),
+    E(CORE + "Seeds/BlueNoiseWindow.h", "«coordinates[a] * 0x1p-16»", "coordinates[a] * 0x1.01p-16"),
     E(CORE + "Seeds/Seeds.cxx", "«std::max(n / ideal, ideal / n)»", "n / ideal"),
     # splats
     E(CORE + "Splat/Kernels/SplatBlock.txx", "mass[i] = «job.Scale * masses[first + begin + i]»",

@@ -42,8 +42,8 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   for (int axis = 0; axis < Dimension; ++axis)
   {
     int& first = this->FirstHalved[axis];
-    for (first = 0; first < DeepestLevel &&
-         4.0 * this->RootSides[axis] < std::ldexp(widestRoot, -first);)
+    for (first = 0;
+         first < DeepestLevel && 4.0 * this->RootSides[axis] < std::ldexp(widestRoot, -first);)
     {
       ++first;
     }
@@ -249,7 +249,8 @@ Point<Dimension> SpacingTree<Dimension>::PointOf(const Node& node) const
   Point<Dimension> point;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    const double roots = static_cast<double>(node[axis]) / static_cast<double>(this->Width(axis, 0));
+    const double roots =
+      static_cast<double>(node[axis]) / static_cast<double>(this->Width(axis, 0));
     point[axis] = std::min(roots * this->RootSides[axis], this->Frame.Sides[axis]);
   }
   return point;

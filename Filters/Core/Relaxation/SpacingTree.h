@@ -21,8 +21,8 @@ class Progress;
 // All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
 // smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at
 // most twice the distance (the largest along an axis). A leaf is at most `finest` times the spacing
-// at its centre wide, and boxes are not halved along an axis along which they are less than a quarter
-// as wide: there is a bounded number of leaves a point.
+// at its centre wide, and boxes are not halved along an axis along which they are less than a
+// quarter as wide: there is a bounded number of leaves a point.
 template <int Dimension>
 class SpacingTree
 {
