@@ -3,12 +3,16 @@
 
 Tests called with --update draw the reference pictures anew.
 """
+import contextlib
+import io
 import os
 import re
+import runpy
 import shutil
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 from rt_testing import OUTPUT, SOURCE
@@ -57,11 +61,16 @@ need_meshes = unittest.skipUnless(
 OWN = {"Figure2Paths", "Figure5Cells", "PowerCells", "InSitu"}  # examples that make their input
 
 
+def command(example, *arguments):
+    """The script of an example and its arguments; its pictures go to OUTPUT."""
+    return [os.path.join(SOURCE, "Examples", example, "run.py"), "--output", OUTPUT, *arguments,
+            *SMALL[example]]
+
+
 def run(example, *arguments):
-    """What an example prints with arguments, and its exit code; its pictures go to OUTPUT."""
-    script = os.path.join(SOURCE, "Examples", example, "run.py")
-    done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"), script, "--output", OUTPUT,
-                           *arguments, *SMALL[example]], stdout=subprocess.PIPE,
+    """What an example prints with arguments, and its exit code."""
+    done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"),
+                           *command(example, *arguments)], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, universal_newlines=True)
     return done.stdout, done.returncode
 
@@ -109,6 +118,18 @@ class ExampleTest(unittest.TestCase):
         printed, code = run(example, *arguments)
         self.assertNotEqual(code, 0)
         return printed
+
+    def refused_here(self, example, *arguments):
+        """As refused, in this process: starting ParaView takes longer than to refuse."""
+        script = command(example, *arguments)
+        printed = io.StringIO()
+        with mock.patch.object(sys, "argv", script), contextlib.redirect_stdout(printed), \
+                contextlib.redirect_stderr(printed):
+            with self.assertRaises(SystemExit) as stopped:
+                runpy.run_path(script[0], run_name="__main__")
+        code = stopped.exception.code
+        self.assertNotIn(code, (None, 0))
+        return printed.getvalue() + (code if isinstance(code, str) else "")
 
     def check_picture(self, name):
         reference = os.path.join(DATA, "Baseline", name)
