@@ -125,6 +125,14 @@ class Regions(unittest.TestCase):
         self.check(data_of([[(0, 0), (2, 2), (2, 0), (0, 2)]]), 2)
         self.check(data_of([[(0, 0), (4, 0), (1, 1), (0, 4)]]), 4)
 
+    def test_mass_of_one_crossing_region(self):
+        """Its share of the mass is found after its outline was: once more by the even-odd rule."""
+        bow = [(0, 0), (2, 2), (2, 0), (0, 2)]
+        beside = [np.array(square(0, 1)) + [3 + i, 0] for i in range(30)]
+        _, listener = sample(data_of([*beside, bow], [1.0] * 30 + [1e20]))
+        self.assertEqual(len(listener.warnings), 1, listener.warnings)
+        self.assertIn("1e+20", listener.warnings[0])
+
     def test_cells_of_grids(self):
         """A concave quadrilateral, where VTK may take the outer diagonal, and a keyhole."""
         grid = vtkUnstructuredGrid()
