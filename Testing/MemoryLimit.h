@@ -6,7 +6,13 @@
 
 #include <cstdint>
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) // Clang's way to tell
+#define HAS_ADDRESS_SANITIZER
+#endif
+#endif
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(HAS_ADDRESS_SANITIZER)
 #define HAS_MEMORY_LIMIT
 #include "Benchmarks/FreshMemory.h"
 
