@@ -19,12 +19,12 @@ void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t
     bool isFirst = true;
     for (const WeightedPositions& part : parts)
     {
-      const double* positions = part.Positions.data() + begin;
       const double weight = part.Weight;
       if (weight == 0.0)
       {
         continue;
       }
+      const double* positions = part.Positions.data() + begin;
       if (isFirst)
       {
 #pragma omp simd
