@@ -42,8 +42,8 @@ SpacingTree<Dimension>::SpacingTree(const RectifiedFlow<Dimension>& flow,
   for (int axis = 0; axis < Dimension; ++axis)
   {
     int& first = this->FirstHalved[axis];
-    for (first = 0;
-         first < DeepestLevel && 4.0 * this->RootSides[axis] < std::ldexp(widestRoot, -first);)
+    first = 0;
+    while (first < DeepestLevel && 4.0 * this->RootSides[axis] < std::ldexp(widestRoot, -first))
     {
       ++first;
     }
@@ -274,7 +274,7 @@ Point<Dimension> SpacingTree<Dimension>::Sides(int depth) const
   Point<Dimension> sides = this->RootSides;
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    sides[axis] = std::ldexp(sides[axis], -std::max(0, depth - this->FirstHalved[axis]));
+    sides[axis] = std::ldexp(sides[axis], -this->Halvings(axis, depth));
   }
   return sides;
 }

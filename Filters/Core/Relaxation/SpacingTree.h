@@ -80,9 +80,11 @@ private:
   void FindConstrained();
   void FindSpacing(Progress& progress);
   bool IsHalved(int axis, int depth) const { return depth >= this->FirstHalved[axis]; }
+  // How often a box of a depth was halved along an axis.
+  int Halvings(int axis, int depth) const { return std::max(0, depth - this->FirstHalved[axis]); }
   std::int64_t Width(int axis, int depth) const
   {
-    return std::int64_t{ 1 } << (DeepestLevel - std::max(0, depth - this->FirstHalved[axis]));
+    return std::int64_t{ 1 } << (DeepestLevel - this->Halvings(axis, depth));
   }
   Point<Dimension> Sides(int depth) const;
   Point<Dimension> PointOf(const Node& node) const;
