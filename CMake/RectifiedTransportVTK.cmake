@@ -10,10 +10,23 @@ endif ()
 option(RectifiedTransport_BUILD_PARAVIEW_PLUGIN
   "Build the ParaView plugin, and everything else against ParaView's VTK" "${ParaView_FOUND}")
 
+# rectified_transport_forget_private(LIBRARY...): what ParaView's shared libraries are made of
+# privately is none of ours; CMake would require its development files, down to HDF5 and Boost.
+function (rectified_transport_forget_private)
+  foreach (library IN LISTS ARGN)
+    get_target_property(configurations "${library}" IMPORTED_CONFIGURATIONS)
+    foreach (configuration IN LISTS configurations)
+      set_property(TARGET "${library}"
+        PROPERTY "IMPORTED_LINK_DEPENDENT_LIBRARIES_${configuration}")
+    endforeach ()
+  endforeach ()
+endfunction ()
+
 set(vtk_place)
 if (RectifiedTransport_BUILD_PARAVIEW_PLUGIN)
   # Without components ParaView's package requires all dependencies of its client, Qt included.
   find_package(ParaView REQUIRED COMPONENTS RemotingViews)
+  rectified_transport_forget_private(ParaView::RemotingServerManager ParaView::RemotingViews)
   include(CMake/RectifiedTransportPanel.cmake)
   set(vtk_place PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
 endif ()

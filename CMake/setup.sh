@@ -7,7 +7,6 @@ apt_log="$build/apt.log"
 packages_build="cmake ninja-build g++ libeigen3-dev paraview-dev python3-paraview python3-dev
   libopenmpi-dev libfreetype-dev libglew-dev libopengl-dev libx11-dev"
 packages_help="qhelpgenerator-qt5 python3-markdown python3-pil"
-packages_panel="qtbase5-dev"
 packages_render="xvfb xauth"
 packages_examples="python3-scipy python3-reportlab python-matplotlib-data openmpi-bin
   python3-mpi4py"
@@ -124,9 +123,12 @@ need_to_build()
 # What the plugin has in ParaView's window besides its filters; the build leaves out what it lacks.
 need_for_window()
 {
+  local packages_panel=qtbase5-dev
+  if grep -qs 'PARAVIEW_QT_MAJOR_VERSION "6"' /usr/lib/*/cmake/paraview-*/paraview-config.cmake; then
+    packages_panel=qt6-base-dev
+  fi
   # shellcheck disable=SC2086
   need $packages_help || echo "The plugin is built without help in ParaView's window" >&2
-  # shellcheck disable=SC2086
   need $packages_panel || echo "The plugin is built without its own widgets on ParaView's panel" >&2
 }
 # For configure_and_build: what these need may have come since the last time.
