@@ -9,6 +9,9 @@ set(qt_package "qt${qt_version}-base-dev")
 if (qt_version EQUAL 5)
   set(qt_package qtbase5-dev)
 endif ()
+# Qt 6 would walk all folders for its scripts of deployment, which nobody needs here, and never return
+# from the root: vtk_module_build adds that to itself.
+set_property(GLOBAL PROPERTY _qt_have_generated_deploy_support TRUE)
 find_package("Qt${qt_version}" QUIET COMPONENTS Widgets)
 set(has_panel OFF)
 if (TARGET "Qt${qt_version}::Widgets" AND TARGET ParaView::pqComponents)
