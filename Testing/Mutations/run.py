@@ -9,6 +9,7 @@ usage: run.py --source DIR --build DIR [--jobs N] [--only NUMBER...] [--set surv
        run.py --check    only whether each change still finds its place in the sources
 """
 import argparse
+import math
 import os
 import pathlib
 import re
@@ -31,12 +32,8 @@ inline int {SWITCH}_read()
 inline int {SWITCH} = {SWITCH}_read();
 #endif
 """
-# Which tests come first, by where the change is: what fails, fails soon.
-ORDER = [
-    ("Filters/Core/", ["^core[.]", "Cxx-", "^python[.]"]),
-    ("Filters/", ["Cxx-", "^core[.]", "^python[.]"]),
-    ("Plugin/", ["^python[.]"]),
-]
+# Which tests come first: whether only those near the change, and how many seconds they may take.
+ORDER = [(True, 2), (True, 20), (False, 2), (True, math.inf), (False, 20), (False, math.inf)]
 LEFT_OUT = "long|gui|install|benchmark|example|campaign"
 # Tells that something has changed, not that it is wrong.
 DIGESTS = "^core[.]Bits|TestDigests"
@@ -97,7 +94,8 @@ def check(source, chosen):
 
 
 def plant(source, copy, chosen):
-    """Copies the tracked files, with the changes behind their switch."""
+    """Copies the tracked files, with the changes behind their switch. Whether any is new."""
+    new = False
     names = subprocess.run(["git", "-C", source, "ls-files", "-z"], check=True,
                            capture_output=True, text=True).stdout.split("\0")[:-1]
     for name in names:
@@ -107,7 +105,8 @@ def plant(source, copy, chosen):
         target = pathlib.Path(copy, name)
         if write(target, planted(path, name, chosen)):
             shutil.copymode(path, target)
-    write(pathlib.Path(copy, "mutation.h"), HEADER.encode())
+            new = True
+    return write(pathlib.Path(copy, "mutation.h"), HEADER.encode()) or new
 
 
 def build(copy, folder, meshes, jobs):
@@ -122,22 +121,73 @@ def build(copy, folder, meshes, jobs):
                    stdout=subprocess.DEVNULL)
 
 
-def first_failure(folder, file, number, jobs):
-    """The first test that fails, or None."""
+def ctest(folder, number, arguments):
+    """The first test that fails, or None, and ctest's output."""
     environment = dict(os.environ, OMP_WAIT_POLICY="passive", **{SWITCH: str(number)})
-    groups = next(groups for prefix, groups in ORDER if file.startswith(prefix))
-    for group in groups:
-        result = subprocess.run(
-            ["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset", "ctest", "--test-dir",
-             folder, "-j", str(jobs), "-R", group, "-LE", LEFT_OUT, "-E", DIGESTS,
-             "--stop-on-failure", "--timeout", "240"],
-            env=environment, capture_output=True, text=True)
-        failed = re.findall(r"Test +#\d+: (\S+) .*\*\*\*(?!Not Run|Skipped)(.*)", result.stdout)
-        if failed:
-            return failed[0][0].replace("RectifiedTransport::vtkRectifiedTransport", "")
-        if result.returncode != 0:
-            raise SystemExit(result.stdout + result.stderr)
-    return None
+    # With these ctest would begin with the longest.
+    costs = pathlib.Path(folder, "Testing/Temporary/CTestCostData.txt")
+    costs.unlink(missing_ok=True)
+    result = subprocess.run(
+        ["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset", "ctest", "--test-dir", folder,
+         "--stop-on-failure", "--timeout", "240", *arguments],
+        env=environment, capture_output=True, text=True)
+    failed = re.findall(r"Test +#\d+: (\S+) .*\*\*\*(?!Not Run|Skipped)(.*)", result.stdout)
+    if not failed and result.returncode != 0:
+        raise SystemExit(result.stdout + result.stderr)
+    return (failed[0][0] if failed else None), result.stdout
+
+
+class Tests:
+    """Those of a build without wrong changes, by number, with the seconds that they took."""
+
+    def __init__(self, source, folder, jobs, new):
+        self.source = pathlib.Path(source)
+        self.folder = folder
+        self.jobs = jobs
+        log = pathlib.Path(folder, "without_changes.log")
+        if new:
+            log.unlink(missing_ok=True)
+        if not log.exists():
+            failure, output = ctest(folder, 0, ["-j", str(jobs), "-LE", LEFT_OUT, "-E", DIGESTS])
+            if failure:
+                raise SystemExit(f"{failure} fails without any wrong change")
+            log.write_text(output)
+        self.found = [(int(number), name, float(seconds)) for number, name, seconds in
+                      re.findall(r"Test +#(\d+): (\S+) .*Passed +([0-9.]+) sec",
+                                 log.read_text())]
+
+    def near(self, file):
+        """Matches tests whose source names the changed file, or lies in a room of its name."""
+        rooms = pathlib.Path(file).parent.parts[2:]
+        word = re.compile(rf"\b{pathlib.Path(file).stem}\b")
+        names = {f"Test{room}\\w*" for room in rooms}
+        for path in [*self.source.glob("Testing/C*/**/Test*.cxx"),
+                     *self.source.glob("Testing/Python/Test*.py")]:
+            text = path.read_text()
+            if word.search(text) or set(rooms) & set(path.parent.parts):
+                names |= {path.stem, *re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+)", text, re.M)}
+        return re.compile(rf"(?:.*[./-])?(?:{'|'.join(names)})(?:[./<].*)?").fullmatch
+
+    def groups(self, file):
+        """Lists of numbers: what is near the change and what is quick comes first."""
+        near = self.near(file)
+        inside = file.startswith("Filters/Core/")
+        left = [test for test in self.found if inside or not test[1].startswith("core.")]
+        for closest, longest in ORDER:
+            group = [test for test in left if test[2] < longest and (not closest or near(test[1]))]
+            left = [test for test in left if test not in group]
+            yield [number for number, _, _ in group]
+
+    def first_failure(self, file, number):
+        """The first test that fails with a wrong change, or None."""
+        for group in self.groups(file):
+            if not group:
+                continue
+            listed = ",".join(map(str, ["0,0,0", *group]))
+            failure, _ = ctest(self.folder, number, ["-j", str(self.jobs), "-I", listed])
+            if failure:
+                return failure.replace("RectifiedTransport::vtkRectifiedTransport", "")
+        return None
 
 
 def main():
@@ -165,11 +215,9 @@ def main():
         return 0
     copy = pathlib.Path(options.build, "source")
     folder = str(pathlib.Path(options.build, "build"))
-    plant(options.source, str(copy), everything)
+    new = plant(options.source, str(copy), everything)
     build(str(copy), folder, meshes, options.jobs)
-    failure = first_failure(folder, "Filters/Core/", 0, options.jobs)
-    if failure:
-        raise SystemExit(f"{failure} fails without any wrong change")
+    tests = Tests(copy, folder, options.jobs, new)
 
     caught = 0
     print("| | file | change | noticed by |\n|---|---|---|---|")
@@ -181,7 +229,7 @@ def main():
             target.write_text(changed(before, mutation, number))
             build(str(copy), folder, meshes, options.jobs)
         try:
-            failure = first_failure(folder, mutation.file, number, options.jobs)
+            failure = tests.first_failure(mutation.file, number)
         finally:
             if mutation.kind == "X":
                 target.write_text(before)
