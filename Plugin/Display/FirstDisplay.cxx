@@ -126,7 +126,8 @@ void colourByCategories(vtkSMProxy* representation, int highest)
   table->UpdateVTKObjects();
 }
 
-void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMProxy* representation)
+void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data,
+  vtkSMPVRepresentationProxy* representation)
 {
   const char* array = element->GetAttribute("array");
   if (!array)
@@ -135,14 +136,14 @@ void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMProxy* 
   }
   if (!*array)
   {
-    vtkSMPVRepresentationProxy::SetScalarColoring(representation, nullptr, vtkDataObject::POINT);
+    representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
     return;
   }
   for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     if (vtkPVArrayInformation* information = data->GetArrayInformation(array, association))
     {
-      vtkSMPVRepresentationProxy::SetScalarColoring(representation, array, association);
+      representation->SetScalarColoring(array, association);
       int categories = 0;
       if (isGiven(element, "categories", categories) && categories != 0)
       {
@@ -150,7 +151,7 @@ void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMProxy* 
       }
       else
       {
-        vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(representation);
+        representation->RescaleTransferFunctionToDataRange();
       }
       return;
     }
@@ -172,12 +173,12 @@ void setProperty(vtkSMProxy* proxy, const char* name, const char* text)
   vtkSMPropertyHelper(proxy, name).Set(values.data(), static_cast<unsigned int>(values.size()));
 }
 
-void apply(
-  vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
+  vtkSMPVRepresentationProxy* representation)
 {
   if (const char* type = element->GetAttribute("type"))
   {
-    vtkSMRepresentationProxy::SetRepresentationType(representation, type);
+    representation->SetRepresentationType(type);
   }
   colourBy(element, producer->GetDataInformation(static_cast<unsigned int>(port)), representation);
   for (unsigned int i = 0; i < element->GetNumberOfNestedElements(); ++i)
@@ -203,7 +204,7 @@ public:
 
   static Follower* New() { return new Follower; }
 
-  void Follow(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+  void Follow(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation)
   {
     this->Port = port;
     this->Representation = representation;
@@ -223,7 +224,7 @@ public:
     {
       if (std::exchange(this->IsColoured, false))
       {
-        vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(this->Representation);
+        this->Representation->RescaleTransferFunctionToDataRange();
       }
       return;
     }
@@ -238,25 +239,21 @@ public:
 private:
   void Change(vtkPVXMLElement* element)
   {
-    vtkSMRepresentationProxy::SetRepresentationType(
-      this->Representation, element->GetAttribute("type"));
+    this->Representation->SetRepresentationType(element->GetAttribute("type"));
     const char* array = element->GetAttribute("array");
     this->IsColoured = array != nullptr;
     if (array || this->Applied->GetAttribute("array"))
     {
       vtkSMViewProxy* view = vtkSMViewProxy::FindView(this->Representation);
-      const bool hasBar =
-        vtkSMPVRepresentationProxy::IsScalarBarVisible(this->Representation, view);
+      const bool hasBar = this->Representation->IsScalarBarVisible(view);
       vtkSmartPointer<vtkSMProxy> table =
         vtkSMPropertyHelper(this->Representation, "LookupTable").GetAsProxy();
-      vtkSMPVRepresentationProxy::SetScalarColoring(
-        this->Representation, array, vtkDataObject::POINT);
+      this->Representation->SetScalarColoring(array, vtkDataObject::POINT);
       if (hasBar)
       {
         vtkNew<vtkSMTransferFunctionManager> manager;
         manager->HideScalarBarIfNotNeeded(table, view);
-        vtkSMPVRepresentationProxy::SetScalarBarVisibility(
-          this->Representation, view, this->IsColoured);
+        this->Representation->SetScalarBarVisibility(view, this->IsColoured);
       }
     }
     this->Representation->UpdateVTKObjects();
@@ -270,16 +267,17 @@ private:
 
   int Port = 0;
   bool IsColoured = false; // by an array whose range is not known yet
-  vtkWeakPointer<vtkSMProxy> Representation;
+  vtkWeakPointer<vtkSMPVRepresentationProxy> Representation;
   vtkPVXMLElement* Applied = nullptr; // of the proxy's definition, which stays
   std::string Type;
 };
 
 } // namespace
 
-void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation)
+void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* proxy)
 {
-  if (!vtkSMPVRepresentationProxy::SafeDownCast(representation))
+  auto* representation = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
+  if (!representation)
   {
     return; // of a view that is not a render view
   }
