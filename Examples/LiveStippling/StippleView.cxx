@@ -20,6 +20,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
+#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,11 @@ void StippleView::MakeScene()
 
   this->Dots->EmissiveOff();
   this->Dots->ScalarVisibilityOff();
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+  this->Dots->SetBoundScale(1.0f);
+#else
   this->Dots->SetTriangleScale(1.0f);
+#endif
   this->Dots->SetSplatShaderCode("//VTK::Color::Impl\n"
                                  "if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0)\n"
                                  "{ discard; }\n");
