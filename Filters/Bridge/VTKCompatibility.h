@@ -21,4 +21,10 @@
 #define RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
 #endif
 
+// For tests: later an assertion of VTK's own ends the process where an image's extent is set to what
+// no image can have.
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240617)
+#define RECTIFIEDTRANSPORT_VTK_HAS_IMAGES_OF_ANY_EXTENT
+#endif
+
 #endif

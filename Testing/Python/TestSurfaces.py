@@ -73,6 +73,16 @@ def slice_of(source, normal, **properties):
     return made
 
 
+def slice_apart(source, normal):
+    """A slice whose points are not merged; ParaView has changed the property's name."""
+    made = slice_of(source, normal)
+    if "PointMergeMethod" in made.ListProperties():
+        made.PointMergeMethod = "Don't Merge Points"
+    else:
+        made.Mergeduplicatedpointsintheslice = 0
+    return made
+
+
 def moved(source, **properties):
     made = simple.Transform(Input=source)
     for name, value in properties.items():
@@ -129,9 +139,8 @@ INPUTS = {
     **{"Slice %g %g %g" % normal: (lambda n=normal: slice_of(simple.Wavelet(), n), True)
        for normal in NORMALS},
     "Slice of polygons": (lambda: slice_of(simple.Wavelet(), NORMALS[0], Triangulatetheslice=0), True),
-    "Slice of tetrahedra, points apart": (lambda: slice_of(
-        simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-5, 5] * 3)), NORMALS[0],
-        Mergeduplicatedpointsintheslice=0), True),
+    "Slice of tetrahedra, points apart": (lambda: slice_apart(
+        simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-5, 5] * 3)), NORMALS[0]), True),
     "Slice, moved": (lambda: moved(slice_of(simple.Wavelet(), NORMALS[0]),
                                    Translate=[1e4, 2e4, 0]), True),
     "Disk to its centre": (lambda: simple.Disk(InnerRadius=0), True),

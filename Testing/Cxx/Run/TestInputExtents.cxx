@@ -2,6 +2,8 @@
 // Extents that end before they begin, or that are longer than an int, are one error in each filter.
 #include "BlendTest.h"
 
+#include "Bridge/VTKCompatibility.h"
+
 #include "vtkEqualMassCells.h"
 #include "vtkMassSplatter.h"
 #include "vtkMultiBlockDataSet.h"
@@ -35,24 +37,19 @@ std::array<int, 6> extentWith(const Wrong& wrong)
   return extent;
 }
 
-vtkSmartPointer<vtkImageData> makeWrong(const Wrong& wrong)
-{
-  auto image = makeImage(6, 5, 1, true, bumpy);
-  image->SetExtent(extentWith(wrong).data());
-  return image;
-}
-
 void expect(Checks& checks, vtkAlgorithm* filter, const char* name, int line)
 {
   ErrorTest test(checks, filter);
   test.Expect({ name, " has the extent ", "each axis must end no earlier than it begins" }, line);
 }
 
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_IMAGES_OF_ANY_EXTENT
 void checkImages(Checks& checks)
 {
   for (const Wrong& wrong : wrongEnds)
   {
-    auto image = makeWrong(wrong);
+    auto image = makeImage(6, 5, 1, true, bumpy);
+    image->SetExtent(extentWith(wrong).data());
     vtkNew<vtkTransportSampler> sampler;
     sampler->SetInputData(image);
     expect(checks, sampler, "Input port 0", __LINE__);
@@ -70,6 +67,9 @@ void checkImages(Checks& checks)
     expect(checks, makeMorph(image, image), "Input port 0", __LINE__);
   }
 }
+#else
+void checkImages(Checks&) {}
+#endif
 
 void checkGrids(Checks& checks)
 {
@@ -86,7 +86,7 @@ void checkGrids(Checks& checks)
     expect(checks, sampler, "Input port 0", __LINE__);
     vtkNew<vtkMultiBlockDataSet> blocks;
     blocks->SetBlock(0, makeImage(6, 5, 1, true, bumpy));
-    blocks->SetBlock(1, makeWrong(wrong));
+    blocks->SetBlock(1, lattice);
     sampler->SetInputDataObject(blocks);
     expect(checks, sampler, "Block 2 of input port 0", __LINE__);
   }
