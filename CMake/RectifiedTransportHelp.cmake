@@ -5,6 +5,9 @@ find_package(Python3 QUIET COMPONENTS Interpreter)
 set(missing)
 if (NOT PARAVIEW_USE_QT)
   list(APPEND missing "a ParaView with its window (Qt)")
+elseif (PARAVIEW_QT_MAJOR_VERSION GREATER 5) # ParaView's issue 19742
+  list(APPEND missing
+    "a ParaView with Qt 5 (with Qt ${PARAVIEW_QT_MAJOR_VERSION} it puts no help into plugins)")
 endif ()
 find_program(RectifiedTransport_QHELPGENERATOR
   NAMES qhelpgenerator qhelpgenerator-qt5 qhelpgenerator6

@@ -175,7 +175,9 @@ def textured(mesh, name, squares, pose, pixels):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "checkerboard.png")
         figures.save(path, checkerboard(squares))
-        return lit(shown, pose, pixels, simple.CreateTexture(path))
+        texture = simple.CreateTexture(path)
+        texture.UpdateVTKObjects()  # ParaView 5.13 would show none
+        return lit(shown, pose, pixels, texture)
 
 
 def aim(view, mesh, pose):

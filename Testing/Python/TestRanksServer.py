@@ -80,12 +80,14 @@ class RanksServer(unittest.TestCase):
                     self.assertEqual(counts[::2], [0] * len(WRONG_STEPS))
                     self.assertGreater(counts[1], 0)
                     self.assertEqual(counts[1::2], counts[1:2] * len(WRONG_STEPS))
-            # The server prints its messages and sends them to the client.
-            for printed in (client, server):
-                for steps in WRONG_STEPS:
-                    with self.subTest(steps, processes=processes):
-                        text = "NumberOfSteps is %s;" % steps
-                        self.assertEqual(printed.count(text), len(FILTERS), printed[-3000:])
+            # The server prints its messages and sends them to the client. Several processes may cut
+            # each other's lines.
+            for steps in WRONG_STEPS:
+                with self.subTest(steps, processes=processes):
+                    text = "NumberOfSteps is %s;" % steps
+                    self.assertEqual(client.count(text), len(FILTERS), client[-3000:])
+                    self.assertLessEqual(server.count(text), len(FILTERS), server[-3000:])
+                    self.assertGreater(server.count(text), 0 if processes > 1 else len(FILTERS) - 1)
 
 
 if __name__ == "__main__":

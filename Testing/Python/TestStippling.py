@@ -80,8 +80,8 @@ class Photographs(ExampleTest):
 class Print(ExampleTest):
     @classmethod
     def setUpClass(cls):
-        cls.printed, code = run("StipplePrint", "--width", "150")
-        assert code == 0, cls.printed
+        cls.printed, messages, code = run("StipplePrint", "--width", "150")
+        assert code == 0, cls.printed + messages
 
     def path(self, style, ending, name="raccoon"):
         return os.path.join(OUTPUT, "print-%s-%s.%s" % (name, style, ending))
@@ -165,9 +165,8 @@ class Print(ExampleTest):
                                (style == "colours"), style)
 
     def test_grey_photograph(self):
-        printed, code = run("StipplePrint", os.path.join(DATA, "ascent.png"), "--styles", "inks",
-                            "--exponent", "1")
-        self.assertEqual(code, 0, printed)
+        self.ran("StipplePrint", os.path.join(DATA, "ascent.png"), "--styles", "inks",
+                 "--exponent", "1")
         dots = svg_dots(self.path("inks", "svg", "ascent"))[2]
         self.assertEqual(len(np.unique(dots[:, 2])), 1)  # grey of exponent 1: as equal
         self.assertEqual(dots[:, 3:].max(), 0)

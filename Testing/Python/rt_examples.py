@@ -68,11 +68,11 @@ def command(example, *arguments):
 
 
 def run(example, *arguments):
-    """What an example prints with arguments, and its exit code."""
+    """An example's output, its messages, and its exit code."""
     done = subprocess.run([os.environ.get("RT_PVPYTHON", "pvpython"),
                            *command(example, *arguments)], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True)
-    return done.stdout, done.returncode
+                          stderr=subprocess.PIPE, universal_newlines=True)
+    return done.stdout, done.stderr, done.returncode
 
 
 def read(path):
@@ -108,16 +108,20 @@ class ExampleTest(unittest.TestCase):
     """What tests of examples check."""
 
     def ran(self, example, *arguments):
-        """The output of an example that runs."""
-        printed, code = run(example, *arguments)
-        self.assertEqual(code, 0, printed)
+        """The output of an example that runs without an error."""
+        printed, messages, code = run(example, *arguments)
+        self.assertEqual(code, 0, printed + messages)
+        # But for what a driver that draws in software says once, with a right picture.
+        errors = [line for line in messages.splitlines()
+                  if "ERR|" in line and "OpenGL errors detected" not in line]
+        self.assertEqual(errors, [])
         return printed
 
     def refused(self, example, *arguments):
-        """The output of an example that refuses its arguments."""
-        printed, code = run(example, *arguments)
+        """What an example says that refuses its arguments."""
+        printed, messages, code = run(example, *arguments)
         self.assertNotEqual(code, 0)
-        return printed
+        return printed + messages
 
     def refused_here(self, example, *arguments):
         """As refused, in this process: starting ParaView takes longer than to refuse."""

@@ -169,7 +169,7 @@ vtkSmartPointer<vtkDataSet> dataSetOfBytes(const char* bytes, std::size_t count)
     image->SetExtent(header.Extent.data());
     image->SetOrigin(header.Geometry.data());
     image->SetSpacing(header.Geometry.data() + 3);
-    image->GetDirectionMatrix()->DeepCopy(header.Geometry.data() + 6);
+    image->SetDirectionMatrix(header.Geometry.data() + 6);
     for (const int owner : owners)
     {
       image->GetAttributes(owner)->ShallowCopy(made->GetAttributes(owner));

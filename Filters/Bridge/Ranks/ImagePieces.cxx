@@ -182,7 +182,7 @@ vtkSmartPointer<vtkImageData> ImagePieces::MakeImage(Extent extent) const
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetOrigin(this->Geometry[0], this->Geometry[1], this->Geometry[2]);
   image->SetSpacing(this->Geometry[3], this->Geometry[4], this->Geometry[5]);
-  image->GetDirectionMatrix()->DeepCopy(this->Geometry.data() + 6);
+  image->SetDirectionMatrix(this->Geometry.data() + 6);
   image->SetExtent(extent.data());
   return image;
 }
