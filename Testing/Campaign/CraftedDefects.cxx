@@ -4,6 +4,8 @@
 
 #include "Input.h"
 
+#include "Bridge/VTKCompatibility.h"
+
 #include "vtkAMRBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -50,6 +52,22 @@ std::int64_t drawBadId(RandomSource& random, std::int64_t count)
     std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min(), 0 });
 }
 
+// Whether this VTK lets an image have an extent.
+bool isBearable([[maybe_unused]] const int* extent)
+{
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_IMAGES_OF_ANY_EXTENT
+  return true;
+#else
+  bool is = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t points = std::int64_t{ extent[2 * axis + 1] } - extent[2 * axis] + 1;
+    is = is && points >= 0 && points <= 1000002;
+  }
+  return is;
+#endif
+}
+
 void damageGeometry(RandomSource& random, vtkImageData* image, std::string& text)
 {
   switch (random.Whole(0, 4))
@@ -88,6 +106,10 @@ void damageGeometry(RandomSource& random, vtkImageData* image, std::string& text
       const std::int64_t end = random.Whole(0, 5);
       extent[end] = random.Of({ -1, 0, 1, 7, 1000, 1000000, std::numeric_limits<int>::max(),
         std::numeric_limits<int>::min(), -2000000000 });
+      if (!isBearable(extent))
+      {
+        return;
+      }
       image->SetExtent(extent);
       text += ", end " + std::to_string(end) + " of the extent is " + std::to_string(extent[end]);
     }
