@@ -60,7 +60,11 @@ void SparseCholesky::Factorization::Analyze(const Matrix& lower, Progress& progr
 {
   Matrix upper(lower.rows(), lower.cols());
   CholMatrixType const* pattern = nullptr;
+#if EIGEN_MAJOR_VERSION >= 5
+  this->ordering<false>(lower, pattern, upper);
+#else
   this->ordering(lower, pattern, upper);
+#endif
   progress.Check();
   this->analyzePattern_preordered(*pattern, true);
 }
