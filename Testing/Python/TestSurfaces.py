@@ -77,7 +77,7 @@ def slice_apart(source, normal):
     """A slice whose points are not merged; ParaView has changed the property's name."""
     made = slice_of(source, normal)
     if "PointMergeMethod" in made.ListProperties():
-        made.PointMergeMethod = "Don't Merge Points"
+        made.PointMergeMethod = "NotMergingPoints"
     else:
         made.Mergeduplicatedpointsintheslice = 0
     return made
