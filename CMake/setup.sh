@@ -108,14 +108,19 @@ need()
   link_python_modules
 }
 
+# paraview-dev contains the headers of a VTK of ParaView's own; Debian's ParaView 6 is built with
+# libvtk9, and paraview-dev does not depend on libvtk9-dev.
+has_vtk_apart()
+{
+  local files
+  files="$(dpkg -L paraview-dev 2> /dev/null)" && [[ "$files" != */vtk-config.cmake* ]]
+}
+
 # Installs the packages of the build, and further ones.
 need_to_build()
 {
   need $packages_build "$@"
-  # paraview-dev contains the headers of a VTK of ParaView's own; Debian's ParaView 6 is built with
-  # libvtk9, and paraview-dev does not depend on libvtk9-dev.
-  local files
-  if files="$(dpkg -L paraview-dev 2> /dev/null)" && [[ "$files" != */vtk-config.cmake* ]]; then
+  if has_vtk_apart; then
     need libvtk9-dev
   fi
 }
@@ -127,8 +132,12 @@ need_for_window()
   if grep -qs 'PARAVIEW_QT_MAJOR_VERSION "6"' /usr/lib/*/cmake/paraview-*/paraview-config.cmake; then
     packages_panel=qt6-base-dev
   fi
+  if has_vtk_apart; then
+    packages_panel="$packages_panel libvtk9-qt-dev"
+  fi
   # shellcheck disable=SC2086
   need $packages_help || echo "The plugin is built without help in ParaView's window" >&2
+  # shellcheck disable=SC2086
   need $packages_panel || echo "The plugin is built without its own widgets on ParaView's panel" >&2
 }
 # For configure_and_build: what these need may have come since the last time.
