@@ -57,7 +57,8 @@ std::uint64_t timeOf(vtkDataObject* data)
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
     const auto nodes = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    if (auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes))
+    auto* tree = vtkDataObjectTreeIterator::SafeDownCast(nodes);
+    if (tree && !composite->IsA("vtkAMRDataObject")) // whose iterator visits leaves alone
     {
       tree->VisitOnlyLeavesOff();
     }
