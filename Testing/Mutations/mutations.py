@@ -165,7 +165,7 @@ OTHERS = [
     E(BRIDGE + "Image/CommonGrid.cxx", "finest = «std::min(finest, std::abs(side.Spacing))»",
       "std::max(finest, std::abs(side.Spacing))"),
     E(CORE + "Flow/MapDisplacement.cxx", "weight = «this->Density->Share(low, high)»", "1.0"),
-    S(BRIDGE + "Surface/PolygonInput.cxx", "surface->SetStrips(strips);", ";"),
+    E(BRIDGE + "Surface/PolygonInput.cxx", "isOdd = «i % 2 == 1»", "false"),
     E(CORE + "SiteCells/SiteCellOutlines.cxx", "if («below != none»)\n    {\n      this->Append(",
       "below != none && above != none"),
     # the tables that filters share

@@ -7,12 +7,9 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Surface/PolygonCutter.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkTriangleFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,34 +31,6 @@ std::int64_t countTriangles(vtkCellArray* cells)
   return triangles;
 }
 
-// Updates a filter of VTK as the work of the current stage: forwards its progress, and aborts it
-// where the host cancels.
-void runAsStage(vtkAlgorithm* filter, Progress& progress)
-{
-  const Context stage = progress.Stage();
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(const_cast<Context*>(&stage));
-  observer->SetCallback([](vtkObject* caller, unsigned long, void* data, void* fraction) {
-    const auto* context = static_cast<const Context*>(data);
-    context->Report(*static_cast<double*>(fraction));
-    if (context->IsCancelled && context->IsCancelled())
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  });
-  filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  // Its errors are detected in its output, and reported as one Failure.
-  vtkNew<vtkCallbackCommand> quiet;
-  quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  filter->AddObserver(vtkCommand::ErrorEvent, quiet);
-  filter->AddObserver(vtkCommand::WarningEvent, quiet);
-  filter->Update();
-  if (filter->GetAbortExecute())
-  {
-    throw Cancelled();
-  }
-}
-
 // Appends the triangles of a strip, all with its orientation.
 void cutStrip(vtkIdType count, const vtkIdType* points, vtkCellArray* triangles)
 {
@@ -74,14 +43,13 @@ void cutStrip(vtkIdType count, const vtkIdType* points, vtkCellArray* triangles)
   }
 }
 
-// Cuts polygons one by one. Returns how many triangles are missing.
+// Appends the triangles of polygons and strips, one by one: from VTK 9.6 on vtkTriangleFilter cuts
+// quadrilaterals whose edges cross without a word. Returns how many triangles are missing.
 std::int64_t cutEach(vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips,
-  std::int64_t expected, Progress& progress, vtkSmartPointer<vtkCellArray>& triangles)
+  Progress& progress, vtkCellArray* triangles)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 8;
   constexpr std::int64_t units = std::int64_t{ 1 } << 12; // of polygons, some milliseconds
-  triangles = vtkSmartPointer<vtkCellArray>::New();
-  triangles->AllocateExact(static_cast<vtkIdType>(expected), static_cast<vtkIdType>(3 * expected));
   PolygonCutter cutter(points, roundingOf(points));
   std::int64_t missing = 0;
   vtkNew<vtkIdList> ids;
@@ -165,24 +133,11 @@ vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress)
 {
   const std::int64_t expected = countTriangles(polygons) + countTriangles(strips);
-  // vtkTriangleFilter ends the program where its output cannot grow. The last reallocation holds
-  // the old triangles, of an offset and three ids each, and space for twice as many.
   requireMemory(std::to_string(expected) + " triangles of the input surface",
-    static_cast<double>(expected) * 3.0 * 4.0 * sizeof(vtkIdType));
-  vtkNew<vtkPolyData> surface;
-  surface->SetPoints(points);
-  surface->SetPolys(polygons);
-  surface->SetStrips(strips);
-  vtkNew<vtkTriangleFilter> filter;
-  filter->SetInputData(surface);
-  filter->PassVertsOff();
-  filter->PassLinesOff();
-  runAsStage(filter, progress);
-  vtkSmartPointer<vtkCellArray> triangles = filter->GetOutput()->GetPolys();
-  // The filter drops polygons with corners at one place.
-  const std::int64_t missing = expected - triangles->GetNumberOfCells() == 0
-    ? 0
-    : cutEach(points, polygons, strips, expected, progress, triangles);
+    static_cast<double>(expected) * 4.0 * sizeof(vtkIdType));
+  auto triangles = vtkSmartPointer<vtkCellArray>::New();
+  triangles->AllocateExact(static_cast<vtkIdType>(expected), static_cast<vtkIdType>(3 * expected));
+  const std::int64_t missing = cutEach(points, polygons, strips, progress, triangles);
   if (missing != 0)
   {
     throw Failure("The input surface has polygons that cannot be cut into triangles: " +
