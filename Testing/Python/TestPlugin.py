@@ -8,9 +8,13 @@ from PIL import Image
 from rt_proxies import proxies
 from rt_testing import OUTPUT, SOURCE, density_image, load_plugin, main, output_of, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 simple = load_plugin()
+
+# VTK 9.6's reader of maps ends the program with a picture that names no coordinate system.
+ENDS_WITHOUT_MAP = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (9, 6)
 
 
 class Plugin(unittest.TestCase):
@@ -234,6 +238,8 @@ class Plugin(unittest.TestCase):
             path = os.path.join(OUTPUT, "photograph." + ending)
             Image.fromarray(photograph).save(path)
             maps = kind == "GDALRasterReader"
+            if maps and ENDS_WITHOUT_MAP:
+                continue
             reader = getattr(simple, kind)(**{"FileName": path} if maps else {"FileNames": [path]})
             image = output_of(reader)
             data = image.GetCellData() if maps else image.GetPointData()
