@@ -174,7 +174,7 @@ def run_writers():
                  "--write", folder, json.dumps(sorted(results))],
                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
             lines = [json.loads(line) for line in run.stdout.decode().splitlines()
-                     if line.startswith("[")]
+                     if line.startswith('["')]
             begun = None
             for kind, *rest in lines:
                 if kind == "begin":

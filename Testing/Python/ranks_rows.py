@@ -20,6 +20,12 @@ gathered = {}
 REDISTRIBUTES = reads_appended_data()
 
 
+def with_ghosts(source, levels):
+    """A source with levels of ghost cells, by the name that ParaView has for the filter."""
+    made = simple.GhostCells if hasattr(simple, "GhostCells") else simple.GhostCellsGenerator
+    return made(Input=source, BuildIfRequired=0, MinimumNumberOfGhosts=levels)
+
+
 def redistributed(Input):
     """On other ranks, where ParaView's own filter works; else where they are."""
     return simple.RedistributeDataSet(Input=Input) if REDISTRIBUTES else Input

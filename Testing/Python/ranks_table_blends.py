@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of TestRanksTable.py: filters that take several densities."""
 from paraview import servermanager, simple
-from ranks_rows import give, give_both
+from ranks_rows import give, give_both, with_ghosts
 
 
 def morph(**properties):
@@ -26,7 +26,7 @@ def give_blends():
                         for density in (image, other))
     long = simple.Wavelet(WholeExtent=[-2, 3, -2, 3, 0, 21], StandardDeviation=0.3)
     # A source that is asked for two pieces.
-    wider = simple.GhostCellsGenerator(Input=other, BuildIfRequired=0, MinimumNumberOfGhosts=2)
+    wider = with_ghosts(other, 2)
     inputs = {"points": (image, other), "cells": (cells, other_cells),
               "flat": (flat, other_flat), "geometries": (image, long), "mixed": (cells, long),
               "twice": (image, image), "wider": (other, wider), "wider first": (wider, other)}

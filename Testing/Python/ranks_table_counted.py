@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of TestRanksTable.py: what several ranks have, or one alone."""
 from paraview import simple
-from ranks_rows import give
+from ranks_rows import give, with_ghosts
 
 # Points x + 1, more than its part of the image on the first rank, or all that there is of it.
 PIECES = """
@@ -54,8 +54,8 @@ def give_counted(image):
     counts = dict(Kernel="NearestCell", DivideByVolume=0)
     nodes = simple.Threshold(Input=image, Scalars=["POINTS", "RTData"], LowerThreshold=-1000,
                              UpperThreshold=1000)
-    give("splat of ghosts", simple.SplatMass(Input=simple.GhostCellsGenerator(
-        Input=nodes, BuildIfRequired=0, MinimumNumberOfGhosts=1), Dimensions=[5, 6, 7], **counts))
+    give("splat of ghosts", simple.SplatMass(Input=with_ghosts(nodes, 1),
+                                            Dimensions=[5, 6, 7], **counts))
     give("splat of a cloud", simple.SplatMass(Input=simple.ProgrammableSource(
         OutputDataSetType="vtkPolyData", Script=CLOUD), Dimensions=[5, 5, 1], **counts))
     for layer in (3, 10):

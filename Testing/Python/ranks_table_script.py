@@ -5,7 +5,8 @@ import pickle
 import sys
 
 from paraview import simple
-from ranks_rows import RANK, gathered, give, give_row, redistributed, refined, tiles, turned
+from ranks_rows import (RANK, gathered, give, give_row, redistributed, refined, tiles, turned,
+                        with_ghosts)
 from ranks_table_blends import give_blends
 from ranks_table_counted import give_counted
 from ranks_table_points import give_qualities, give_splats
@@ -75,9 +76,8 @@ def give_data():
         "structured cells": simple.ImageDatatoPointSet(Input=cells),
         "mesh": simple.Threshold(Input=cells, Scalars=["CELLS", "RTData"],
                                  LowerThreshold=0, UpperThreshold=1000),
-        "ghost mesh": simple.GhostCellsGenerator(Input=simple.Threshold(
-            Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0, UpperThreshold=1000),
-            BuildIfRequired=0, MinimumNumberOfGhosts=1),
+        "ghost mesh": with_ghosts(simple.Threshold(
+            Input=cells, Scalars=["CELLS", "RTData"], LowerThreshold=0, UpperThreshold=1000), 1),
         "block": simple.GroupDatasets(Input=[simple.ImageDatatoPointSet(Input=cells)]),
         "amr": simple.AMRGaussianPulseSource(Dimension=3, RootSpacing=0.5),
         "refined": refined(False),
@@ -137,8 +137,7 @@ def main(path):
     image = simple.Wavelet(WholeExtent=[-4, 8, 0, 7, 0, 10])
     cells = simple.PointDatatoCellData(Input=image, ProcessAllArrays=1)
     flat = simple.ExtractSubset(Input=image, VOI=[-4, 8, 3, 3, 0, 10])
-    ghosts = simple.GhostCellsGenerator(Input=image, BuildIfRequired=0,
-                                        MinimumNumberOfGhosts=2)
+    ghosts = with_ghosts(image, 2)
     inputs = {"points": image, "cells": cells, "flat": flat, "ghosts": ghosts}
     usual = dict(NegativeValues="Clamp", NumberOfSteps=8)
     seeds = simple.UniformSeeds(NumberOfPoints=300, Dimension=3, Pattern="Jittered")
