@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Starts a pvserver, of several processes or of one, and runs a client against it."""
+import glob
 import os
 import shutil
 import signal
@@ -13,6 +14,8 @@ PVSERVER = os.path.join(os.path.dirname(PVPYTHON), "pvserver")
 MPIRUN = shutil.which("mpirun")
 STARTED_WITHIN = 30  # seconds; an idle machine takes two
 ENDED_WITHIN = 30  # after the client has left
+# Each process writes a file of its own: in one they would cut each other's lines.
+APART = 'exec "$@" > "$0.$$" 2>&1'
 
 
 def free_port():
@@ -22,8 +25,12 @@ def free_port():
 
 
 def read(path):
-    with open(path, errors="replace") as file:
-        return file.read()
+    """What a server has printed to a file, and its processes to files that begin like it."""
+    printed = ""
+    for part in sorted(glob.glob(path + "*")):
+        with open(part, errors="replace") as file:
+            printed += file.read()
+    return printed
 
 
 def end(server):
@@ -46,14 +53,15 @@ def run_client(script, *arguments, processes=None, limit=200):
     """Runs a client, a script of pvpython with the server's port and arguments. `processes` are
     those of mpirun, or None for a server without. Returns what the client prints and what the
     server; raises AssertionError where the client fails or the server does not end after it."""
-    command = [PVSERVER]
-    if processes:
-        command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes),
-                   *command]
     port = free_port()
-    with tempfile.NamedTemporaryFile() as log:
-        server = subprocess.Popen([*command, "--server-port=%d" % port], stdout=log,
-                                  stderr=subprocess.STDOUT, start_new_session=True)
+    with tempfile.TemporaryDirectory() as folder, \
+            open(os.path.join(folder, "log"), "w", encoding="utf-8") as log:
+        command = [PVSERVER, "--server-port=%d" % port]
+        if processes:
+            command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", str(processes),
+                       "bash", "-c", APART, log.name, *command]
+        server = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT,
+                                  start_new_session=True)
         try:
             start = time.monotonic()
             while "Waiting for client" not in read(log.name) and server.poll() is None and \
