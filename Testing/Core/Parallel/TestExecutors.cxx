@@ -46,12 +46,13 @@ void* operator new(std::size_t bytes)
   return memory;
 }
 
-void operator delete(void* memory) noexcept
+// Not inline: GCC says that std::free does not suit a call of operator new.
+[[gnu::noinline]] void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }
