@@ -21,6 +21,13 @@
 #define RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
 #endif
 
+// Later the blocks of an AMR may be any Cartesian grids, types of cells any array, and what names
+// them before is deprecated.
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+#define RECTIFIEDTRANSPORT_VTK_HAS_AMR_OF_CARTESIAN_GRIDS
+#define RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
+#endif
+
 // For tests: later an assertion of VTK's own ends the process where an image's extent is set to what
 // no image can have.
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240617)

@@ -4,7 +4,7 @@
 
 #include "Input.h"
 
-#include "Bridge/VTKCompatibility.h"
+#include "Bridge/Points/CellTypes.h"
 
 #include "vtkAMRBox.h"
 #include "vtkCellArray.h"
@@ -206,7 +206,7 @@ void damageCells(RandomSource& random, vtkCellArray* cells, vtkIdType points, st
 
 void damageTypes(RandomSource& random, vtkUnstructuredGrid* grid, std::string& text)
 {
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  auto* types = vtkUnsignedCharArray::SafeDownCast(RectifiedTransport::cellTypesOf(grid));
   if (!types || types->GetNumberOfValues() == 0)
   {
     return;

@@ -2,6 +2,8 @@
 // Small data objects of every type, without a defect.
 #include "Crafted.h"
 
+#include "../AmrBlocks.h"
+
 #include "vtkAMRBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -24,6 +26,7 @@
 #include "vtkUniformGrid.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <array>
 #include <cmath>
 
 namespace Campaign
@@ -282,11 +285,11 @@ vtkSmartPointer<vtkDataSet> drawPolyData(RandomSource& random)
 vtkSmartPointer<vtkDataObject> drawAdaptive(RandomSource& random)
 {
   const bool flat = random.Chance(0.5);
-  const int description = flat ? VTK_XY_PLANE : VTK_XYZ_GRID;
+  std::array<int, 3> points{ 5, 5, flat ? 1 : 5 };
+  const int description = vtkStructuredData::GetDataDescription(points.data());
   const auto grids = vtkSmartPointer<vtkOverlappingAMR>::New();
-  const int counts[2] = { 1, 1 };
   const double zero[3] = { 0.0, 0.0, 0.0 };
-  grids->Initialize(2, counts);
+  setBlocksPerLevel(grids.GetPointer(), { 1, 1 });
   grids->SetOrigin(zero);
   grids->SetGridDescription(description);
   for (unsigned int level = 0; level < 2; ++level)
@@ -298,7 +301,7 @@ vtkSmartPointer<vtkDataObject> drawAdaptive(RandomSource& random)
     vtkNew<vtkUniformGrid> grid;
     grid->SetOrigin(origin);
     grid->SetSpacing(spacing);
-    grid->SetDimensions(5, 5, flat ? 1 : 5);
+    grid->SetDimensions(points.data());
     addValues(random, grid);
     grids->SetSpacing(level, spacing);
     grids->SetAMRBox(

@@ -3,6 +3,7 @@
 
 #include "Bridge/Blocks/HyperTreeCells.h"
 #include "Bridge/Blocks/RefinedGrids.h"
+#include "Bridge/Points/CellTypes.h"
 #include "Bridge/Run/Failure.h"
 
 #include "vtkCell.h"
@@ -79,7 +80,7 @@ void addCells(vtkCellArray* cells, DataContent& content)
 
 bool mayHavePolyhedra(vtkUnstructuredGrid* grid)
 {
-  auto* types = vtkUnsignedCharArray::SafeDownCast(grid->GetCellTypesArray());
+  auto* types = vtkUnsignedCharArray::SafeDownCast(cellTypesOf(grid));
   if (!types)
   {
     return grid->GetNumberOfCells() > 0;
@@ -195,7 +196,7 @@ void addGeometry(const DensityBlock& block, DataContent& content)
   else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
   {
     addCells(grid->GetCells(), content);
-    content.AddArray(grid->GetCellTypesArray());
+    content.AddArray(cellTypesOf(grid));
     if (mayHavePolyhedra(grid))
     {
       // Their faces are in no array that all versions of VTK give.

@@ -7,15 +7,15 @@
 #include "vtkAMRBox.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkNew.h"
 #include "vtkOverlappingAMR.h"
 #include "vtkStructuredData.h"
-#include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
-#if __has_include("vtkOverlappingAMRMetaData.h")
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_AMR_OF_CARTESIAN_GRIDS
+#include "vtkCartesianGrid.h"
 #include "vtkOverlappingAMRMetaData.h"
 #else
 #include "vtkAMRInformation.h"
+#include "vtkUniformGrid.h"
 #endif
 
 #include <algorithm>
@@ -34,19 +34,42 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the versions of VTK that have the one or the other. vtkOverlappingAMR itself reports an error
-// of its own where it is asked for a box that is not set.
-template <class Grids>
-auto metaDataOf(Grids* grids, int) -> decltype(grids->GetOverlappingAMRMetaData())
+// vtkOverlappingAMR itself reports an error of its own where it is asked for a box that is not set.
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_AMR_OF_CARTESIAN_GRIDS
+using BlockGrid = vtkCartesianGrid;
+
+auto* metaDataOf(vtkOverlappingAMR* grids)
 {
   return grids->GetOverlappingAMRMetaData();
 }
 
-template <class Grids>
-auto metaDataOf(Grids* grids, long) -> decltype(grids->GetAMRInfo())
+unsigned int blocksIn(vtkOverlappingAMR* grids, unsigned int level)
+{
+  return grids->GetNumberOfBlocks(level);
+}
+
+BlockGrid* gridAt(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
+{
+  return grids->GetDataSetAsCartesianGrid(level, block);
+}
+#else
+using BlockGrid = vtkUniformGrid;
+
+auto* metaDataOf(vtkOverlappingAMR* grids)
 {
   return grids->GetAMRInfo();
 }
+
+unsigned int blocksIn(vtkOverlappingAMR* grids, unsigned int level)
+{
+  return grids->GetNumberOfDataSets(level);
+}
+
+BlockGrid* gridAt(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
+{
+  return grids->GetDataSet(level, block);
+}
+#endif
 
 std::string nameOf(unsigned int level, unsigned int block)
 {
@@ -58,7 +81,7 @@ void visitBlocks(vtkOverlappingAMR* grids, const Visit& visit)
 {
   for (unsigned int level = 0; level < grids->GetNumberOfLevels(); ++level)
   {
-    for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+    for (unsigned int i = 0; i < blocksIn(grids, level); ++i)
     {
       visit(level, i);
     }
@@ -69,9 +92,9 @@ void visitBlocks(vtkOverlappingAMR* grids, const Visit& visit)
 void requireBoxes(vtkOverlappingAMR* grids)
 {
   visitBlocks(grids, [grids](unsigned int level, unsigned int i) {
-    const auto* data = metaDataOf(grids, 0);
+    const auto* data = metaDataOf(grids);
     const bool hasBox = data && !data->GetAMRBox(level, i).IsInvalid();
-    if (!hasBox || !metaDataOf(grids, 0)->HasSpacing(level))
+    if (!hasBox || !metaDataOf(grids)->HasSpacing(level))
     {
       throw Failure("The overlapping AMR has no " +
         (hasBox ? "spacing of level " + std::to_string(level) : "box for " + nameOf(level, i)) +
@@ -85,7 +108,7 @@ bool hasGhosts(vtkOverlappingAMR* grids)
 {
   bool has = false;
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
-    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    BlockGrid* grid = gridAt(grids, level, i);
     has = has || (grid && grid->GetCellGhostArray());
   });
   return has;
@@ -93,25 +116,21 @@ bool hasGhosts(vtkOverlappingAMR* grids)
 
 std::array<bool, 3> flatAxes(int description)
 {
-  switch (description)
+  for (const bool x : { false, true })
   {
-    case VTK_XY_PLANE:
-      return { false, false, true };
-    case VTK_YZ_PLANE:
-      return { true, false, false };
-    case VTK_XZ_PLANE:
-      return { false, true, false };
-    case VTK_X_LINE:
-      return { false, true, true };
-    case VTK_Y_LINE:
-      return { true, false, true };
-    case VTK_Z_LINE:
-      return { true, true, false };
-    case VTK_SINGLE_POINT:
-      return { true, true, true };
-    default:
-      return { false, false, false };
+    for (const bool y : { false, true })
+    {
+      for (const bool z : { false, true })
+      {
+        std::array<int, 3> points{ x ? 1 : 2, y ? 1 : 2, z ? 1 : 2 };
+        if (vtkStructuredData::GetDataDescription(points.data()) == description)
+        {
+          return { x, y, z };
+        }
+      }
+    }
   }
+  return { false, false, false };
 }
 
 template <class Number>
@@ -185,7 +204,7 @@ Cells cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
 
 // The grid's cells are marked by their places in the box.
 void requireCellsOfBox(
-  vtkUniformGrid* grid, const Cells& box, int description, unsigned int level, unsigned int block)
+  BlockGrid* grid, const Cells& box, int description, unsigned int level, unsigned int block)
 {
   std::array<int, 3> points;
   grid->GetDimensions(points.data());
@@ -213,7 +232,7 @@ std::int64_t coarsened(std::int64_t cell, int ratio)
 struct Block
 {
   Cells Own;
-  vtkUniformGrid* Grid; // none where it lies on another rank
+  BlockGrid* Grid; // none where it lies on another rank
 };
 
 // Which blocks have a grid on any rank, all levels one after the other.
@@ -223,7 +242,7 @@ std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks* 
   if (grids)
   {
     visitBlocks(grids, [&](unsigned int level, unsigned int i) {
-      present.push_back(grids->GetDataSet(level, i) ? 1 : 0);
+      present.push_back(gridAt(grids, level, i) ? 1 : 0);
     });
   }
   if (ranks)
@@ -246,11 +265,11 @@ std::vector<Block> blocksOf(
   vtkOverlappingAMR* grids, unsigned int level, const unsigned char* present)
 {
   std::vector<Block> blocks;
-  for (unsigned int i = 0; i < grids->GetNumberOfDataSets(level); ++i)
+  for (unsigned int i = 0; i < blocksIn(grids, level); ++i)
   {
     if (present[i])
     {
-      blocks.push_back({ cellsOf(grids, level, i), grids->GetDataSet(level, i) });
+      blocks.push_back({ cellsOf(grids, level, i), gridAt(grids, level, i) });
     }
   }
   std::sort(blocks.begin(), blocks.end(),
@@ -258,10 +277,10 @@ std::vector<Block> blocksOf(
   return blocks;
 }
 
-using Flags = std::map<vtkUniformGrid*, vtkSmartPointer<vtkUnsignedCharArray>>;
+using Flags = std::map<BlockGrid*, vtkSmartPointer<vtkUnsignedCharArray>>;
 
 // Flags that may be written into; those that a grid has are of the input.
-vtkSmartPointer<vtkUnsignedCharArray> ownFlags(vtkUniformGrid* grid)
+vtkSmartPointer<vtkUnsignedCharArray> ownFlags(BlockGrid* grid)
 {
   const auto flags = vtkSmartPointer<vtkUnsignedCharArray>::New();
   if (vtkUnsignedCharArray* given = grid->GetCellGhostArray())
@@ -340,7 +359,7 @@ void findRefined(
 Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& present)
 {
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
-    if (vtkUniformGrid* grid = grids->GetDataSet(level, i))
+    if (BlockGrid* grid = gridAt(grids, level, i))
     {
       requireCellsOfBox(grid, cellsOf(grids, level, i), grids->GetGridDescription(), level, i);
     }
@@ -352,7 +371,7 @@ Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& pr
   for (unsigned int finer = 0; finer < grids->GetNumberOfLevels(); ++finer)
   {
     std::vector<Block> fine = blocksOf(grids, finer, ofLevel);
-    ofLevel += grids->GetNumberOfDataSets(finer);
+    ofLevel += blocksIn(grids, finer);
     if (fine.empty())
     {
       continue;
@@ -394,14 +413,14 @@ vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, c
   const auto marked = vtkSmartPointer<vtkOverlappingAMR>::New();
   marked->CopyStructure(grids);
   visitBlocks(grids, [&](unsigned int level, unsigned int i) {
-    vtkUniformGrid* grid = grids->GetDataSet(level, i);
+    BlockGrid* grid = gridAt(grids, level, i);
     const auto found = flags.find(grid);
     if (found == flags.end())
     {
       marked->SetDataSet(level, i, grid);
       return;
     }
-    vtkNew<vtkUniformGrid> copy;
+    const auto copy = vtkSmartPointer<BlockGrid>::Take(grid->NewInstance());
     copy->ShallowCopy(grid);
     copy->GetCellData()->AddArray(found->second);
     marked->SetDataSet(level, i, copy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Points/CellCheck.h"
 
+#include "Bridge/Points/CellTypes.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/IntegerArrays.h"
 #include "Bridge/Run/Failure.h"
@@ -16,7 +17,6 @@
 #include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -191,7 +191,7 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
 {
   static const PointsOfTypes pointsOfType = pointsOfTypes();
   const vtkIdType cells = grid->GetNumberOfCells();
-  auto* types = cells > 0 ? vtkUnsignedCharArray::SafeDownCast(grid->GetCellTypesArray()) : nullptr;
+  const vtkDataArray* types = cells > 0 ? cellTypesOf(grid) : nullptr;
   if (cells > 0 && (!types || types->GetNumberOfValues() < cells))
   {
     throw Failure("The " + name + " has types of " +
@@ -201,7 +201,7 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& name)
   const bool hasDegrees = grid->GetCellData()->GetHigherOrderDegrees() != nullptr;
   for (vtkIdType cell = 0; cell < cells; ++cell)
   {
-    const int type = types->GetValue(cell);
+    const int type = grid->GetCellType(cell);
     const vtkIdType needed = pointsOfType[static_cast<std::size_t>(type)];
     const vtkIdType points = grid->GetCells()->GetCellSize(cell);
     if (needed < 0)

@@ -4,9 +4,7 @@
 #include "Bridge/Points/GhostFlags.h"
 
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
@@ -49,14 +47,11 @@ Identity identityOf(vtkPointSet* points, vtkIdType i, vtkDataArray* ids)
 
 bool connectsPoints(vtkPointSet* set)
 {
-  vtkNew<vtkCellTypes> types;
-  set->GetCellTypes(types);
   bool connects = false;
-  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  for (vtkIdType cell = 0; cell < set->GetNumberOfCells() && !connects; ++cell)
   {
-    const unsigned char type = types->GetCellType(i);
-    connects =
-      connects || (type != VTK_EMPTY_CELL && type != VTK_VERTEX && type != VTK_POLY_VERTEX);
+    const int type = set->GetCellType(cell);
+    connects = type != VTK_EMPTY_CELL && type != VTK_VERTEX && type != VTK_POLY_VERTEX;
   }
   return connects;
 }

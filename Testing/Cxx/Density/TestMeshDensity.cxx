@@ -3,11 +3,16 @@
 #include "ProgressTest.h"
 #include "TestData.h"
 
+#include "Bridge/VTKCompatibility.h"
+
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkImageData.h"
 #include "vtkTransportMap.h"
 #include "vtkTransportSampler.h"
 #include "vtkUnstructuredGrid.h"
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
+#include "vtkConstantArray.h"
+#endif
 
 #include <algorithm>
 
@@ -40,6 +45,31 @@ void checkMeans(Checks& checks)
   }
 }
 
+// Where all cells are of one type, VTK may keep it once.
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
+void checkOneType(Checks& checks)
+{
+  const auto mesh = makeTetrahedra(5, true);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputDataObject(mesh);
+  sampler->SetNumberOfParticles(100);
+  sampler->Update();
+  const double mass = fieldValue(sampler->GetOutput(), "TotalMass");
+  vtkNew<vtkConstantArray<unsigned char>> types;
+  types->ConstructBackend(static_cast<unsigned char>(VTK_TETRA));
+  types->SetNumberOfTuples(mesh->GetNumberOfCells());
+  mesh->SetCells(types, mesh->GetCells());
+  sampler->Update();
+  CHECK(checks, fieldValue(sampler->GetOutput(), "TotalMass") == mass);
+
+  types->SetNumberOfTuples(mesh->GetNumberOfCells() - 1);
+  mesh->Modified();
+  ErrorTest(checks, sampler).Expect("there must be one for each", __LINE__);
+}
+#else
+void checkOneType(Checks&) {}
+#endif
+
 void checkAborts(Checks& checks)
 {
   auto mesh = makeTetrahedra(64, false);
@@ -62,5 +92,5 @@ void checkAborts(Checks& checks)
 
 int TestMeshDensity(int, char*[])
 {
-  return runChecks({ checkMeans, checkAborts });
+  return runChecks({ checkMeans, checkOneType, checkAborts });
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Overlapping grids of adaptive mesh refinement: cells that finer grids cover do not count, and
 // what is wrong with boxes, spacings and grids is an error.
+#include "../../AmrBlocks.h"
 #include "MeshSampler.h"
 #include "TestData.h"
 
 #include "vtkAMRBox.h"
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
 #include "vtkNonOverlappingAMR.h"
 #include "vtkOverlappingAMR.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkStructuredData.h"
 #include "vtkUniformGrid.h"
 #include "vtkUnsignedCharArray.h"
@@ -33,10 +36,9 @@ vtkSmartPointer<vtkOverlappingAMR> makeGrids(
     points[a] = isFlat[a] ? 1 : 7;
     high[a] = isFlat[a] ? (hasThickBoxes ? 0 : -1) : 5;
   }
-  const int perLevel[2] = { 1, 1 };
   const double zero[3] = { 0.0, 0.0, 0.0 };
   auto grids = vtkSmartPointer<vtkOverlappingAMR>::New();
-  grids->Initialize(2, perLevel);
+  setBlocksPerLevel(grids.GetPointer(), { 1, 1 });
   grids->SetOrigin(zero);
   grids->SetGridDescription(vtkStructuredData::GetDataDescription(points.data()));
   for (int level = 0; level < 2; ++level)
@@ -99,11 +101,34 @@ void checkMass(Checks& checks)
   }
 }
 
+// Later versions of VTK take any Cartesian grid as a block.
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_AMR_OF_CARTESIAN_GRIDS
+void checkRectilinearBlock(Checks& checks)
+{
+  const auto grids = makeGrids({ false, false, false }, 2, false);
+  vtkNew<vtkDoubleArray> places;
+  for (int i = 0; i < 7; ++i)
+  {
+    places->InsertNextValue(i);
+  }
+  vtkNew<vtkRectilinearGrid> coarse;
+  coarse->SetDimensions(7, 7, 7);
+  coarse->SetXCoordinates(places);
+  coarse->SetYCoordinates(places);
+  coarse->SetZCoordinates(places);
+  coarse->GetCellData()->ShallowCopy(imageAt(grids.GetPointer(), 0, 0)->GetCellData());
+  grids->SetDataSet(0, 0, coarse);
+  CHECK_NEAR(checks, massOf(makeSampler(grids)), 2.0 * (216 - 27) + 7.0 * 27, 1e-9);
+}
+#else
+void checkRectilinearBlock(Checks&) {}
+#endif
+
 // Flags that a grid has stay, and those of the input are not written into.
 void checkWithFlags(Checks& checks)
 {
   const auto grids = makeGrids({ false, false, false }, 2, false);
-  vtkUniformGrid* coarse = grids->GetDataSet(0, 0);
+  vtkImageData* coarse = imageAt(grids.GetPointer(), 0, 0);
   vtkNew<vtkUnsignedCharArray> flags;
   flags->SetName(vtkDataSetAttributes::GhostArrayName());
   flags->SetNumberOfValues(coarse->GetNumberOfCells());
@@ -124,12 +149,11 @@ void checkWithFlags(Checks& checks)
 
 void checkWithoutBoxes(Checks& checks)
 {
-  const int perLevel[2] = { 1, 2 };
   vtkNew<vtkOverlappingAMR> grids;
   auto sampler = makeSampler(grids);
   ErrorTest test(checks, sampler);
   test.ExpectNone(__LINE__); // nothing yet
-  grids->Initialize(2, perLevel);
+  setBlocksPerLevel(grids.GetPointer(), { 1, 2 });
   test.Expect({ "overlapping AMR has no box for block 0 of level 0", "SetAMRBox" }, __LINE__);
   const int low[3] = { 0, 0, 0 };
   const int high[3] = { 3, 3, 3 };
@@ -142,7 +166,7 @@ void checkWithoutBoxes(Checks& checks)
   test.Expect("overlapping AMR has no box for block 0 of level 1", __LINE__);
 
   vtkNew<vtkNonOverlappingAMR> apart; // needs none
-  apart->Initialize(2, perLevel);
+  setBlocksPerLevel(apart.GetPointer(), { 1, 2 });
   vtkNew<vtkUniformGrid> grid;
   grid->ShallowCopy(makeImage(4, 4, 4, true, [](vtkIdType) { return 1.0; }));
   apart->SetDataSet(1, 1, grid);
@@ -168,7 +192,7 @@ void checkOtherGrids(Checks& checks)
     __LINE__);
 
   grids = makeGrids(isFlat, 2, true);
-  grids->GetDataSet(0, 0)->SetDimensions(7, 1, 7);
+  imageAt(grids.GetPointer(), 0, 0)->SetDimensions(7, 1, 7);
   failureOf(grids,
     "has 6 x 6 x 1 cells in the box of block 0 of level 0, but a grid of 7 x 1 x 7 points there",
     __LINE__);
@@ -187,5 +211,6 @@ void checkOtherGrids(Checks& checks)
 
 int TestRefinedGrids(int, char*[])
 {
-  return runChecks({ checkMass, checkWithFlags, checkWithoutBoxes, checkOtherGrids });
+  return runChecks(
+    { checkMass, checkRectilinearBlock, checkWithFlags, checkWithoutBoxes, checkOtherGrids });
 }

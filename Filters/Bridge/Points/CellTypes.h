@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RectifiedTransport_CellTypes_h
+#define RectifiedTransport_CellTypes_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkDataArray.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace RectifiedTransport
+{
+
+// The array of the cells' types, whether there is one for each or not; nullptr where there is none.
+inline vtkDataArray* cellTypesOf(vtkUnstructuredGrid* grid)
+{
+#ifdef RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
+  return grid->GetCellTypes();
+#else
+  return grid->GetCellTypesArray();
+#endif
+}
+
+} // namespace RectifiedTransport
+
+#endif
