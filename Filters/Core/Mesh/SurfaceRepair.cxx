@@ -116,29 +116,21 @@ private:
       randomAccess);
   }
 
-  // Points that differ by no more than the rounding are in one cell of one of eight grids, which
-  // are displaced by half a cell along each axis or not. Those of one cell are merged.
   void MergePlaces(const Context& context)
   {
     const std::int64_t points = this->Given.Points.size();
-    const double cell = 2.0 * this->Options.Rounding;
-    LargeBuffer<double> cells(3 * points);
-    LargeBuffer<std::int64_t> firsts(points);
-    Progress progress(context);
-    for (int grid = 0; grid < (cell > 0.0 ? 8 : 1); ++grid)
+    LargeBuffer<std::int64_t> merged(points);
+    if (this->Options.Rounding > 0.0)
     {
-      progress.BeginStage(static_cast<double>(grid + 1) / 8.0);
-      for (std::int64_t i = 0; i < 3 * points; ++i)
-      {
-        const double x = this->Given.Points.data()[i];
-        const double displaced = (grid >> i % 3 & 1) != 0 ? 0.5 : 0.0;
-        cells.data()[i] = cell > 0.0 ? std::floor(x / cell + displaced) : x;
-      }
-      mergePoints({ cells.data(), points }, firsts.data(), progress.Stage());
-      for (std::int64_t i = 0; i < points; ++i)
-      {
-        joinTrees(this->Roots.data(), i, firsts.data()[i]);
-      }
+      mergeNearPoints(this->Given.Points, this->Options.Rounding, merged.data(), context);
+    }
+    else
+    {
+      mergePoints(this->Given.Points, merged.data(), context);
+    }
+    for (std::int64_t i = 0; i < points; ++i)
+    {
+      joinTrees(this->Roots.data(), i, merged.data()[i]);
     }
   }
 
