@@ -157,8 +157,7 @@ def main():
     draw_paths(path("paths"))
     draw_example(path("morph"), "Morph2D", "morph-2d.png", "bunny", "camel+dinosaur",
                  "--frames", "6", "--panel", "140")
-    draw_example(path("morph-3d"), "Morph3D", "morph-3d.png", "--resolution", "96",
-                 "--panel", "180")
+    draw_example(path("morph-3d"), "Morph3D", "morph-3d.png", "--panel", "180")
     draw_example(path("barycenters"), "Barycenters2D", "barycenters-2d.png", "--panel", "90")
     draw_splats(path("splats"), stipple)
     draw_solid(path("solid"))
