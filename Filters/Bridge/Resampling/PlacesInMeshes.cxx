@@ -271,13 +271,15 @@ private:
       Eigen::Matrix<double, D, D> edges;
       Point<D> low;
       Point<D> high;
+      low.fill(std::numeric_limits<double>::infinity());
+      high.fill(-std::numeric_limits<double>::infinity());
       for (int i = 0; i <= D; ++i)
       {
         vertices[i] = pieces.Vertex(s, i);
         for (int a = 0; a < D; ++a)
         {
-          low[a] = i == 0 ? vertices[0][a] - reach : std::min(low[a], vertices[i][a] - reach);
-          high[a] = i == 0 ? vertices[0][a] + reach : std::max(high[a], vertices[i][a] + reach);
+          low[a] = std::min(low[a], vertices[i][a] - reach);
+          high[a] = std::max(high[a], vertices[i][a] + reach);
           if (i > 0)
           {
             edges(a, i - 1) = vertices[i][a] - vertices[0][a];
