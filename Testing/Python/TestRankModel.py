@@ -34,6 +34,8 @@ def sent(maps):
              "pml_monitoring_filename", os.path.join(folder, "sent"), PVBATCH, "--sym", SCRIPT,
              str(SIDE), maps],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        if "mca_pml_monitoring_add_procs" in done.stdout:
+            return None  # Open MPI 5 ends where it shall count
         if done.returncode != 0:
             raise AssertionError(done.stdout[-3000:])
         files = glob.glob(os.path.join(folder, "sent*.prof"))

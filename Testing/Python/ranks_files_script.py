@@ -22,9 +22,13 @@ def source():
 
 
 def raw(path):
-    return simple.ImageReader(FileNames=[path], DataScalarType="float", FileDimensionality=3,
-                              DataByteOrder="LittleEndian", DataExtent=EXTENT,
-                              ScalarArrayName="RTData")
+    reader = simple.ImageReader(FileNames=[path], DataScalarType="float", FileDimensionality=3,
+                                DataByteOrder="LittleEndian", ScalarArrayName="RTData")
+    if reader.GetProperty("Dimensions"):  # from ParaView 6.1 on
+        reader.Dimensions = [last + 1 for last in EXTENT[1::2]]
+    else:
+        reader.DataExtent = EXTENT
+    return reader
 
 
 READERS = {".pvti": lambda path: simple.XMLPartitionedImageDataReader(FileName=[path]),
