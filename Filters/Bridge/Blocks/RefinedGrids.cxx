@@ -116,18 +116,13 @@ bool hasGhosts(vtkOverlappingAMR* grids)
 
 std::array<bool, 3> flatAxes(int description)
 {
-  for (const bool x : { false, true })
+  for (int axes = 0; axes < 8; ++axes)
   {
-    for (const bool y : { false, true })
+    const std::array<bool, 3> isFlat{ (axes & 1) != 0, (axes & 2) != 0, (axes & 4) != 0 };
+    std::array<int, 3> points{ isFlat[0] ? 1 : 2, isFlat[1] ? 1 : 2, isFlat[2] ? 1 : 2 };
+    if (vtkStructuredData::GetDataDescription(points.data()) == description)
     {
-      for (const bool z : { false, true })
-      {
-        std::array<int, 3> points{ x ? 1 : 2, y ? 1 : 2, z ? 1 : 2 };
-        if (vtkStructuredData::GetDataDescription(points.data()) == description)
-        {
-          return { x, y, z };
-        }
-      }
+      return isFlat;
     }
   }
   return { false, false, false };
