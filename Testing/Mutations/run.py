@@ -154,9 +154,13 @@ class Tests:
             if failure:
                 raise SystemExit(f"{failure} fails without any wrong change")
             log.write_text(output)
-        self.found = [(int(number), name, float(seconds)) for number, name, seconds in
-                      re.findall(r"Test +#(\d+): (\S+) .*Passed +([0-9.]+) sec",
-                                 log.read_text())]
+        # With filters ctest numbers otherwise.
+        listed = subprocess.run(["ctest", "--test-dir", folder, "-N"], check=True,
+                                capture_output=True, text=True).stdout
+        numbers = {name: int(number) for number, name in
+                   re.findall(r"Test +#(\d+): (\S+)", listed)}
+        self.found = [(numbers[name], name, float(seconds)) for name, seconds in
+                      re.findall(r"Test +#\d+: (\S+) .*Passed +([0-9.]+) sec", log.read_text())]
 
     def near(self, file):
         """Matches tests whose source names the changed file, or lies in a room of its name."""
