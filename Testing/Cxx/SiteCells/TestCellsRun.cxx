@@ -6,6 +6,7 @@
 #include "ThreadsTest.h"
 
 #include "vtkInformation.h"
+#include "vtkSOADataArrayTemplate.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <limits>
@@ -47,6 +48,31 @@ void checkCache(Checks& checks)
       { "a site", moveSite },
       { "other sites", [&]() { cells->SetInputData(makeSites(square, 9)); } } },
     __LINE__);
+}
+
+// A site that moves without a word of its points is noticed however they lie in memory.
+void checkQuietMoves(Checks& checks)
+{
+  vtkNew<vtkSOADataArrayTemplate<double>> apart;
+  for (const bool areApart : { false, true })
+  {
+    vtkNew<vtkEqualMassCells> cells;
+    auto sites = makeSites(square, 9);
+    apart->DeepCopy(sites->GetPoints()->GetData());
+    if (areApart)
+    {
+      sites->GetPoints()->SetData(apart);
+    }
+    cells->SetInputData(sites);
+    cells->SetResolution(30);
+    NewLabels newLabels(cells);
+    CHECK(checks, newLabels());
+    sites->Modified();
+    CHECK(checks, newLabels() == areApart); // no fingerprint: they may be others
+    sites->GetPoints()->GetData()->SetComponent(2, 0, 0.5);
+    sites->Modified();
+    CHECK(checks, newLabels());
+  }
 }
 
 void checkThreads(Checks& checks)
@@ -190,5 +216,6 @@ void checkEmpty(Checks& checks)
 
 int TestCellsRun(int, char*[])
 {
-  return runChecks({ checkCache, checkThreads, checkPieces, checkAborts, checkErrors, checkEmpty });
+  return runChecks({ checkCache, checkQuietMoves, checkThreads, checkPieces, checkAborts,
+    checkErrors, checkEmpty });
 }
