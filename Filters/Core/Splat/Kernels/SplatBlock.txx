@@ -269,6 +269,7 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
     mapOblique(job.Particles.ToIndex, from, block.X);
     return;
   }
+#pragma GCC unroll 1
   for (int begins = 0; begins < blockCoordinates; begins += coordinatePeriod)
   {
     for (int v = 0; v < vectorsOfPeriod; ++v)
@@ -312,6 +313,7 @@ RT_INLINE bool placeBlock(
 {
   double beyond[blockCoordinates];
   Four sum = {};
+#pragma GCC unroll 1
   for (int begin = 0; begin < blockCoordinates; begin += coordinatePeriod)
   {
     for (int v = 0; v < vectorsOfPeriod; ++v)

@@ -103,6 +103,7 @@ RT_INLINE bool weighBlock(
 {
   const Period& allowed = Inside ? axes.Inside : axes.Within;
   auto inside = Four{} == Four{};
+#pragma GCC unroll 1
   for (int begin = 0; begin < blockCoordinates; begin += coordinatePeriod)
   {
     for (int v = 0; v < vectorsOfPeriod; ++v)
@@ -134,6 +135,7 @@ RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
     low[v] = load(weighed.First + 4 * v);
     high[v] = low[v];
   }
+#pragma GCC unroll 1
   for (int begin = coordinatePeriod; begin < blockCoordinates; begin += coordinatePeriod)
   {
     for (int v = 0; v < vectorsOfPeriod; ++v)
