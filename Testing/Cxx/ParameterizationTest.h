@@ -47,7 +47,7 @@ inline Values runSquare(Parameterization* filter)
   return squareValues(filter);
 }
 
-// By hand, from the points and the coordinates.
+// By hand, from the points and the coordinates; triangles without area are not distorted.
 struct Figures
 {
   Values Area; // of the output's cells
@@ -102,6 +102,10 @@ inline Figures figuresOf(Parameterization* filter)
       across += off * off;
     }
     across = std::sqrt(across);
+    if (across < 1e-9 * length)
+    {
+      continue;
+    }
     const double a = (u[1][0] - u[0][0]) / length;
     const double c = (u[1][1] - u[0][1]) / length;
     const double b = (u[2][0] - u[0][0] - along * a) / across;

@@ -281,6 +281,35 @@ void checkPolygons(Checks& checks)
   expectFigures(checks, filter, __LINE__);
 }
 
+// A triangle without area joins another one's side to two: of that one the figures are its own,
+// not of the halves that it is cut into.
+void checkFlatTriangle(Checks& checks)
+{
+  constexpr vtkIdType columns = 8;
+  auto hills = makeHills(columns, 6);
+  vtkPoints* points = hills->GetPoints();
+  const vtkIdType low = 3 + 2 * (columns + 1);
+  const vtkIdType high = low + columns + 2;
+  double from[3];
+  double to[3];
+  points->GetPoint(low, from);
+  points->GetPoint(high, to);
+  const vtkIdType middle = points->InsertNextPoint(
+    0.6 * from[0] + 0.4 * to[0], 0.6 * from[1] + 0.4 * to[1], 0.6 * from[2] + 0.4 * to[2]);
+  vtkCellArray* cells = hills->GetPolys();
+  cells->ReplaceCellAtId(2 * (3 + 2 * columns) + 1, { low, middle, high - 1 });
+  cells->InsertNextCell({ middle, high, high - 1 });
+  cells->InsertNextCell({ low, high, middle });
+  auto filter = makeParameterization(hills);
+  Messages messages(filter);
+  filter->Update();
+  CHECK(checks, messages.Errors.empty() && messages.Warnings.size() == 1);
+  CHECK(checks, contains(messages.Warnings[0], "1 triangle without area left out"));
+  const Figures figures = figuresOf(filter);
+  CHECK(checks, figures.Area.back() == 1.0 && figures.Area[2 * (3 + 2 * columns)] != 1.0);
+  expectFigures(checks, filter, __LINE__);
+}
+
 // Turned polygons are mapped as the others, and inside out is as good.
 void checkOrientation(Checks& checks)
 {
@@ -323,5 +352,5 @@ void checkCut(Checks& checks)
 int TestAreaPreserving(int, char*[])
 {
   return runChecks({ checkRectangle, checkHills, checkHemisphere, checkCorners, checkWhatIsKept,
-    checkPolygons, checkOrientation, checkCut });
+    checkPolygons, checkFlatTriangle, checkOrientation, checkCut });
 }
