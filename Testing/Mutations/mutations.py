@@ -205,7 +205,7 @@ OTHERS = [
     E(CORE + "Mesh/FlatTriangles.cxx", "«!this->IsJoined(lastSide(side), across)»", "true"),
     E(CORE + "Mesh/RepairedDisk.cxx", "if («this->Repairs().FlatTriangles > 0»)", "false"),
     E(CORE + "Mesh/SurfaceRepair.cxx", "counts.UnusedPoints += «used ? 0 : 1»;", "0"),
-    E(BRIDGE + "Surface/PolygonCutter.cxx", "while («kept.size() > 1» &&", "false"),
+    E(BRIDGE + "Surface/PolygonCutter.cxx", "«!this->IsSamePlace(kept.back(), corner)»", "true"),
     S(BRIDGE + "Parameterization/AreaPreservingParameterization.cxx",
       'data->SetActiveTCoords("AreaPreserving");',
       'data->SetTCoords(data->GetArray("AreaPreserving"));'),
