@@ -362,9 +362,15 @@ TYPED_TEST(FlowMapRun, Uniform)
   }
 }
 
-// In all levels of a map that was made for this shape.
+// How many levels of a map for this shape are kept, and the bad cells in them.
+struct Kept
+{
+  int Levels;
+  std::int64_t Bad;
+};
+
 template <int Dimension>
-std::int64_t badCells(const FlowMapShape<Dimension>& shape, const TestDensity<Dimension>& density)
+Kept keptLevels(const FlowMapShape<Dimension>& shape, const TestDensity<Dimension>& density)
 {
   const Context context;
   Progress progress(context);
@@ -383,7 +389,7 @@ std::int64_t badCells(const FlowMapShape<Dimension>& shape, const TestDensity<Di
     }
     bad += std::count(level.Bad, level.Bad + cells, 1);
   }
-  return bad;
+  return { map.View().LevelCount, bad };
 }
 
 // Nodes that met an empty box are not interpolated, however straight the lattice is.
@@ -399,8 +405,24 @@ TYPED_TEST(FlowMapRun, TroubledCells)
   {
     islands.Values[i] = i % apart == apart / 2 ? 1.0 : 0.0;
   }
-  EXPECT_GT(badCells<D>(shape, islands), 0);
-  EXPECT_EQ(badCells<D>(shape, densityWithMaps<D>()), 0);
+  EXPECT_GT(keptLevels<D>(shape, islands).Bad, 0);
+  EXPECT_EQ(keptLevels<D>(shape, densityWithMaps<D>()).Bad, 0);
+}
+
+// Cells of which a cubic leaves out more than is allowed are not interpolated; a level of which
+// that is most is not kept.
+TYPED_TEST(FlowMapRun, BentCells)
+{
+  constexpr int D = TypeParam::value;
+  FlowMapShape<D> shape = forwardShape<D>(densityWithMaps<D>().Size);
+  const Kept usual = keptLevels<D>(shape, densityWithMaps<D>());
+  EXPECT_EQ(usual.Levels, static_cast<int>(shape.Levels.size()));
+  EXPECT_GT(usual.Bad, 0);
+  for (double& deviation : shape.Deviation)
+  {
+    deviation /= 64;
+  }
+  EXPECT_EQ(keptLevels<D>(shape, densityWithMaps<D>()).Levels, 0);
 }
 
 // A run that is cancelled while maps are made leaves none.
