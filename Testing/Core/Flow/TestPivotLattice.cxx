@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The particles of the pivot: exactly as many in each cell, spread evenly, and moved as any others.
+#include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/PivotLattice.h"
 #include "TestFlow.h"
@@ -199,6 +200,29 @@ TEST(PivotLattice, FlowIsThatOfThePoints)
   expectFlowOfPlaces<2>(twoGaussians<2>({ 90, 70 }), { 90, 70 });
   expectFlowOfPlaces<2>(discWithHole<2>({ 64, 64 }), { 33, 70 });
   expectFlowOfPlaces<3>(twoGaussians<3>({ 22, 18, 25 }), { 21, 7, 12 });
+}
+
+// Flow maps that pay for the particles of all places, but not for those of one, serve each.
+TEST(PivotLattice, FlowMapsForAllPlaces)
+{
+  const TestDensity<2> density = twoGaussians<2>({ 224, 208 });
+  const FlowMapShape<2> maps(density.Size, 16, FlowDirection::Forward);
+  double enough = 1.0;
+  while (!maps.PaysFor(enough))
+  {
+    enough *= 2.0;
+  }
+  const auto side = static_cast<std::int32_t>(std::sqrt(0.4 * enough));
+  const PivotLattice<2> pivot = pivotLattice<2>({ side, side }, 3);
+  ASSERT_EQ(pivot.Places.size(), 3u);
+  ASSERT_TRUE(maps.PaysFor(3.0 * side * side));
+  ASSERT_FALSE(maps.PaysFor(1.0 * side * side));
+  const RectifiedFlow<2> flow = makeFlow(density);
+  const Points<2> points = pointsOf<2>(pivot, density.Size);
+  Points<2> found(points.size());
+  transportPivot<2>(flow, pivot, found, with(FlowMaps::Auto, steps(16)));
+  EXPECT_TRUE(sameBits<2>(found, runForward(flow, points, with(FlowMaps::On, steps(16)))));
+  EXPECT_FALSE(sameBits<2>(found, runForward(flow, points, with(FlowMaps::Off, steps(16)))));
 }
 
 // What all places report together: in a density of few cells some particles of each are put on
