@@ -10,6 +10,7 @@
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "TestFlow.h"
+#include "ThreadRanks.h"
 
 #include <gtest/gtest.h>
 
@@ -370,10 +371,11 @@ struct Kept
 };
 
 template <int Dimension>
-Kept keptLevels(const FlowMapShape<Dimension>& shape, const TestDensity<Dimension>& density)
+Kept keptLevels(const FlowMapShape<Dimension>& shape, const TestDensity<Dimension>& density,
+  const Context& context = Context())
 {
-  const Context context;
-  Progress progress(context);
+  const Context alone;
+  Progress progress(alone);
   const SummedAreaTables<Dimension> tables(density.Source(), progress);
   const AdvectionJob<Dimension> job(
     tables.View(), AdvectionKind::Forward, steps(shape.NumberOfSteps));
@@ -392,7 +394,8 @@ Kept keptLevels(const FlowMapShape<Dimension>& shape, const TestDensity<Dimensio
   return { map.View().LevelCount, bad };
 }
 
-// Nodes that met an empty box are not interpolated, however straight the lattice is.
+// Nodes that met an empty box are not interpolated, however straight the lattice is; each rank
+// knows of those of the others.
 TYPED_TEST(FlowMapRun, TroubledCells)
 {
   constexpr int D = TypeParam::value;
@@ -405,7 +408,13 @@ TYPED_TEST(FlowMapRun, TroubledCells)
   {
     islands.Values[i] = i % apart == apart / 2 ? 1.0 : 0.0;
   }
-  EXPECT_GT(keptLevels<D>(shape, islands).Bad, 0);
+  const std::int64_t bad = keptLevels<D>(shape, islands).Bad;
+  EXPECT_GT(bad, 0);
+  runOnRanks(3, [&](const Ranks& ranks) {
+    Context context;
+    context.Group = &ranks;
+    EXPECT_EQ(keptLevels<D>(shape, islands, context).Bad, bad);
+  });
   EXPECT_EQ(keptLevels<D>(shape, densityWithMaps<D>()).Bad, 0);
 }
 
