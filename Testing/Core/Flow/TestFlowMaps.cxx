@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flow maps: which lattices there are, and that particles that start from them are where they
-// should be. TestInvariance and TestConvergence run with and without them, too.
+// Flow maps: particles that start from them are where they should be. TestInvariance and
+// TestConvergence run with and without them, too.
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/FlowMap.h"
-#include "Core/Flow/FlowMapShape.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/SummedAreaTables.h"
 
+#include "FlowMapShapes.h"
 #include "RecordingContext.h"
 #include "TestDimensions.h"
 #include "TestFlow.h"
@@ -23,97 +23,6 @@ namespace RectifiedTransport
 {
 namespace
 {
-
-template <int Dimension>
-FlowMapShape<Dimension> forwardShape(const GridSize<Dimension>& size, int count = 32)
-{
-  return FlowMapShape<Dimension>(size, count, FlowDirection::Forward);
-}
-
-template <int Dimension>
-double nodesOf(const typename FlowMapShape<Dimension>::Level& level)
-{
-  double nodes = 1.0;
-  for (const std::int64_t cells : level.Cells)
-  {
-    nodes *= static_cast<double>(cells + 1);
-  }
-  return nodes;
-}
-
-TEST(FlowMapShape, CoarserLevelsFirst)
-{
-  for (const FlowDirection direction : { FlowDirection::Forward, FlowDirection::Backward })
-  {
-    const FlowMapShape<2> shape({ 1024, 1024 }, 64, direction);
-    ASSERT_GE(shape.Levels.size(), 2u);
-    for (std::size_t i = 1; i < shape.Levels.size(); ++i)
-    {
-      EXPECT_LT(shape.Levels[i].HandOver, shape.Levels[i - 1].HandOver);
-      EXPECT_LT(shape.Levels[i].TimeLeft, shape.Levels[i - 1].TimeLeft);
-      EXPECT_GT(nodesOf<2>(shape.Levels[i]), 1.5 * nodesOf<2>(shape.Levels[i - 1]));
-    }
-    EXPECT_LE(shape.Levels.front().TimeLeft, 0.4);
-  }
-}
-
-// More steps: more nodes, each in its place with less deviation.
-TEST(FlowMapShape, FollowsTheSteps)
-{
-  const FlowMapShape<2> few = forwardShape<2>({ 500, 400 }, 32);
-  const FlowMapShape<2> many = forwardShape<2>({ 500, 400 }, 64);
-  ASSERT_FALSE(few.Levels.empty() || many.Levels.empty());
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    EXPECT_DOUBLE_EQ(many.Deviation[axis], few.Deviation[axis] / 4.0);
-  }
-  EXPECT_GT(nodesOf<2>(many.Levels.back()), nodesOf<2>(few.Levels.back()));
-}
-
-TEST(FlowMapShape, NoneWhereTheyDoNotServe)
-{
-  EXPECT_TRUE(forwardShape<1>({ 100000 }).Levels.empty());
-  EXPECT_TRUE(forwardShape<2>({ 1024, 1024 }, 3).Levels.empty());
-  EXPECT_TRUE(forwardShape<2>({ 3, 3 }).Levels.empty());
-  EXPECT_TRUE(forwardShape<2>({ 4096, 4096 }, 10000).Levels.empty()); // records are floats
-  EXPECT_FALSE(forwardShape<2>({ 1024, 1024 }).PaysFor(1000.0));
-  EXPECT_TRUE(forwardShape<2>({ 1024, 1024 }).PaysFor(40000.0));
-  EXPECT_FALSE(forwardShape<3>({ 256, 256, 256 }).PaysFor(8192.0));
-  EXPECT_TRUE(forwardShape<3>({ 128, 128, 128 }).PaysFor(128.0 * 128.0 * 128.0));
-}
-
-// The lattices of a stretched grid are those of the square one of as many cells.
-TEST(FlowMapShape, FollowsTheAxes)
-{
-  const FlowMapShape<2> square = forwardShape<2>({ 512, 512 });
-  const FlowMapShape<2> flat = forwardShape<2>({ 4096, 64 });
-  ASSERT_EQ(square.Levels.size(), flat.Levels.size());
-  for (std::size_t i = 0; i < flat.Levels.size(); ++i)
-  {
-    EXPECT_EQ(square.Levels[i].Cells, flat.Levels[i].Cells);
-    EXPECT_EQ(square.Levels[i].HandOver, flat.Levels[i].HandOver);
-    EXPECT_DOUBLE_EQ(flat.Levels[i].Layers[0], 64.0 * flat.Levels[i].Layers[1]);
-  }
-}
-
-// Of any number of steps and size: half of what the tables take.
-TEST(FlowMapShape, Memory)
-{
-  EXPECT_GT(forwardShape<3>({ 256, 256, 256 }).MemorySize(), 1e6);
-  EXPECT_LT(forwardShape<3>({ 256, 256, 256 }).MemorySize(), 60e6);
-  for (const int count : { 16, 32, 64, 128, 256, 512 })
-  {
-    for (const std::int64_t side : { 64, 128, 256, 512 })
-    {
-      const GridSize<2> square{ 8 * side, 6 * side };
-      EXPECT_LT(
-        forwardShape<2>(square, count).MemorySize(), 0.5 * RectifiedFlow<2>::MemoryFor(square));
-      const GridSize<3> cube{ side, side, 2 * side };
-      EXPECT_LT(forwardShape<3>(cube, count).MemorySize(), 0.5 * RectifiedFlow<3>::MemoryFor(cube));
-    }
-  }
-  EXPECT_FALSE(forwardShape<3>({ 512, 512, 512 }, 64).Levels.empty());
-}
 
 template <int Dimension>
 TestDensity<Dimension> densityWithMaps()
@@ -147,11 +56,7 @@ TYPED_TEST(FlowMapRun, Auto)
   const FlowOptions options = steps(16);
   const FlowMapShape<D> shape = forwardShape<D>(density.Size, options.NumberOfSteps);
   ASSERT_FALSE(shape.Levels.empty());
-  std::size_t enough = 1;
-  while (!shape.PaysFor(static_cast<double>(enough)))
-  {
-    enough *= 2;
-  }
+  const std::size_t enough = particlesThatPay(shape);
   const RectifiedFlow<D> flow = makeFlow(density);
   const Points<D> many = randomPoints<D>(density.Size, enough);
   const Points<D> few(many.begin(), many.begin() + static_cast<std::ptrdiff_t>(enough / 4));
@@ -374,8 +279,7 @@ template <int Dimension>
 Kept keptLevels(const FlowMapShape<Dimension>& shape, const TestDensity<Dimension>& density,
   const Context& context = Context())
 {
-  const Context alone;
-  Progress progress(alone);
+  Progress progress{ Context() };
   const SummedAreaTables<Dimension> tables(density.Source(), progress);
   const AdvectionJob<Dimension> job(
     tables.View(), AdvectionKind::Forward, steps(shape.NumberOfSteps));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The particles of the pivot: exactly as many in each cell, spread evenly, and moved as any others.
-#include "Core/Flow/FlowMapShape.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Flow/PivotLattice.h"
+#include "FlowMapShapes.h"
 #include "TestFlow.h"
 #include "TestRefusal.h"
 
@@ -206,12 +206,8 @@ TEST(PivotLattice, FlowIsThatOfThePoints)
 TEST(PivotLattice, FlowMapsForAllPlaces)
 {
   const TestDensity<2> density = twoGaussians<2>({ 224, 208 });
-  const FlowMapShape<2> maps(density.Size, 16, FlowDirection::Forward);
-  double enough = 1.0;
-  while (!maps.PaysFor(enough))
-  {
-    enough *= 2.0;
-  }
+  const FlowMapShape<2> maps = forwardShape<2>(density.Size, 16);
+  const auto enough = static_cast<double>(particlesThatPay(maps));
   const auto side = static_cast<std::int32_t>(std::sqrt(0.4 * enough));
   const PivotLattice<2> pivot = pivotLattice<2>({ side, side }, 3);
   ASSERT_EQ(pivot.Places.size(), 3u);
