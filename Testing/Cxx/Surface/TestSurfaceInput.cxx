@@ -118,16 +118,10 @@ void checkOthers(Checks& checks)
 vtkIdType trianglesWithArea(vtkPolyData* surface)
 {
   vtkIdType count = 0;
-  vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
-    surface->GetCellPoints(cell, corners);
-    double x[3][3];
-    for (int k = 0; k < 3; ++k)
-    {
-      surface->GetPoint(corners->GetId(k), x[k]);
-    }
-    count += vtkTriangle::TriangleArea(x[0], x[1], x[2]) > 1e-12 ? 1 : 0;
+    auto* triangle = vtkTriangle::SafeDownCast(surface->GetCell(cell));
+    count += triangle && triangle->ComputeArea() > 1e-12 ? 1 : 0;
   }
   return count;
 }
