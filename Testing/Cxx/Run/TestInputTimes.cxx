@@ -196,9 +196,24 @@ void checkOutputs(Checks& checks)
   }
 }
 
+// A time that another consumer has requested of a source, without data yet, stays requested.
+void checkRequested(Checks& checks)
+{
+  auto images = makeTimedImages();
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  warp->SetInputData(makePoints({ 3, 2, 0 }));
+  warp->SetDensityConnection(images->GetOutputPort());
+  images->UpdateInformation();
+  images->GetOutputInformation(0)->Set(Pipeline::UPDATE_TIME_STEP(), 3.0);
+  warp->UpdateInformation();
+  images->Update();
+  CHECK(checks, images->GetOutput()->GetCellData()->GetScalars()->GetTuple1(1) == bumpy(16));
+}
+
 } // namespace
 
 int TestInputTimes(int, char*[])
 {
-  return runChecks({ checkWarp, checkQuality, checkRelaxation, checkSampler, checkOutputs });
+  return runChecks(
+    { checkWarp, checkQuality, checkRelaxation, checkSampler, checkOutputs, checkRequested });
 }
