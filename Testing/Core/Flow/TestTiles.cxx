@@ -232,6 +232,23 @@ TYPED_TEST(Tiles, RedoWhatMeetsEmptyBoxes)
   EXPECT_GT(redone, 0);
 }
 
+// Cells apart, between which boxes are empty before particles reach their tiles.
+TEST(TilesOfIslands, RedoWhatMeetsEmptyBoxesBefore)
+{
+  TestDensity<2> islands = uniformDensity<2>(oddSize<2>());
+  for (std::size_t i = 0; i < islands.Values.size(); ++i)
+  {
+    islands.Values[i] = i % 5003 == 0 ? 1.0 : 0.0;
+  }
+  const FlowOptions options = with(FlowMaps::On, steps(24));
+  const GridSize<2> lattice = evenSize<2>(60);
+  Points<2> found(static_cast<std::size_t>(cellCount<2>(lattice)));
+  const FlowReport whole = makeFlow(islands).ForwardLattice(lattice, found, options);
+  const TiledRun<2> run(islands, smallTiles<2>());
+  const FlowReport tiled = run.Flow.ForwardLattice(lattice, found, options);
+  EXPECT_GT(tiled.Redone, whole.Redone * 5 / 6);
+}
+
 // Powers of two, so that extreme values are scaled without rounding.
 TYPED_TEST(Tiles, TakeValuesOfAnySize)
 {
