@@ -86,7 +86,7 @@ class ExampleShapes(ExampleTest):
 
     def test_number_of_shapes(self):
         for example, number in SHAPES.items():
-            printed = self.refused_here(example, "spot")
+            printed = self.refused(example, "spot")
             self.assertIn("1 shapes are given; it must be", printed)
 
     @need_meshes

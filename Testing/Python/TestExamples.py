@@ -47,7 +47,7 @@ class Examples(ExampleTest):
 
     def test_no_such_file(self):
         for example in set(SMALL) - OWN:
-            printed = self.refused_here(example, *["nowhere.png"] * SHAPES.get(example, 1))
+            printed = self.refused(example, *["nowhere.png"] * SHAPES.get(example, 1))
             self.assertIn("nowhere.png", printed)
 
     def test_not_an_image(self):
@@ -130,10 +130,10 @@ class Examples(ExampleTest):
         self.assertIn("90 x 108 x 90 values; it must be a picture", printed)
 
     def test_not_a_number(self):
-        printed = self.refused_here("FlowMaps", "--time", "1")
+        printed = self.refused("FlowMaps", "--time", "1")
         self.assertIn("--time is 1; it must lie between 0 and 1", printed)
         for example, option in ("Figure2Paths", "--cells"), ("Figure8Samples", "--sizes"):
-            printed = self.refused_here(example, option, "0")
+            printed = self.refused(example, option, "0")
             self.assertIn("argument %s: 0 is not a whole number of at least" % option, printed)
 
     def test_figure_2(self):
