@@ -69,7 +69,8 @@ void drawDimensions(RandomSource& random, Settings& settings, const Inputs& inpu
 State expectBlend(vtkAlgorithm* filter, const Inputs& inputs)
 {
   const int* asked = Blend::SafeDownCast(filter)->GetDimensions();
-  State state = asked[0] + asked[1] + asked[2] == 0 ? State::Sound : State::Odd;
+  const bool isAsked = std::any_of(asked, asked + 3, [](int count) { return count != 0; });
+  State state = isAsked ? State::Odd : State::Sound;
   for (const auto& port : inputs)
   {
     for (const Input& input : port)
