@@ -197,7 +197,7 @@ need_meshes
 if [ $long = 0 ]; then
   skipped="$skipped|long"
 else
-  export RT_MOST_RANKS=4
+  export RT_RANKS="2 3 4"
 fi
 if [ $gui = 0 ]; then
   skipped="$skipped|gui"
