@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python in README.md and Documentation/ runs as it stands, from the project's folder. Links lead
 somewhere, and files that are named are there."""
+import contextlib
 import fnmatch
 import glob
 import importlib.util
 import os
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 
+from rt_scripts import run_script
 from rt_testing import OUTPUT, SOURCE, main, need_display
 
 
@@ -119,11 +120,10 @@ class Documentation(unittest.TestCase):
                               "LoadPlugin(%r" % os.environ["RT_PLUGIN"], code)
                 with open(script, "w", encoding="utf-8") as file:
                     file.write(code)
-                done = subprocess.run(
-                    [os.environ.get("RT_PVPYTHON", "pvpython"), script], cwd=self.folder,
-                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-                self.assertEqual(done.returncode, 0, done.stdout)
-                self.assertNotIn("ERR|", done.stdout)
+                with contextlib.chdir(self.folder):
+                    printed, messages, code = run_script(script)
+                self.assertEqual(code, 0, printed + messages)
+                self.assertNotIn("ERR|", messages)
 
 
 if __name__ == "__main__":

@@ -3,19 +3,14 @@
 
 Tests called with --update draw the reference pictures anew.
 """
-import contextlib
 import os
 import re
-import runpy
 import shutil
 import sys
-import tempfile
-import traceback
 import unittest
-from unittest import mock
 
 import numpy as np
-from paraview import simple
+from rt_scripts import run_script
 from rt_testing import OUTPUT, SOURCE
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -68,45 +63,9 @@ def command(example, *arguments):
             *SMALL[example]]
 
 
-@contextlib.contextmanager
-def redirected(number, file):
-    """What Python and C++ write to a descriptor of this process goes to a file."""
-    sys.stdout.flush()
-    kept = os.dup(number)
-    os.dup2(file.fileno(), number)
-    try:
-        yield
-    finally:
-        sys.stdout.flush()
-        os.dup2(kept, number)
-        os.close(kept)
-        file.seek(0)
-
-
-def exit_code(path):
-    """Of a script that runs in this process; what ends it is printed."""
-    try:
-        runpy.run_path(path, run_name="__main__")
-    except SystemExit as stopped:
-        if isinstance(stopped.code, str):
-            print(stopped.code, file=sys.stderr)
-            return 1
-        return stopped.code or 0
-    except Exception:
-        traceback.print_exc()
-        return 1
-    return 0
-
-
 def run(example, *arguments):
-    """An example's output, its messages, and its exit code. It runs in this process, which is as new
-    afterwards: starting ParaView takes longer than most examples with small arguments."""
-    script = command(example, *arguments)
-    with tempfile.TemporaryFile("w+") as printed, tempfile.TemporaryFile("w+") as messages:
-        with mock.patch.object(sys, "argv", script), redirected(1, printed), redirected(2, messages):
-            code = exit_code(script[0])
-        simple.ResetSession()
-        return printed.read(), messages.read(), code
+    """An example's output, its messages, and its exit code."""
+    return run_script(*command(example, *arguments))
 
 
 def read(path):

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scripts of ParaView that run in the process of a test: starting another one takes longer than most."""
+import contextlib
+import os
+import runpy
+import sys
+import tempfile
+import traceback
+from unittest import mock
+
+from paraview import simple
+
+
+@contextlib.contextmanager
+def redirected(number, file):
+    """What Python and C++ write to a descriptor of this process goes to a file."""
+    sys.stdout.flush()
+    kept = os.dup(number)
+    os.dup2(file.fileno(), number)
+    try:
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(kept, number)
+        os.close(kept)
+        file.seek(0)
+
+
+def exit_code(path):
+    """Of a script that runs in this process; what ends it is printed."""
+    try:
+        runpy.run_path(path, run_name="__main__")
+    except SystemExit as stopped:
+        if isinstance(stopped.code, str):
+            print(stopped.code, file=sys.stderr)
+            return 1
+        return stopped.code or 0
+    except Exception:
+        traceback.print_exc()
+        return 1
+    return 0
+
+
+def run_script(path, *arguments):
+    """A script's output, its messages, and its exit code. ParaView's session is new afterwards."""
+    with tempfile.TemporaryFile("w+") as printed, tempfile.TemporaryFile("w+") as messages:
+        with mock.patch.object(sys, "argv", [path, *arguments]), redirected(1, printed), \
+                redirected(2, messages):
+            code = exit_code(path)
+        simple.ResetSession()
+        return printed.read(), messages.read(), code
