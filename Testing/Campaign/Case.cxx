@@ -108,9 +108,12 @@ private:
     }
   }
 
+  // Of the inputs, and of settings that are in their ranges.
   State Expect() const
   {
-    return this->ArePlain ? this->Kind.Expect(this->Filter, this->GivenInputs) : State::Open;
+    const State state = this->Properties.IsOdd() ? State::Odd : State::Sound;
+    return worse(
+      this->ArePlain ? this->Kind.Expect(this->Filter, this->GivenInputs) : State::Open, state);
   }
 
   void Print(const std::string& text) { this->Result.Log += text + "\n"; }
@@ -285,8 +288,7 @@ private:
   void Judge(const Outcome& outcome, Findings& findings)
   {
     const std::vector<std::string> wrong = this->Properties.OutOfRange();
-    const State ofInputs =
-      worse(this->Expect(), this->Properties.IsOdd() ? State::Odd : State::Sound);
+    const State ofInputs = this->Expect();
     const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {

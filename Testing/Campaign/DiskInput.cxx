@@ -177,10 +177,10 @@ void drawDefect(RandomSource& random, Disk& disk, Input& input)
       disk.Points.push_back({ 1e6, -1e6, 0.0 });
       state = State::Sound; // left out
       break;
-    default: // another component
+    default: // another component, far from all points of the first
     {
       const auto first = static_cast<vtkIdType>(disk.Points.size());
-      disk.Points.insert(disk.Points.end(), { { 9, 0, 0 }, { 9, 1, 0 }, { 9, 0, 1 } });
+      disk.Points.insert(disk.Points.end(), { { 99, 0, 0 }, { 99, 1, 0 }, { 99, 0, 1 } });
       disk.Faces.push_back({ first, first + 1, first + 2 });
       break;
     }
