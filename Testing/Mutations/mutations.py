@@ -275,7 +275,8 @@ OTHERS = [
       "return «hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0)»;", "Value(0)"),
     E(BRIDGE + "Points/SampledArrays.cxx", "if («isTaken» || isGhost", "false"),
     S(BRIDGE + "Points/SampledArrays.cxx",
-      "vtkMath::RoundDoubleToIntegralIfNecessary(sum, &value);", "value = static_cast<Value>(sum);"),
+      "vtkMath::RoundDoubleToIntegralIfNecessary(number, &value);",
+      "value = static_cast<Value>(number);"),
     E(BRIDGE + "Run/SeparateInputs.cxx", "dependents.at(source).size() > «1»", "1000"),
     E(BRIDGE + "Run/SeparateInputs.cxx", "std::clamp(«branch.Source.Times.First»,", "times->First"),
     E(BRIDGE + "Run/SeparateInputs.cxx", "return «one.Upstream.size() > other.Upstream.size()»",
@@ -347,4 +348,7 @@ OTHERS = [
     E(CORE + "Overlap/RegionOutlines.cxx",
       "(rings.Edges() > few && «!haveCrossings(rings, progress)»)", "true"),
     E(BRIDGE + "Meshes/RegionShapes.cxx", "if (mayBeSimple && «isSimple»)", "true"),
+    E(CORE + "Solid/SolidLines.cxx", "if («covered < counted»)", "false"),
+    E(BRIDGE + "Points/SampledArrays.cxx",
+      "«number >= static_cast<double>(std::numeric_limits<Value>::max())»", "false"),
 ]

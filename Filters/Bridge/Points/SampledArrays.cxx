@@ -22,6 +22,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,22 @@ Value noValue()
   return hasNaN ? std::numeric_limits<Value>::quiet_NaN() : Value(0);
 }
 
+template <class Value>
+Value rounded(double number)
+{
+  if constexpr (std::is_integral<Value>::value)
+  {
+    // As a double the largest value of 64 bits is one more, which vtkMath does not clamp.
+    if (number >= static_cast<double>(std::numeric_limits<Value>::max()))
+    {
+      return std::numeric_limits<Value>::max();
+    }
+  }
+  Value value;
+  vtkMath::RoundDoubleToIntegralIfNecessary(number, &value);
+  return value;
+}
+
 // The mean of value(point) with a place's weights.
 template <class Value, class ValueAt>
 Value interpolate(const SampledPlace& place, const ValueAt& valueAt)
@@ -145,9 +162,7 @@ Value interpolate(const SampledPlace& place, const ValueAt& valueAt)
   {
     sum += place.Weights[k] * static_cast<double>(valueAt(place.Points[k]));
   }
-  Value value;
-  vtkMath::RoundDoubleToIntegralIfNecessary(sum, &value);
-  return value;
+  return rounded<Value>(sum);
 }
 
 // Of arrays whose tuples are contiguous, with `N` components; 0 for any number.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace RectifiedTransport
 {
@@ -13,16 +14,14 @@ SolidLines::SolidLines(const TriangleSurface& surface, const TriangleLayers& lay
   : Surface(surface)
   , Layers(layers)
   , Weights(weights)
-  , Columns(cells[0])
   , Squares(supersampling)
   , LinesPerCell(supersampling * supersampling)
   , FirstLine(part.Low[1] * supersampling)
   , EndLine((part.Low[1] + part.Cells[1]) * supersampling)
   , Lines(cells[1] * supersampling)
+  , OfRow(cells[0])
 {
   this->First.Reserve(part.Cells[1] * this->LinesPerCell + 1);
-  this->Parts.Reserve(this->Columns + 1);
-  this->Whole.Reserve(this->Columns + 1);
 }
 
 void SolidLines::FindCrossings(std::int64_t layer, Progress& progress)
@@ -111,78 +110,123 @@ bool SolidLines::HasRow(std::int64_t row) const
 
 std::int64_t SolidLines::CorrectRow(std::int64_t row, double* values)
 {
-  const std::int64_t* first = this->First.data();
   const std::int64_t begin = row * this->LinesPerCell;
+  const std::int64_t end = begin + this->LinesPerCell;
   std::int64_t open = 0;
-  bool isCorrected = false;
-  for (std::int64_t line = begin; line < begin + this->LinesPerCell; ++line)
+  bool isRight = true;
+  for (std::int64_t line = begin; line < end; ++line)
   {
-    const bool isClosed = this->CorrectLine(
-      this->Crossings.data() + first[line], first[line + 1] - first[line], isCorrected);
-    open += isClosed ? 0 : 1;
+    this->SortCrossings(line);
+    const std::int64_t left = this->ForIntervals(
+      line, [&isRight](double from, double to, std::int64_t winding, std::int64_t weighted) {
+        isRight = isRight && (from == to || weighted == (winding != 0 ? 1 : 0));
+      });
+    open += left != 0 ? 1 : 0;
   }
-  if (isCorrected)
+  if (!isRight)
   {
-    this->WriteCorrection(values);
+    this->OfRow.Clear();
+    for (std::int64_t line = begin; line < end; ++line)
+    {
+      this->ForIntervals(
+        line, [this](double from, double to, std::int64_t winding, std::int64_t weighted) {
+          this->OfRow.Add(from, to, weighted, winding != 0);
+        });
+    }
+    this->OfRow.Correct(this->LinesPerCell, values);
   }
   return open;
 }
 
-bool SolidLines::CorrectLine(Crossing* crossings, std::int64_t count, bool& isCorrected)
+void SolidLines::SortCrossings(std::int64_t line)
 {
-  std::sort(
-    crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.X < b.X; });
+  const std::int64_t* first = this->First.data() + line;
+  std::sort(this->Crossings.data() + first[0], this->Crossings.data() + first[1],
+    [](const Crossing& a, const Crossing& b) { return a.X < b.X; });
+}
+
+// Calls visit(from, to, winding, weighted) for the intervals between the sorted crossings of a
+// line. Returns the winding number after the last.
+template <class Visit>
+std::int64_t SolidLines::ForIntervals(std::int64_t line, const Visit& visit) const
+{
+  const Crossing* crossing = this->Crossings.data() + this->First.data()[line];
+  const Crossing* end = this->Crossings.data() + this->First.data()[line + 1];
   std::int64_t winding = 0;
   std::int64_t weighted = 0;
-  for (std::int64_t i = 0; i < count; ++i)
+  for (; crossing != end; ++crossing)
   {
-    winding += crossings[i].Side;
-    weighted += crossings[i].Weighted;
-    const auto missing = static_cast<int>((winding != 0 ? 1 : 0) - weighted);
-    if (missing != 0 && i + 1 < count && crossings[i].X < crossings[i + 1].X)
+    winding += crossing->Side;
+    weighted += crossing->Weighted;
+    if (crossing + 1 != end)
     {
-      if (!isCorrected)
-      {
-        isCorrected = true;
-        std::fill_n(this->Parts.data(), this->Columns + 1, 0.0);
-        std::fill_n(this->Whole.data(), this->Columns + 1, 0);
-      }
-      this->AddInterval(crossings[i].X, crossings[i + 1].X, missing);
+      visit(crossing[0].X, crossing[1].X, winding, weighted);
     }
   }
-  return winding == 0;
+  return winding;
 }
 
-void SolidLines::AddInterval(double begin, double end, int times)
+RowLengths::RowLengths(std::int64_t columns)
+  : Parts(static_cast<std::size_t>(columns))
+  , Whole(static_cast<std::size_t>(columns + 1))
 {
-  const auto length = static_cast<double>(this->Columns);
-  begin = std::max(0.0, std::min(begin, length));
-  end = std::max(0.0, std::min(end, length));
-  const std::int64_t from = std::min(static_cast<std::int64_t>(begin), this->Columns - 1);
-  const std::int64_t to = std::min(static_cast<std::int64_t>(end), this->Columns - 1);
-  double* parts = this->Parts.data();
-  if (from == to)
+}
+
+void RowLengths::Clear()
+{
+  std::fill(this->Parts.begin(), this->Parts.end(), Lengths{ 0.0, 0.0 });
+  std::fill(this->Whole.begin(), this->Whole.end(), Counts{ 0, 0 });
+}
+
+void RowLengths::Add(double begin, double end, std::int64_t counted, bool isCovered)
+{
+  if (counted == 0 && !isCovered)
   {
-    parts[from] += times * (end - begin);
     return;
   }
-  parts[from] += times * (static_cast<double>(from + 1) - begin);
-  parts[to] += times * (end - static_cast<double>(to));
-  this->Whole.data()[from + 1] += times;
-  this->Whole.data()[to] -= times;
+  const auto columns = static_cast<std::int64_t>(this->Parts.size());
+  const auto length = static_cast<double>(columns);
+  begin = std::max(0.0, std::min(begin, length));
+  end = std::max(0.0, std::min(end, length));
+  const std::int64_t from = std::min(static_cast<std::int64_t>(begin), columns - 1);
+  const std::int64_t to = std::min(static_cast<std::int64_t>(end), columns - 1);
+  const auto add = [&](std::int64_t cell, double part) {
+    Lengths& lengths = this->Parts[static_cast<std::size_t>(cell)];
+    lengths.Counted += static_cast<double>(counted) * part;
+    lengths.Covered += isCovered ? part : 0.0;
+  };
+  if (from == to)
+  {
+    add(from, end - begin);
+    return;
+  }
+  add(from, static_cast<double>(from + 1) - begin);
+  add(to, end - static_cast<double>(to));
+  Counts& first = this->Whole[static_cast<std::size_t>(from + 1)];
+  Counts& last = this->Whole[static_cast<std::size_t>(to)];
+  first.Counted += counted;
+  first.Covered += isCovered ? 1 : 0;
+  last.Counted -= counted;
+  last.Covered -= isCovered ? 1 : 0;
 }
 
-void SolidLines::WriteCorrection(double* values)
+void RowLengths::Correct(std::int64_t lines, double* values) const
 {
-  int* whole = this->Whole.data();
-  for (std::int64_t i = 1; i < this->Columns; ++i)
+  Counts whole{ 0, 0 };
+  for (std::size_t i = 0; i < this->Parts.size(); ++i)
   {
-    whole[i] += whole[i - 1];
-  }
-  const auto lines = static_cast<double>(this->LinesPerCell);
-  for (std::int64_t i = 0; i < this->Columns; ++i)
-  {
-    values[i] += (static_cast<double>(whole[i]) + this->Parts.data()[i]) / lines;
+    whole.Counted += this->Whole[i].Counted;
+    whole.Covered += this->Whole[i].Covered;
+    const double counted = static_cast<double>(whole.Counted) + this->Parts[i].Counted;
+    const double covered = static_cast<double>(whole.Covered) + this->Parts[i].Covered;
+    if (covered < counted)
+    {
+      values[i] *= covered / counted;
+    }
+    else
+    {
+      values[i] += (covered - counted) / static_cast<double>(lines);
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -37,6 +38,34 @@ private:
   std::int64_t Count = 0;
 };
 
+// What lines count and cover of the cells of a row.
+class RowLengths
+{
+public:
+  explicit RowLengths(std::int64_t columns);
+
+  void Clear();
+  // An interval of a line that is counted so many times, and covered or not.
+  void Add(double begin, double end, std::int64_t counted, bool isCovered);
+  // As SolidLines::CorrectRow.
+  void Correct(std::int64_t lines, double* values) const;
+
+private:
+  struct Lengths
+  {
+    double Counted;
+    double Covered;
+  };
+  struct Counts
+  {
+    std::int64_t Counted;
+    std::int64_t Covered;
+  };
+
+  std::vector<Lengths> Parts; // of cells that an interval has a part of
+  std::vector<Counts> Whole;  // of whole cells, as differences along the row
+};
+
 // Each cell is crossed by squares^2 lines, through the centres of as many equal squares.
 //
 // A surface that passes exactly through lines and rows of lines is no special case: the plane of a
@@ -57,10 +86,11 @@ public:
   void FindCrossings(std::int64_t layer, Progress& progress);
   // Whether lines of a row, counted from the part's first, cross the surface.
   bool HasRow(std::int64_t row) const;
-  // Adds to the values of all cells of a row what the lines cover of them where the winding number
-  // is not 0, less what the sum of the weighted windings covers: nothing where that is 1 within the
-  // solid and 0 without. Returns how many lines leave the solid another number of times than they
-  // enter it.
+  // Corrects the values of all cells of a row, which count each place as often as the weighted
+  // windings do: nothing changes where these are 1 within the solid and 0 without. Where lines
+  // count too much, a value is multiplied by the share of it that they cover, so that no part of a
+  // solid is lost between lines. What they cover beyond what they count is added. Returns how many
+  // lines leave the solid another number of times than they enter it.
   std::int64_t CorrectRow(std::int64_t row, double* values);
 
 private:
@@ -75,14 +105,13 @@ private:
   void ForSegments(std::int64_t layer, Progress& progress, const Visit& visit) const;
   std::int64_t LineOf(std::int64_t j, std::int64_t row) const;
   std::int64_t LineFrom(double coordinate) const;
-  bool CorrectLine(Crossing* crossings, std::int64_t count, bool& isCorrected);
-  void AddInterval(double begin, double end, int times);
-  void WriteCorrection(double* values);
+  void SortCrossings(std::int64_t line);
+  template <class Visit>
+  std::int64_t ForIntervals(std::int64_t line, const Visit& visit) const;
 
   TriangleSurface Surface;
   const TriangleLayers& Layers;
   const signed char* Weights;
-  std::int64_t Columns;
   std::int64_t Squares;
   std::int64_t LinesPerCell;
   std::int64_t FirstLine; // of the part, and past its last
@@ -91,8 +120,7 @@ private:
   // Lines of a layer are numbered so that those of a row of cells are contiguous.
   Scratch<std::int64_t> First; // of each line's crossings
   Scratch<Crossing> Crossings;
-  Scratch<double> Parts; // sums of the lengths by which cells are corrected in part
-  Scratch<int> Whole;    // how often whole cells are, as differences along the row
+  RowLengths OfRow;
 };
 
 } // namespace RectifiedTransport

@@ -189,6 +189,27 @@ TEST(ExactCoverage, OverlapConverges)
   EXPECT_LT(error(32, 4), 1e-3);
 }
 
+// However few lines find an overlap: no more than half of two boxes.
+TEST(ExactCoverage, OverlapIsNoLoss)
+{
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> low(0.05, 0.45);
+  std::uniform_real_distribution<double> side(0.1, 0.5);
+  for (int run = 0; run < 200; ++run)
+  {
+    const auto drawBox = [&]() {
+      const Point<3> corner{ low(random), low(random), low(random) };
+      return makeBox(
+        corner, { corner[0] + side(random), corner[1] + side(random), corner[2] + side(random) });
+    };
+    Mesh both = drawBox();
+    both.Add(drawBox());
+    const double found = sum(cover(both, { 1, 1, 1 }, 1 + run % 3));
+    EXPECT_GT(found, 0.4 * both.Volume()) << run;
+    EXPECT_LT(found, 1.0000001 * both.Volume()) << run;
+  }
+}
+
 // The order of the triangles is of no consequence, as of surfaces that ranks gather.
 TEST(ExactCoverage, AnyOrder)
 {

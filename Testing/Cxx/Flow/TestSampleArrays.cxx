@@ -6,6 +6,9 @@
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkStringArray.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkTypeUInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
 namespace
@@ -204,6 +207,42 @@ void checkNotFinite(Checks& checks)
   }
 }
 
+// The least and the largest values of a type stay what they are, but for the weights' rounding.
+template <class Array>
+void checkLimits(Checks& checks)
+{
+  using Value = typename Array::ValueType;
+  for (const Value limit : { std::numeric_limits<Value>::min(), std::numeric_limits<Value>::max() })
+  {
+    auto image = makeImage(9, 9, 1, false, bumpy);
+    vtkNew<Array> values;
+    values->SetName("Value");
+    values->SetNumberOfValues(81);
+    for (vtkIdType i = 0; i < 81; ++i)
+    {
+      values->SetValue(i, limit);
+    }
+    image->GetPointData()->AddArray(values);
+    auto sampler = makeSampler(image);
+    sampler->Update();
+    auto* found = Array::SafeDownCast(pointArray(sampler->GetOutput(), "Value"));
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const double size = std::abs(static_cast<double>(limit));
+      CHECK_NEAR(
+        checks, static_cast<double>(found->GetValue(i)), static_cast<double>(limit), 1e-15 * size);
+    }
+  }
+}
+
+void checkIntegers(Checks& checks)
+{
+  checkLimits<vtkTypeInt64Array>(checks);
+  checkLimits<vtkTypeUInt64Array>(checks);
+  checkLimits<vtkTypeInt32Array>(checks);
+  checkLimits<vtkUnsignedCharArray>(checks);
+}
+
 void checkErrors(Checks& checks)
 {
   auto image = makeImage(9, 9, 1, true, bumpy);
@@ -223,5 +262,6 @@ void checkErrors(Checks& checks)
 
 int TestSampleArrays(int, char*[])
 {
-  return runChecks({ checkValues, checkColours, checkLeftOut, checkNotFinite, checkErrors });
+  return runChecks(
+    { checkValues, checkColours, checkLeftOut, checkNotFinite, checkIntegers, checkErrors });
 }
