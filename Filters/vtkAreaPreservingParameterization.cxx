@@ -15,7 +15,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkAreaPreservingParameterization);
-vtkImplementCornersPropertiesMacro(vtkAreaPreservingParameterization);
 
 using namespace RectifiedTransport;
 
@@ -23,8 +22,8 @@ using namespace RectifiedTransport;
 vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
   : Resolution(512)
   , Polish(true)
+  , Corners(std::make_unique<CornerSettings>())
 {
-  this->Corners = std::make_unique<CornerSettings>();
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
   this->GatherOnFirstRank(0, GATHERED_SURFACE);
@@ -32,6 +31,30 @@ vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
+
+//------------------------------------------------------------------------------
+void vtkAreaPreservingParameterization::SetNumberOfCorners(int count)
+{
+  changeCorners(this, [=]() { return this->Corners->Resize(count); });
+}
+
+//------------------------------------------------------------------------------
+int vtkAreaPreservingParameterization::GetNumberOfCorners()
+{
+  return this->Corners->Number();
+}
+
+//------------------------------------------------------------------------------
+void vtkAreaPreservingParameterization::SetCorner(int index, vtkIdType point)
+{
+  changeCorners(this, [=]() { return this->Corners->Set(index, point); });
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkAreaPreservingParameterization::GetCorner(int index)
+{
+  return static_cast<vtkIdType>(this->Corners->At(index));
+}
 
 //------------------------------------------------------------------------------
 vtkPolyData* vtkAreaPreservingParameterization::GetOutput()
@@ -57,8 +80,10 @@ int vtkAreaPreservingParameterization::FillOutputPortInformation(int, vtkInforma
 int vtkAreaPreservingParameterization::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const AreaPreservingParameterization parameterization{ *this->Corners, this->Resolution,
-    this->Polish };
+  AreaPreservingParameterization parameterization{};
+  parameterization.Corners = *this->Corners;
+  parameterization.Resolution = this->Resolution;
+  parameterization.Polish = this->Polish;
   parameterization.Check();
   AlgorithmProgress progress(this, this->Threading);
 

@@ -33,8 +33,8 @@
  *
  * Points that are in no polygon (their coordinates are 0 0) and triangles without area are left out
  * of the map, and points at one place merged, with a warning that counts them, where the surface is
- * no disk otherwise. A cut along which points are there twice stays a cut. Polygons that disagree in
- * their orientation are mapped with the one that most of the area has. Surfaces that are closed,
+ * no disk otherwise. A cut along which points are there twice stays a cut. Polygons that disagree
+ * in their orientation are mapped with the one that most of the area has. Surfaces that are closed,
  * have several components, boundaries, handles or edges of more than two triangles are errors that
  * say which. No points give an empty output.
  *
@@ -59,7 +59,13 @@
 #define vtkAreaPreservingParameterization_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the corners
+
+#include <memory> // for std::unique_ptr
+
+namespace RectifiedTransport
+{
+struct CornerSettings;
+} // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
@@ -89,9 +95,20 @@ public:
   vtkBooleanMacro(Polish, bool);
   ///@}
 
-  vtkCornersPropertiesMacro();
+  ///@{
+  /**
+   * The points of the surface's boundary that become the corners of the unit square: four point
+   * ids, of which the first goes to (0,0) and the others, in the order of the boundary, to (1,0),
+   * (1,1) and (0,1). Without any (default) they are chosen. SetCorner makes the list as long as
+   * needed, with -1 for corners that are not set; it has 1000000 at most.
+   */
+  void SetNumberOfCorners(int count);
+  int GetNumberOfCorners();
+  void SetCorner(int index, vtkIdType point);
+  vtkIdType GetCorner(int index);
+  void ClearCorners() { this->SetNumberOfCorners(0); }
+  ///@}
 
-public:
   /**
    * The surface with texture coordinates.
    */
@@ -110,6 +127,8 @@ protected:
   bool Polish;
 
 private:
+  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
+
   vtkAreaPreservingParameterization(const vtkAreaPreservingParameterization&) = delete;
   void operator=(const vtkAreaPreservingParameterization&) = delete;
 };

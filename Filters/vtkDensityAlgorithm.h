@@ -199,8 +199,7 @@ private:
     vtkDataSet* data, int arrayIndex, const std::string& what, int& association);
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex);
   RectifiedTransport::DensityRules GetDensityRules();
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadPieces(
-    vtkImageData* image, int arrayIndex);
+  std::unique_ptr<RectifiedTransport::DensityImage> ReadPieces(vtkImageData* image, int arrayIndex);
   std::unique_ptr<RectifiedTransport::DensityImage> ReadResampled(
     vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
 

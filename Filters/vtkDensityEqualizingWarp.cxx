@@ -7,7 +7,6 @@
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -22,7 +21,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkDensityEqualizingWarp);
-vtkImplementTablesPropertiesMacro(vtkDensityEqualizingWarp);
 
 using namespace RectifiedTransport;
 
@@ -90,9 +88,10 @@ int vtkDensityEqualizingWarp::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->Blend >= 0.0 && this->Blend <= 1.0, "Blend", this->Blend, "from 0 to 1");
-  this->GetTableSettings().Check();
-  const DensityEqualizingWarp warp{ this->GetFlowSettings().Options(), this->GetTableSettings(),
-    this->Blend };
+  DensityEqualizingWarp warp{};
+  warp.Tables = tableSetting(this->Tables);
+  warp.Flow = this->GetFlowOptions();
+  warp.Blend = this->Blend;
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
@@ -122,7 +121,6 @@ int vtkDensityEqualizingWarp::RequestData(
 void vtkDensityEqualizingWarp::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->GetTableSettings().Print(os, indent);
   os << indent << "Blend: " << this->Blend << "\n";
 }
 VTK_ABI_NAMESPACE_END

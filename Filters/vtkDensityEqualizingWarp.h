@@ -78,8 +78,6 @@ public:
    */
   vtkPointSet* GetOutput();
 
-  vtkTablesPropertiesMacro();
-
 protected:
   vtkDensityEqualizingWarp();
   ~vtkDensityEqualizingWarp() override;

@@ -10,7 +10,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
@@ -197,8 +197,13 @@ int vtkEqualMassCells::RequestData(
     requireThat(this->NormExponent == 2.0, "NormExponent", this->NormExponent, rule);
     requireThat(this->CostExponent == 2.0, "CostExponent", this->CostExponent, rule);
   }
-  const EqualMassCells cells{ this->GetFlowSettings().Options(),
-    { this->NormExponent, this->CostExponent }, this->Resolution, this->Shape == POWER };
+  requireThat(tableSetting(this->Tables) != TableSetting::Tiled, "Tables", this->Tables,
+    "0 (Auto) or 1 (Whole), as cells have no tiles");
+  EqualMassCells cells{};
+  cells.Flow = this->GetFlowOptions();
+  cells.Norm = { this->NormExponent, this->CostExponent };
+  cells.Resolution = this->Resolution;
+  cells.IsPower = this->Shape == POWER;
   AlgorithmProgress progress(this, this->Threading);
 
   // All data are in piece 0, whatever pieces are requested.

@@ -24,8 +24,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkMassSplatter);
-vtkImplementAssociationPropertiesMacro(vtkMassSplatter);
-vtkImplementSplatPropertiesMacro(vtkMassSplatter);
 
 namespace
 {
@@ -47,6 +45,9 @@ void requireDimensions(const int dimensions[3])
 //------------------------------------------------------------------------------
 vtkMassSplatter::vtkMassSplatter()
   : Dimensions{ 128, 128, 128 }
+  , Association(POINTS)
+  , Kernel(CLOUD_IN_CELL)
+  , Radius(1.0)
   , Boundary(RENORMALIZE)
   , DivideByVolume(true)
 {
@@ -59,6 +60,18 @@ vtkMassSplatter::vtkMassSplatter()
 
 //------------------------------------------------------------------------------
 vtkMassSplatter::~vtkMassSplatter() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetAssociationAsString()
+{
+  return choiceText(AssociationTexts, this->Association);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkMassSplatter::GetKernelAsString()
+{
+  return choiceText(KernelTexts, this->Kernel);
+}
 
 //------------------------------------------------------------------------------
 const char* vtkMassSplatter::GetBoundaryAsString()
@@ -107,8 +120,11 @@ int vtkMassSplatter::FillOutputPortInformation(int, vtkInformation* info)
 //------------------------------------------------------------------------------
 MassSplatter vtkMassSplatter::GetSplatter()
 {
-  return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
-    this->GetAssociationSettings().IsOnPoints(), this->DivideByVolume != 0, {} };
+  MassSplatter splatter{};
+  std::copy_n(this->Dimensions, 3, splatter.Dimensions.begin());
+  splatter.OnPoints = isOnPoints(this->Association);
+  splatter.DivideByVolume = this->DivideByVolume != 0;
+  return splatter;
 }
 
 //------------------------------------------------------------------------------
@@ -160,10 +176,9 @@ int vtkMassSplatter::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
-  this->GetAssociationSettings().Check();
-  requireChoice("Boundary", this->Boundary, BoundaryTexts);
   MassSplatter splatter = this->GetSplatter();
-  splatter.Splat = this->GetSplatSettings().Options();
+  requireChoice("Boundary", this->Boundary, BoundaryTexts);
+  splatter.Splat = splatOptions(this->Kernel, this->Radius);
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
@@ -211,8 +226,9 @@ void vtkMassSplatter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
-  this->GetAssociationSettings().Print(os, indent);
-  this->GetSplatSettings().Print(os, indent);
+  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
+  os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "Boundary: " << this->GetBoundaryAsString() << "\n";
   os << indent << "DivideByVolume: " << (this->DivideByVolume ? "On" : "Off") << "\n";
 }

@@ -63,7 +63,6 @@
 #define vtkMassSplatter_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the kernel and the association
 
 namespace RectifiedTransport
 {
@@ -84,6 +83,26 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
+   * What Association may be.
+   */
+  enum AssociationType
+  {
+    POINTS = 0,
+    CELLS = 1
+  };
+
+  /**
+   * What Kernel may be.
+   */
+  enum KernelType
+  {
+    CLOUD_IN_CELL = 0,
+    NEAREST_CELL = 1,
+    TRIANGULAR_SHAPED_CLOUD = 2,
+    GAUSSIAN = 3
+  };
+
+  /**
    * What Boundary may be.
    */
   enum BoundaryType
@@ -101,10 +120,45 @@ public:
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
-  vtkAssociationPropertiesMacro();
-  vtkSplatPropertiesMacro();
+  ///@{
+  /**
+   * The field association of the values of the output. Points (default): point data, on points at
+   * the cells' centres (with a Reference: on its points), ready for contours and volume rendering.
+   * Cells: cell data. The numbers are the same.
+   */
+  vtkSetMacro(Association, int);
+  vtkGetMacro(Association, int);
+  void SetAssociationToPoints() { this->SetAssociation(POINTS); }
+  void SetAssociationToCells() { this->SetAssociation(CELLS); }
+  const char* GetAssociationAsString();
+  ///@}
 
-public:
+  ///@{
+  /**
+   * How the mass of a particle is spread over the image's cells (or dual cells) around it.
+   * CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the cell that
+   * contains the point (on a face, the upper one). TriangularShapedCloud: quadratically over 3
+   * cells. Gaussian: as a Gaussian of the given Radius.
+   */
+  vtkSetMacro(Kernel, int);
+  vtkGetMacro(Kernel, int);
+  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
+  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
+  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
+  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
+  const char* GetKernelAsString();
+  ///@}
+
+  ///@{
+  /**
+   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
+   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
+   * cell it is the CloudInCell. Default 1.
+   */
+  vtkSetMacro(Radius, double);
+  vtkGetMacro(Radius, double);
+  ///@}
+
   ///@{
   /**
    * What happens to the part of a kernel that is beyond the border: Renormalize (default)
@@ -152,6 +206,9 @@ protected:
     vtkInformationVector* outputVector) override;
 
   int Dimensions[3];
+  int Association;
+  int Kernel;
+  double Radius;
   int Boundary;
   vtkTypeBool DivideByVolume;
 

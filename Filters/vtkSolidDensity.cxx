@@ -19,7 +19,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkSolidDensity);
-vtkImplementAssociationPropertiesMacro(vtkSolidDensity);
 
 namespace
 {
@@ -33,6 +32,7 @@ vtkSolidDensity::vtkSolidDensity()
   : Resolution(64)
   , Supersampling(2)
   , Padding(0.05)
+  , Association(POINTS)
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
@@ -41,6 +41,23 @@ vtkSolidDensity::vtkSolidDensity()
 
 //------------------------------------------------------------------------------
 vtkSolidDensity::~vtkSolidDensity() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkSolidDensity::GetAssociationAsString()
+{
+  return choiceText(AssociationTexts, this->Association);
+}
+
+//------------------------------------------------------------------------------
+SolidDensity vtkSolidDensity::GetSolid()
+{
+  SolidDensity solid{};
+  solid.Resolution = this->Resolution;
+  solid.Supersampling = this->Supersampling;
+  solid.Padding = this->Padding;
+  solid.OnPoints = isOnPoints(this->Association);
+  return solid;
+}
 
 //------------------------------------------------------------------------------
 vtkImageData* vtkSolidDensity::GetOutput()
@@ -67,9 +84,7 @@ int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
-  const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
-    this->GetAssociationSettings().IsOnPoints() };
-  const ImageGrid grid = solid.GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
+  const ImageGrid grid = this->GetSolid().GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
   announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
   return 1;
@@ -81,7 +96,7 @@ int vtkSolidDensity::RequestData(
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
-  this->GetAssociationSettings().Check();
+  const SolidDensity solid = this->GetSolid();
   requireSolidGrid(this->Resolution, this->Padding);
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
@@ -103,8 +118,6 @@ int vtkSolidDensity::RequestData(
   {
     return 1;
   }
-  const SolidDensity solid{ this->Resolution, this->Supersampling, this->Padding,
-    this->GetAssociationSettings().IsOnPoints() };
   vtkInformation* information = outputVector->GetInformationObject(0);
   const ImageGrid grid = solid.Run(
     surface,
@@ -124,6 +137,6 @@ void vtkSolidDensity::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "Supersampling: " << this->Supersampling << "\n";
   os << indent << "Padding: " << this->Padding << "\n";
-  this->GetAssociationSettings().Print(os, indent);
+  os << indent << "Association: " << this->GetAssociationAsString() << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -55,7 +55,11 @@
 #define vtkSolidDensity_h
 
 #include "vtkGuardedAlgorithm.h"
-#include "vtkTransportProperties.h" // for the association
+
+namespace RectifiedTransport
+{
+struct SolidDensity;
+}
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
@@ -66,6 +70,15 @@ public:
   static vtkSolidDensity* New();
   vtkTypeMacro(vtkSolidDensity, vtkGuardedAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * What Association may be.
+   */
+  enum AssociationType
+  {
+    POINTS = 0,
+    CELLS = 1
+  };
 
   ///@{
   /**
@@ -94,9 +107,19 @@ public:
   vtkGetMacro(Padding, double);
   ///@}
 
-  vtkAssociationPropertiesMacro();
+  ///@{
+  /**
+   * The field association of the values of the output. Points (default): point data, on points at
+   * the cells' centres, ready for contours and volume rendering. Cells: cell data. The numbers
+   * are the same.
+   */
+  vtkSetMacro(Association, int);
+  vtkGetMacro(Association, int);
+  void SetAssociationToPoints() { this->SetAssociation(POINTS); }
+  void SetAssociationToCells() { this->SetAssociation(CELLS); }
+  const char* GetAssociationAsString();
+  ///@}
 
-public:
   /**
    * The image with the array Density.
    */
@@ -116,8 +139,11 @@ protected:
   int Resolution;
   int Supersampling;
   double Padding;
+  int Association;
 
 private:
+  RectifiedTransport::SolidDensity GetSolid();
+
   vtkSolidDensity(const vtkSolidDensity&) = delete;
   void operator=(const vtkSolidDensity&) = delete;
 };

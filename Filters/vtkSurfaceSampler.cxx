@@ -20,9 +20,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkSurfaceSampler);
-vtkImplementSeedPropertiesMacro(vtkSurfaceSampler);
-vtkImplementCornersPropertiesMacro(vtkSurfaceSampler);
-vtkImplementFlowPropertiesMacro(vtkSurfaceSampler);
 
 using namespace RectifiedTransport;
 
@@ -30,8 +27,15 @@ using namespace RectifiedTransport;
 vtkSurfaceSampler::vtkSurfaceSampler()
   : NumberOfParticles(8192)
   , Resolution(1024)
+  , SeedPattern(BLUE_NOISE)
+  , RandomSeed(1)
+  , Integrator(MULTISTEP)
+  , NumberOfSteps(32)
+  , Tolerance(0.01)
+  , TableLookup(INTERPOLATED)
+  , FlowMaps(FLOW_MAPS_AUTO)
+  , Corners(std::make_unique<CornerSettings>())
 {
-  this->Corners = std::make_unique<CornerSettings>();
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
   this->GatherOnFirstRank(0, GATHERED_SURFACE);
@@ -40,6 +44,66 @@ vtkSurfaceSampler::vtkSurfaceSampler()
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::~vtkSurfaceSampler() = default;
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSampler::SetNumberOfCorners(int count)
+{
+  changeCorners(this, [=]() { return this->Corners->Resize(count); });
+}
+
+//------------------------------------------------------------------------------
+int vtkSurfaceSampler::GetNumberOfCorners()
+{
+  return this->Corners->Number();
+}
+
+//------------------------------------------------------------------------------
+void vtkSurfaceSampler::SetCorner(int index, vtkIdType point)
+{
+  changeCorners(this, [=]() { return this->Corners->Set(index, point); });
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkSurfaceSampler::GetCorner(int index)
+{
+  return static_cast<vtkIdType>(this->Corners->At(index));
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceSampler::GetSeedPatternAsString()
+{
+  return choiceText(SeedPatternTexts, this->SeedPattern);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceSampler::GetIntegratorAsString()
+{
+  return choiceText(IntegratorTexts, this->Integrator);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceSampler::GetTableLookupAsString()
+{
+  return choiceText(TableLookupTexts, this->TableLookup);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkSurfaceSampler::GetFlowMapsAsString()
+{
+  return choiceText(FlowMapsTexts, this->FlowMaps);
+}
+
+//------------------------------------------------------------------------------
+FlowSettings vtkSurfaceSampler::GetFlowSettings()
+{
+  FlowSettings settings{};
+  settings.Integrator = this->Integrator;
+  settings.NumberOfSteps = this->NumberOfSteps;
+  settings.Tolerance = this->Tolerance;
+  settings.TableLookup = this->TableLookup;
+  settings.FlowMaps = this->FlowMaps;
+  return settings;
+}
 
 //------------------------------------------------------------------------------
 vtkPolyData* vtkSurfaceSampler::GetOutput()
@@ -91,9 +155,13 @@ SurfaceDensity vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
 int vtkSurfaceSampler::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const SurfaceSampler sampler{ this->GetFlowSettings().Options(), *this->Corners,
-    this->NumberOfParticles, this->Resolution, this->GetSeedSettings().Pattern(),
-    this->RandomSeed };
+  SurfaceSampler sampler{};
+  sampler.Flow = this->GetFlowSettings().Options();
+  sampler.Corners = *this->Corners;
+  sampler.NumberOfParticles = this->NumberOfParticles;
+  sampler.Resolution = this->Resolution;
+  sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
+  sampler.RandomSeed = this->RandomSeed;
   sampler.Check();
   AlgorithmProgress progress(this, this->Threading);
 
@@ -123,7 +191,8 @@ void vtkSurfaceSampler::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
-  this->GetSeedSettings().Print(os, indent);
+  os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
+  os << indent << "RandomSeed: " << this->RandomSeed << "\n";
   this->Corners->Print(os, indent);
   this->GetFlowSettings().Print(os, indent);
 }

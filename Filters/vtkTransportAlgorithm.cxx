@@ -2,13 +2,20 @@
 #include "vtkTransportAlgorithm.h"
 
 #include "Bridge/Settings/FlowSettings.h"
+#include "Bridge/Settings/TableSettings.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-vtkImplementFlowPropertiesMacro(vtkTransportAlgorithm);
+using namespace RectifiedTransport;
 
 //------------------------------------------------------------------------------
 vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
   : vtkDensityAlgorithm(densityPort)
+  , Tables(TABLES_AUTO)
+  , Integrator(MULTISTEP)
+  , NumberOfSteps(32)
+  , Tolerance(0.01)
+  , TableLookup(INTERPOLATED)
+  , FlowMaps(FLOW_MAPS_AUTO)
 {
 }
 
@@ -16,9 +23,52 @@ vtkTransportAlgorithm::vtkTransportAlgorithm(int densityPort)
 vtkTransportAlgorithm::~vtkTransportAlgorithm() = default;
 
 //------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetTablesAsString()
+{
+  return choiceText(TablesTexts, this->Tables);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetIntegratorAsString()
+{
+  return choiceText(IntegratorTexts, this->Integrator);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetTableLookupAsString()
+{
+  return choiceText(TableLookupTexts, this->TableLookup);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportAlgorithm::GetFlowMapsAsString()
+{
+  return choiceText(FlowMapsTexts, this->FlowMaps);
+}
+
+//------------------------------------------------------------------------------
+FlowSettings vtkTransportAlgorithm::GetFlowSettings()
+{
+  FlowSettings settings{};
+  settings.Integrator = this->Integrator;
+  settings.NumberOfSteps = this->NumberOfSteps;
+  settings.Tolerance = this->Tolerance;
+  settings.TableLookup = this->TableLookup;
+  settings.FlowMaps = this->FlowMaps;
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+FlowOptions vtkTransportAlgorithm::GetFlowOptions()
+{
+  return this->GetFlowSettings().Options();
+}
+
+//------------------------------------------------------------------------------
 void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Tables: " << this->GetTablesAsString() << "\n";
   this->GetFlowSettings().Print(os, indent);
 }
 VTK_ABI_NAMESPACE_END

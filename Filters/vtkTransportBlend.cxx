@@ -7,7 +7,6 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Progress.h"
@@ -30,8 +29,6 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-vtkImplementSplatPropertiesMacro(vtkTransportBlend);
-vtkImplementTablesPropertiesMacro(vtkTransportBlend);
 
 namespace
 {
@@ -119,6 +116,8 @@ vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   : Dimensions{ 0, 0, 0 }
   , ParticlesPerCell(1)
   , MassMode(MASS_LINEAR)
+  , Kernel(CLOUD_IN_CELL)
+  , Radius(1.0)
   , BlocksAreInputs(blocksAreInputs)
 {
   this->SetNumberOfOutputPorts(2);
@@ -131,6 +130,12 @@ vtkTransportBlend::~vtkTransportBlend() = default;
 const char* vtkTransportBlend::GetMassModeAsString()
 {
   return choiceText(MassModeTexts, this->MassMode);
+}
+
+//------------------------------------------------------------------------------
+const char* vtkTransportBlend::GetKernelAsString()
+{
+  return choiceText(KernelTexts, this->Kernel);
 }
 
 //------------------------------------------------------------------------------
@@ -157,12 +162,15 @@ RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
   requireThat(
     this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
-  this->GetTableSettings().Check();
   requireChoice("MassMode", this->MassMode, MassModeTexts);
-  return { { this->Dimensions[0], this->Dimensions[1], this->Dimensions[2] },
-    this->ParticlesPerCell, static_cast<RectifiedTransport::MassMode>(this->MassMode),
-    this->GetFlowSettings().Options(), this->GetTableSettings(),
-    this->GetSplatSettings().Options() };
+  BlendSettings settings{};
+  settings.Tables = tableSetting(this->Tables);
+  std::copy_n(this->Dimensions, 3, settings.Dimensions);
+  settings.ParticlesPerCell = this->ParticlesPerCell;
+  settings.Mode = static_cast<RectifiedTransport::MassMode>(this->MassMode);
+  settings.Flow = this->GetFlowOptions();
+  settings.Splat = splatOptions(this->Kernel, this->Radius);
+  return settings;
 }
 
 //------------------------------------------------------------------------------
@@ -277,11 +285,11 @@ void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
 void vtkTransportBlend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->GetTableSettings().Print(os, indent);
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
   os << indent << "ParticlesPerCell: " << this->ParticlesPerCell << "\n";
   os << indent << "MassMode: " << this->GetMassModeAsString() << "\n";
-  this->GetSplatSettings().Print(os, indent);
+  os << indent << "Kernel: " << this->GetKernelAsString() << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -62,6 +62,17 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
+   * What Kernel may be.
+   */
+  enum KernelType
+  {
+    CLOUD_IN_CELL = 0,
+    NEAREST_CELL = 1,
+    TRIANGULAR_SHAPED_CLOUD = 2,
+    GAUSSIAN = 3
+  };
+
+  /**
    * What MassMode may be.
    */
   enum MassModeType
@@ -106,11 +117,32 @@ public:
   const char* GetMassModeAsString();
   ///@}
 
-  vtkSplatPropertiesMacro();
+  ///@{
+  /**
+   * How the mass of a particle is spread over the image's cells (or dual cells) around it.
+   * CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the cell that
+   * contains the point (on a face, the upper one). TriangularShapedCloud: quadratically over 3
+   * cells. Gaussian: as a Gaussian of the given Radius.
+   */
+  vtkSetMacro(Kernel, int);
+  vtkGetMacro(Kernel, int);
+  void SetKernelToCloudInCell() { this->SetKernel(CLOUD_IN_CELL); }
+  void SetKernelToNearestCell() { this->SetKernel(NEAREST_CELL); }
+  void SetKernelToTriangularShapedCloud() { this->SetKernel(TRIANGULAR_SHAPED_CLOUD); }
+  void SetKernelToGaussian() { this->SetKernel(GAUSSIAN); }
+  const char* GetKernelAsString();
+  ///@}
 
-  vtkTablesPropertiesMacro();
+  ///@{
+  /**
+   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
+   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
+   * cell it is the CloudInCell. Default 1.
+   */
+  vtkSetMacro(Radius, double);
+  vtkGetMacro(Radius, double);
+  ///@}
 
-public:
   /**
    * The interpolated density, output port 0.
    */
@@ -159,6 +191,8 @@ protected:
   int Dimensions[3];
   int ParticlesPerCell;
   int MassMode;
+  int Kernel;
+  double Radius;
 
 private:
   const bool BlocksAreInputs;

@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -16,11 +15,11 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <memory>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportMap);
-vtkImplementTablesPropertiesMacro(vtkTransportMap);
 
 namespace
 {
@@ -106,10 +105,11 @@ int vtkTransportMap::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
-  this->GetTableSettings().Check();
-  const TransportMap map{ this->GetFlowSettings().Options(), this->GetTableSettings(),
-    this->Direction == DENSITY_TO_UNIFORM,
-    { this->SampleDimensions[0], this->SampleDimensions[1], this->SampleDimensions[2] } };
+  TransportMap map{};
+  map.Tables = tableSetting(this->Tables);
+  map.Flow = this->GetFlowOptions();
+  map.Backward = this->Direction == DENSITY_TO_UNIFORM;
+  std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
@@ -145,7 +145,6 @@ int vtkTransportMap::RequestData(
 void vtkTransportMap::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->GetTableSettings().Print(os, indent);
   os << indent << "Direction: " << this->GetDirectionAsString() << "\n";
   os << indent << "SampleDimensions: " << this->SampleDimensions[0] << " "
      << this->SampleDimensions[1] << " " << this->SampleDimensions[2] << "\n";

@@ -98,8 +98,6 @@ public:
    */
   vtkImageData* GetOutput();
 
-  vtkTablesPropertiesMacro();
-
 protected:
   vtkTransportMap();
   ~vtkTransportMap() override;

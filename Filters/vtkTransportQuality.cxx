@@ -25,7 +25,6 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportQuality);
-vtkImplementTablesPropertiesMacro(vtkTransportQuality);
 
 namespace
 {
@@ -45,6 +44,7 @@ void addColumn(vtkTable* table, const char* name, Value value)
 vtkTransportQuality::vtkTransportQuality()
   : vtkDensityAlgorithm(1)
   , BlockSize(0)
+  , Tables(TABLES_AUTO)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
@@ -54,6 +54,12 @@ vtkTransportQuality::vtkTransportQuality()
 
 //------------------------------------------------------------------------------
 vtkTransportQuality::~vtkTransportQuality() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportQuality::GetTablesAsString()
+{
+  return choiceText(TablesTexts, this->Tables);
+}
 
 //------------------------------------------------------------------------------
 void vtkTransportQuality::SetDensityConnection(vtkAlgorithmOutput* density)
@@ -98,7 +104,9 @@ int vtkTransportQuality::RequestData(
 {
   requireThat(this->BlockSize >= 0, "BlockSize", this->BlockSize,
     "at least 1, or 0 for blocks of about 64 particles");
-  this->GetTableSettings().Check();
+  TransportQuality measure{};
+  measure.BlockSize = this->BlockSize;
+  measure.Tables = tableSetting(this->Tables);
   const Ranks* ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   // The row is in piece 0, whatever pieces are requested.
@@ -124,9 +132,8 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   const CountedPoints& counted = shared ? shared->Counted() : *alone;
-  const ParticleQuality quality =
-    TransportQuality{ this->BlockSize, this->GetTableSettings() }.Run(particles, counted,
-      shared ? shared->Keys() : nullptr, *density, this->GetFlowCache(), progress);
+  const ParticleQuality quality = measure.Run(particles, counted, shared ? shared->Keys() : nullptr,
+    *density, this->GetFlowCache(), progress);
   if (ranks && ranks->Own() > 0)
   {
     return 1;
@@ -148,7 +155,7 @@ int vtkTransportQuality::RequestData(
 void vtkTransportQuality::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->GetTableSettings().Print(os, indent);
+  os << indent << "Tables: " << this->GetTablesAsString() << "\n";
   os << indent << "BlockSize: " << this->BlockSize << "\n";
 }
 VTK_ABI_NAMESPACE_END

@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Settings/FlowSettings.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Ranks.h"
@@ -23,14 +22,14 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportSampler);
-vtkImplementSeedPropertiesMacro(vtkTransportSampler);
-vtkImplementTablesPropertiesMacro(vtkTransportSampler);
 
 using namespace RectifiedTransport;
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::vtkTransportSampler()
   : NumberOfParticles(8192)
+  , SeedPattern(BLUE_NOISE)
+  , RandomSeed(1)
   , SamplesPerCell(0)
   , FlowTime(1.0)
   , OutputPaths(false)
@@ -44,6 +43,12 @@ vtkTransportSampler::vtkTransportSampler()
 
 //------------------------------------------------------------------------------
 vtkTransportSampler::~vtkTransportSampler() = default;
+
+//------------------------------------------------------------------------------
+const char* vtkTransportSampler::GetSeedPatternAsString()
+{
+  return choiceText(SeedPatternTexts, this->SeedPattern);
+}
 
 //------------------------------------------------------------------------------
 void vtkTransportSampler::SetSeedsConnection(vtkAlgorithmOutput* seeds)
@@ -88,11 +93,16 @@ int vtkTransportSampler::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
-  const RectifiedTransport::SeedPattern pattern = this->GetSeedSettings().Pattern();
-  this->GetTableSettings().Check();
-  const TransportSampler sampler{ this->GetFlowSettings().Options(), this->GetTableSettings(),
-    pattern, this->NumberOfParticles, this->RandomSeed, this->SamplesPerCell, this->FlowTime,
-    this->OutputPaths != 0, this->SampleArrays != 0 };
+  TransportSampler sampler{};
+  sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
+  sampler.Tables = tableSetting(this->Tables);
+  sampler.Flow = this->GetFlowOptions();
+  sampler.NumberOfParticles = this->NumberOfParticles;
+  sampler.RandomSeed = this->RandomSeed;
+  sampler.SamplesPerCell = this->SamplesPerCell;
+  sampler.FlowTime = this->FlowTime;
+  sampler.OutputPaths = this->OutputPaths != 0;
+  sampler.SampleArrays = this->SampleArrays != 0;
   requireThat(
     this->SamplesPerCell >= 0, "SamplesPerCell", this->SamplesPerCell, "0 (not used) or greater");
   requireThat(this->NumberOfParticles >= 1 || seeds || sampler.UsesGrid(), "NumberOfParticles",
@@ -140,9 +150,9 @@ int vtkTransportSampler::RequestData(
 void vtkTransportSampler::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  this->GetTableSettings().Print(os, indent);
   os << indent << "NumberOfParticles: " << this->NumberOfParticles << "\n";
-  this->GetSeedSettings().Print(os, indent);
+  os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
+  os << indent << "RandomSeed: " << this->RandomSeed << "\n";
   os << indent << "SamplesPerCell: " << this->SamplesPerCell << "\n";
   os << indent << "FlowTime: " << this->FlowTime << "\n";
   os << indent << "OutputPaths: " << (this->OutputPaths ? "On" : "Off") << "\n";

@@ -51,7 +51,6 @@
 #define vtkTransportSampler_h
 
 #include "vtkTransportAlgorithm.h"
-#include "vtkTransportProperties.h" // for the seeds
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkAlgorithmOutput;
@@ -64,6 +63,18 @@ public:
   vtkTypeMacro(vtkTransportSampler, vtkTransportAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /**
+   * What SeedPattern may be.
+   */
+  enum SeedPatternType
+  {
+    BLUE_NOISE = 0,
+    LATTICE = 1,
+    JITTERED = 2,
+    LOW_DISCREPANCY = 3,
+    RANDOM = 4
+  };
+
   ///@{
   /**
    * The number of particles, at least 1. Default 8192. The output has exactly as many, except where
@@ -73,12 +84,33 @@ public:
   vtkGetMacro(NumberOfParticles, vtkIdType);
   ///@}
 
-  // Not used where seeds are given.
-  vtkSeedPropertiesMacro();
+  ///@{
+  /**
+   * How the uniform seeds that particles start from are distributed, evenly in lengths;
+   * not used where seeds are given. BlueNoise (default): even and irregular, without preferred
+   * directions. Lattice: the centres of a grid of equal boxes, whose number is as near to
+   * NumberOfParticles as the aspect ratio allows. Jittered: one at random in each of as many boxes
+   * of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
+   */
+  vtkSetMacro(SeedPattern, int);
+  vtkGetMacro(SeedPattern, int);
+  void SetSeedPatternToBlueNoise() { this->SetSeedPattern(BLUE_NOISE); }
+  void SetSeedPatternToLattice() { this->SetSeedPattern(LATTICE); }
+  void SetSeedPatternToJittered() { this->SetSeedPattern(JITTERED); }
+  void SetSeedPatternToLowDiscrepancy() { this->SetSeedPattern(LOW_DISCREPANCY); }
+  void SetSeedPatternToRandom() { this->SetSeedPattern(RANDOM); }
+  const char* GetSeedPatternAsString();
+  ///@}
 
-  vtkTablesPropertiesMacro();
+  ///@{
+  /**
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
+   * the same one gives the same seeds on every machine. Default 1.
+   */
+  vtkSetMacro(RandomSeed, int);
+  vtkGetMacro(RandomSeed, int);
+  ///@}
 
-public:
   ///@{
   /**
    * For Lattice and Jittered, above 0: the number of seeds along each axis in every cell of the
@@ -143,6 +175,8 @@ protected:
     vtkInformationVector* outputVector) override;
 
   vtkIdType NumberOfParticles;
+  int SeedPattern;
+  int RandomSeed;
   int SamplesPerCell;
   double FlowTime;
   vtkTypeBool OutputPaths;

@@ -4,7 +4,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Seeds/UniformSeedSource.h"
-#include "Bridge/Settings/SeedPatternTexts.h"
+#include "Bridge/Settings/SeedSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -67,9 +67,11 @@ int vtkUniformSeedSource::RequestData(
 {
   requireThat(this->Dimension == 2 || this->Dimension == 3, "Dimension", this->Dimension, "2 or 3");
   requireThat(this->NumberOfPoints >= 1, "NumberOfPoints", this->NumberOfPoints, "at least 1");
-  requireChoice("Pattern", this->Pattern, SeedPatternTexts);
-  UniformSeedSource source{ static_cast<SeedPattern>(this->Pattern), {}, this->Dimension,
-    this->NumberOfPoints, this->RandomSeed };
+  UniformSeedSource source{};
+  source.Pattern = seedPattern("Pattern", this->Pattern);
+  source.Dimension = this->Dimension;
+  source.NumberOfPoints = this->NumberOfPoints;
+  source.RandomSeed = this->RandomSeed;
   std::copy_n(this->Bounds, 6, source.Bounds.begin());
   AlgorithmProgress progress(this, this->Threading);
   using Pipeline = vtkStreamingDemandDrivenPipeline;

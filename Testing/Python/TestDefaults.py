@@ -16,27 +16,12 @@ def numbers(text):
     return [float(x) for x in text.split()]
 
 
-def macro_comment(macros, name):
-    """The item of a property in the list above one of these macros."""
-    with open(os.path.join(SOURCE, "Filters", "vtkTransportProperties.h"), encoding="utf-8") as file:
-        header = file.read()
-    for macro in macros:
-        comment = re.search(r"/\*\*((?:(?!\*/).)*)\*/\s*#define %s\(" % macro, header, re.DOTALL).group(1)
-        found = re.search(r"^ \* - (%s[.:].*?)(?=^ \* - |\Z)" % name, comment, re.DOTALL | re.MULTILINE)
-        if found:
-            return found
-    return None
-
-
 def header_comment(class_name, name):
-    """The comment above a property's setter in the header of a class or of its superclasses, or what
-    vtkTransportProperties.h states of it above a macro that the class has."""
+    """The comment above a property's setter in the header of a class or of its superclasses."""
     with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
         header = file.read()
     pattern = r"/\*\*((?:(?!\*/).)*)\*/\s*vtkSet\w*Macro\(%s,"
     found = re.search(pattern % name, header, re.DOTALL)
-    if not found:
-        found = macro_comment(re.findall(r"^  (vtk\w+PropertiesMacro)\(\);", header, re.MULTILINE), name)
     if found:
         return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
     base = re.search(r'#include "(vtkTransportBlend|vtk\w*Algorithm)\.h"', header).group(1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The package rectifiedtransport in Python, without ParaView."""
+import re
 import unittest
 
 import numpy as np
@@ -25,6 +26,16 @@ class Wrapping(unittest.TestCase):
                      rectifiedtransport.vtkTransportAlgorithm):
             with self.assertRaises((TypeError, NotImplementedError)):
                 base()
+
+    def test_setters_have_text(self):
+        """After the signatures of a method help() shows what its header says."""
+        for name in (name for name in dir(rectifiedtransport) if name.startswith("vtk")):
+            wrapped = getattr(rectifiedtransport, name)
+            for setter in (setter for setter in vars(wrapped) if setter.startswith("Set")):
+                with self.subTest("%s.%s" % (name, setter)):
+                    text = re.sub(r"^(C\+\+: .*|%s\(.*)$" % setter, "",
+                                  getattr(wrapped, setter).__doc__, flags=re.MULTILINE)
+                    self.assertGreater(len(text.split()), 2)
 
     def test_source_feeds_sampler(self):
         seeds = vtkUniformSeedSource()

@@ -55,7 +55,7 @@ struct BlendSettings
   int ParticlesPerCell;
   MassMode Mode;
   FlowOptions Flow;
-  TableSettings Tables;
+  TableSetting Tables;
   SplatOptions Splat;
   bool AddCost = false; // of two inputs: TransportCost
 };

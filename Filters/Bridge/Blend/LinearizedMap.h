@@ -27,13 +27,13 @@ struct LinearizedMapSettings
   std::array<std::int64_t, 3> Grid; // cells along the axes of index space, 1 beyond its dimension
   std::int64_t PerCell;
   FlowOptions Options;
-  TableSettings Tables;
+  TableSetting Tables;
   RankShare Share; // of the numbers of the particles
 
   bool operator==(const LinearizedMapSettings& other) const
   {
     return this->Grid == other.Grid && this->PerCell == other.PerCell &&
-      this->Options == other.Options && this->Tables.Tables == other.Tables.Tables &&
+      this->Options == other.Options && this->Tables == other.Tables &&
       this->Share.First == other.Share.First && this->Share.Count == other.Share.Count;
   }
 };

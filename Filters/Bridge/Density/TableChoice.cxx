@@ -13,10 +13,6 @@ namespace RectifiedTransport
 namespace
 {
 
-// Of the property.
-constexpr int automatic = 0;
-constexpr int tiled = 2;
-
 constexpr const char* oneAxis = "takes densities of two or three axes";
 
 // Why tiles do not serve; empty if they do.
@@ -43,12 +39,12 @@ std::string refusal(const GridSize<D>& size, const TableUse& use)
 
 // findRefusal() is why tiles do not serve, empty if they do; findMemory() what they take.
 template <int D, class FindRefusal, class FindMemory>
-FlowTables choose(const TableSettings& settings, const GridSize<D>& size,
-  const FindRefusal& findRefusal, const FindMemory& findMemory)
+FlowTables choose(TableSetting setting, const GridSize<D>& size, const FindRefusal& findRefusal,
+  const FindMemory& findMemory)
 {
   constexpr double large = 1 << 26; // grid cells: 2.1 GB of whole tables in 3D
-  const bool isAsked = settings.Tables == tiled;
-  if (!isAsked && (settings.Tables != automatic || numberOfCells<D>(size) <= large))
+  const bool isAsked = setting == TableSetting::Tiled;
+  if (!isAsked && (setting != TableSetting::Auto || numberOfCells<D>(size) <= large))
   {
     return FlowTables::Whole;
   }
@@ -68,10 +64,10 @@ FlowTables choose(const TableSettings& settings, const GridSize<D>& size,
 } // namespace
 
 template <int D>
-FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, const TableUse& use)
+FlowTables chooseTables(TableSetting setting, const GridSize<D>& size, const TableUse& use)
 {
   return choose<D>(
-    settings, size, [&]() { return refusal<D>(size, use); },
+    setting, size, [&]() { return refusal<D>(size, use); },
     [&]() {
       return RectifiedFlow<D>::TiledMemoryFor(
         size, use.Options, use.Direction, use.Particles, use.IsLattice);
@@ -80,21 +76,21 @@ FlowTables chooseTables(const TableSettings& settings, const GridSize<D>& size, 
 
 template <int D>
 FlowTables chooseTablesForShares(
-  const TableSettings& settings, const GridSize<D>& size, const Point<D>& aspect, double boxes)
+  TableSetting setting, const GridSize<D>& size, const Point<D>& aspect, double boxes)
 {
   return choose<D>(
-    settings, size, []() { return std::string(D == 1 ? oneAxis : ""); },
+    setting, size, []() { return std::string(D == 1 ? oneAxis : ""); },
     [&]() { return RectifiedFlow<D>::TiledSharesMemoryFor(size, aspect, boxes); });
 }
 
-template FlowTables chooseTables<1>(const TableSettings&, const GridSize<1>&, const TableUse&);
-template FlowTables chooseTables<2>(const TableSettings&, const GridSize<2>&, const TableUse&);
-template FlowTables chooseTables<3>(const TableSettings&, const GridSize<3>&, const TableUse&);
+template FlowTables chooseTables<1>(TableSetting, const GridSize<1>&, const TableUse&);
+template FlowTables chooseTables<2>(TableSetting, const GridSize<2>&, const TableUse&);
+template FlowTables chooseTables<3>(TableSetting, const GridSize<3>&, const TableUse&);
 template FlowTables chooseTablesForShares<1>(
-  const TableSettings&, const GridSize<1>&, const Point<1>&, double);
+  TableSetting, const GridSize<1>&, const Point<1>&, double);
 template FlowTables chooseTablesForShares<2>(
-  const TableSettings&, const GridSize<2>&, const Point<2>&, double);
+  TableSetting, const GridSize<2>&, const Point<2>&, double);
 template FlowTables chooseTablesForShares<3>(
-  const TableSettings&, const GridSize<3>&, const Point<3>&, double);
+  TableSetting, const GridSize<3>&, const Point<3>&, double);
 
 } // namespace RectifiedTransport

@@ -25,13 +25,12 @@ struct TableUse
 // The tables of a density of this size, for a value in range: Auto means tiles above 2^26 grid
 // cells where they serve. Throws Failure where Tiled is set and they do not, or do not find memory.
 template <int D>
-FlowTables chooseTables(
-  const TableSettings& settings, const GridSize<D>& size, const TableUse& use);
+FlowTables chooseTables(TableSetting setting, const GridSize<D>& size, const TableUse& use);
 
 // The same for MeasuresOfShares of so many boxes.
 template <int D>
 FlowTables chooseTablesForShares(
-  const TableSettings& settings, const GridSize<D>& size, const Point<D>& aspect, double boxes);
+  TableSetting setting, const GridSize<D>& size, const Point<D>& aspect, double boxes);
 
 } // namespace RectifiedTransport
 

@@ -24,7 +24,7 @@ class Progress;
 struct DensityEqualizingWarp
 {
   FlowOptions Flow;
-  TableSettings Tables;
+  TableSetting Tables;
   double Blend;
 
   // Sets the points and `Displacement` of an output that has the rest of the input already. Returns

@@ -26,7 +26,7 @@ class Progress;
 struct TransportMap
 {
   FlowOptions Flow;
-  TableSettings Tables;
+  TableSetting Tables;
   bool Backward;
   std::array<int, 3> SampleDimensions; // 0 keeps the number of the density's values
 

@@ -28,7 +28,7 @@ class Progress;
 struct TransportSampler
 {
   FlowOptions Flow;
-  TableSettings Tables;
+  TableSetting Tables;
   SeedPattern Pattern;
   std::int64_t NumberOfParticles;
   int RandomSeed;

@@ -36,7 +36,7 @@ struct ParameterizationReport
 // The members are the properties of that class.
 struct AreaPreservingParameterization
 {
-  const CornerSettings& Corners;
+  CornerSettings Corners;
   int Resolution;
   bool Polish;
 

@@ -206,10 +206,10 @@ ParticleQuality measure(const ParticleSample& particles, const ImageGrid& grid,
 }
 
 template <int D>
-FlowTables choose(const TableSettings& settings, const ImageGrid& grid, std::int64_t particles)
+FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t particles)
 {
   return chooseTablesForShares<D>(
-    settings, grid.Size<D>(), boxAspect<D>(grid), static_cast<double>(particles));
+    setting, grid.Size<D>(), boxAspect<D>(grid), static_cast<double>(particles));
 }
 
 } // namespace

@@ -23,7 +23,7 @@ class FlowCache;
 struct TransportQuality
 {
   int BlockSize;
-  TableSettings Tables;
+  TableSetting Tables;
 
   // Compares the particles that are no ghosts, at least one, with a density, whose tables are kept
   // in the cache. Those of all ranks of the progress together, in the order of a key for each, or

@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The property Association, checked and as text: whether the values of an output image are point or
-// cell data.
+// The property Association.
 #ifndef RectifiedTransport_AssociationSettings_h
 #define RectifiedTransport_AssociationSettings_h
 
-#include "vtkIndent.h"
-
-#include <iosfwd>
+#include "Bridge/Run/PropertyCheck.h"
 
 namespace RectifiedTransport
 {
 
-// The values are those of vtkAssociationPropertiesMacro.
-struct AssociationSettings
-{
-  int Association;
+constexpr const char* AssociationTexts[] = { "Points", "Cells" };
 
-  const char* Text() const;
-  // For a value in range.
-  bool IsOnPoints() const { return this->Association == 0; }
-  // Throws Failure for a value out of range.
-  void Check() const;
-  void Print(std::ostream& os, vtkIndent indent) const;
-};
+// Throws Failure for a value out of range.
+inline bool isOnPoints(int association)
+{
+  requireChoice("Association", association, AssociationTexts);
+  return association == 0;
+}
 
 } // namespace RectifiedTransport
-
-// For the source file of a class that has vtkAssociationPropertiesMacro.
-#define vtkImplementAssociationPropertiesMacro(Class)                                              \
-  RectifiedTransport::AssociationSettings Class::GetAssociationSettings()                          \
-  {                                                                                                \
-    return { this->Association };                                                                  \
-  }                                                                                                \
-  const char* Class::GetAssociationAsString()                                                      \
-  {                                                                                                \
-    return this->GetAssociationSettings().Text();                                                  \
-  }
 
 #endif

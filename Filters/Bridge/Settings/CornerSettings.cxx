@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Settings/CornerSettings.h"
 
-#include "Bridge/Run/Failure.h"
-
 #include <algorithm>
 #include <ostream>
 #include <stdexcept>
@@ -18,6 +16,11 @@ std::int64_t CornerSettings::At(int index) const
 
 bool CornerSettings::Resize(int count)
 {
+  if (count < 0 || count > MaximumNumber)
+  {
+    throw Failure("The number of corners is " + std::to_string(count) + "; it must be from 0 to " +
+      std::to_string(MaximumNumber));
+  }
   const bool changes = count != this->Number();
   this->Points.resize(static_cast<std::size_t>(count), -1);
   return changes;
@@ -25,6 +28,11 @@ bool CornerSettings::Resize(int count)
 
 bool CornerSettings::Set(int index, std::int64_t point)
 {
+  if (index < 0 || index >= MaximumNumber)
+  {
+    throw Failure("The index of a corner is " + std::to_string(index) + "; it must be from 0 to " +
+      std::to_string(MaximumNumber - 1));
+  }
   const bool grows = this->Resize(std::max(index + 1, this->Number()));
   std::int64_t& known = this->Points[static_cast<std::size_t>(index)];
   const bool changes = known != point;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The property Corners, set, checked and printed: which points of a disk become the corners of the
-// square.
+// The property Corners: which points of a disk become the corners of the square.
 #ifndef RectifiedTransport_CornerSettings_h
 #define RectifiedTransport_CornerSettings_h
 
+#include "Bridge/Run/Failure.h"
 #include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
 #include "vtkIndent.h"
+#include "vtkObject.h"
 
 #include <cstdint>
 #include <iosfwd>
@@ -16,7 +17,6 @@
 namespace RectifiedTransport
 {
 
-// The values are those of vtkCornersPropertiesMacro.
 struct CornerSettings
 {
   // Far above 4; bounds the memory that SetCorner allocates.
@@ -27,7 +27,7 @@ struct CornerSettings
   int Number() const { return static_cast<int>(this->Points.size()); }
   // -1 where there is none.
   std::int64_t At(int index) const;
-  // These return whether anything changed; the arguments must be in range.
+  // These return whether anything changed. They throw Failure for arguments out of range.
   bool Resize(int count);
   bool Set(int index, std::int64_t point);
 
@@ -39,46 +39,23 @@ struct CornerSettings
   void Print(std::ostream& os, vtkIndent indent) const;
 };
 
-} // namespace RectifiedTransport
-
-// For the source file of a class that has vtkCornersPropertiesMacro, whose constructor makes its
-// Corners.
-#define vtkImplementCornersPropertiesMacro(Class)                                                  \
-  void Class::SetNumberOfCorners(int count)                                                        \
-  {                                                                                                \
-    constexpr int maximum = RectifiedTransport::CornerSettings::MaximumNumber;                     \
-    if (count < 0 || count > maximum)                                                              \
-    {                                                                                              \
-      vtkErrorMacro(<< "The number of corners is " << count << "; it must be from 0 to "           \
-                    << maximum);                                                                   \
-      return;                                                                                      \
-    }                                                                                              \
-    if (this->Corners->Resize(count))                                                              \
-    {                                                                                              \
-      this->Modified();                                                                            \
-    }                                                                                              \
-  }                                                                                                \
-  int Class::GetNumberOfCorners()                                                                  \
-  {                                                                                                \
-    return this->Corners->Number();                                                                \
-  }                                                                                                \
-  void Class::SetCorner(int index, vtkIdType point)                                                \
-  {                                                                                                \
-    constexpr int maximum = RectifiedTransport::CornerSettings::MaximumNumber;                     \
-    if (index < 0 || index >= maximum)                                                             \
-    {                                                                                              \
-      vtkErrorMacro(<< "The index of a corner is " << index << "; it must be from 0 to "           \
-                    << maximum - 1);                                                               \
-      return;                                                                                      \
-    }                                                                                              \
-    if (this->Corners->Set(index, point))                                                          \
-    {                                                                                              \
-      this->Modified();                                                                            \
-    }                                                                                              \
-  }                                                                                                \
-  vtkIdType Class::GetCorner(int index)                                                            \
-  {                                                                                                \
-    return static_cast<vtkIdType>(this->Corners->At(index));                                       \
+// Sets the corners of an object by change(), which returns whether anything changed.
+template <class Change>
+void changeCorners(vtkObject* object, const Change& change)
+{
+  try
+  {
+    if (change())
+    {
+      object->Modified();
+    }
   }
+  catch (const Failure& failure)
+  {
+    vtkErrorWithObjectMacro(object, << failure.what());
+  }
+}
+
+} // namespace RectifiedTransport
 
 #endif

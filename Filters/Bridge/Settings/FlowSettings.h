@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of the integration of the flow, checked, as text and printed.
+// The properties of the integration of the flow.
 #ifndef RectifiedTransport_FlowSettings_h
 #define RectifiedTransport_FlowSettings_h
 
+#include "Bridge/Run/PropertyCheck.h"
 #include "Core/Flow/FlowOptions.h"
 
 #include "vtkIndent.h"
 
-#include <iosfwd>
+#include <cmath>
+#include <ostream>
 
 namespace RectifiedTransport
 {
 
-// The values are those of vtkFlowPropertiesMacro.
+// By the enumerations of vtkTransportAlgorithm.
+constexpr const char* IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
+constexpr const char* TableLookupTexts[] = { "Interpolated", "Nearest" };
+constexpr const char* FlowMapsTexts[] = { "Auto", "On", "Off" };
+
 struct FlowSettings
 {
   int Integrator;
@@ -21,35 +27,36 @@ struct FlowSettings
   int TableLookup;
   int FlowMaps;
 
-  const char* IntegratorText() const;
-  const char* TableLookupText() const;
-  const char* FlowMapsText() const;
-  void Print(std::ostream& os, vtkIndent indent) const;
-
   // Throws Failure for values out of range.
-  FlowOptions Options() const;
+  FlowOptions Options() const
+  {
+    constexpr int most = FlowOptions::MaximumNumberOfSteps;
+    requireChoice("Integrator", this->Integrator, IntegratorTexts);
+    requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= most, "NumberOfSteps",
+      this->NumberOfSteps, "from 1 to 10000");
+    requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance",
+      this->Tolerance, "a positive number of cells");
+    requireChoice("TableLookup", this->TableLookup, TableLookupTexts);
+    requireChoice("FlowMaps", this->FlowMaps, FlowMapsTexts);
+    FlowOptions options;
+    options.Method = static_cast<RectifiedTransport::Integrator>(this->Integrator);
+    options.NumberOfSteps = this->NumberOfSteps;
+    options.Tolerance = this->Tolerance;
+    options.Lookup = static_cast<RectifiedTransport::TableLookup>(this->TableLookup);
+    options.Maps = static_cast<RectifiedTransport::FlowMaps>(this->FlowMaps);
+    return options;
+  }
+
+  void Print(std::ostream& os, vtkIndent indent) const
+  {
+    os << indent << "Integrator: " << choiceText(IntegratorTexts, this->Integrator) << "\n";
+    os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+    os << indent << "Tolerance: " << this->Tolerance << "\n";
+    os << indent << "TableLookup: " << choiceText(TableLookupTexts, this->TableLookup) << "\n";
+    os << indent << "FlowMaps: " << choiceText(FlowMapsTexts, this->FlowMaps) << "\n";
+  }
 };
 
 } // namespace RectifiedTransport
-
-// For the source file of a class that has vtkFlowPropertiesMacro.
-#define vtkImplementFlowPropertiesMacro(Class)                                                     \
-  RectifiedTransport::FlowSettings Class::GetFlowSettings()                                        \
-  {                                                                                                \
-    return { this->Integrator, this->NumberOfSteps, this->Tolerance, this->TableLookup,            \
-      this->FlowMaps };                                                                            \
-  }                                                                                                \
-  const char* Class::GetIntegratorAsString()                                                       \
-  {                                                                                                \
-    return this->GetFlowSettings().IntegratorText();                                               \
-  }                                                                                                \
-  const char* Class::GetTableLookupAsString()                                                      \
-  {                                                                                                \
-    return this->GetFlowSettings().TableLookupText();                                              \
-  }                                                                                                \
-  const char* Class::GetFlowMapsAsString()                                                         \
-  {                                                                                                \
-    return this->GetFlowSettings().FlowMapsText();                                                 \
-  }
 
 #endif

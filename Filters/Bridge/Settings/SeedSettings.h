@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of the seeds of particles, checked, as text and printed.
+// The properties SeedPattern of particles and Pattern of seeds.
 #ifndef RectifiedTransport_SeedSettings_h
 #define RectifiedTransport_SeedSettings_h
 
+#include "Bridge/Run/PropertyCheck.h"
 #include "Core/Seeds/Seeds.h"
-
-#include "vtkIndent.h"
-
-#include <iosfwd>
 
 namespace RectifiedTransport
 {
 
-// The values are those of vtkSeedPropertiesMacro.
-struct SeedSettings
+constexpr const char* SeedPatternTexts[] = { "BlueNoise", "Lattice", "Jittered", "LowDiscrepancy",
+  "Random" };
+
+// Throws Failure, which names the property, for a value out of range.
+inline SeedPattern seedPattern(const char* property, int pattern)
 {
-  int SeedPattern;
-  int RandomSeed;
-
-  const char* PatternText() const;
-  void Print(std::ostream& os, vtkIndent indent) const;
-
-  // Throws Failure for a value out of range.
-  RectifiedTransport::SeedPattern Pattern() const;
-};
+  requireChoice(property, pattern, SeedPatternTexts);
+  return static_cast<SeedPattern>(pattern);
+}
 
 } // namespace RectifiedTransport
-
-// For the source file of a class that has vtkSeedPropertiesMacro.
-#define vtkImplementSeedPropertiesMacro(Class)                                                     \
-  RectifiedTransport::SeedSettings Class::GetSeedSettings()                                        \
-  {                                                                                                \
-    return { this->SeedPattern, this->RandomSeed };                                                \
-  }                                                                                                \
-  const char* Class::GetSeedPatternAsString()                                                      \
-  {                                                                                                \
-    return this->GetSeedSettings().PatternText();                                                  \
-  }
 
 #endif

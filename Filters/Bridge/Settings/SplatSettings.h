@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of the splat kernel, checked, as text and printed.
+// The properties Kernel and Radius.
 #ifndef RectifiedTransport_SplatSettings_h
 #define RectifiedTransport_SplatSettings_h
 
+#include "Bridge/Run/PropertyCheck.h"
 #include "Core/Splat/Splat.h"
-
-#include "vtkIndent.h"
-
-#include <iosfwd>
 
 namespace RectifiedTransport
 {
 
-// The values are those of vtkSplatPropertiesMacro.
-struct SplatSettings
+constexpr const char* KernelTexts[] = { "CloudInCell", "NearestCell", "TriangularShapedCloud",
+  "Gaussian" };
+
+// With the default Boundary. Throws Failure for values out of range.
+inline SplatOptions splatOptions(int kernel, double radius)
 {
-  int Kernel;
-  double Radius;
-
-  const char* KernelText() const;
-  void Print(std::ostream& os, vtkIndent indent) const;
-
-  // With the default Boundary. Throws Failure for values out of range.
-  SplatOptions Options() const;
-};
+  requireChoice("Kernel", kernel, KernelTexts);
+  requireThat(radius > 0.0 && radius <= SplatOptions::LargestRadius, "Radius", radius,
+    "above 0 and at most 10000 cells");
+  SplatOptions options;
+  options.Kernel = static_cast<SplatKernel>(kernel);
+  options.Radius = radius;
+  return options;
+}
 
 } // namespace RectifiedTransport
-
-// For the source file of a class that has vtkSplatPropertiesMacro.
-#define vtkImplementSplatPropertiesMacro(Class)                                                    \
-  RectifiedTransport::SplatSettings Class::GetSplatSettings()                                      \
-  {                                                                                                \
-    return { this->Kernel, this->Radius };                                                         \
-  }                                                                                                \
-  const char* Class::GetKernelAsString()                                                           \
-  {                                                                                                \
-    return this->GetSplatSettings().KernelText();                                                  \
-  }
 
 #endif

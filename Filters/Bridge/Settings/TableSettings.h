@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The property Tables, checked, as text and printed.
+// The property Tables.
 #ifndef RectifiedTransport_TableSettings_h
 #define RectifiedTransport_TableSettings_h
 
-#include "vtkIndent.h"
-
-#include <iosfwd>
+#include "Bridge/Run/PropertyCheck.h"
 
 namespace RectifiedTransport
 {
 
-// The values are those of vtkTablesPropertiesMacro.
-struct TableSettings
-{
-  int Tables;
+// By vtkTransportAlgorithm::TablesType.
+constexpr const char* TablesTexts[] = { "Auto", "Whole", "Tiled" };
 
-  const char* Text() const;
-  void Print(std::ostream& os, vtkIndent indent) const;
-  // Throws Failure for a value out of range.
-  void Check() const;
+enum class TableSetting
+{
+  Auto,
+  Whole,
+  Tiled
 };
 
-} // namespace RectifiedTransport
+// Throws Failure for a value out of range.
+inline TableSetting tableSetting(int tables)
+{
+  requireChoice("Tables", tables, TablesTexts);
+  return static_cast<TableSetting>(tables);
+}
 
-// For the source file of a class that has vtkTablesPropertiesMacro.
-#define vtkImplementTablesPropertiesMacro(Class)                                                   \
-  RectifiedTransport::TableSettings Class::GetTableSettings()                                      \
-  {                                                                                                \
-    return { this->Tables };                                                                       \
-  }                                                                                                \
-  const char* Class::GetTablesAsString()                                                           \
-  {                                                                                                \
-    return this->GetTableSettings().Text();                                                        \
-  }
+} // namespace RectifiedTransport
 
 #endif

@@ -41,7 +41,7 @@ struct SurfaceSamplingReport
 struct SurfaceSampler
 {
   FlowOptions Flow;
-  const CornerSettings& Corners;
+  CornerSettings Corners;
   std::int64_t NumberOfParticles;
   int Resolution;
   SeedPattern Pattern;
