@@ -99,14 +99,19 @@ public:
   /**
    * The points of the surface's boundary that become the corners of the unit square: four point
    * ids, of which the first goes to (0,0) and the others, in the order of the boundary, to (1,0),
-   * (1,1) and (0,1). Without any (default) they are chosen. SetCorner makes the list as long as
-   * needed, with -1 for corners that are not set; it has 1000000 at most.
+   * (1,1) and (0,1). Without any (default) they are chosen. 1000000 at most.
    */
   void SetNumberOfCorners(int count);
   int GetNumberOfCorners();
+  void ClearCorners() { this->SetNumberOfCorners(0); }
+  ///@}
+
+  ///@{
+  /**
+   * One of them. The list becomes as long as needed, with -1 for corners that are not set.
+   */
   void SetCorner(int index, vtkIdType point);
   vtkIdType GetCorner(int index);
-  void ClearCorners() { this->SetNumberOfCorners(0); }
   ///@}
 
   /**

@@ -65,13 +65,15 @@ public:
   vtkGetMacro(Blend, double);
   ///@}
 
-  ///@{
   /**
-   * Set the density (input 1), as the output of another filter or as a data object.
+   * Set the density (input 1), as the output of another filter.
    */
   void SetDensityConnection(vtkAlgorithmOutput* density);
+
+  /**
+   * The same, as a data object.
+   */
   void SetDensityData(vtkDataObject* density);
-  ///@}
 
   /**
    * The moved points, with the vtkCells and attribute data of the input.

@@ -184,13 +184,15 @@ public:
   vtkGetMacro(CostExponent, double);
   ///@}
 
-  ///@{
   /**
-   * Set the domain (input 1, optional), as the output of another filter or as a data object.
+   * Set the domain (input 1, optional), as the output of another filter.
    */
   void SetDomainConnection(vtkAlgorithmOutput* domain);
+
+  /**
+   * The same, as a data object.
+   */
   void SetDomainData(vtkDataObject* domain);
-  ///@}
 
   ///@{
   /**

@@ -180,14 +180,16 @@ public:
   vtkBooleanMacro(DivideByVolume, vtkTypeBool);
   ///@}
 
-  ///@{
   /**
    * Set the image whose geometry the output gets (input 1, optional), as the output of another
-   * filter or as a data object.
+   * filter.
    */
   void SetReferenceConnection(vtkAlgorithmOutput* reference);
+
+  /**
+   * The same, as a data object.
+   */
   void SetReferenceData(vtkDataObject* reference);
-  ///@}
 
   /**
    * The density.

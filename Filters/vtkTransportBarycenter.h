@@ -41,11 +41,16 @@ public:
   ///@{
   /**
    * The weights of the inputs, in their order: one for each, none negative, with a sum above 0, by
-   * which they are divided. Without any (default) all inputs weigh the same. SetWeight makes the
-   * list as long as needed, with 0 for weights that are not set; it has 1000000 at most.
+   * which they are divided. Without any (default) all inputs weigh the same. 1000000 at most.
    */
   void SetNumberOfWeights(int count);
   int GetNumberOfWeights();
+  ///@}
+
+  ///@{
+  /**
+   * One of them. The list becomes as long as needed, with 0 for weights that are not set.
+   */
   void SetWeight(int index, double weight);
   double GetWeight(int index);
   ///@}

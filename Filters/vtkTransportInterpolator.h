@@ -50,13 +50,15 @@ public:
   vtkTypeMacro(vtkTransportInterpolator, vtkTransportBlend);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /**
-   * Set the target (input 1), as the output of another filter or as a data object.
+   * Set the target (input 1), as the output of another filter.
    */
   void SetTargetConnection(vtkAlgorithmOutput* target);
+
+  /**
+   * The same, as a data object.
+   */
   void SetTargetData(vtkDataObject* target);
-  ///@}
 
   using vtkAlgorithm::SetInputArrayToProcess;
   /**

@@ -111,13 +111,15 @@ public:
   const char* GetTablesAsString();
   ///@}
 
-  ///@{
   /**
-   * Set the density (input 1), as the output of another filter or as a data object.
+   * Set the density (input 1), as the output of another filter.
    */
   void SetDensityConnection(vtkAlgorithmOutput* density);
+
+  /**
+   * The same, as a data object.
+   */
   void SetDensityData(vtkDataObject* density);
-  ///@}
 
   /**
    * The table of one row.

@@ -152,13 +152,15 @@ public:
   vtkBooleanMacro(SampleArrays, vtkTypeBool);
   ///@}
 
-  ///@{
   /**
-   * Set the seeds (input 1), as the output of another filter or as a data object. nullptr: none.
+   * Set the seeds (input 1), as the output of another filter. nullptr: none.
    */
   void SetSeedsConnection(vtkAlgorithmOutput* seeds);
+
+  /**
+   * The same, as a data object.
+   */
   void SetSeedsData(vtkDataObject* seeds);
-  ///@}
 
   /**
    * The particles or their paths.
