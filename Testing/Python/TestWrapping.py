@@ -34,7 +34,7 @@ class Wrapping(unittest.TestCase):
                 base()
 
     def test_setters_have_text(self):
-        """What help() shows of a setter after its signatures. SetMethodToEuler stands with SetMethod."""
+        """Help() says what a setter does, or of SetMethodToEuler what SetMethod does."""
         for name in (name for name in dir(rectifiedtransport) if name.startswith("vtk")):
             wrapped = getattr(rectifiedtransport, name)
             for setter in (setter for setter in vars(wrapped) if setter.startswith("Set")):
