@@ -96,13 +96,7 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 //------------------------------------------------------------------------------
 FlowSettings vtkSurfaceSampler::GetFlowSettings()
 {
-  FlowSettings settings{};
-  settings.Integrator = this->Integrator;
-  settings.NumberOfSteps = this->NumberOfSteps;
-  settings.Tolerance = this->Tolerance;
-  settings.TableLookup = this->TableLookup;
-  settings.FlowMaps = this->FlowMaps;
-  return settings;
+  return flowSettingsOf(*this);
 }
 
 //------------------------------------------------------------------------------

@@ -49,13 +49,7 @@ const char* vtkTransportAlgorithm::GetFlowMapsAsString()
 //------------------------------------------------------------------------------
 FlowSettings vtkTransportAlgorithm::GetFlowSettings()
 {
-  FlowSettings settings{};
-  settings.Integrator = this->Integrator;
-  settings.NumberOfSteps = this->NumberOfSteps;
-  settings.Tolerance = this->Tolerance;
-  settings.TableLookup = this->TableLookup;
-  settings.FlowMaps = this->FlowMaps;
-  return settings;
+  return flowSettingsOf(*this);
 }
 
 //------------------------------------------------------------------------------

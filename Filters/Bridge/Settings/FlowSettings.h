@@ -57,6 +57,19 @@ struct FlowSettings
   }
 };
 
+// The properties of a filter that has them all.
+template <class Filter>
+FlowSettings flowSettingsOf(Filter& filter)
+{
+  FlowSettings settings{};
+  settings.Integrator = filter.GetIntegrator();
+  settings.NumberOfSteps = filter.GetNumberOfSteps();
+  settings.Tolerance = filter.GetTolerance();
+  settings.TableLookup = filter.GetTableLookup();
+  settings.FlowMaps = filter.GetFlowMaps();
+  return settings;
+}
+
 } // namespace RectifiedTransport
 
 #endif
