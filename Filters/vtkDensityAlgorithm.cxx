@@ -18,6 +18,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -128,11 +129,9 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
       density->SetListener([this, number](const std::vector<std::string>& lines,
                              const DensityImage::Content& content) {
         const DensityImage::Content before = std::exchange(this->Internals->Told[number], content);
-        const bool isFirst = !this->GetRanks() || this->GetRanks()->Own() == 0;
-        for (std::size_t i = 0;
-             isFirst && (content != before || content[0] == 0) && i < lines.size(); ++i)
+        for (std::size_t i = 0; (content != before || content[0] == 0) && i < lines.size(); ++i)
         {
-          vtkWarningMacro(<< lines[i]);
+          this->WarnOnFirstRank(lines[i]);
         }
       });
     }
@@ -143,13 +142,14 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   const int association =
     this->GetInputArrayInformation(arrayIndex)->Get(vtkDataObject::FIELD_ASSOCIATION());
   auto* image = vtkImageData::SafeDownCast(input);
-  const Ranks* ranks = this->GetRanks();
-  const bool hasData = image || ranks ? hasElements(input) : input != nullptr;
-  std::string kind = !hasData ? "" : image ? "an image" : "no image";
-  if (ranks) // of which those without data take part
-  {
-    kind = requireSameOnRanks(*ranks, kind, "The density is ");
-  }
+  const Ranks& ranks = this->GetRanks();
+  const bool hasData = image || ranks.AreSeveral() ? hasElements(input) : input != nullptr;
+  // Ranks without data take part.
+  const std::string kind = requireSameOnRanks(ranks,
+    !hasData  ? ""
+      : image ? "an image"
+              : "no image",
+    "The density is ");
   if (kind.empty())
   {
     return nullptr;
@@ -165,7 +165,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
   }
   this->Internals->Resampled.erase(number);
   this->Internals->Gathered.erase(number);
-  if (ranks)
+  if (ranks.AreSeveral())
   {
     return listenTo(this->ReadPieces(image, arrayIndex));
   }
@@ -178,7 +178,7 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadDensity(
 //------------------------------------------------------------------------------
 std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadPieces(vtkImageData* image, int arrayIndex)
 {
-  const Ranks& ranks = *this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   auto pieces = std::make_unique<const ImagePieces>(image, ranks);
   if (isEmpty(pieces->Whole()))
   {
@@ -210,11 +210,11 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
   OtherLeaves others;
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   std::vector<DensityBlock> blocks = densityBlocks(input, &others, &progress, ranks);
-  if (ranks)
+  if (ranks.AreSeveral())
   {
-    blocks = this->Internals->Gathered[number].Gather(blocks, *ranks, progress);
+    blocks = this->Internals->Gathered[number].Gather(blocks, ranks, progress);
   }
   this->ReportOthers(others);
   if (blocks.empty())
@@ -239,24 +239,21 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
       requireTuples(block.Array, block.Data, arrays.OnPoints, block.Name);
     }
   }
-  if (arrays.Without > 0 && this->Warns())
+  if (arrays.Without > 0)
   {
     const DensityBlock& first = *std::find_if(
       blocks.begin(), blocks.end(), [](const DensityBlock& block) { return block.Array; });
     const char* found = first.Array->GetName();
-    vtkWarningMacro(<< arrays.Without << " of " << arrays.All << " blocks of the input have no "
-                    << (arrays.OnPoints ? "point" : "cell") << " array '" << (found ? found : "")
-                    << "' and carry no mass");
+    this->WarnOfDensity(std::to_string(arrays.Without) + " of " + std::to_string(arrays.All) +
+      " blocks of the input have no " + (arrays.OnPoints ? "point" : "cell") + " array '" +
+      (found ? found : "") + "' and carry no mass");
   }
   ResampledDensity& made = this->Internals->Resampled[number];
   made.Update(blocks, arrays.OnPoints, arrays.Dimension, this->DensityResolution,
     this->GetDensityRules(), progress);
   for (const std::string& warning : made.Warnings())
   {
-    if (this->Warns())
-    {
-      vtkWarningMacro(<< warning);
-    }
+    this->WarnOfDensity(warning);
   }
   auto density = std::make_unique<DensityImage>(made.Image(), made.Array(), made.IsOnPoints(),
     made.IsResampled() ? DensityRules() : this->GetDensityRules());
@@ -268,15 +265,18 @@ std::unique_ptr<DensityImage> vtkDensityAlgorithm::ReadResampled(
 }
 
 //------------------------------------------------------------------------------
-bool vtkDensityAlgorithm::Warns()
+void vtkDensityAlgorithm::WarnOfDensity(const std::string& text)
 {
-  return !this->Internals->IsAnnouncing && (!this->GetRanks() || this->GetRanks()->Own() == 0);
+  if (!this->Internals->IsAnnouncing)
+  {
+    this->WarnOnFirstRank(text);
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkDensityAlgorithm::ReportOthers(const OtherLeaves& others)
 {
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   const auto count = sumOverRanks(ranks, others.Count);
   const auto sets = sumOverRanks(ranks, others.DataSets);
   const std::string first = others.First.empty() ? "" : " (the first a " + others.First + ")";
@@ -285,10 +285,10 @@ void vtkDensityAlgorithm::ReportOthers(const OtherLeaves& others)
     throw Failure("The density has no image, mesh or grid, but " + std::to_string(count) +
       (count == 1 ? " block" : " blocks") + " of another type" + first);
   }
-  if (count > 0 && this->Warns())
+  if (count > 0)
   {
-    vtkWarningMacro(<< count << (count == 1 ? " block" : " blocks")
-                    << " of the input without cells of a data set" << first << " passed over");
+    this->WarnOfDensity(std::to_string(count) + (count == 1 ? " block" : " blocks") +
+      " of the input without cells of a data set" + first + " passed over");
   }
 }
 

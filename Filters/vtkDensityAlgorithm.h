@@ -204,7 +204,7 @@ private:
     vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
 
   void ReportOthers(const RectifiedTransport::OtherLeaves& others);
-  bool Warns();
+  void WarnOfDensity(const std::string& text);
 
   const int DensityPort;
   struct vtkInternals;

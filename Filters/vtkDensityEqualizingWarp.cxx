@@ -8,7 +8,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TableSettings.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -92,12 +92,12 @@ int vtkDensityEqualizingWarp::RequestData(
   warp.Tables = tableSetting(this->Tables);
   warp.Flow = this->GetFlowOptions();
   warp.Blend = this->Blend;
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  // A rank without points takes part in what all ranks do together.
-  if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks))
+  // A rank without points takes part in what is collective.
+  if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks.AreSeveral()))
   {
     return 1;
   }
@@ -109,10 +109,10 @@ int vtkDensityEqualizingWarp::RequestData(
   const std::int64_t outside =
     sumOverRanks(ranks, warp.Run(*density, input, this->GetFlowCache(), progress, output));
   const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());
-  if (outside > 0 && (!ranks || ranks->Own() == 0))
+  if (outside > 0)
   {
-    vtkWarningMacro(<< outside << " of " << points
-                    << " points outside the domain of the density moved as its border does");
+    this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
+      " points outside the domain of the density moved as its border does");
   }
   return 1;
 }

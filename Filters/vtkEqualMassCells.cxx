@@ -14,7 +14,7 @@
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
 #include "Bridge/SiteCells/SiteColorArray.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -141,7 +141,7 @@ int vtkEqualMassCells::RequestInformation(
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
     // The announced association of the values may be missing or wrong.
-    const Ranks* ranks = this->UpdateInputOnRanks(1, inputVector, outputVector);
+    const Ranks& ranks = this->UpdateInputOnRanks(1, inputVector, outputVector);
     vtkInformation* information = inputVector[1]->GetInformationObject(0);
     vtkDataObject* domain = vtkDataObject::GetData(information);
     if (this->Measure == DENSITY)
@@ -161,7 +161,7 @@ int vtkEqualMassCells::RequestInformation(
   }
   else
   {
-    const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
+    const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
     vtkPointSet* sites = vtkPointSet::GetData(inputVector[0]);
     const auto count = sumOverRanks<std::int64_t>(ranks, sites ? sites->GetNumberOfPoints() : 0);
     const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 0.0 };

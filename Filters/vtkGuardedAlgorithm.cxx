@@ -96,13 +96,13 @@ void clearImages(vtkInformationVector* outputVector)
   }
 }
 
-// A rank's own piece; where `ranks` is nullptr, what was requested last. What is requested
-// upstream, as of an input that this one depends on, stays as it is.
-void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks* ranks)
+// A rank's own piece; for one rank, what was requested last. What is requested upstream, as of an
+// input that this one depends on, stays as it is.
+void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks& ranks)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const RectifiedTransport::RequestedTimes kept(producer);
-  if (!ranks)
+  if (!ranks.AreSeveral())
   {
     producer->Update(port);
     return;
@@ -110,8 +110,8 @@ void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ran
   vtkNew<vtkInformationVector> requests;
   requests->SetNumberOfInformationObjects(producer->GetNumberOfOutputPorts());
   vtkInformation* request = requests->GetInformationObject(port);
-  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->Own());
-  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->Count());
+  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks.Own());
+  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks.Count());
   request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   producer->Update(port, requests);
 }
@@ -329,24 +329,25 @@ int vtkGuardedAlgorithm::RequestInformation(
 void vtkGuardedAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
-  this->UpdateInputPiece(port, inputVector, outputVector, connection, nullptr);
+  this->UpdateInputPiece(
+    port, inputVector, outputVector, connection, RectifiedTransport::SoloRanks::Get());
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks* vtkGuardedAlgorithm::UpdateInputOnRanks(
+const RectifiedTransport::Ranks& vtkGuardedAlgorithm::UpdateInputOnRanks(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (!this->Run)
   {
     this->Run = this->Whole->BeginWithoutPieces(this, port, inputVector);
   }
-  this->UpdateInputPiece(port, inputVector, outputVector, 0, this->Run.get());
-  return this->Run.get();
+  this->UpdateInputPiece(port, inputVector, outputVector, 0, this->GetRanks());
+  return this->GetRanks();
 }
 
 //------------------------------------------------------------------------------
 void vtkGuardedAlgorithm::UpdateInputPiece(int port, vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks)
+  vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks& ranks)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* input = inputVector[port]->GetInformationObject(connection);
@@ -412,9 +413,20 @@ void vtkGuardedAlgorithm::ShareAmongRanks(int port, bool takesPoints)
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks* vtkGuardedAlgorithm::GetRanks() const
+const RectifiedTransport::Ranks& vtkGuardedAlgorithm::GetRanks() const
 {
-  return this->IsAlone ? nullptr : this->Run.get();
+  return this->IsAlone || !this->Run
+    ? static_cast<const RectifiedTransport::Ranks&>(RectifiedTransport::SoloRanks::Get())
+    : *this->Run;
+}
+
+//------------------------------------------------------------------------------
+void vtkGuardedAlgorithm::WarnOnFirstRank(const std::string& text)
+{
+  if (this->GetRanks().IsFirst())
+  {
+    vtkWarningMacro(<< text);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -21,6 +21,7 @@
 
 #include <map>     // for what was updated
 #include <memory>  // for std::unique_ptr
+#include <string>  // for texts
 #include <utility> // for what was updated
 
 namespace RectifiedTransport
@@ -116,10 +117,10 @@ protected:
   /**
    * The same on a port of ShareAmongRanks or GatherOnFirstRank: where there are several ranks, all
    * of them meet here, and each updates its own piece. Returns the ranks, so that all announce the
-   * same; GetRanks returns them, too, until RequestInformation returns. nullptr where there is one
-   * rank, and where ranks do not meet in time, or execute blocks: then all data are updated.
+   * same; GetRanks returns them, too, until RequestInformation returns. If ranks do not meet in
+   * time, or execute blocks, this process runs alone and updates all data.
    */
-  const RectifiedTransport::Ranks* UpdateInputOnRanks(
+  const RectifiedTransport::Ranks& UpdateInputOnRanks(
     int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
@@ -165,10 +166,14 @@ protected:
     const RectifiedTransport::Ranks& ranks, vtkInformationVector* outputVector);
 
   /**
-   * The ranks that run RequestData together; nullptr where this process runs it alone. Without a
-   * failure all of them come to the same exchanges.
+   * The ranks that run RequestData together; one rank where this process runs it alone.
    */
-  const RectifiedTransport::Ranks* GetRanks() const;
+  const RectifiedTransport::Ranks& GetRanks() const;
+
+  /**
+   * Warn, of several ranks on the first one only.
+   */
+  void WarnOnFirstRank(const std::string& text);
 
   /**
    * Choose the time to request from the inputs. By default it is the one that is requested
@@ -206,7 +211,7 @@ protected:
 
 private:
   void UpdateInputPiece(int port, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks* ranks);
+    vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks& ranks);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,

@@ -10,7 +10,6 @@
 #include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
-#include "Core/Parallel/Ranks.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
@@ -140,7 +139,7 @@ int vtkMassSplatter::RequestInformation(
   else
   {
     double bounds[6];
-    const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
+    const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
     findBounds(vtkPointSet::GetData(inputVector[0]), ranks, bounds);
     requireDimensions(this->Dimensions);
     if (bounds[0] <= bounds[1])
@@ -180,8 +179,7 @@ int vtkMassSplatter::RequestData(
   requireChoice("Boundary", this->Boundary, BoundaryTexts);
   splatter.Splat = splatOptions(this->Kernel, this->Radius);
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
-  const Ranks* ranks = this->GetRanks();
-  AlgorithmProgress progress(this, this->Threading, ranks);
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
   // On one rank all data are in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
@@ -191,31 +189,25 @@ int vtkMassSplatter::RequestData(
   vtkPointSet* input = pointSetOf(inputVector[0]);
   auto* reference = requireBlock<vtkImageData>(
     vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");
-  const vtkIdType count = input ? input->GetNumberOfPoints() : 0;
-  if (!ranks && (!input || (reference ? reference->GetNumberOfPoints() == 0 : count == 0)))
-  {
-    return 1;
-  }
-  vtkDataArray* masses = count > 0 ? this->FindMasses(input) : nullptr;
+  vtkDataArray* masses =
+    input && input->GetNumberOfPoints() > 0 ? this->FindMasses(input) : nullptr;
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const MassSplatter::Report report = ranks
-    ? splatter.RunOnRanks(input, masses, reference,
-        { inputVector[1]->GetNumberOfInformationObjects() > 0, outputInformation }, progress,
-        output)
-    : splatter.Run(input, masses, reference, progress, output);
+  const bool hasReference = inputVector[1]->GetNumberOfInformationObjects() > 0;
+  const MassSplatter::Report report =
+    splatter.Run(input, masses, { hasReference, reference, outputInformation }, progress, output);
   // Without a Reference the extent may not be known before the data.
   if (!report.Grid.IsEmpty())
   {
     announceGrid(report.Grid, outputInformation);
   }
-  if (report.Outside > 0 && (!ranks || ranks->Own() == 0))
+  if (report.Outside > 0)
   {
-    vtkWarningMacro(<< report.Outside << " of " << report.Points
-                    << (report.Outside == 1 ? " points is outside the domain; its mass "
-                                            : " points are outside the domain; their mass ")
-                    << (this->Boundary == RENORMALIZE ? "went to the nearest points of its border"
-                                                      : "was left out"));
+    this->WarnOnFirstRank(std::to_string(report.Outside) + " of " + std::to_string(report.Points) +
+      (report.Outside == 1 ? " points is outside the domain; its mass "
+                           : " points are outside the domain; their mass ") +
+      (this->Boundary == RENORMALIZE ? "went to the nearest points of its border"
+                                     : "was left out"));
   }
   return 1;
 }

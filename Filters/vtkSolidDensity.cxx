@@ -83,7 +83,7 @@ int vtkSolidDensity::FillOutputPortInformation(int, vtkInformation* info)
 int vtkSolidDensity::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const Ranks* ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
+  const Ranks& ranks = this->UpdateInputOnRanks(0, inputVector, outputVector);
   const ImageGrid grid = this->GetSolid().GridAround(vtkPolyData::GetData(inputVector[0]), ranks);
   announceSubExtents(outputVector->GetInformationObject(0));
   announceDensity(grid, outputVector->GetInformationObject(0));
@@ -98,7 +98,7 @@ int vtkSolidDensity::RequestData(
     "Supersampling", this->Supersampling, "from 1 to 16");
   const SolidDensity solid = this->GetSolid();
   requireSolidGrid(this->Resolution, this->Padding);
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
   // On one rank all data are in piece 0, whatever pieces are requested.
@@ -108,22 +108,15 @@ int vtkSolidDensity::RequestData(
   }
   auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
     "a vtkPolyData, as Extract Surface makes one of it");
-  vtkSmartPointer<vtkPolyData> surface = input;
-  if (ranks)
-  {
-    const GatheredPoints gathered(input, *ranks, Receivers::All, PointSetKind::Polygons);
-    surface = vtkPolyData::SafeDownCast(gathered.All());
-  }
+  const GatheredPoints gathered(input, ranks, Receivers::All, PointSetKind::Polygons);
+  auto* surface = vtkPolyData::SafeDownCast(gathered.All());
   if (!surface || surface->GetNumberOfPoints() == 0)
   {
     return 1;
   }
   vtkInformation* information = outputVector->GetInformationObject(0);
   const ImageGrid grid = solid.Run(
-    surface,
-    [=](const ImageGrid& all) {
-      return ranks ? extentToGive(all.Extent(), information, *ranks) : all.Extent();
-    },
+    surface, [&](const ImageGrid& all) { return extentToGive(all.Extent(), information, ranks); },
     progress, vtkImageData::GetData(outputVector, 0));
   // The extent may change with time.
   announceGrid(grid, information);

@@ -10,7 +10,7 @@
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -222,10 +222,7 @@ std::vector<BlendInput> vtkTransportBlend::ReadInputs(vtkInformationVector** inp
 {
   const GivenInputs given =
     gatherInputs(inputVector, this->GetNumberOfInputPorts(), this->BlocksAreInputs);
-  if (const Ranks* ranks = this->GetRanks())
-  {
-    requireSameNumber(given.All.size(), *ranks);
-  }
+  requireSameNumber(given.All.size(), this->GetRanks());
   this->ReportOtherBlocks(given.Others, given.All.empty());
   std::vector<BlendInput> inputs;
   for (const GivenInput& one : given.All)
@@ -262,22 +259,23 @@ void vtkTransportBlend::ReportOtherBlocks(std::int64_t others, bool areAll)
     throw Failure("The inputs have no image, mesh or grid, but " + std::to_string(others) +
       (others == 1 ? " block" : " blocks") + " of another type");
   }
-  if (others > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
+  if (others > 0)
   {
-    vtkWarningMacro(<< others
-                    << (others == 1 ? " block of the inputs is" : " blocks of the inputs are")
-                    << " no data set of cells and passed over");
+    this->WarnOnFirstRank(std::to_string(others) +
+      (others == 1 ? " block of the inputs is" : " blocks of the inputs are") +
+      " no data set of cells and passed over");
   }
 }
 
 //------------------------------------------------------------------------------
 void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
 {
-  if (particles > 0 && (!this->GetRanks() || this->GetRanks()->Own() == 0))
+  if (particles > 0)
   {
-    vtkWarningMacro(<< particles << (particles == 1 ? " particle" : " particles")
-                    << " in empty cells moved to the nearest cell with mass (more "
-                       "NumberOfSteps may spare them that)");
+    this->WarnOnFirstRank(std::to_string(particles) +
+      (particles == 1 ? " particle" : " particles") +
+      " in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare them "
+      "that)");
   }
 }
 

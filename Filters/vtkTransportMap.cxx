@@ -8,7 +8,6 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TableSettings.h"
-#include "Core/Parallel/Ranks.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -110,7 +109,7 @@ int vtkTransportMap::RequestData(
   map.Flow = this->GetFlowOptions();
   map.Backward = this->Direction == DENSITY_TO_UNIFORM;
   std::copy_n(this->SampleDimensions, 3, map.SampleDimensions.begin());
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
   // On one rank all samples are in piece 0, whatever pieces are requested.
@@ -125,18 +124,17 @@ int vtkTransportMap::RequestData(
   }
   vtkImageData* output = vtkImageData::GetData(outputVector);
   vtkInformation* outputInformation = outputVector->GetInformationObject(0);
-  const Extent wanted = ranks
-    ? extentToGive(map.SampleGrid(*density).Extent(), outputInformation, *ranks)
-    : requestedExtent(outputInformation);
+  const Extent wanted = extentToGive(map.SampleGrid(*density).Extent(), outputInformation, ranks);
   const TransportMap::Report result =
     map.Run(*density, wanted, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
-  if (result.MovedToMass > 0 && (!ranks || ranks->Own() == 0))
+  if (result.MovedToMass > 0)
   {
-    vtkWarningMacro(<< result.MovedToMass << " of " << static_cast<std::int64_t>(result.Samples)
-                    << " samples in empty cells moved to the nearest cell with mass (more "
-                       "NumberOfSteps may spare them that)");
+    this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " +
+      std::to_string(static_cast<std::int64_t>(result.Samples)) +
+      " samples in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
+      "them that)");
   }
   return 1;
 }

@@ -10,7 +10,6 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TableSettings.h"
-#include "Core/Parallel/Ranks.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -21,7 +20,6 @@
 #include "vtkTable.h"
 
 #include <memory>
-#include <optional>
 
 VTK_ABI_NAMESPACE_BEGIN
 vtkStandardNewMacro(vtkTransportQuality);
@@ -107,34 +105,26 @@ int vtkTransportQuality::RequestData(
   TransportQuality measure{};
   measure.BlockSize = this->BlockSize;
   measure.Tables = tableSetting(this->Tables);
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   // The row is in piece 0, whatever pieces are requested.
   if (this->IsLaterPiece(request, outputVector))
   {
     return 1;
   }
-  vtkPointSet* particles = pointSetOf(inputVector[0]);
+  vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  std::optional<SharedPoints> shared;
-  if (ranks)
-  {
-    shared.emplace(particles, ghostPoint, *ranks);
-    particles = shared->All() > 0 ? shared->Set() : nullptr;
-  }
-  if (!density || !particles || (particles->GetNumberOfPoints() == 0 && !ranks))
+  if (!density)
   {
     return 1;
   }
-  std::optional<CountedPoints> alone;
-  if (!ranks && alone.emplace(particles, "input point set").Count() == 0)
+  const SharedPoints particles(input, ghostPoint, ranks);
+  if (particles.All() == 0)
   {
     return 1;
   }
-  const CountedPoints& counted = shared ? shared->Counted() : *alone;
-  const ParticleQuality quality = measure.Run(particles, counted, shared ? shared->Keys() : nullptr,
-    *density, this->GetFlowCache(), progress);
-  if (ranks && ranks->Own() > 0)
+  const ParticleQuality quality = measure.Run(particles, *density, this->GetFlowCache(), progress);
+  if (!ranks.IsFirst())
   {
     return 1;
   }

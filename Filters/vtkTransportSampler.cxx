@@ -9,7 +9,6 @@
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
-#include "Core/Parallel/Ranks.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -109,7 +108,7 @@ int vtkTransportSampler::RequestData(
     this->NumberOfParticles, "at least 1");
   requireThat(
     this->FlowTime >= 0.0 && this->FlowTime <= 1.0, "FlowTime", this->FlowTime, "from 0 to 1");
-  const Ranks* ranks = this->GetRanks();
+  const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
   // On one rank all particles are in piece 0, whatever pieces are requested.
@@ -118,30 +117,30 @@ int vtkTransportSampler::RequestData(
     return 1;
   }
   const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
-  if (!density || (seeds && seeds->GetNumberOfPoints() == 0 && !ranks))
+  if (!density)
   {
     return 1;
   }
   vtkSmartPointer<vtkPointSet> counted;
-  if (ranks && inputVector[1]->GetNumberOfInformationObjects() > 0)
+  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    counted = countedPoints(seeds, *ranks);
+    counted = countedPoints(seeds, ranks);
     seeds = counted;
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
     sampler.Run(*density, this->GetMeshes(), seeds, this->GetFlowCache(), progress, output);
-  const bool isFirst = !ranks || ranks->Own() == 0;
-  if (report.SeedsMoved > 0 && isFirst)
+  const std::string ofAll = " of " + std::to_string(report.Particles);
+  if (report.SeedsMoved > 0)
   {
-    vtkWarningMacro(<< report.SeedsMoved << " of " << report.Particles
-                    << " seeds outside the domain of the density moved to its border");
+    this->WarnOnFirstRank(std::to_string(report.SeedsMoved) + ofAll +
+      " seeds outside the domain of the density moved to its border");
   }
-  if (report.ParticlesMoved > 0 && isFirst)
+  if (report.ParticlesMoved > 0)
   {
-    vtkWarningMacro(<< report.ParticlesMoved << " of " << report.Particles
-                    << " particles in empty cells moved to the nearest cell with mass (more "
-                       "NumberOfSteps may spare them that)");
+    this->WarnOnFirstRank(std::to_string(report.ParticlesMoved) + ofAll +
+      " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
+      "them that)");
   }
   return 1;
 }

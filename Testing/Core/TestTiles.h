@@ -4,7 +4,7 @@
 #define RectifiedTransport_TestTiles_h
 
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Tables/SharedDensity.h"
 
 #include "TestDensities.h"
@@ -77,7 +77,7 @@ public:
   std::unique_ptr<const DensityValues> Gather(
     const GridSize<Dimension>& low, const GridSize<Dimension>& high) const override
   {
-    EXPECT_TRUE(onAllRanks(&this->Group, true)); // all of them come
+    EXPECT_TRUE(onAllRanks(this->Group, true)); // all of them come
     return std::make_unique<Box>(this->Size, this->Whole, low, high);
   }
 

@@ -36,7 +36,7 @@ def run(name, proxy):
     proxy.UpdatePipeline()
     data = proxy.GetDataInformation()
     count = max(data.GetNumberOfPoints(), data.GetNumberOfRows())
-    different = any("not the same here and on rank" in error for error in errors)
+    different = any("not the same on rank 0 and on rank" in error for error in errors)
     if rank == 0:
         print("GAVE", name, ("some" if count else "none") + (" error" if different else ""), flush=True)
 

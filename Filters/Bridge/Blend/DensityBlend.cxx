@@ -9,16 +9,16 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Ranks/SharedSplat.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Splat/MassSplat.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -121,16 +121,15 @@ BlendOutput::BlendOutput(vtkInformationVector* outputs)
 std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
   FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
-  const Ranks* ranks = progress.Group();
+  const Ranks& ranks = progress.Group();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
   const double all = numberOfValues(geometry) * settings.ParticlesPerCell;
-  requireMemoryFor(all / (ranks ? ranks->Count() : 1), inputs.size());
+  requireMemoryFor(all / ranks.Count(), inputs.size());
   requireCells(geometry);
   const auto count = static_cast<std::int64_t>(all);
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
     settings.Tables, RankShare(count, ranks) };
-  const Extent wanted =
-    ranks ? extentToGive(geometry.Extent(), output.Announced, *ranks) : geometry.Extent();
+  const Extent wanted = extentToGive(geometry.Extent(), output.Announced, ranks);
   applyGrid(geometry, output.Density);
   announceGrid(geometry, output.Announced); // the association may not be known before the data
 
@@ -178,20 +177,10 @@ void DensityBlend::WriteDensity(const SplatTarget& target, double massEach, Exte
 {
   const ImageGrid& geometry = target.Geometry;
   const int owner = geometry.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
-  if (const Ranks* ranks = progress.Group())
-  {
-    const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
-    output->SetExtent(wanted.data());
-    reuseOrMake(this->Density, "Density", 1, box.Count());
-    splatShared(
-      this->Means, nullptr, massEach, nullptr, target, box, *ranks, progress, this->Density);
-  }
-  else
-  {
-    reuseOrMake(this->Density, "Density", 1, geometry.NumberOfCells());
-    splatPoints({ this->Means->GetPointer(0), this->Means->GetNumberOfTuples() }, massEach, target,
-      progress, this->Density);
-  }
+  const TupleBox box = tuplesOf(wanted, owner, geometry.Extent());
+  output->SetExtent(wanted.data());
+  reuseOrMake(this->Density, "Density", 1, box.Count());
+  splatDistributed(this->Means, nullptr, massEach, nullptr, target, box, progress, this->Density);
   output->GetAttributes(owner)->SetScalars(this->Density);
 }
 
@@ -208,7 +197,7 @@ std::size_t DensityBlend::MatchMaps(
   {
     DensityImage& density = *input.Density;
     this->Maps.emplace_back();
-    const bool byContents = !before.empty() || progress.Group();
+    const bool byContents = !before.empty() || progress.Group().AreSeveral();
     const auto match =
       findMap(before.begin(), before.end(), density, settings, byContents, progress);
     if (match == before.end())
@@ -243,7 +232,7 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     // Several inputs may have the same density.
     const auto before = this->Maps.cbegin() + static_cast<std::ptrdiff_t>(i);
     const auto made = findMap(
-      this->Maps.cbegin(), before, density, settings, progress.Group() != nullptr, progress);
+      this->Maps.cbegin(), before, density, settings, progress.Group().AreSeveral(), progress);
     if (made != before)
     {
       map = *made;
@@ -343,9 +332,10 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const I
     }
   }
   progress.BeginStage(0.5 * (progress.StageEnd() + end));
-  if (const Ranks* ranks = progress.Group())
+  const Ranks& ranks = progress.Group();
+  if (ranks.AreSeveral())
   {
-    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, *ranks), *ranks, progress);
+    moveToOwners(output, 1, PlaceOwners(geometry, nullptr, ranks), ranks, progress);
   }
   else
   {

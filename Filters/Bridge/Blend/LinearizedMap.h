@@ -8,7 +8,7 @@
 #include "Bridge/Density/ContentHash.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Flow/FlowOptions.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
@@ -65,7 +65,7 @@ private:
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions
-  LinearizedMapSettings Settings{ {}, 0, {}, {}, { 0, nullptr } };
+  LinearizedMapSettings Settings{ {}, 0, {}, {}, { 0, 1, 0 } };
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;
 };

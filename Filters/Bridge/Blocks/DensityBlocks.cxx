@@ -112,7 +112,7 @@ std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensionsOfTypes()
 } // namespace
 
 std::vector<DensityBlock> densityBlocks(
-  vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks* ranks)
+  vtkDataObject* data, OtherLeaves* others, Progress* progress, const Ranks& ranks)
 {
   std::vector<DensityBlock> blocks;
   OtherLeaves left;

@@ -5,6 +5,7 @@
 
 #include "Bridge/Blocks/DataContent.h"
 #include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Ranks.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -44,10 +45,10 @@ struct OtherLeaves
 
 // The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
 // tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
-// out, and told to `others`. Called by all ranks that are given. Throws Failure as
+// out, and told to `others`. Collective. Throws Failure as
 // withRefinedMarked, and Cancelled.
 std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
-  Progress* progress = nullptr, const Ranks* ranks = nullptr);
+  Progress* progress = nullptr, const Ranks& ranks = SoloRanks::Get());
 
 // Adds all that a block's points and cells are made of, its ghost flags too.
 void addGeometry(const DensityBlock& block, DataContent& content);

@@ -2,6 +2,7 @@
 #include "Bridge/Blocks/GatheredBlocks.h"
 
 #include "Bridge/Ranks/GatheredParts.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
@@ -42,7 +43,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
 {
   DataContent content = contentOf(own);
-  if (onAllRanks(&ranks, this->HasBlocks && content.IsSameAs(this->Content, progress)))
+  if (onAllRanks(ranks, this->HasBlocks && content.IsSameAs(this->Content, progress)))
   {
     return this->Blocks;
   }

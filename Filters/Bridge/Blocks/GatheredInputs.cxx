@@ -32,7 +32,7 @@ vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks
 vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ranks)
 {
   std::vector<DataPart> parts;
-  for (const DensityBlock& block : densityBlocks(own, nullptr, nullptr, &ranks))
+  for (const DensityBlock& block : densityBlocks(own, nullptr, nullptr, ranks))
   {
     parts.push_back({ block.Number, block.Name, block.Data });
   }

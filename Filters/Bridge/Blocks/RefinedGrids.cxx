@@ -2,7 +2,7 @@
 #include "Bridge/Blocks/RefinedGrids.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkAMRBox.h"
 #include "vtkCellData.h"
@@ -231,7 +231,7 @@ struct Block
 };
 
 // Which blocks have a grid on any rank, all levels one after the other.
-std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks* ranks)
+std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks& ranks)
 {
   std::vector<unsigned char> present;
   if (grids)
@@ -240,15 +240,12 @@ std::vector<unsigned char> presentBlocks(vtkOverlappingAMR* grids, const Ranks* 
       present.push_back(gridAt(grids, level, i) ? 1 : 0);
     });
   }
-  if (ranks)
+  for (const Bytes& bytes : ranks.Gather(toBytes(present)))
   {
-    for (const Bytes& bytes : ranks->Gather(toBytes(present)))
+    const auto there = fromBytes<unsigned char>(bytes);
+    for (std::size_t i = 0; i < std::min(there.size(), present.size()); ++i)
     {
-      const auto there = fromBytes<unsigned char>(bytes);
-      for (std::size_t i = 0; i < std::min(there.size(), present.size()); ++i)
-      {
-        present[i] |= there[i];
-      }
+      present[i] |= there[i];
     }
   }
   return present;
@@ -383,7 +380,7 @@ Flags findRefined(vtkOverlappingAMR* grids, const std::vector<unsigned char>& pr
 
 } // namespace
 
-vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks* ranks)
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks& ranks)
 {
   const std::vector<unsigned char> present = presentBlocks(grids, ranks);
   if (!grids)

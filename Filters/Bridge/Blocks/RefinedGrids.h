@@ -20,7 +20,7 @@ class Ranks;
 // they have; they share the arrays. Throws Failure where boxes or spacings are not set, and, where
 // no grid has flags, for grids that are not as their boxes say. Called by all ranks; nullptr for
 // nullptr.
-vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks* ranks);
+vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks& ranks);
 
 } // namespace RectifiedTransport
 

@@ -10,7 +10,7 @@
 #include "Bridge/Run/Fingerprint.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkDataArray.h"

@@ -2,7 +2,7 @@
 #include "Bridge/Flow/MapField.h"
 
 #include "Bridge/Run/Memory.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -29,7 +29,7 @@ vtkSmartPointer<vtkDoubleArray> arrayOn(double* values, int components, std::int
 
 template <int D>
 MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
-  const std::string& purpose, const Ranks* ranks)
+  const std::string& purpose, const Ranks& ranks)
   : Geometry(geometry)
   , Processes(ranks)
   , Lattice(samples.Size<D>())
@@ -37,9 +37,9 @@ MapField<D>::MapField(const ImageGrid& geometry, const ImageGrid& samples, const
   , Wanted(this->OwnPart)
   , Kept(this->OwnPart)
 {
-  if (ranks)
+  if (ranks.AreSeveral())
   {
-    this->FindParts(samples, wanted, *ranks);
+    this->FindParts(samples, wanted, ranks);
   }
   constexpr double real = sizeof(double);
   const double kept = numberOfCells<D>(this->Kept.Cells) + static_cast<double>(this->Ahead);
@@ -126,14 +126,14 @@ void MapField<D>::Complete()
 {
   const auto array = arrayOn(this->Positions().data(), D, this->Kept.Count());
   completeBoxes(this->Held, this->BoxOf(this->Wanted.Around(this->Lattice)),
-    this->BoxOf(this->Kept), *this->Processes, array);
+    this->BoxOf(this->Kept), this->Processes, array);
 }
 
 template <int D>
 double MapField<D>::Write(
   const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output)
 {
-  if (this->Processes)
+  if (this->Processes.AreSeveral())
   {
     this->Complete();
   }
@@ -168,7 +168,7 @@ void MapField<D>::WriteSamples(const MapDerivatives<D>& derivatives,
   double* divergence, double* determinant)
 {
   const std::int64_t count = this->Wanted.Count();
-  const bool isInPlace = D == 3 && this->Processes;
+  const bool isInPlace = D == 3 && this->Processes.AreSeveral();
   const std::int64_t layers = isInPlace ? this->Wanted.Cells[D - 1] : 1;
   const std::int64_t each = count / std::max<std::int64_t>(1, layers);
   const LatticePart<D> counted =

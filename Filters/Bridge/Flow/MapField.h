@@ -33,12 +33,12 @@ template <int D>
 class MapField
 {
 public:
-  // Allocates memory for the lattice of the samples, on the domain of `geometry`. Where there are
-  // `ranks`, which make it together, each computes one part of the lattice and gets the samples of
-  // the wanted box, and has memory for these. Throws Failure before if there is not enough;
-  // `purpose` completes "not enough memory for".
+  // Allocates memory for the lattice of the samples, on the domain of `geometry`. Each rank
+  // computes one part of the lattice, gets the samples of the wanted box and has memory for these;
+  // a single rank computes all. Collective. Throws Failure before if there is not enough; `purpose`
+  // completes "not enough memory for".
   MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
-    const std::string& purpose, const Ranks* ranks);
+    const std::string& purpose, const Ranks& ranks);
 
   const GridSize<D>& Whole() const { return this->Lattice; }
   // The part that this rank computes.
@@ -64,7 +64,7 @@ private:
     double* determinant);
 
   const ImageGrid& Geometry;
-  const Ranks* const Processes;
+  const Ranks& Processes;
   GridSize<D> Lattice;
   LatticePart<D> OwnPart;
   LatticePart<D> Wanted;

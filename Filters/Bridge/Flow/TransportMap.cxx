@@ -10,7 +10,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -50,21 +50,18 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
   vtkImageData* output)
 {
-  const Ranks* ranks = progress.Group();
+  const Ranks& ranks = progress.Group();
   const GridSize<D> lattice = samples.Size<D>();
   const double all = numberOfCells<D>(lattice);
-  const double count = all / (ranks ? ranks->Count() : 1);
+  const double count = all / ranks.Count();
   const auto ends = stageEnds({ Cost::tables(cache, density), Cost::flow(map.Flow, D) * count,
     (map.Backward && D == 3 ? Cost::MassShare : Cost::Write) * count });
   const int owner = samples.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
   MapField<D> field(density.Grid(), samples, tuplesOf(wanted, owner, samples.Extent()),
     "a map of " + describeSize<D>(lattice) + " samples (see SampleDimensions)", ranks);
   applyGrid(samples, output);
-  if (ranks)
-  {
-    Extent extent = wanted; // VTK takes no constant one
-    output->SetExtent(extent.data());
-  }
+  Extent extent = wanted; // VTK takes no constant one
+  output->SetExtent(extent.data());
 
   const FlowTables tables = chooseTables<D>(map.Tables, density.Grid().Size<D>(),
     { map.Flow, map.Backward ? FlowDirection::Backward : FlowDirection::Forward, count, true, "" });
@@ -75,7 +72,7 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
     ? flow.BackwardLattice(lattice, field.Parts(), field.Positions(), map.Flow, progress.Stage())
     : flow.ForwardLattice(
         lattice, field.Parts(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
-  if (map.Backward && ranks)
+  if (map.Backward)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());
   }
@@ -112,15 +109,8 @@ TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& want
   const Extent part = intersectionOf(wanted, samples.Extent());
   if (samples.Extent() == density.Grid().Extent())
   {
-    vtkSmartPointer<vtkImageData> image = density.Image();
-    if (density.Pieces())
-    {
-      image = density.Pieces()->Gather(part);
-    }
-    else if (progress.Group())
-    {
-      image = partOf(image, wanted);
-    }
+    const vtkSmartPointer<vtkImageData> image =
+      density.Pieces() ? density.Pieces()->Gather(part) : partOf(density.Image(), wanted);
     output->GetPointData()->PassData(image->GetPointData());
     output->GetCellData()->PassData(image->GetCellData());
   }

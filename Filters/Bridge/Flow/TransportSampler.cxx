@@ -15,7 +15,8 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankShare.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellData.h"
@@ -157,26 +158,23 @@ struct Share
   std::int64_t All;
 };
 
-// Where `ranks` is nullptr there may be more than every integer.
-Share shareOf(const Ranks* ranks, vtkPointSet* given, double pattern)
+// A pattern may have more seeds than any integer. Collective.
+Share shareOf(const Ranks& ranks, vtkPointSet* given, double pattern)
 {
-  if (!ranks)
-  {
-    const double count = given ? static_cast<double>(given->GetNumberOfPoints()) : pattern;
-    return { 0, count, static_cast<std::int64_t>(std::min(count, maximumCount)) };
-  }
   if (!given)
   {
     const auto all = static_cast<std::int64_t>(std::min(pattern, maximumCount));
     const RankShare share(all, ranks);
-    return { share.First, static_cast<double>(share.Count), all };
+    const double count =
+      pattern > maximumCount ? pattern / ranks.Count() : static_cast<double>(share.Count);
+    return { share.First, count, all };
   }
   Share share{ 0, static_cast<double>(given->GetNumberOfPoints()), 0 };
   const std::vector<std::int64_t> counts =
-    gatherValues<std::int64_t>(*ranks, given->GetNumberOfPoints());
+    gatherValues<std::int64_t>(ranks, given->GetNumberOfPoints());
   for (std::size_t rank = 0; rank < counts.size(); ++rank)
   {
-    share.First += rank < static_cast<std::size_t>(ranks->Own()) ? counts[rank] : 0;
+    share.First += rank < static_cast<std::size_t>(ranks.Own()) ? counts[rank] : 0;
     share.All += counts[rank];
   }
   return share;
@@ -189,7 +187,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 {
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
-  const Ranks* ranks = progress.Group();
+  const Ranks& ranks = progress.Group();
   const Share share = shareOf(ranks, given, pattern.Count());
   if (given && share.All == 0)
   {
@@ -260,21 +258,16 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   const double cost = sampler.OutputPaths
     ? particles.WritePaths(mass, times, progress, ends[3], output)
     : particles.WriteParticles(mass, progress, ends[3], output);
-  Extent part = grid.Extent();
-  if (ranks)
-  {
-    const PlaceOwners owners(grid, density.Pieces(), *ranks);
-    part = extentAround(owners, grid);
-    moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, *ranks, progress);
-    report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
-    report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
-  }
+  const PlaceOwners owners(grid, density.Pieces(), ranks);
+  moveToOwners(output, static_cast<std::int64_t>(times.size()), owners, ranks, progress);
+  report.SeedsMoved = sumOverRanks(ranks, report.SeedsMoved);
+  report.ParticlesMoved = sumOverRanks(ranks, report.ParticlesMoved);
   report.Particles = share.All;
   if (addsArrays)
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
-    sampleArraysOf<D>(density, meshes, part, { places->GetPointer(0), places->GetNumberOfTuples() },
-      progress, output->GetPointData());
+    sampleArraysOf<D>(density, meshes, extentAround(owners, grid),
+      { places->GetPointer(0), places->GetNumberOfTuples() }, progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);

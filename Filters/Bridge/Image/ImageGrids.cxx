@@ -4,8 +4,8 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Run/RankAgreement.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

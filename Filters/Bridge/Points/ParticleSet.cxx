@@ -6,7 +6,7 @@
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"

@@ -3,6 +3,7 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputBlock.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Parallel/Reduction.h"
 
 #include "vtkDataObject.h"
@@ -93,11 +94,13 @@ std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6
   return all;
 }
 
-void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6])
+void findBounds(vtkPointSet* points, const Ranks& ranks, double bounds[6])
 {
   const SerialExecutor serial;
-  Progress all{ Context(serial) };
-  findBounds(points, ranks, all, bounds);
+  Context context(serial);
+  context.Group = &ranks;
+  Progress progress(context);
+  findBounds(points, progress, bounds);
 }
 
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6])
@@ -112,19 +115,8 @@ void findBounds(vtkPointSet* points, Progress& progress, double bounds[6])
       pass(coordinates, progress);
     }
   }
-  std::copy_n(pass.Found.begin(), 6, bounds);
-}
-
-void findBounds(vtkPointSet* points, const Ranks* ranks, Progress& progress, double bounds[6])
-{
-  findBounds(points, progress, bounds);
-  if (ranks)
-  {
-    std::array<double, 6> own;
-    std::copy_n(bounds, 6, own.begin());
-    const std::array<double, 6> all = boundsOfAll(*ranks, own);
-    std::copy_n(all.begin(), 6, bounds);
-  }
+  const std::array<double, 6> all = boundsOfAll(progress.Group(), pass.Found);
+  std::copy_n(all.begin(), 6, bounds);
 }
 
 void NotFinitePoints::Add(std::int64_t count, std::int64_t first)

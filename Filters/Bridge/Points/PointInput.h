@@ -31,16 +31,14 @@ vtkPointSet* pointSetOf(vtkInformationVector* port);
 
 // The bounds of all points of a set that are finite, also of those that no vtkCell uses.
 // vtkPointSet::GetBounds caches its result, which is outdated where coordinates were changed
-// without Modified(), and vtkBoundingBox::ComputeBounds takes 100 ns a point.
-void findBounds(vtkPointSet* points, double bounds[6]);
-// The same as the work of the current stage. Throws Cancelled.
+// without Modified(), and vtkBoundingBox::ComputeBounds takes 100 ns a point. `points` may be
+// nullptr. Without points lower bounds are above the upper ones. Collective, for the points of all
+// ranks.
+void findBounds(vtkPointSet* points, const Ranks& ranks, double bounds[6]);
+// The same as the work of the current stage, on the ranks of the progress. Throws Cancelled.
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
-// The bounds of those of all ranks; a lower bound above the upper one is of a rank without any.
+// The union of the bounds of all ranks; lower bounds above the upper ones do not count. Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
-// Those of the points of all ranks, which call this together; of this rank's where `ranks` is
-// nullptr. `points` may be nullptr. Without points lower bounds are above the upper ones.
-void findBounds(vtkPointSet* points, const Ranks* ranks, double bounds[6]);
-void findBounds(vtkPointSet* points, const Ranks* ranks, Progress& progress, double bounds[6]);
 
 // Counts points whose coordinates are not finite; thread-safe.
 class NotFinitePoints

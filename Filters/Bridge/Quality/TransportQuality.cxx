@@ -8,10 +8,11 @@
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Quality/GridBlocks.h"
 
 #include "vtkDataArray.h"
@@ -140,11 +141,8 @@ private:
     {
       return;
     }
-    if (this->Group)
-    {
-      const std::vector<double> totals = gatherValues(*this->Group, total);
-      total = std::accumulate(totals.begin(), totals.end(), 0.0);
-    }
+    const std::vector<double> totals = gatherValues(this->Group, total);
+    total = std::accumulate(totals.begin(), totals.end(), 0.0);
     if (!(total > 0.0) || std::isinf(total))
     {
       std::ostringstream message;
@@ -174,7 +172,7 @@ private:
   }
 
   const CountedPoints& Counted;
-  const Ranks* Group;
+  const Ranks& Group;
   Progress& Work;
   vtkPointSet* Particles;
   std::optional<DoubleTuples> Points;
@@ -214,9 +212,10 @@ FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t part
 
 } // namespace
 
-ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoints& counted,
-  const std::int64_t* order, DensityImage& density, FlowCache& cache, Progress& progress) const
+ParticleQuality TransportQuality::Run(
+  const SharedPoints& particles, DensityImage& density, FlowCache& cache, Progress& progress) const
 {
+  const CountedPoints& counted = particles.Counted();
   constexpr double partOfReading = 0.1;
   const double all = Cost::Comparison * static_cast<double>(counted.Count());
   const auto ends =
@@ -226,9 +225,9 @@ ParticleQuality TransportQuality::Run(vtkPointSet* particles, const CountedPoint
     this->Tables, grid, counted.Count());
   const SharedFlow& flow = cache.Update(density, progress, ends[0], tables);
   progress.BeginStage(ends[1]);
-  ParticleArrays arrays(particles, counted, progress);
+  ParticleArrays arrays(particles.Set(), counted, progress);
   ParticleSample sample = arrays.Read();
-  sample.Order = order;
+  sample.Order = particles.Keys();
   progress.BeginStage(1.0);
   return dispatchDimension(grid.Dimension(), measure<1>, measure<2>, measure<3>)(
     sample, grid, this->BlockSize, flow, progress);

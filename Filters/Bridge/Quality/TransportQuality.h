@@ -4,20 +4,15 @@
 #define RectifiedTransport_TransportQuality_h
 
 #include "Bridge/Settings/TableSettings.h"
-#include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Quality/ParticleQuality.h"
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkPointSet;
-VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
 
-class CountedPoints;
 class DensityImage;
 class FlowCache;
+class SharedPoints;
 
 // The members are the properties of that class.
 struct TransportQuality
@@ -25,11 +20,11 @@ struct TransportQuality
   int BlockSize;
   TableSetting Tables;
 
-  // Compares the particles that are no ghosts, at least one, with a density, whose tables are kept
-  // in the cache. Those of all ranks of the progress together, in the order of a key for each, or
-  // without keys (nullptr) of the ranks. Throws Failure, std::overflow_error and Cancelled.
-  ParticleQuality Run(vtkPointSet* particles, const CountedPoints& counted,
-    const std::int64_t* order, DensityImage& density, FlowCache& cache, Progress& progress) const;
+  // Compares the particles of all ranks, at least one, with a density, whose tables are kept in the
+  // cache. Collective on the ranks of the progress. Throws Failure, std::overflow_error and
+  // Cancelled.
+  ParticleQuality Run(const SharedPoints& particles, DensityImage& density, FlowCache& cache,
+    Progress& progress) const;
 };
 
 } // namespace RectifiedTransport

@@ -2,6 +2,7 @@
 #include "Bridge/Ranks/DataSetBytes.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataSet.h"
 

@@ -3,6 +3,7 @@
 
 #include "Bridge/Ranks/DataSetBytes.h"
 #include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataSet.h"
 

@@ -119,6 +119,11 @@ vtkSmartPointer<vtkPointSet> joinParts(const std::vector<DataPart>& parts, Point
 GatheredPoints::GatheredPoints(
   vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind)
 {
+  if (!ranks.AreSeveral())
+  {
+    this->Gathered = own;
+    return;
+  }
   std::vector<DataPart> parts;
   if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))
   {

@@ -2,6 +2,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"

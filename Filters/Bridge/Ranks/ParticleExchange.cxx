@@ -5,6 +5,7 @@
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Bridge/Ranks/SharedArrays.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -117,6 +118,10 @@ void unpack(std::vector<Bytes> received, std::int64_t each, const std::vector<st
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress)
 {
+  if (!ranks.AreSeveral())
+  {
+    return;
+  }
   const std::vector<ArrayKind> kinds = sharedArrays(particles, ranks);
   vtkSmartPointer<vtkDataArray> places = particles->GetPoints()->GetData();
   const std::vector<int> owner = findOwners(places, points, owners, progress);

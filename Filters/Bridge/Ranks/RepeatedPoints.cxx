@@ -2,6 +2,7 @@
 #include "Bridge/Ranks/RepeatedPoints.h"
 
 #include "Bridge/Points/GhostFlags.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -98,12 +99,12 @@ std::vector<std::vector<unsigned char>> compare(const std::vector<std::vector<Id
 std::vector<unsigned char> repeatedPoints(
   vtkPointSet* own, const CountedPoints& counted, const Ranks& ranks)
 {
-  if (onAllRanks(&ranks, !connectsPoints(own)))
+  if (onAllRanks(ranks, !connectsPoints(own)))
   {
     return {};
   }
   vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
-  ids = onAllRanks(&ranks, ids || counted.Count() == 0) ? ids : nullptr;
+  ids = onAllRanks(ranks, ids || counted.Count() == 0) ? ids : nullptr;
   std::vector<std::vector<Identity>> given(static_cast<std::size_t>(ranks.Count()));
   std::vector<std::size_t> comparers;
   for (std::int64_t i = 0; i < counted.Count(); ++i)

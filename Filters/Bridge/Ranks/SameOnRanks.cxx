@@ -3,6 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <cstddef>
 #include <vector>
@@ -52,8 +53,12 @@ Extent withCells(const Extent& extent, const Extent& whole)
 
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks)
 {
+  if (!ranks.AreSeveral())
+  {
+    return whole;
+  }
   const bool isKnown = announcedGrid(output, true).Extent() == whole;
-  if (onAllRanks(&ranks, isKnown))
+  if (onAllRanks(ranks, isKnown))
   {
     return withCells(requestedExtent(output), whole);
   }

@@ -21,9 +21,9 @@ namespace RectifiedTransport
 std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what,
   const std::string& rule = "it must be of one type on all");
 
-// The part of an image that this rank is to give: the one that is requested, with a layer of cells
-// at least, if all ranks have announced the whole extent, wherever it lies, else its piece of it,
-// as requests are of another one then. Called by all ranks.
+// The part of an image that this rank outputs. A single rank outputs all of it. Otherwise it is the
+// requested part, with a layer of cells at least, if all ranks have announced the whole extent;
+// else its piece of the whole, because then requests refer to another extent. Collective.
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport

@@ -4,6 +4,7 @@
 #include "Bridge/Ranks/RepeatedPoints.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/WholeInputs.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"
@@ -32,7 +33,7 @@ namespace
 
 vtkSmartPointer<vtkPointSet> countedSet(vtkPointSet* own, const Ranks& ranks)
 {
-  const bool isOne = areSameOnRanks(own, ranks) && ranks.Own() > 0;
+  const bool isOne = ranks.AreSeveral() && areSameOnRanks(own, ranks) && !ranks.IsFirst();
   if (own && own->GetPoints() && !isOne)
   {
     return own;
@@ -84,7 +85,8 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
 {
   CountedPoints counted(points, "input point set", ghosts);
   // Particles, and their paths, have a number each.
-  if (onAllRanks(&ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
+  if (!ranks.AreSeveral() ||
+    onAllRanks(ranks, points->GetNumberOfPoints() == 0 || keyArrays(points).front()))
   {
     return counted;
   }
@@ -111,6 +113,10 @@ CountedPoints countedOf(vtkPointSet* points, unsigned char ghosts, const Ranks& 
 
 vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks)
 {
+  if (!ranks.AreSeveral())
+  {
+    return given;
+  }
   const vtkSmartPointer<vtkPointSet> set = countedSet(given, ranks);
   const CountedPoints counted = countedOf(set, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
   const auto count = static_cast<vtkIdType>(counted.Count());
@@ -163,16 +169,20 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
 SharedPoints::SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks)
   : Points(countedSet(own, ranks))
   , Number(countedOf(this->Points, ghosts, ranks))
-  , Total(sumOverRanks(&ranks, this->Number.Count()))
+  , Total(sumOverRanks(ranks, this->Number.Count()))
 {
   this->FindKeys(ranks);
 }
 
 void SharedPoints::FindKeys(const Ranks& ranks)
 {
+  if (!ranks.AreSeveral())
+  {
+    return;
+  }
   for (vtkDataArray* array : keyArrays(this->Points))
   {
-    if (onAllRanks(&ranks, array != nullptr || this->Number.Count() == 0))
+    if (onAllRanks(ranks, array != nullptr || this->Number.Count() == 0))
     {
       const std::int64_t count = this->Number.Count();
       withMemory("the order of points", sizeof(std::int64_t) * static_cast<double>(count),

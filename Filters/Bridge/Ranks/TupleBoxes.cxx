@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Ranks/TupleBoxes.h"
 
+#include "Core/Parallel/RankExchange.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkExtentTranslator.h"

@@ -14,7 +14,7 @@ namespace RectifiedTransport
 namespace
 {
 
-Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks* group)
+Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks& group)
 {
   Context context(
     threads, [algorithm](double fraction) { algorithm->UpdateProgress(fraction); },
@@ -29,19 +29,19 @@ Context contextOf(vtkAlgorithm* algorithm, const Executor& threads, const Ranks*
 #endif
       return algorithm->GetAbortExecute() != 0;
     });
-  context.Group = group;
+  context.Group = &group;
   return context;
 }
 
 } // namespace
 
-AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks* group)
+AlgorithmProgress::AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group)
   : AlgorithmProgress(algorithm, makeExecutor(threading), group)
 {
 }
 
 AlgorithmProgress::AlgorithmProgress(
-  vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks* group)
+  vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group)
   : Progress(contextOf(algorithm, *threads, group))
   , OwnThreads(std::move(threads))
 {

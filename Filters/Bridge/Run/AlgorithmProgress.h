@@ -6,6 +6,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <memory>
 
@@ -21,11 +22,11 @@ class AlgorithmProgress final : public Progress
 {
 public:
   // `threading` is a value of vtkGuardedAlgorithm::ThreadingType. Throws Failure for another one.
-  // `group` are the ranks that share the execution, nullptr for this one alone.
-  AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks* group = nullptr);
+  // `group` are the ranks that run the algorithm together.
+  AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group = SoloRanks::Get());
 
 private:
-  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks* group);
+  AlgorithmProgress(vtkAlgorithm* algorithm, std::unique_ptr<Executor> threads, const Ranks& group);
 
   const std::unique_ptr<Executor> OwnThreads;
 };

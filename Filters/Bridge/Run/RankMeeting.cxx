@@ -2,7 +2,7 @@
 #include "Bridge/Run/RankMeeting.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/RankAgreement.h"
+#include "Bridge/Run/MpiController.h"
 #include "Core/Parallel/Ranks.h"
 
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
@@ -29,14 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int meetingTag = 52718; // of no other messages in ParaView or VTK
 
-Clock::duration longestWait()
-{
-  constexpr double usual = 120.0;
-  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
-  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
-  return std::chrono::duration_cast<Clock::duration>(
-    std::chrono::duration<double>(seconds > 0.0 ? seconds : usual));
-}
+using Seconds = std::chrono::duration<double>;
 
 // How ranks learn that all of them execute a filter. The first rank collects: a rank that fails
 // before its data are complete never comes, and the others must not wait for it in an exchange.
@@ -49,8 +42,9 @@ public:
   }
 
   // `withData` where the data are to be made; else before, as REQUEST_INFORMATION is.
-  void Wait(const std::string& filter, bool withData)
+  void Wait(const std::string& filter, bool withData, Seconds longest)
   {
+    this->Longest = longest;
     const std::uint64_t subject = subjectOf(filter, withData);
     this->Sends.remove_if([](Send& send) { return send.Request.Test() != 0; });
     if (this->Controller->GetLocalProcessId() == 0)
@@ -111,8 +105,7 @@ private:
 
   // Returns whether ready() in time. After the time `patience` it says which rank() is missing.
   template <class Ready, class Rank>
-  static bool waitFor(
-    Clock::duration longest, Clock::duration patience, const Ready& ready, const Rank& rank)
+  static bool waitFor(Seconds longest, Seconds patience, const Ready& ready, const Rank& rank)
   {
     const auto start = Clock::now();
     for (bool hasSaid = false; !ready();)
@@ -136,10 +129,10 @@ private:
     return true;
   }
 
-  [[noreturn]] static void throwMissing(int rank)
+  [[noreturn]] void ThrowMissing(int rank) const
   {
     throw Failure("Rank " + std::to_string(rank) + " has not run this filter within " +
-      std::to_string(std::chrono::duration_cast<std::chrono::seconds>(longestWait()).count()) +
+      std::to_string(std::chrono::duration_cast<std::chrono::seconds>(this->Longest).count()) +
       " seconds of this one, perhaps as a filter before it failed there; all ranks must run it "
       "(RECTIFIEDTRANSPORT_RANK_TIMEOUT sets how long they wait for one another)");
   }
@@ -206,7 +199,7 @@ private:
     };
     const bool haveAll =
       waitFor(
-        longestWait(), std::chrono::seconds(5), [&]() { return allHaveCome() || isElsewhere; },
+        this->Longest, std::chrono::seconds(5), [&]() { return allHaveCome() || isElsewhere; },
         [&]() { return missing; }) &&
       !isElsewhere;
     for (int rank = 1; rank < ranks; ++rank)
@@ -227,7 +220,7 @@ private:
     }
     if (!haveAll)
     {
-      throwMissing(missing);
+      this->ThrowMissing(missing);
     }
   }
 
@@ -244,11 +237,11 @@ private:
     Message answer{};
     // Twice as long, as the first rank may come late and then waits itself.
     if (!waitFor(
-          2 * longestWait(), std::chrono::seconds(10),
+          2 * this->Longest, std::chrono::seconds(10),
           [&]() { return this->Receive(0, answer) && answer[1] == call; }, []() { return 0; }))
     {
       this->SendTo(0, { subject, call, Leaves, 0 });
-      throwMissing(0);
+      this->ThrowMissing(0);
     }
     if (answer[2] == SomeMissing)
     {
@@ -257,6 +250,7 @@ private:
   }
 
   vtkMPIController* Controller;
+  Seconds Longest{};
   std::list<Send> Sends;
   unsigned long OwnCalls = 0;
   std::map<int, Calls> Waiting; // on the first rank, of each other one
@@ -264,10 +258,18 @@ private:
 
 } // namespace
 
-void meetRanks(const std::string& filter, bool withData)
+std::chrono::duration<double> rankTimeout()
+{
+  constexpr double usual = 120.0;
+  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
+  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
+  return Seconds(seconds > 0.0 ? seconds : usual);
+}
+
+void meetRanks(const std::string& filter, bool withData, Seconds longest)
 {
   static Meeting meeting(mpiController());
-  meeting.Wait(filter, withData);
+  meeting.Wait(filter, withData, longest);
 }
 
 } // namespace RectifiedTransport

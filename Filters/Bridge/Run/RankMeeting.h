@@ -3,17 +3,20 @@
 #ifndef RectifiedTransport_RankMeeting_h
 #define RectifiedTransport_RankMeeting_h
 
+#include <chrono>
 #include <string>
 
 namespace RectifiedTransport
 {
 
+// RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds, else 120 s.
+std::chrono::duration<double> rankTimeout();
+
 // Waits until all ranks have come here for the same filter. `withData` where its data are to be
 // made; else before, as in REQUEST_INFORMATION. Throws Failure, or FailedElsewhere on the ranks
-// that need not report it, where a rank does not come within a time
-// (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds), and at once where it waits here for another filter.
-// Only where VTK has MPI.
-void meetRanks(const std::string& filter, bool withData);
+// that need not report it, if a rank does not come within `longest`, and at once if it waits here
+// for another filter. Only where VTK has MPI.
+void meetRanks(const std::string& filter, bool withData, std::chrono::duration<double> longest);
 
 } // namespace RectifiedTransport
 

@@ -2,7 +2,7 @@
 #include "Bridge/Run/RankRun.h"
 
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/RankAgreement.h"
+#include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankMeeting.h"
 #include "Core/Parallel/Context.h"
 
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <list>
 #include <new>
+#include <numeric>
 #include <utility>
 #include <vector>
 #endif
@@ -24,7 +25,8 @@ namespace RectifiedTransport
 namespace
 {
 
-constexpr int exchangeTag = 52719; // of no other messages in ParaView or VTK
+constexpr int exchangeTag = 52719;  // of no other messages in ParaView or VTK
+constexpr long long much = 1 << 24; // bytes
 
 class MpiRun final : public RankRun
 {
@@ -67,7 +69,9 @@ private:
     long long Most = 0;
   };
 
-  std::vector<Bytes> Transfer(const std::vector<const Bytes*>& parts) const;
+  std::vector<Bytes> GatherAtOnce(const Bytes& own, const std::vector<long long>& sizes) const;
+  std::vector<Bytes> Transfer(
+    const std::vector<const Bytes*>& parts, const Arrivals& arrivals) const;
   std::vector<Bytes> AllocateFor(const Arrivals& arrivals) const;
   Arrivals Announce(
     State state, const std::string& message, const std::vector<const Bytes*>& parts) const;
@@ -154,9 +158,34 @@ void MpiRun::CollectReports(const std::string& message) const
 
 std::vector<Bytes> MpiRun::Gather(const Bytes& own) const
 {
-  std::vector<Bytes> received =
-    this->Transfer(std::vector<const Bytes*>(static_cast<std::size_t>(this->Count()), &own));
+  const std::vector<const Bytes*> parts(static_cast<std::size_t>(this->Count()), &own);
+  const Arrivals arrivals = this->Announce(State::Runs, "", parts);
+  if (arrivals.Most <= much)
+  {
+    return this->GatherAtOnce(own, arrivals.Here);
+  }
+  std::vector<Bytes> received = this->Transfer(parts, arrivals);
   received[static_cast<std::size_t>(this->Own())] = own;
+  return received;
+}
+
+std::vector<Bytes> MpiRun::GatherAtOnce(const Bytes& own, const std::vector<long long>& sizes) const
+{
+  const std::vector<vtkIdType> lengths(sizes.begin(), sizes.end());
+  std::vector<vtkIdType> offsets(sizes.size() + 1);
+  std::partial_sum(lengths.begin(), lengths.end(), offsets.begin() + 1);
+  Bytes all(static_cast<std::size_t>(offsets.back()));
+  if (!all.empty())
+  {
+    this->Controller->AllGatherV(own.data(), all.data(),
+      lengths[static_cast<std::size_t>(this->Own())], const_cast<vtkIdType*>(lengths.data()),
+      offsets.data());
+  }
+  std::vector<Bytes> received;
+  for (std::size_t rank = 0; rank < lengths.size(); ++rank)
+  {
+    received.emplace_back(all.begin() + offsets[rank], all.begin() + offsets[rank + 1]);
+  }
   return received;
 }
 
@@ -167,7 +196,7 @@ std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
   {
     given.push_back(&part);
   }
-  std::vector<Bytes> received = this->Transfer(given);
+  std::vector<Bytes> received = this->Transfer(given, this->Announce(State::Runs, "", given));
   const auto own = static_cast<std::size_t>(this->Own());
   received[own] = std::move(parts[own]);
   return received;
@@ -177,7 +206,6 @@ std::vector<Bytes> MpiRun::Exchange(std::vector<Bytes> parts) const
 // that has not.
 std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
 {
-  constexpr long long much = 1 << 24;
   std::vector<Bytes> received(arrivals.Here.size());
   bool fits = true;
   try
@@ -206,9 +234,10 @@ std::vector<Bytes> MpiRun::AllocateFor(const Arrivals& arrivals) const
 }
 
 // Without this rank's own part.
-std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) const
+std::vector<Bytes> MpiRun::Transfer(
+  const std::vector<const Bytes*>& parts, const Arrivals& arrivals) const
 {
-  std::vector<Bytes> received = this->AllocateFor(this->Announce(State::Runs, "", parts));
+  std::vector<Bytes> received = this->AllocateFor(arrivals);
   const auto own = static_cast<std::size_t>(this->Own());
   constexpr std::size_t most = std::size_t{ 1 } << 30; // bytes of a message
   const auto forMessages = [=](std::size_t rank, std::size_t bytes, const auto& start) {
@@ -246,9 +275,10 @@ std::vector<Bytes> MpiRun::Transfer(const std::vector<const Bytes*>& parts) cons
 namespace
 {
 
-std::unique_ptr<RankRun> meet(const std::string& filter, bool withData)
+std::unique_ptr<RankRun> meet(
+  const std::string& filter, bool withData, std::chrono::duration<double> longest)
 {
-  meetRanks(filter, withData);
+  meetRanks(filter, withData, longest);
   return std::make_unique<MpiRun>(mpiController());
 }
 
@@ -256,10 +286,16 @@ std::unique_ptr<RankRun> meet(const std::string& filter, bool withData)
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
 {
-  return sharesWithRanks(piece, pieces) ? meet(filter, true) : nullptr;
+  return sharesWithRanks(piece, pieces) ? meet(filter, true, rankTimeout()) : nullptr;
 }
 
-std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string& filter)
+std::unique_ptr<RankRun> RankRun::TryBegin(const std::string& filter)
+{
+  return TryBegin(filter, rankTimeout());
+}
+
+std::unique_ptr<RankRun> RankRun::TryBegin(
+  const std::string& filter, std::chrono::duration<double> longest)
 {
   if (!haveSeveralRanks())
   {
@@ -267,7 +303,7 @@ std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string& filter)
   }
   try
   {
-    return meet(filter, false);
+    return meet(filter, false, longest);
   }
   catch (const Failure&)
   {
@@ -286,7 +322,12 @@ std::unique_ptr<RankRun> RankRun::Begin(const std::string&, int, int)
   return nullptr;
 }
 
-std::unique_ptr<RankRun> RankRun::BeginWithoutPieces(const std::string&)
+std::unique_ptr<RankRun> RankRun::TryBegin(const std::string&)
+{
+  return nullptr;
+}
+
+std::unique_ptr<RankRun> RankRun::TryBegin(const std::string&, std::chrono::duration<double>)
 {
   return nullptr;
 }

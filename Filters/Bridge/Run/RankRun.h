@@ -5,6 +5,7 @@
 
 #include "Core/Parallel/Ranks.h"
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -20,9 +21,11 @@ public:
   // within a time (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds), and at once where it waits here for
   // another filter.
   static std::unique_ptr<RankRun> Begin(const std::string& filter, int piece, int pieces);
-  // The same before pieces are requested. Ranks that do not meet in time run alone: nullptr. Those
-  // that wait here while others are in Begin() run alone at once.
-  static std::unique_ptr<RankRun> BeginWithoutPieces(const std::string& filter);
+  // The same before data are made. nullptr for ranks that do not meet in time, and at once for
+  // those that wait here while others are in Begin(). The time is that of Begin, or `longest`.
+  static std::unique_ptr<RankRun> TryBegin(const std::string& filter);
+  static std::unique_ptr<RankRun> TryBegin(
+    const std::string& filter, std::chrono::duration<double> longest);
 
   // To be called in place of any further exchange. Ends the runs of the others, if they have not
   // ended: by an exception of each. Returns what is to be reported here: the message of the first

@@ -3,9 +3,10 @@
 
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
-#include "Bridge/Run/RankAgreement.h"
+#include "Bridge/Run/MpiController.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataIterator.h"
@@ -20,6 +21,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace RectifiedTransport
 {
@@ -77,12 +79,29 @@ bool isTimeRequested(vtkInformationVector* outputs)
   return false;
 }
 
-std::string describeDifference(const std::string& input, const char* here, int rank)
+// Of the data on each port: what is not the same on all ranks, nor on the first one only, as a
+// text.
+std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& fingerprints)
 {
-  return "The data on " + input + " are not the same " + here + " and on rank " +
-    std::to_string(rank) +
-    "; what lies on several ranks must be gathered on the first one, or be whole on each "
-    "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
+  std::vector<std::vector<std::uint64_t>> all;
+  for (const Bytes& bytes : ranks.Gather(toBytes(fingerprints)))
+  {
+    all.push_back(fromBytes<std::uint64_t>(bytes));
+  }
+  for (std::size_t port = 0; port < fingerprints.size(); ++port)
+  {
+    for (std::size_t rank = 1; rank < all.size(); ++rank)
+    {
+      if (all[rank][port] != all[0][port] && all[rank][port] != 0)
+      {
+        return "The data on input port " + std::to_string(port) +
+          " are not the same on rank 0 and on rank " + std::to_string(rank) +
+          "; what lies on several ranks must be gathered on the first one, or be whole on each "
+          "(Redistribute DataSet with a Number Of Partitions of 1 gathers it)";
+      }
+    }
+  }
+  return "";
 }
 
 } // namespace
@@ -248,7 +267,7 @@ std::unique_ptr<RankRun> WholeInputs::BeginWithoutPieces(
   {
     return nullptr;
   }
-  return RankRun::BeginWithoutPieces(filter->GetClassName());
+  return RankRun::TryBegin(filter->GetClassName());
 }
 
 //------------------------------------------------------------------------------
@@ -277,85 +296,59 @@ void WholeInputs::Require(
       }
     }
   }
+  std::vector<std::uint64_t> fingerprints;
+  const auto find = [&]() {
+    for (const std::vector<vtkDataObject*>& port : inputs)
+    {
+      fingerprints.push_back(sampledFingerprint(port));
+    }
+  };
   if (run)
   {
-    requireSame(*run, inputs);
-    return;
+    find();
+    this->Difference = differenceOf(*run, fingerprints);
   }
-  if (newest != this->ComparedTime)
+  else if (newest != this->ComparedTime)
   {
-    this->Disagreement.clear();
-    if (!this->Compare(filter, inputs))
+    find();
+    if (!this->Compare(filter, fingerprints))
     {
       return; // and ask again at the next run
     }
     this->ComparedTime = newest;
   }
-  if (!this->Disagreement.empty())
+  if (!this->Difference.empty())
   {
-    throw Failure(this->Disagreement);
+    throw Failure(this->Difference);
   }
 }
 
 //------------------------------------------------------------------------------
-// Every rank has the data, or only the first has any.
-void WholeInputs::requireSame(const RankRun& run, const Inputs& inputs)
+// Sets Difference. Returns whether the other ranks answered.
+bool WholeInputs::Compare(vtkAlgorithm* filter, const std::vector<std::uint64_t>& fingerprints)
 {
-  std::vector<std::uint64_t> own;
-  for (const std::vector<vtkDataObject*>& port : inputs)
-  {
-    own.push_back(sampledFingerprint(port));
-  }
-  const std::vector<Bytes> gathered = run.Gather(toBytes(own));
-  const auto first = fromBytes<std::uint64_t>(gathered.front());
-  for (std::size_t rank = 1; rank < gathered.size(); ++rank)
-  {
-    const auto other = fromBytes<std::uint64_t>(gathered[rank]);
-    for (std::size_t port = 0; port < first.size(); ++port)
-    {
-      if (other[port] != first[port])
-      {
-        throw Failure(describeDifference(
-          "input port " + std::to_string(port), "on rank 0", static_cast<int>(rank)));
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-// Sets Disagreement. Returns whether the other ranks answered.
-bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
-{
-  this->EqualFingerprints.resize(inputs.size());
-  if (!sharesWithRanks(this->Piece, this->NumberOfPieces))
+  this->Difference.clear();
+  // Those that were the same on all ranks: others may skip the comparison, as times are local.
+  if (!sharesWithRanks(this->Piece, this->NumberOfPieces) || fingerprints == this->Same)
   {
     return true;
   }
-  for (std::size_t port = 0; port < inputs.size(); ++port)
+  this->Same.clear();
+  constexpr std::chrono::seconds longest{ 10 };
+  const auto run = RankRun::TryBegin("blocks of " + std::string(filter->GetClassName()), longest);
+  if (!run)
   {
-    const std::string name = "input port " + std::to_string(port);
-    const std::uint64_t fingerprint = sampledFingerprint(inputs[port]);
-    // Equal on all ranks before: others may skip the comparison, as modification times are local.
-    if (inputs[port].empty() || (fingerprint != 0 && fingerprint == this->EqualFingerprints[port]))
-    {
-      continue;
-    }
-    int rank = 0;
-    const RankAgreement agreement = compareRanks(filter->GetClassName() + name, fingerprint, rank);
-    this->EqualFingerprints[port] = agreement == RankAgreement::Same ? fingerprint : 0;
-    if (agreement == RankAgreement::Differs)
-    {
-      this->Disagreement = describeDifference(name, "here", rank);
-      return true;
-    }
-    if (agreement == RankAgreement::NoAnswer)
-    {
-      vtkWarningWithObjectMacro(filter,
-        << "Rank " << rank << " has not run this filter for ten seconds; whether the data on "
-        << name << " lie on several ranks, which would make the result wrong, is not known");
-      return false;
-    }
+    vtkWarningWithObjectMacro(filter,
+      << "Not all ranks have run this filter within ten seconds. Whether its data lie on several "
+         "ranks, which would make the result wrong, is not known");
+    return false;
   }
+  this->Difference = differenceOf(*run, fingerprints);
+  if (this->Difference.empty())
+  {
+    this->Same = fingerprints;
+  }
+  run->End();
   return true;
 }
 

@@ -83,8 +83,7 @@ private:
   vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
   bool IsShared(int port, vtkInformation* input) const;
-  bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
-  static void requireSame(const RankRun& run, const Inputs& inputs);
+  bool Compare(vtkAlgorithm* filter, const std::vector<std::uint64_t>& fingerprints);
 
   std::set<int> Excepted;
   std::map<int, bool> Shared; // whether points alone
@@ -95,9 +94,9 @@ private:
   std::vector<std::vector<vtkWeakPointer<vtkCompositeDataSet>>> Composites; // of each port
 
   // The last comparison.
-  vtkMTimeType ComparedTime = 0;                // the newest modification time of the inputs
-  std::vector<std::uint64_t> EqualFingerprints; // of each port; 0 where ranks differed
-  std::string Disagreement;                     // the error message; empty where ranks agreed
+  vtkMTimeType ComparedTime = 0;   // the newest modification time of the inputs
+  std::vector<std::uint64_t> Same; // the fingerprints of the ports; empty where ranks differed
+  std::string Difference;          // the error message; empty where ranks agreed
 };
 
 } // namespace RectifiedTransport

@@ -6,7 +6,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankShare.h"
 #include "Core/Seeds/UnitSeeds.h"
 
 #include "vtkCellArray.h"

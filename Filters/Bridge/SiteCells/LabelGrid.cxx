@@ -9,6 +9,7 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataSet.h"
@@ -27,25 +28,22 @@ using Bounds = std::array<double, 6>;
 
 constexpr Bounds noBounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
 
-ImageGrid boxOf(vtkImageData* image, const Ranks* ranks)
+ImageGrid boxOf(vtkImageData* image, const Ranks& ranks)
 {
   const bool isOnPoints =
     !onAllRanks(ranks, image->GetNumberOfPoints() == 0 || !hasPointValues(image));
   vtkSmartPointer<vtkImageData> whole = image;
-  if (ranks)
+  if (ranks.AreSeveral())
   {
-    whole = ImagePieces(image, *ranks).MakeFrame();
+    whole = ImagePieces(image, ranks).MakeFrame();
   }
   const ImageGrid grid = gridOf(whole, false);
   return !grid.IsEmpty() && isOnPoints ? grid.WithDualCells() : grid;
 }
 
-ImageGrid boxOf(Bounds bounds, const Ranks* ranks)
+ImageGrid boxOf(const Bounds& own, const Ranks& ranks)
 {
-  if (ranks)
-  {
-    bounds = boundsOfAll(*ranks, bounds);
-  }
+  const Bounds bounds = boundsOfAll(ranks, own);
   double box[6];
   std::copy(bounds.begin(), bounds.end(), box);
   return bounds[0] > bounds[1] ? ImageGrid() : gridOfBox(box);
@@ -53,7 +51,7 @@ ImageGrid boxOf(Bounds bounds, const Ranks* ranks)
 
 } // namespace
 
-ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks* ranks) const
+ImageGrid LabelGrid::On(vtkDataObject* domain, const Ranks& ranks) const
 {
   requireExtents(domain, "domain");
   ImageGrid box;
@@ -92,7 +90,7 @@ ImageGrid LabelGrid::On(const ImageGrid& density) const
   return gridWithResolution(box, this->Resolution, "Resolution");
 }
 
-ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks* ranks) const
+ImageGrid LabelGrid::Around(vtkPointSet* sites, const Ranks& ranks) const
 {
   constexpr double margin = 0.05; // on each side
   double bounds[6];

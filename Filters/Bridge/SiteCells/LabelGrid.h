@@ -5,6 +5,7 @@
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Parallel/Ranks.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
@@ -14,8 +15,6 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class Ranks;
-
 // Where the data lie on several ranks, all of them call a function together. Throw Failure.
 struct LabelGrid
 {
@@ -23,11 +22,11 @@ struct LabelGrid
 
   // In the box of a domain: that of an image, as of a density, or the bounds of other data. A grid
   // without points for a domain without points.
-  ImageGrid On(vtkDataObject* domain, const Ranks* ranks = nullptr) const;
+  ImageGrid On(vtkDataObject* domain, const Ranks& ranks = SoloRanks::Get()) const;
   // In that of a density.
   ImageGrid On(const ImageGrid& density) const;
   // In the bounds of sites, 10 % longer along each axis; the sites of all ranks are two or more.
-  ImageGrid Around(vtkPointSet* sites, const Ranks* ranks = nullptr) const;
+  ImageGrid Around(vtkPointSet* sites, const Ranks& ranks = SoloRanks::Get()) const;
 };
 
 } // namespace RectifiedTransport

@@ -9,6 +9,7 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Solid/ClosedSurface.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Solid/SolidCoverage.h"
 
 #include "vtkDataSetAttributes.h"
@@ -48,20 +49,16 @@ vtkSmartPointer<vtkDoubleArray> cover(const SolidSurface& surface, const GridSiz
 
 } // namespace
 
-ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks* ranks) const
+ImageGrid SolidDensity::GridAround(vtkPolyData* surface, const Ranks& ranks) const
 {
   std::array<double, 6> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-  bool hasPoints = surface && surface->GetNumberOfPoints() > 0;
+  const bool hasPoints = surface && surface->GetNumberOfPoints() > 0;
   if (hasPoints)
   {
     bounds = polygonBounds(surface);
   }
-  if (ranks)
-  {
-    hasPoints = !onAllRanks(ranks, !hasPoints);
-    bounds = boundsOfAll(*ranks, bounds);
-  }
-  if (!hasPoints)
+  bounds = boundsOfAll(ranks, bounds);
+  if (onAllRanks(ranks, !hasPoints))
   {
     return ImageGrid().WithValuesOn(this->OnPoints);
   }

@@ -30,7 +30,7 @@ struct SolidDensity
 
   // The image around a surface, or the parts of one on all ranks, which call this together; without
   // points around none. Throws Failure.
-  ImageGrid GridAround(vtkPolyData* surface, const Ranks* ranks = nullptr) const;
+  ImageGrid GridAround(vtkPolyData* surface, const Ranks& ranks) const;
 
   // Writes the fraction of each image cell that a closed surface encloses, of the cells of the
   // extent that is chosen for an image. Returns the whole image's grid. Throws Failure and

@@ -13,6 +13,7 @@
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/MassSplat.h"
 #include "Bridge/Splat/SplatOnRanks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -25,11 +26,10 @@ namespace RectifiedTransport
 namespace
 {
 
-// The work before the splat, and the splat, of all.
+// The work before the splat, of all.
 constexpr double endOfPoints = 0.1;
 constexpr double endOfMasses = 0.2;
 constexpr double endOfBounds = 0.25;
-constexpr double endOfSplat = 0.95;
 
 PointMasses readPoints(vtkPointSet* points, vtkDataArray* masses, Progress& progress)
 {
@@ -94,78 +94,48 @@ ImageGrid MassSplatter::GridAround(const double (&bounds)[6]) const
   return this->GridOf(this->CellsIn(bounds), false);
 }
 
-MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses,
-  vtkImageData* reference, Progress& progress, vtkImageData* output) const
+// Of the image that all ranks have together.
+ImageGrid MassSplatter::GridOfReference(vtkImageData* reference, const Ranks& ranks) const
 {
-  const vtkIdType count = points->GetNumberOfPoints();
-  const PointMasses given = readPoints(points, masses, progress);
-  ImageGrid cells;
-  if (reference)
+  vtkSmartPointer<vtkImageData> whole = reference;
+  if (ranks.AreSeveral())
   {
-    cells = gridOf(reference, this->OnPoints);
+    whole = ImagePieces(reference, ranks).MakeFrame();
   }
-  else
-  {
-    double bounds[6];
-    progress.BeginStage(endOfBounds);
-    findBounds(points, progress, bounds);
-    cells = this->CellsIn(bounds);
-  }
-  requireAxis(cells, reference != nullptr);
-  if (!reference)
-  {
-    requireMemoryFor(numberOfValues(cells), cells);
-  }
-  const ImageGrid grid = this->GridOf(cells, reference != nullptr);
-  applyGrid(grid, output);
-  requireCells(cells);
-  const SplatTarget target{ cells, this->Splat, this->DivideByVolume };
-  requireFinite(given.TotalSize(), target);
-
-  const auto density = newArray<vtkDoubleArray>("Density", 1, cells.NumberOfCells());
-  progress.BeginStage(endOfSplat);
-  const std::int64_t outside = count > 0
-    ? splatPoints(points->GetPoints()->GetData(), given.Values(), 1.0, target, progress, density)
-    : splatPoints(ConstPointSpan<3>(), 1.0, target, progress, density);
-  progress.BeginStage(1.0);
-  const double total = this->Splat.Boundary == SplatBoundary::Renormalize
-    ? given.Total()
-    : splatMassIn(density, target, progress);
-  output->GetAttributes(this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL)
-    ->SetScalars(density);
-  addFieldValue(output, "TotalMass", total);
-  return { grid, count, outside };
+  return whole && whole->GetNumberOfPoints() > 0 ? gridOf(whole, this->OnPoints) : ImageGrid();
 }
 
-MassSplatter::Report MassSplatter::RunOnRanks(vtkPointSet* points, vtkDataArray* masses,
-  vtkImageData* reference, const Share& share, Progress& progress, vtkImageData* output) const
+MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses,
+  const Target& target, Progress& progress, vtkImageData* output) const
 {
-  const Ranks& ranks = *progress.Group();
+  const Ranks& ranks = progress.Group();
   // Hidden points have no mass, but their places among the others.
-  const SharedPoints shared(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
-  const PointMasses given = readPoints(shared.Set(), masses, progress);
+  const SharedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+  const PointMasses given = readPoints(counted.Set(), masses, progress);
   ImageGrid cells;
-  if (share.HasReference)
+  if (target.HasReference)
   {
-    const ImagePieces pieces(reference, ranks);
-    cells = isEmpty(pieces.Whole()) ? cells : gridOf(pieces.MakeFrame(), this->OnPoints);
+    cells = this->GridOfReference(target.Reference, ranks);
   }
-  else if (shared.All() > 0)
+  else if (counted.All() > 0)
   {
     double bounds[6];
     progress.BeginStage(endOfBounds);
-    findBounds(shared.Set(), &ranks, progress, bounds);
+    findBounds(counted.Set(), progress, bounds);
     cells = this->CellsIn(bounds);
-    requireMemoryFor(numberOfValues(cells) / ranks.Count(), cells);
   }
   if (cells.IsEmpty())
   {
     return {};
   }
-  requireAxis(cells, share.HasReference);
-  const ImageGrid grid = this->GridOf(cells, share.HasReference);
+  requireAxis(cells, target.HasReference);
+  if (!target.HasReference)
+  {
+    requireMemoryFor(numberOfValues(cells) / ranks.Count(), cells);
+  }
+  const ImageGrid grid = this->GridOf(cells, target.HasReference);
   applyGrid(grid, output);
-  Extent wanted = extentToGive(grid.Extent(), share.Output, ranks);
+  Extent wanted = extentToGive(grid.Extent(), target.Output, ranks);
   output->SetExtent(wanted.data());
   requireCells(cells);
   double sizes = 0.0;
@@ -173,18 +143,18 @@ MassSplatter::Report MassSplatter::RunOnRanks(vtkPointSet* points, vtkDataArray*
   {
     sizes += there;
   }
-  const SplatTarget target{ cells, this->Splat, this->DivideByVolume };
-  requireFinite(sizes, target);
+  const SplatTarget splatTarget{ cells, this->Splat, this->DivideByVolume };
+  requireFinite(sizes, splatTarget);
 
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
   const auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(box.Count()));
   progress.BeginStage(1.0);
-  const RankSplat splat = splatOnRanks({ shared, given, target },
-    { tuplesOf(grid.Extent(), owner, grid.Extent()), box }, ranks, progress, density);
+  const RankSplat splat = splatOnRanks({ counted, given, splatTarget },
+    { tuplesOf(grid.Extent(), owner, grid.Extent()), box }, progress, density);
   output->GetAttributes(owner)->SetScalars(density);
   addFieldValue(output, "TotalMass", splat.TotalMass);
-  return { grid, shared.All(), splat.Outside };
+  return { grid, counted.All(), splat.Outside };
 }
 
 } // namespace RectifiedTransport

@@ -21,6 +21,7 @@ namespace RectifiedTransport
 {
 
 class Progress;
+class Ranks;
 
 // The members are the properties of that class.
 struct MassSplatter
@@ -36,10 +37,11 @@ struct MassSplatter
     std::int64_t Points = 0;
     std::int64_t Outside = 0; // of the grid
   };
-  // What ranks want and give together.
-  struct Share
+  // What masses are splat onto.
+  struct Target
   {
-    bool HasReference;
+    bool HasReference; // else a box around the points
+    vtkImageData* Reference;
     vtkInformation* Output; // of the pipeline
   };
 
@@ -47,17 +49,13 @@ struct MassSplatter
   ImageGrid GridAround(const double (&bounds)[6]) const;
 
   // Splats masses, 1 each where `masses` is nullptr, onto the grid of a reference, or of the
-  // points' bounds. Throws Failure and Cancelled.
-  Report Run(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference, Progress& progress,
+  // points' bounds. Collective: each rank gives its part of points and reference, which may be
+  // nullptr, and gets the part of the image that extentToGive says. Throws Failure and Cancelled.
+  Report Run(vtkPointSet* points, vtkDataArray* masses, const Target& target, Progress& progress,
     vtkImageData* output) const;
 
-  // The same of the points of the progress's ranks, which call this together. Each gives its part
-  // of points and reference, which may be nullptr, and gets the part of the image that extentToGive
-  // says.
-  Report RunOnRanks(vtkPointSet* points, vtkDataArray* masses, vtkImageData* reference,
-    const Share& share, Progress& progress, vtkImageData* output) const;
-
 private:
+  ImageGrid GridOfReference(vtkImageData* reference, const Ranks& ranks) const;
   ImageGrid CellsIn(const double (&bounds)[6]) const;
   ImageGrid GridOf(const ImageGrid& cells, bool hasReference) const;
 };

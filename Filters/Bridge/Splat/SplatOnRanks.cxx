@@ -3,11 +3,12 @@
 
 #include "Bridge/Points/PointMasses.h"
 #include "Bridge/Ranks/SharedPoints.h"
-#include "Bridge/Ranks/SharedSplat.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Bridge/Splat/MassSplat.h"
 #include "Core/Parallel/RankOrder.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkPointSet.h"
@@ -56,7 +57,7 @@ TupleRange rangeOf(const TupleBox& whole, int ranks, int rank)
 double inOrder(
   const SharedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
 {
-  if (onAllRanks(&ranks, masses == nullptr))
+  if (onAllRanks(ranks, masses == nullptr))
   {
     return static_cast<double>(points.All());
   }
@@ -98,16 +99,35 @@ private:
   const double* Values;
 };
 
+RankSplat splatHere(const RankSplatInput& input, Progress& progress, vtkDoubleArray* cells)
+{
+  constexpr double endOfSplat = 0.95;
+  Progress work(progress.Stage());
+  work.BeginStage(endOfSplat);
+  const std::int64_t outside = splatPoints(input.Points.Set()->GetPoints()->GetData(),
+    input.Masses.Values(), 1.0, input.Target, work, cells);
+  work.BeginStage(1.0);
+  return { outside,
+    input.Target.Options.Boundary == SplatBoundary::Renormalize
+      ? input.Masses.Total()
+      : splatMassIn(cells, input.Target, work) };
+}
+
 } // namespace
 
-RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, const Ranks& ranks,
-  Progress& progress, vtkDoubleArray* cells)
+RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, Progress& progress,
+  vtkDoubleArray* cells)
 {
+  const Ranks& ranks = progress.Group();
+  if (!ranks.AreSeveral())
+  {
+    return splatHere(input, progress, cells);
+  }
   const CountedMasses masses(input.Points, input.Masses);
   const auto places = input.Points.TuplesOf(input.Points.Set()->GetPoints()->GetData());
   const auto splat = [&](const TupleBox& box, vtkDoubleArray* to) {
-    return splatShared(
-      places, masses.data(), 1.0, input.Points.Keys(), input.Target, box, ranks, progress, to);
+    return splatDistributed(
+      places, masses.data(), 1.0, input.Points.Keys(), input.Target, box, progress, to);
   };
   if (input.Target.Options.Boundary == SplatBoundary::Renormalize)
   {

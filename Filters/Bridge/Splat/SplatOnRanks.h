@@ -7,7 +7,6 @@
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
 
 #include <cstdint>
 
@@ -42,10 +41,10 @@ struct RankSplat
   double TotalMass;     // that the whole image holds
 };
 
-// Writes the wanted cells, as the work of the current stage. Called by all ranks. Throws Failure
-// and Cancelled.
-RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, const Ranks& ranks,
-  Progress& progress, vtkDoubleArray* cells);
+// Writes the wanted cells, as the work of the current stage. Collective on the ranks of the
+// progress. Throws Failure and Cancelled.
+RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, Progress& progress,
+  vtkDoubleArray* cells);
 
 } // namespace RectifiedTransport
 

@@ -310,7 +310,7 @@ public:
   AdvectionRun& operator=(const AdvectionRun&) = delete;
 
   const AdvectionJob<Dimension>& SharedJob() const { return this->Shared; }
-  const Ranks* Group() const { return this->Work.Group(); }
+  const Ranks& Group() const { return this->Work.Group(); }
 
   // The context of work that comes before the advection and takes a share of its time.
   Context BeginPreparation(double share)

@@ -3,7 +3,8 @@
 
 #include "Core/Flow/NodeAdvance.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankShare.h"
 
 #include <algorithm>
 #include <atomic>
@@ -84,16 +85,13 @@ public:
       }
     };
     const auto nodes = static_cast<std::int64_t>(this->Marks.size());
-    const Ranks* ranks = this->Work.Group();
+    const Ranks& ranks = this->Work.Group();
     const RankShare share(nodes, ranks);
     const std::int64_t evaluations =
       NodeAdvance<Dimension>(this->Job, this->Level, this->Work)
         .Run(share.First, share.Count, this->Job.Map->LevelCount, this->Marks.data(), fill);
-    if (ranks)
-    {
-      gatherParts(*ranks, shareStarts(nodes, this->RecordSize(), *ranks), this->Level.Records);
-      gatherParts(*ranks, shareStarts(nodes, 1, *ranks), this->Marks.data());
-    }
+    gatherParts(ranks, shareStarts(nodes, this->RecordSize(), ranks), this->Level.Records);
+    gatherParts(ranks, shareStarts(nodes, 1, ranks), this->Marks.data());
     return evaluations;
   }
 

@@ -5,7 +5,7 @@
 
 #include "Core/Flow/FlowMap.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <cstdint>
 #include <memory>
@@ -25,7 +25,7 @@ public:
   // Cancelled.
   template <class Begin>
   std::shared_ptr<const FlowMap<Dimension>> FindOrMake(const FlowMapShape<Dimension>& shape,
-    int refinement, const FlowJob<Dimension>& job, const Ranks* ranks, const Begin& begin,
+    int refinement, const FlowJob<Dimension>& job, const Ranks& ranks, const Begin& begin,
     bool& isNew)
   {
     const Steps steps{ shape.NumberOfSteps, refinement };

@@ -42,7 +42,7 @@ public:
 
   std::int64_t Count() const { return this->Samples; }
   // The number of samples of the whole lattice.
-  double CountOfAll(const Ranks* /*ranks*/) const
+  double CountOfAll(const Ranks& /*ranks*/) const
   {
     return numberOfCells<Dimension>(this->Lattice);
   }

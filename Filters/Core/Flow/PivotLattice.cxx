@@ -7,6 +7,7 @@
 #include "Core/Geometry/LowDiscrepancy.h"
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parallel/Ranks.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -122,7 +123,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
     progress.BeginStage(static_cast<double>(place + 1) / static_cast<double>(places));
     const std::int64_t low = std::clamp<std::int64_t>(first - place * each, 0, each);
     const std::int64_t high = std::clamp<std::int64_t>(last - place * each, 0, each);
-    if (low == high && !progress.Group())
+    if (low == high && !progress.Group().AreSeveral())
     {
       continue;
     }

@@ -62,10 +62,6 @@ struct RectifiedFlow<Dimension>::Internals
     : Size(size)
   {
     check<Dimension>(size, "a density");
-    if (!context.Group)
-    {
-      throw std::invalid_argument("a density of several ranks needs a context that has them");
-    }
     Progress progress(context);
     this->Tiles = std::make_unique<TiledFlow<Dimension>>(size, density, limits, progress);
   }
@@ -99,7 +95,7 @@ struct RectifiedFlow<Dimension>::Internals
       return this->Tiles->Advect(kind, source, positions, options, context);
     }
     AdvectionRun<Dimension> run(this->Tables->View(), kind, options, context);
-    this->Prepare(run, options, source.CountOfAll(context.Group));
+    this->Prepare(run, options, source.CountOfAll(*context.Group));
     return run.Advect(source, positions);
   }
 
@@ -352,7 +348,7 @@ FlowReport RectifiedFlow<Dimension>::ForwardAt(ConstPointSpan<Dimension> seeds,
   AdvectionRun<Dimension> run(
     this->Data->WholeTables("a path"), AdvectionKind::Forward, options, context);
   SortedPoints<Dimension> source(seeds);
-  this->Data->Prepare(run, options, source.CountOfAll(context.Group), times.front());
+  this->Data->Prepare(run, options, source.CountOfAll(*context.Group), times.front());
   return run.Advect(source, positions, times);
 }
 

@@ -4,7 +4,7 @@
 #define RectifiedTransport_SortedPoints_h
 
 #include "Core/Flow/ParticleOrder.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -28,8 +28,8 @@ public:
   }
 
   std::int64_t Count() const { return this->Points.size(); }
-  // The number of points of all ranks, which call this together.
-  double CountOfAll(const Ranks* ranks) const
+  // The number of points of all ranks. Collective.
+  double CountOfAll(const Ranks& ranks) const
   {
     return static_cast<double>(sumOverRanks(ranks, this->Count()));
   }

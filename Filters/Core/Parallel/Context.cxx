@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parallel/Context.h"
 
+#include "Core/Parallel/Ranks.h"
+
 #include <utility>
 
 namespace RectifiedTransport
@@ -18,13 +20,14 @@ const Executor& defaultExecutor()
 } // namespace
 
 Context::Context()
-  : Threads(&defaultExecutor())
+  : Context(defaultExecutor())
 {
 }
 
 Context::Context(
   const Executor& threads, std::function<void(double)> report, std::function<bool()> isCancelled)
   : Threads(&threads)
+  , Group(&SoloRanks::Get())
   , Report(std::move(report))
   , IsCancelled(std::move(isCancelled))
 {

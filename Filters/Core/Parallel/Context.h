@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The executor of a computation, the processes that share it, and callbacks for its progress and
+// The executor of a computation, the ranks that run it, and callbacks for its progress and
 // cancellation.
 #ifndef RectifiedTransport_Context_h
 #define RectifiedTransport_Context_h
@@ -24,16 +24,12 @@ class Cancelled
 struct Context
 {
   Context();
-  Context(const Executor& threads) // NOLINT: an executor is a context
-    : Threads(&threads)
-  {
-  }
-  Context(const Executor& threads, std::function<void(double)> report,
-    std::function<bool()> isCancelled = {});
+  Context(const Executor& threads, // NOLINT: an executor is a context
+    std::function<void(double)> report = {}, std::function<bool()> isCancelled = {});
 
   const Executor* Threads;
-  // The processes that run the computation together; nullptr for this one alone.
-  const Ranks* Group = nullptr;
+  // The ranks that run the computation together, never null. By default this process only.
+  const Ranks* Group;
   // Called with the progress, in [0,1], on the thread that called the library only.
   std::function<void(double)> Report;
   // Returns whether to stop. Called on any thread, by one at a time.

@@ -23,7 +23,7 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   const Executor& Threads() const { return *this->Parent.Threads; }
-  const Ranks* Group() const { return this->Parent.Group; }
+  const Ranks& Group() const { return *this->Parent.Group; }
 
   // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
   void BeginStage(double end, std::int64_t units = 1);

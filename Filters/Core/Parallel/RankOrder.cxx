@@ -2,6 +2,7 @@
 #include "Core/Parallel/RankOrder.h"
 
 #include "Core/Parallel/KeySort.h"
+#include "Core/Parallel/RankShare.h"
 
 #include <limits>
 #include <utility>
@@ -145,9 +146,9 @@ RankOrder::RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t 
   : Group(ranks)
 {
   const std::vector<std::int64_t> places = findPlaces(count, keys, ranks, progress);
-  const std::int64_t all = sumOverRanks(&ranks, count);
+  const std::int64_t all = sumOverRanks(ranks, count);
   const std::int64_t chunks = (all + grain - 1) / grain;
-  const RankShare share(chunks, &ranks);
+  const RankShare share(chunks, ranks);
   const std::int64_t first = share.First * grain;
   this->ShareCount = std::min(all, first + share.Count * grain) - std::min(all, first);
   Lists given(static_cast<std::size_t>(ranks.Count()));

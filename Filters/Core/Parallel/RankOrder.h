@@ -5,7 +5,7 @@
 #define RectifiedTransport_RankOrder_h
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -55,22 +55,17 @@ private:
 };
 
 // Sums whose terms are added one after another, those of rank 0 first: add(sums) adds the terms of
-// this rank. Called by all ranks; `ranks` is nullptr where there is one.
+// this rank. Collective.
 template <class Sums, class Add>
-Sums sumInTurn(const Ranks* ranks, Sums sums, const Add& add)
+Sums sumInTurn(const Ranks& ranks, Sums sums, const Add& add)
 {
-  if (!ranks)
+  for (int rank = 0; rank < ranks.Count(); ++rank)
   {
-    add(sums);
-    return sums;
-  }
-  for (int rank = 0; rank < ranks->Count(); ++rank)
-  {
-    if (rank == ranks->Own())
+    if (rank == ranks.Own())
     {
       add(sums);
     }
-    sums = gatherValues(*ranks, sums)[static_cast<std::size_t>(rank)];
+    sums = gatherValues(ranks, sums)[static_cast<std::size_t>(rank)];
   }
   return sums;
 }

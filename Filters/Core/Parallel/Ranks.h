@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes that run one computation together, each on its part of the data: the interface by
-// which a host application lets them exchange bytes.
+// The ranks (processes) that run one computation together, each on its part of the data: the
+// interface by which a host application lets them exchange bytes.
 #ifndef RectifiedTransport_Ranks_h
 #define RectifiedTransport_Ranks_h
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace RectifiedTransport
 {
 
-// Thrown by an exchange where the computation of another process has failed; what failed is known
-// there. No std::exception, as it is no error of this process.
+// Thrown by an exchange when the computation of another rank has failed; that rank knows the
+// reason. Not a std::exception, because nothing failed here.
 class FailedElsewhere
 {
 };
 
 using Bytes = std::vector<char>;
 
-// All processes call the same exchanges in the same order. One that fails, or is cancelled, ends
-// those of the others: their next exchange throws FailedElsewhere or Cancelled.
+// Gather and Exchange are collective: all ranks call them in the same order. When a rank fails or
+// is cancelled, the next exchange of each other rank throws FailedElsewhere or Cancelled.
 class Ranks
 {
 public:
@@ -32,205 +26,26 @@ public:
 
   virtual int Count() const = 0;
   virtual int Own() const = 0; // from 0
-  // What each rank gives, on all of them.
+  // Returns what each rank gives, on all of them.
   virtual std::vector<Bytes> Gather(const Bytes& own) const = 0;
   // Sends a part to each rank, this one included, and returns what each sent here.
   virtual std::vector<Bytes> Exchange(std::vector<Bytes> parts) const = 0;
+
+  bool AreSeveral() const { return this->Count() > 1; }
+  bool IsFirst() const { return this->Own() == 0; }
 };
 
-template <class T>
-Bytes toBytes(const T* values, std::size_t count)
+// One rank, for a computation in one process.
+class SoloRanks final : public Ranks
 {
-  static_assert(std::is_trivially_copyable_v<T>, "bytes are all there is of it");
-  Bytes bytes(count * sizeof(T));
-  if (count > 0)
-  {
-    std::memcpy(bytes.data(), values, bytes.size());
-  }
-  return bytes;
-}
+public:
+  int Count() const override { return 1; }
+  int Own() const override { return 0; }
+  std::vector<Bytes> Gather(const Bytes& own) const override { return { own }; }
+  std::vector<Bytes> Exchange(std::vector<Bytes> parts) const override { return parts; }
 
-template <class T>
-Bytes toBytes(const std::vector<T>& values)
-{
-  return toBytes(values.data(), values.size());
-}
-
-template <class T>
-std::vector<T> fromBytes(const Bytes& bytes)
-{
-  static_assert(std::is_trivially_copyable_v<T>, "bytes are all there is of it");
-  std::vector<T> values(bytes.size() / sizeof(T));
-  if (!values.empty())
-  {
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-  }
-  return values;
-}
-
-// One value of each rank, in their order.
-template <class T>
-std::vector<T> gatherValues(const Ranks& ranks, const T& own)
-{
-  std::vector<T> values;
-  for (const Bytes& bytes : ranks.Gather(toBytes(&own, 1)))
-  {
-    values.push_back(fromBytes<T>(bytes).front());
-  }
-  return values;
-}
-
-// Sends values to each rank, this one included, and returns those that each sent here.
-template <class T>
-std::vector<std::vector<T>> exchangeValues(const Ranks& ranks, std::vector<std::vector<T>> given)
-{
-  std::vector<Bytes> parts;
-  for (std::vector<T>& values : given)
-  {
-    parts.push_back(toBytes(values));
-    values = {};
-  }
-  std::vector<std::vector<T>> received;
-  for (Bytes& bytes : ranks.Exchange(std::move(parts)))
-  {
-    received.push_back(fromBytes<T>(bytes));
-    bytes = {};
-  }
-  return received;
-}
-
-// How many values each rank may send at a time, so that none receives more than 16 MB.
-template <class T>
-std::int64_t valuesAtOnce(const Ranks& ranks)
-{
-  constexpr std::int64_t bytes = std::int64_t{ 1 } << 24;
-  return std::max<std::int64_t>(1, bytes / (ranks.Count() * static_cast<std::int64_t>(sizeof(T))));
-}
-
-// Sends the values valueOf(i) of [0, count) to the ranks rankOf(i), in messages of bounded size,
-// and calls take(rank, value) for those that come here: those of a rank in its order.
-template <class RankOf, class ValueOf, class Take>
-void exchangeInRounds(const Ranks& ranks, std::int64_t count, const RankOf& rankOf,
-  const ValueOf& valueOf, const Take& take)
-{
-  using T = std::decay_t<decltype(valueOf(count))>;
-  const std::int64_t most = valuesAtOnce<T>(ranks);
-  const std::vector<std::int64_t> counts = gatherValues(ranks, count);
-  const std::int64_t longest = *std::max_element(counts.begin(), counts.end());
-  for (std::int64_t done = 0; done < longest; done += most)
-  {
-    std::vector<std::vector<T>> given(counts.size());
-    for (std::int64_t i = done; i < std::min(done + most, count); ++i)
-    {
-      given[static_cast<std::size_t>(rankOf(i))].push_back(valueOf(i));
-    }
-    const std::vector<std::vector<T>> received = exchangeValues(ranks, std::move(given));
-    for (std::size_t rank = 0; rank < received.size(); ++rank)
-    {
-      for (const T& value : received[rank])
-      {
-        take(rank, value);
-      }
-    }
-  }
-}
-
-// The sum over all ranks, of integers or exact sums; `own` where there is one rank.
-template <class Sum>
-Sum sumOverRanks(const Ranks* ranks, const Sum& own)
-{
-  if (!ranks)
-  {
-    return own;
-  }
-  Sum all{};
-  for (const Sum& part : gatherValues(*ranks, own))
-  {
-    if constexpr (std::is_arithmetic_v<Sum>)
-    {
-      static_assert(std::is_integral_v<Sum>, "sums of doubles depend on their order");
-      all += part;
-    }
-    else
-    {
-      all.Add(part);
-    }
-  }
-  return all;
-}
-
-// Whether a condition holds on all ranks.
-inline bool onAllRanks(const Ranks* ranks, bool condition)
-{
-  return ranks ? sumOverRanks<std::int64_t>(ranks, condition ? 0 : 1) == 0 : condition;
-}
-
-// Of one array, whose part [starts[r], starts[r + 1]) rank r has: all of it on all ranks, in
-// messages of bounded size.
-template <class T>
-void gatherParts(const Ranks& ranks, const std::vector<std::int64_t>& starts, T* all)
-{
-  const std::int64_t most = valuesAtOnce<T>(ranks);
-  std::int64_t longest = 0;
-  for (std::size_t rank = 0; rank + 1 < starts.size(); ++rank)
-  {
-    longest = std::max(longest, starts[rank + 1] - starts[rank]);
-  }
-  const auto own = static_cast<std::size_t>(ranks.Own());
-  for (std::int64_t done = 0; done < longest; done += most)
-  {
-    const std::int64_t count =
-      std::clamp<std::int64_t>(starts[own + 1] - starts[own] - done, 0, most);
-    const std::vector<Bytes> parts =
-      ranks.Gather(toBytes(all + starts[own] + done, static_cast<std::size_t>(count)));
-    for (std::size_t rank = 0; rank < parts.size(); ++rank)
-    {
-      if (rank != own && !parts[rank].empty())
-      {
-        std::memcpy(all + starts[rank] + done, parts[rank].data(), parts[rank].size());
-      }
-    }
-  }
-}
-
-// [0, count) divided among the ranks as evenly as may be.
-struct RankShare
-{
-  RankShare(std::int64_t count, int ranks, int rank)
-    : First(count / ranks * rank + std::min<std::int64_t>(count % ranks, rank))
-    , Count(count / ranks + (rank < count % ranks ? 1 : 0))
-  {
-  }
-  RankShare(std::int64_t count, const Ranks* ranks)
-    : RankShare(count, ranks ? ranks->Count() : 1, ranks ? ranks->Own() : 0)
-  {
-  }
-
-  // Which rank has an item of [0, count).
-  static int Of(std::int64_t item, std::int64_t count, int ranks)
-  {
-    const std::int64_t each = count / ranks;
-    const std::int64_t larger = count % ranks * (each + 1); // the items of the ranks with one more
-    return static_cast<int>(
-      item < larger ? item / (each + 1) : count % ranks + (item - larger) / each);
-  }
-
-  std::int64_t First;
-  std::int64_t Count;
+  static const SoloRanks& Get();
 };
-
-// Where the shares of all ranks begin, and the end, of what has `each` values.
-inline std::vector<std::int64_t> shareStarts(
-  std::int64_t count, std::int64_t each, const Ranks& ranks)
-{
-  std::vector<std::int64_t> starts;
-  for (int rank = 0; rank < ranks.Count(); ++rank)
-  {
-    starts.push_back(RankShare(count, ranks.Count(), rank).First * each);
-  }
-  starts.push_back(count * each);
-  return starts;
-}
 
 } // namespace RectifiedTransport
 

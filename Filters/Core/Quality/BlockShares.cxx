@@ -2,7 +2,7 @@
 #include "Core/Quality/BlockShares.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <array>
@@ -308,7 +308,7 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
       {
         squared[asked[i]] = found[i];
       }
-    } while (!onAllRanks(&ranks, next >= count));
+    } while (!onAllRanks(ranks, next >= count));
   }
 }
 
@@ -316,10 +316,11 @@ void searchOnRanks(const PointTree& tree, std::int64_t count, double* squared, c
 
 void nearestDistances(ConstPointSpan<3> points, double* distances, const Context& context)
 {
+  const bool areSeveral = context.Group->AreSeveral();
   Progress progress(context);
   PointTree tree(points.size());
   tree.Build(points, progress, 0.4);
-  progress.BeginStage(context.Group ? endOfOwn : 1.0);
+  progress.BeginStage(areSeveral ? endOfOwn : 1.0);
   progress.For(
     points.size(), grain,
     [&](std::int64_t first, std::int64_t last) {
@@ -328,11 +329,11 @@ void nearestDistances(ConstPointSpan<3> points, double* distances, const Context
       {
         const TreePoint& point = tree.At(i);
         const double squared = tree.Search(point, std::numeric_limits<double>::infinity());
-        distances[point.Id] = context.Group ? squared : std::sqrt(squared);
+        distances[point.Id] = areSeveral ? squared : std::sqrt(squared);
       }
     },
     grain);
-  if (context.Group)
+  if (areSeveral)
   {
     searchOnRanks(tree, points.size(), distances, *context.Group, progress);
     for (std::int64_t i = 0; i < points.size(); ++i)

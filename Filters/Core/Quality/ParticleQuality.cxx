@@ -6,6 +6,7 @@
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankOrder.h"
+#include "Core/Parallel/RankShare.h"
 #include "Core/Quality/BlockShares.h"
 #include "Core/Quality/GridBlocks.h"
 #include "Core/Quality/NearestNeighbours.h"
@@ -55,7 +56,7 @@ public:
     , Scale(grid)
     , Blocks(grid.Size<Dimension>(), blockSize)
     , NumberOfBlocks(static_cast<std::int64_t>(this->Blocks.Count()))
-    , Group(context.Group)
+    , Group(*context.Group)
     , OwnBlocks(this->NumberOfBlocks, this->Group)
     , Count(particles.Points.size())
     , Work(context)
@@ -74,9 +75,9 @@ public:
     this->Work.BeginStage(0.1);
     this->Place();
     this->Work.BeginStage(0.2);
-    if (this->Group)
+    if (this->Group.AreSeveral())
     {
-      this->Order.emplace(this->Count, this->Particles.Order, 1, *this->Group, this->Work);
+      this->Order.emplace(this->Count, this->Particles.Order, 1, this->Group, this->Work);
     }
     this->AddMasses();
     this->Work.BeginStage(0.25);
@@ -207,7 +208,7 @@ private:
       return;
     }
     // Those of the first rank's share of the order before those of the second.
-    std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group->Count()));
+    std::vector<std::vector<BlockTerm>> received(static_cast<std::size_t>(this->Group.Count()));
     {
       std::vector<BlockTerm> terms = this->Order->Bring([this](std::int64_t i) {
         return BlockTerm{ this->Block.data()[i], this->Share(i) };
@@ -217,9 +218,9 @@ private:
         terms.end());
       const auto termAt = [&terms](std::int64_t i) { return terms[static_cast<std::size_t>(i)]; };
       exchangeInRounds(
-        *this->Group, static_cast<std::int64_t>(terms.size()),
+        this->Group, static_cast<std::int64_t>(terms.size()),
         [&](std::int64_t i) {
-          return RankShare::Of(termAt(i).Block, this->NumberOfBlocks, this->Group->Count());
+          return RankShare::Of(termAt(i).Block, this->NumberOfBlocks, this->Group.Count());
         },
         termAt, [&](std::size_t rank, const BlockTerm& term) { received[rank].push_back(term); });
     }
@@ -335,7 +336,7 @@ private:
   const LengthScale Scale;
   const GridBlocks<Dimension> Blocks;
   const std::int64_t NumberOfBlocks;
-  const Ranks* const Group; // nullptr for one rank
+  const Ranks& Group;
   const RankShare OwnBlocks;
   const std::int64_t Count;
   Progress Work;

@@ -2,7 +2,7 @@
 #include "Core/Tables/GradedTables.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Tables/DensityInspection.h"
 #include "Core/Tables/NodeLayout.h"
 #include "Core/Tables/ScaledDensity.h"
@@ -119,7 +119,7 @@ GradedTables<Dimension>::GradedTables(const GridSize<Dimension>& size,
 {
   this->Finish([&](int scaling) {
     progress.BeginStage(partOfReading);
-    this->AddShared(density, scaling, *progress.Group(), progress);
+    this->AddShared(density, scaling, progress.Group(), progress);
     progress.BeginStage(1.0);
     this->SumNodes(progress);
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flows with tiles that several ranks compute together have the bits of one rank.
 #include "Core/Flow/RectifiedFlow.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "TestDimensions.h"
 #include "TestFlow.h"
@@ -99,7 +99,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
     Points<D> all(expected.size());
     runOnRanks(count, [&](const Ranks& ranks) {
       const RankFlow<D> run(density, ranks, manyTiles<D>());
-      const RankShare share(lattice[last], &ranks);
+      const RankShare share(lattice[last], ranks);
       LatticePart<D> part = LatticePart<D>::WholeOf(lattice);
       part.Low[last] = share.First;
       part.Cells[last] = share.Count;

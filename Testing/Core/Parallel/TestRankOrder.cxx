@@ -5,6 +5,7 @@
 #include "Core/Geometry/ReproducibleMath.h"
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/RankOrder.h"
+#include "Core/Parallel/RankShare.h"
 #include "Core/Parallel/Reduction.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +95,7 @@ void check(int ranks, std::int64_t count, std::int64_t grain, bool hasKeys,
     EXPECT_EQ(order.Count(), static_cast<std::int64_t>(share.size()));
     EXPECT_EQ(sumChunks(share.data(), order.Count(), grain, group), chunks);
     const auto add = [&](double& sum) { sum = std::accumulate(share.begin(), share.end(), sum); };
-    EXPECT_EQ(sumInTurn(&group, 0.0, add), inOrder);
+    EXPECT_EQ(sumInTurn(group, 0.0, add), inOrder);
   });
   std::vector<double> all;
   for (const std::vector<double>& share : brought)

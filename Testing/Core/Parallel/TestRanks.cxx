@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums, shares and parts of arrays over ranks.
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/Context.h"
+#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "ThreadRanks.h"
 
@@ -64,12 +66,25 @@ TEST(Ranks, PartsOfAnArrayReachAll)
 TEST(Ranks, AgreeAndAdd)
 {
   runOnRanks(3, [](const Ranks& ranks) {
-    EXPECT_EQ(sumOverRanks<std::int64_t>(&ranks, 1 << ranks.Own()), 7);
-    EXPECT_FALSE(onAllRanks(&ranks, ranks.Own() != 1));
-    EXPECT_TRUE(onAllRanks(&ranks, true));
+    EXPECT_EQ(sumOverRanks<std::int64_t>(ranks, 1 << ranks.Own()), 7);
+    EXPECT_FALSE(onAllRanks(ranks, ranks.Own() != 1));
+    EXPECT_TRUE(onAllRanks(ranks, true));
   });
-  EXPECT_EQ(sumOverRanks<std::int64_t>(nullptr, 5), 5);
-  EXPECT_FALSE(onAllRanks(nullptr, false));
+}
+
+// The ranks of a context that is given none.
+TEST(Ranks, OneGivesToItself)
+{
+  const Context context;
+  const Ranks& solo = *context.Group;
+  EXPECT_EQ(solo.Count(), 1);
+  EXPECT_FALSE(solo.AreSeveral());
+  EXPECT_TRUE(solo.IsFirst());
+  EXPECT_EQ(solo.Gather({ 'a', 'b' }), (std::vector<Bytes>{ { 'a', 'b' } }));
+  EXPECT_EQ(solo.Exchange({ { 'c' } }), (std::vector<Bytes>{ { 'c' } }));
+  EXPECT_EQ(sumOverRanks<std::int64_t>(solo, 5), 5);
+  EXPECT_FALSE(onAllRanks(solo, false));
+  EXPECT_TRUE(onAllRanks(solo, true));
 }
 
 TEST(Ranks, OneThatFailsEndsAll)
@@ -80,7 +95,7 @@ TEST(Ranks, OneThatFailsEndsAll)
                    {
                      throw std::runtime_error("failed");
                    }
-                   sumOverRanks<std::int64_t>(&ranks, 1);
+                   sumOverRanks<std::int64_t>(ranks, 1);
                    FAIL() << "the exchange of a rank that has failed";
                  }),
     std::runtime_error);

@@ -3,7 +3,7 @@
 #include "Core/Quality/BlockShares.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "RecordingContext.h"
 #include "TestDensities.h"
@@ -56,7 +56,7 @@ template <int Dimension>
 std::vector<double> sharesOf(
   const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks, const Context& context)
 {
-  const RankShare own(static_cast<std::int64_t>(blocks.Count()), context.Group);
+  const RankShare own(static_cast<std::int64_t>(blocks.Count()), *context.Group);
   std::vector<double> shares(static_cast<std::size_t>(own.Count));
   Progress progress(context);
   findBlockShares<Dimension>(flow, blocks, own.First, own.Count, shares.data(), progress, 1.0);
@@ -95,7 +95,7 @@ void checkShares(const GridSize<Dimension>& size, std::int64_t blockSize)
   std::vector<double> found(expected.size());
   runOnRanks(3, [&](const Ranks& ranks) {
     const RankFlow<Dimension> run(density, ranks, limits); // reads no cells that it did not ask for
-    const RankShare own(static_cast<std::int64_t>(found.size()), &ranks);
+    const RankShare own(static_cast<std::int64_t>(found.size()), ranks);
     const std::vector<double> shares = sharesOf<Dimension>(run.Flow, blocks, run.RankContext());
     std::copy(shares.begin(), shares.end(), found.begin() + own.First);
   });

@@ -9,7 +9,7 @@
 #include "Core/Flow/Tiles/TileSchedule.h"
 #include "Core/Flow/Tiles/TileVisitors.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Tables/GradedTables.h"
 #include "Core/Tables/SharedDensity.h"
 #include "Core/Tables/TileTables.h"
@@ -42,7 +42,7 @@ public:
   // Whether a condition holds here or on another rank.
   bool HasAnyRank(bool condition) const
   {
-    return !onAllRanks(this->OfRanks ? this->Work.Group() : nullptr, !condition);
+    return this->OfRanks ? !onAllRanks(this->Work.Group(), !condition) : condition;
   }
 
   // Of the tile that is worked on.
@@ -108,7 +108,7 @@ private:
   template <class Item, class Task>
   void RunOnRanks(const ByTile<Item>& items, Task& task, double begin, double end)
   {
-    const Ranks& ranks = *this->Work.Group();
+    const Ranks& ranks = this->Work.Group();
     const std::vector<std::vector<TileUnit>> units = this->Schedule(items, Task::Cell, ranks);
     const auto own = static_cast<std::size_t>(ranks.Own());
     this->ReserveIf(!units[own].empty());

@@ -8,6 +8,7 @@
 #include "Core/Flow/Tiles/TileLanes.h"
 #include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Flow/Tiles/TileRounds.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <cstddef>

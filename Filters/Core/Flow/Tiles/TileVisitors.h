@@ -6,7 +6,7 @@
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TileSchedule.h"
-#include "Core/Parallel/Ranks.h"
+#include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -88,7 +88,7 @@ public:
     const bool isBackward = kind == AdvectionKind::Backward;
     const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
     requireTiles<Dimension>(this->Size, options, direction, this->Limits);
-    const double particles = source.CountOfAll(context.Group);
+    const double particles = source.CountOfAll(*context.Group);
     const TilePlan<Dimension> plan =
       PlanFor(this->Size, options, direction, particles, this->Limits);
     Counters counters;
@@ -98,7 +98,7 @@ public:
     {
       bool isNew = false;
       map = this->Maps[isBackward ? 1 : 0].FindOrMake(
-        plan.Shape, 0, shared.Job, context.Group,
+        plan.Shape, 0, shared.Job, *context.Group,
         [&]() {
           progress.BeginStage(plan.Shape.Cost / (plan.Shape.Cost + particles * plan.HandOver));
           return progress.Stage();

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats the masses of points that lie on several ranks.
-#ifndef RectifiedTransport_SharedSplat_h
-#define RectifiedTransport_SharedSplat_h
+#ifndef RectifiedTransport_DistributedSplat_h
+#define RectifiedTransport_DistributedSplat_h
 
 #include "Bridge/Points/SplatTarget.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/Ranks.h"
 
 #include <cstdint>
 
@@ -24,13 +23,13 @@ namespace RectifiedTransport
 // geometry as tuplesOf(extent, owner, whole) gives them. The box may be empty, and those of ranks
 // may overlap. `cells` has wanted.Count() tuples. `order` may be nullptr; else it has a key for
 // each point, and the terms of a cell are added in the order of the keys (of equal ones: by rank,
-// then by index), if all ranks that have points give keys. Called by all ranks, as the work of the
-// current stage. Returns how many points of all ranks are outside of the domain. Memory: about 100
-// bytes for each point that a rank sends, and as much for each that reaches its box. Throws Failure
-// where memory is short, and Cancelled.
-std::int64_t splatShared(vtkDataArray* points, const double* masses, double massEach,
-  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, const Ranks& ranks,
-  Progress& progress, vtkDoubleArray* cells);
+// then by index), if all ranks that have points give keys. Collective on the ranks of the progress,
+// as the work of the current stage. Returns how many points of all ranks are outside of the domain.
+// Memory: about 100 bytes for each point that a rank sends, and as much for each that reaches its
+// box. Throws Failure where memory is short, and Cancelled.
+std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
+  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
+  vtkDoubleArray* cells);
 
 } // namespace RectifiedTransport
 

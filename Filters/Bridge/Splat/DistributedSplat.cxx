@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each point goes to the ranks whose boxes its kernel reaches; these put what they receive in order
 // and splat it onto their boxes.
-#include "Bridge/Ranks/SharedSplat.h"
+#include "Bridge/Splat/DistributedSplat.h"
 
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Run/Memory.h"
+#include "Bridge/Splat/MassSplat.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/LargeBuffer.h"
+#include "Core/Parallel/RankExchange.h"
 #include "Core/Splat/SplatSetup.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -113,10 +115,10 @@ private:
 };
 
 template <int D, class Real>
-class SharedSplat
+class DistributedSplat
 {
 public:
-  SharedSplat(const SplatParticles<D, Real>& particles, const std::int64_t* order,
+  DistributedSplat(const SplatParticles<D, Real>& particles, const std::int64_t* order,
     const SplatTarget& target, const Agreement& all, const Ranks& ranks, Progress& progress)
     : Own(particles)
     , Order(all.HasOrder ? order : nullptr)
@@ -140,7 +142,7 @@ public:
     splatMass<D, Real>(received, this->Target.Geometry.template Size<D>(),
       latticePartOf<D>(this->All.Wanted[own], this->Target.Geometry), this->Target.Options,
       this->Target.Scale(), cells, this->Work.Stage());
-    return sumOverRanks(&this->Processes, outside);
+    return sumOverRanks(this->Processes, outside);
   }
 
 private:
@@ -287,7 +289,7 @@ std::int64_t splatOnRanks(const OwnPoints<Real>& own, const SplatTarget& target,
 {
   const SplatParticles<D, Real> particles{ own.Points, own.Masses, own.MassEach,
     target.Geometry.ToIndexMap<D>() };
-  return SharedSplat<D, Real>(particles, own.Order, target, all, ranks, progress).Run(cells);
+  return DistributedSplat<D, Real>(particles, own.Order, target, all, ranks, progress).Run(cells);
 }
 
 template <class Real>
@@ -301,10 +303,15 @@ std::int64_t splatOwn(const OwnPoints<Real>& own, const SplatTarget& target, con
 
 } // namespace
 
-std::int64_t splatShared(vtkDataArray* points, const double* masses, double massEach,
-  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, const Ranks& ranks,
-  Progress& progress, vtkDoubleArray* cells)
+std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
+  const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
+  vtkDoubleArray* cells)
 {
+  const Ranks& ranks = progress.Group();
+  if (!ranks.AreSeveral())
+  {
+    return splatPoints(points, masses, massEach, target, progress, cells);
+  }
   const vtkIdType count = points->GetNumberOfTuples();
   auto* single = vtkAOSDataArrayTemplate<float>::FastDownCast(points);
   const Agreement all = agreementOf(

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/MpiController.h"
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "vtkMPIController.h"
+#endif
+
+namespace RectifiedTransport
+{
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+
+vtkMPIController* mpiController()
+{
+  return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+}
+
+bool haveSeveralRanks()
+{
+  vtkMPIController* controller = mpiController();
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
+bool sharesWithRanks(int piece, int pieces)
+{
+  return haveSeveralRanks() && pieces == mpiController()->GetNumberOfProcesses() &&
+    piece == mpiController()->GetLocalProcessId();
+}
+
+#else
+
+bool haveSeveralRanks()
+{
+  return false;
+}
+
+bool sharesWithRanks(int, int)
+{
+  return false;
+}
+
+#endif
+
+} // namespace RectifiedTransport
