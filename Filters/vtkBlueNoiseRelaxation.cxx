@@ -123,8 +123,10 @@ int vtkBlueNoiseRelaxation::RequestData(
   output->CopyStructure(input);
   output->GetPointData()->PassData(input->GetPointData());
   output->GetCellData()->PassData(input->GetCellData());
-  const BlueNoiseRelaxation relaxation{ this->Method == OPTIMAL_TRANSPORT,
-    { this->MaximumIterations, this->Tolerance } };
+  BlueNoiseRelaxation relaxation{};
+  relaxation.ByTransport = this->Method == OPTIMAL_TRANSPORT;
+  relaxation.Options.MaximumIterations = this->MaximumIterations;
+  relaxation.Options.Tolerance = this->Tolerance;
   const BlueNoiseRelaxation::Report report =
     relaxation.Run(*density, input, counted, this->GetFlowCache(), progress, output);
   addFieldValues(output, "Energy", report.Energy);

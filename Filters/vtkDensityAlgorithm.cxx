@@ -3,7 +3,7 @@
 
 #include "Bridge/Blocks/BlockArrays.h"
 #include "Bridge/Blocks/DensityBlocks.h"
-#include "Bridge/Blocks/GatheredBlocks.h"
+#include "Bridge/Blocks/GatheredInputs.h"
 #include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"

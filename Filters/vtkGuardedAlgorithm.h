@@ -159,8 +159,8 @@ protected:
   bool RunsForAllRanks() const { return this->IsAlone; }
 
   /**
-   * Divide among the ranks, all of which call it, what RequestData made on the first one. By
-   * default nothing.
+   * Divide what RequestData made on the first rank among all of them. Collective. By default
+   * nothing.
    */
   virtual void ShareOutputs(
     const RectifiedTransport::Ranks& ranks, vtkInformationVector* outputVector);

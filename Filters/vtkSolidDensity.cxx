@@ -3,7 +3,7 @@
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Image/SolidGrid.h"
-#include "Bridge/Ranks/GatheredPoints.h"
+#include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
@@ -108,8 +108,9 @@ int vtkSolidDensity::RequestData(
   }
   auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
     "a vtkPolyData, as Extract Surface makes one of it");
-  const GatheredPoints gathered(input, ranks, Receivers::All, PointSetKind::Polygons);
-  auto* surface = vtkPolyData::SafeDownCast(gathered.All());
+  const vtkSmartPointer<vtkPointSet> gathered =
+    gatherPoints(input, ranks, Receivers::All, PointSetKind::Polygons);
+  auto* surface = vtkPolyData::SafeDownCast(gathered);
   if (!surface || surface->GetNumberOfPoints() == 0)
   {
     return 1;

@@ -6,7 +6,7 @@
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Quality/TransportQuality.h"
-#include "Bridge/Ranks/SharedPoints.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/TableSettings.h"
@@ -118,7 +118,7 @@ int vtkTransportQuality::RequestData(
   {
     return 1;
   }
-  const SharedPoints particles(input, ghostPoint, ranks);
+  const DistributedPoints particles(input, ghostPoint, ranks);
   if (particles.All() == 0)
   {
     return 1;

@@ -4,7 +4,7 @@
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Flow/TransportSampler.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Ranks/SharedPoints.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
 #include "Bridge/Settings/SeedSettings.h"

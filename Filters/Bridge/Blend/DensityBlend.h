@@ -74,9 +74,9 @@ class DensityBlend
 {
 public:
   // Keeps the maps of these inputs for the next call. Tables are built in `tables` and released.
-  // On ranks, which call this together, the image is the part that each wants, and the particles
-  // are those whose places each has. Throws Failure, which names the input, and Cancelled. Returns
-  // how many particles of new maps, of all ranks, were moved out of empty cells of the densities.
+  // Each rank gets the part of the image that it wants, and the particles whose places it has.
+  // Collective. Throws Failure, which names the input, and Cancelled. Returns how many particles of
+  // new maps, on all ranks, were moved out of empty cells of the densities.
   std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
     FlowCache& tables, Progress& progress, const BlendOutput& output);
 

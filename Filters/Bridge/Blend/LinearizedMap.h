@@ -47,8 +47,8 @@ public:
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
   // Advects the particles to a density; progress then reaches `end`. The tables are built in
-  // `tables`. Called by all ranks of the progress. Throws Failure and Cancelled. Returns how many
-  // particles ended in an empty cell of the density and were moved to the nearest mass.
+  // `tables`. Collective on the ranks of the progress. Throws Failure and Cancelled. Returns how
+  // many particles ended in an empty cell of the density and were moved to the nearest mass.
   std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.

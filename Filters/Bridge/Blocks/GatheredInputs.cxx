@@ -2,12 +2,15 @@
 #include "Bridge/Blocks/GatheredInputs.h"
 
 #include "Bridge/Blocks/DensityBlocks.h"
-#include "Bridge/Ranks/GatheredPoints.h"
+#include "Bridge/Ranks/GatheredData.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
+#include "Core/Parallel/RankExchange.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -15,11 +18,33 @@
 #include "vtkNew.h"
 #include "vtkPointSet.h"
 
+#include <utility>
+
 namespace RectifiedTransport
 {
 
 namespace
 {
+
+DataContent contentOf(const std::vector<DensityBlock>& blocks)
+{
+  DataContent content;
+  for (const DensityBlock& block : blocks)
+  {
+    content.AddNumber(static_cast<std::uint64_t>(block.Number));
+    addGeometry(block, content);
+    for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+    {
+      vtkDataSetAttributes* attributes = block.Data->GetAttributes(owner);
+      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+      {
+        content.AddArray(attributes->GetAbstractArray(i));
+        content.AddNumber(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
+      }
+    }
+  }
+  return content;
+}
 
 vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks)
 {
@@ -57,9 +82,8 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
 {
   if (kind != GatheredKind::Density)
   {
-    const GatheredPoints points(vtkPointSet::SafeDownCast(own), ranks, Receivers::First,
+    return gatherPoints(vtkPointSet::SafeDownCast(own), ranks, Receivers::First,
       kind == GatheredKind::Surface ? PointSetKind::Surface : PointSetKind::Points);
-    return points.All();
   }
   auto* image = vtkImageData::SafeDownCast(own);
   const bool hasPoints = own && own->GetNumberOfElements(vtkDataObject::POINT) > 0;
@@ -70,6 +94,32 @@ vtkSmartPointer<vtkDataObject> gatherAny(vtkDataObject* own, GatheredKind kind, 
 }
 
 } // namespace
+
+const std::vector<DensityBlock>& GatheredBlocks::Gather(
+  const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
+{
+  DataContent content = contentOf(own);
+  if (onAllRanks(ranks, this->HasBlocks && content.IsSameAs(this->Content, progress)))
+  {
+    return this->Blocks;
+  }
+  *this = GatheredBlocks();
+  std::vector<DataPart> parts;
+  for (const DensityBlock& block : own)
+  {
+    parts.push_back({ block.Number, block.Name, block.Data });
+  }
+  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::All);
+  for (const DataPart& part : gathered.Parts)
+  {
+    const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
+    this->Blocks.push_back({ part.Data, part.Name, part.Number, time });
+  }
+  content.Keep(progress);
+  this->Content = std::move(content);
+  this->HasBlocks = true;
+  return this->Blocks;
+}
 
 vtkSmartPointer<vtkDataObject> gatherOnFirst(
   vtkDataObject* own, GatheredKind kind, const Ranks& ranks)

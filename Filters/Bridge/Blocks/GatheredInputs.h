@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inputs of a filter that runs on the first rank alone.
+// Inputs that lie on several ranks: the blocks of a density on every rank, and all inputs of a
+// filter that runs on the first rank only.
 #ifndef RectifiedTransport_GatheredInputs_h
 #define RectifiedTransport_GatheredInputs_h
 
+#include "Bridge/Blocks/DataContent.h"
+#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
 
@@ -19,6 +22,23 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class Progress;
+
+// Keeps the blocks of the last run: they are gathered again only if those of a rank change.
+class GatheredBlocks
+{
+public:
+  // By the numbers of the blocks, and the parts of one by rank; what is the same on several ranks
+  // once. Collective. Throws Failure, Cancelled and std::bad_alloc.
+  const std::vector<DensityBlock>& Gather(
+    const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress);
+
+private:
+  DataContent Content; // of this rank's blocks
+  bool HasBlocks = false;
+  std::vector<DensityBlock> Blocks;
+};
+
 enum class GatheredKind
 {
   Points,  // a point set, all of whose points count
@@ -27,14 +47,14 @@ enum class GatheredKind
 };
 
 // On the first rank, of the data of all ranks; nullptr on the others, and where none has data. What
-// is whole on every rank stays as it is. Called by all ranks. Throws Failure and std::bad_alloc.
+// is whole on every rank stays as it is. Collective. Throws Failure and std::bad_alloc.
 vtkSmartPointer<vtkDataObject> gatherOnFirst(
   vtkDataObject* own, GatheredKind kind, const Ranks& ranks);
 
 class GatheredInputs
 {
 public:
-  // The kind of the data of each port. Called by all ranks, as gatherOnFirst.
+  // The kind of the data of each port. Collective, as gatherOnFirst.
   GatheredInputs(
     vtkInformationVector** inputs, const std::map<int, GatheredKind>& kinds, const Ranks& ranks);
 

@@ -18,7 +18,7 @@ class Ranks;
 
 // The grids with cells that finer ones cover, on any rank, marked as such beside the flags that
 // they have; they share the arrays. Throws Failure where boxes or spacings are not set, and, where
-// no grid has flags, for grids that are not as their boxes say. Called by all ranks; nullptr for
+// no grid has flags, for grids that are not as their boxes say. Collective; nullptr for
 // nullptr.
 vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks& ranks);
 

@@ -98,16 +98,14 @@ void MapField<D>::FindParts(const ImageGrid& samples, const TupleBox& wanted, co
 template <int D>
 TupleBox MapField<D>::BoxOf(const LatticePart<D>& part) const
 {
-  TupleBox box{ this->Start, this->Start };
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    box.High[a] = this->Start[a] + (part.Count() > 0 ? 1 : 0);
-  }
+  TupleBox box{};
+  std::copy(this->Start.begin(), this->Start.end(), box.Low.begin());
+  box.Cells.fill(part.IsEmpty() ? 0 : 1);
   for (int a = 0; a < D; ++a)
   {
     const auto along = static_cast<std::size_t>(this->Axes[static_cast<std::size_t>(a)]);
-    box.Low[along] = this->Start[along] + static_cast<int>(part.Low[a]);
-    box.High[along] = box.Low[along] + static_cast<int>(part.Cells[a]);
+    box.Low[along] += part.Low[a];
+    box.Cells[along] = part.Cells[a];
   }
   return box;
 }

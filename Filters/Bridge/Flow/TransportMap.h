@@ -42,8 +42,8 @@ struct TransportMap
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid; where it is that of the density, the image gets the arrays of the input, too. On
-  // ranks, which call this together, the image is the part of the grid in the extent that each
-  // wants. Throws Failure and Cancelled.
+  // each rank it is the part of the grid in the extent that this rank wants. Collective. Throws
+  // Failure and Cancelled.
   Report Run(DensityImage& density, const std::array<int, 6>& wanted, FlowCache& cache,
     Progress& progress, vtkImageData* output) const;
 };

@@ -51,8 +51,7 @@ public:
 
   // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass, which are not kept
   // here; seeds and positions are undefined afterwards. Returns the mean squared displacement of
-  // the particles of all ranks, which call this together. Progress reaches `end`. Throws Failure
-  // and Cancelled.
+  // the particles of all ranks. Progress reaches `end`. Collective. Throws Failure and Cancelled.
   double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 
   // The same with polylines, SeedId, Time and Mass.

@@ -8,7 +8,7 @@
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Ranks/SharedPoints.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
@@ -213,7 +213,7 @@ FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t part
 } // namespace
 
 ParticleQuality TransportQuality::Run(
-  const SharedPoints& particles, DensityImage& density, FlowCache& cache, Progress& progress) const
+  const DistributedPoints& particles, DensityImage& density, FlowCache& cache, Progress& progress) const
 {
   const CountedPoints& counted = particles.Counted();
   constexpr double partOfReading = 0.1;

@@ -15,8 +15,8 @@ namespace RectifiedTransport
 {
 
 // Where the first rank has an image and the others none: gives each the extent that is requested of
-// its output, with all arrays, and the field data to all; announces the whole extent. Called by all
-// ranks.
+// its output, with all arrays, and the field data to all; announces the whole extent. Collective.
+//
 void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport

@@ -31,24 +31,21 @@ TupleBox ownTuples(vtkImageData* image, int owner, const TupleBox& all, unsigned
   {
     return all;
   }
-  TupleBox own{ all.High, all.Low };
-  const unsigned char* flags = ghosts->GetPointer(0);
-  for (int k = all.Low[2]; k < all.High[2]; ++k)
+  TupleBox own{};
+  const auto isOwn = [mask](unsigned char flags) { return (flags & mask) == 0; };
+  for (std::int64_t first = 0; first < all.Count(); first += all.Cells[0])
   {
-    for (int j = all.Low[1]; j < all.High[1]; ++j)
+    const unsigned char* row = ghosts->GetPointer(static_cast<vtkIdType>(first));
+    const unsigned char* end = row + all.Cells[0];
+    const unsigned char* low = std::find_if(row, end, isOwn);
+    const unsigned char* high = end;
+    while (high != low && !isOwn(high[-1]))
     {
-      for (int i = all.Low[0]; i < all.High[0]; ++i)
-      {
-        if ((*flags++ & mask) == 0)
-        {
-          const std::array<int, 3> at = { i, j, k };
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            own.Low[axis] = std::min(own.Low[axis], at[axis]);
-            own.High[axis] = std::max(own.High[axis], at[axis] + 1);
-          }
-        }
-      }
+      --high;
+    }
+    if (low != end)
+    {
+      own = own.With({ all.CellOf(first + (low - row)), { high - low, 1, 1 } });
     }
   }
   return own;
@@ -87,14 +84,8 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
       tuplesOf(extent, vtkDataObject::POINT, extent), vtkDataSetAttributes::DUPLICATEPOINT);
     const TupleBox cells = ownTuples(own, vtkDataObject::CELL,
       tuplesOf(extent, vtkDataObject::CELL, extent), vtkDataSetAttributes::DUPLICATECELL);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const bool hasCells = extent[2 * axis] < extent[2 * axis + 1];
-      piece.Points[2 * axis] = points.Low[axis];
-      piece.Points[2 * axis + 1] = points.High[axis] - 1;
-      piece.Cells[2 * axis] = cells.Low[axis];
-      piece.Cells[2 * axis + 1] = cells.High[axis] - (hasCells ? 0 : 1);
-    }
+    piece.Points = extentOf(points, vtkDataObject::POINT, extent);
+    piece.Cells = extentOf(cells, vtkDataObject::CELL, extent);
     if (!own->GetPointGhostArray() && !isEmpty(piece.Cells))
     {
       piece.Points = piece.Cells; // where only cells are marked

@@ -25,7 +25,7 @@ namespace RectifiedTransport
 class ImagePieces
 {
 public:
-  // Called by all ranks; `own` may be nullptr or without points. Throws Failure for images that are
+  // Collective; `own` may be nullptr or without points. Throws Failure for images that are
   // no parts of one, or do not fill it.
   ImagePieces(vtkImageData* own, const Ranks& ranks);
 
@@ -44,7 +44,7 @@ public:
 
   // The part of the whole image in an extent, which may be empty, and each rank may want another
   // one: of the arrays that all ranks with data have, those of these names, or all, and the ghost
-  // arrays. Called by all ranks. Throws std::bad_alloc.
+  // arrays. Collective. Throws std::bad_alloc.
   vtkSmartPointer<vtkImageData> Gather(
     const Extent& wanted, const std::vector<std::string>& names = {}) const;
 

@@ -20,7 +20,7 @@ class Ranks;
 
 // Each particle is a cell of `points` points in a row, whose last one is its place. Afterwards the
 // data set has the particles of this rank's places, those of rank 0 first, else in their order, as
-// the work of the progress's current stage. Called by all ranks. Throws Failure, Cancelled and
+// the work of the progress's current stage. Collective. Throws Failure, Cancelled and
 // std::bad_alloc.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress);

@@ -30,7 +30,7 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const
   const bool onPoints = grid.IsOnPoints();
   for (const Extent& extent : extents)
   {
-    Box box{ { 0, 0, 0 }, { 1, 1, 1 } };
+    LatticePart<3> box{ {}, { 1, 1, 1 } };
     std::size_t axis = 0;
     for (std::size_t a = 0; a < 3; ++a)
     {
@@ -38,21 +38,21 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const
       {
         const std::int64_t start = grid.Extent()[2 * a];
         box.Low[axis] = extent[2 * a] - start;
-        box.High[axis] = extent[2 * a + 1] - start + (onPoints ? 1 : 0);
+        box.Cells[axis] = extent[2 * a + 1] - extent[2 * a] + (onPoints ? 1 : 0);
         ++axis;
       }
     }
-    this->Boxes.push_back(isEmpty(extent) ? Box{ { 0, 0, 0 }, { 0, 0, 0 } } : box);
+    this->Boxes.push_back(isEmpty(extent) ? LatticePart<3>{} : box);
   }
   // A table of the owners of all parts, unless pieces are so irregular that there are too many.
   std::size_t parts = 1;
   for (std::size_t a = 0; a < 3; ++a)
   {
     std::vector<std::int64_t>& cut = this->Cut[a];
-    for (const Box& box : this->Boxes)
+    for (const LatticePart<3>& box : this->Boxes)
     {
       cut.push_back(box.Low[a]);
-      cut.push_back(box.High[a]);
+      cut.push_back(box.End(static_cast<int>(a)));
     }
     std::sort(cut.begin(), cut.end());
     cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
@@ -66,32 +66,22 @@ PlaceOwners::PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const
   this->Owners.assign(parts, 0);
   for (std::size_t rank = this->Boxes.size(); rank-- > 0;)
   {
-    const Box& box = this->Boxes[rank];
+    const LatticePart<3>& box = this->Boxes[rank];
     for (std::size_t part = 0; part < parts; ++part)
     {
       std::size_t rest = part;
-      std::array<std::int64_t, 3> cell{};
+      GridSize<3> cell{};
       for (std::size_t a = 0; a < 3; ++a)
       {
         cell[a] = this->Cut[a][rest % this->Cut[a].size()];
         rest /= this->Cut[a].size();
       }
-      if (box.Holds(cell))
+      if (box.Contains(cell))
       {
         this->Owners[part] = static_cast<int>(rank);
       }
     }
   }
-}
-
-bool PlaceOwners::Box::Holds(const std::array<std::int64_t, 3>& cell) const
-{
-  bool isInside = true;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    isInside = isInside && cell[a] >= this->Low[a] && cell[a] < this->High[a];
-  }
-  return isInside;
 }
 
 template <int D>
@@ -100,7 +90,7 @@ int PlaceOwners::Find(const double* place) const
   double index[3] = { 0.0, 0.0, 0.0 };
   this->Grid.ToIndex<D>(place, index);
   const GridSize<D> size = this->Grid.Size<D>();
-  std::array<std::int64_t, 3> cell{ 0, 0, 0 };
+  GridSize<3> cell{ 0, 0, 0 };
   for (int a = 0; a < D; ++a)
   {
     const double inside = std::clamp(index[a], 0.0, static_cast<double>(size[a] - 1));
@@ -108,8 +98,8 @@ int PlaceOwners::Find(const double* place) const
   }
   if (this->Owners.empty())
   {
-    const auto owner = std::find_if(
-      this->Boxes.begin(), this->Boxes.end(), [&](const Box& box) { return box.Holds(cell); });
+    const auto owner = std::find_if(this->Boxes.begin(), this->Boxes.end(),
+      [&](const LatticePart<3>& box) { return box.Contains(cell); });
     return owner == this->Boxes.end() ? 0 : static_cast<int>(owner - this->Boxes.begin());
   }
   std::size_t part = 0;

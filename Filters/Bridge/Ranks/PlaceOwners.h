@@ -5,6 +5,7 @@
 
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Geometry/Points.h"
 
 #include <array>
@@ -33,17 +34,9 @@ private:
   template <int D>
   int Find(const double* place) const;
 
-  struct Box
-  {
-    std::array<std::int64_t, 3> Low;
-    std::array<std::int64_t, 3> High;
-
-    bool Holds(const std::array<std::int64_t, 3>& cell) const;
-  };
-
   const ImageGrid& Grid;
   Extent Own;
-  std::vector<Box> Boxes;                       // of grid cells, of each rank
+  std::vector<LatticePart<3>> Boxes;            // of grid cells, of each rank
   std::array<std::vector<std::int64_t>, 3> Cut; // where boxes begin and end along an axis
   std::vector<int> Owners;                      // of the parts between cuts
 };

@@ -17,7 +17,7 @@ namespace RectifiedTransport
 {
 
 // Throws Failure where a text is not the same on all ranks that have one; `what` begins the
-// message, and `rule` ends it. Returns the text; empty where no rank has one. Called by all ranks.
+// message, and `rule` ends it. Returns the text; empty where no rank has one. Collective.
 std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what,
   const std::string& rule = "it must be of one type on all");
 

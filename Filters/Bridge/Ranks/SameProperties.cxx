@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -48,6 +49,7 @@ std::string valueOf(const std::string& line)
 void requireSameProperties(vtkObject* filter, const Ranks& ranks)
 {
   std::ostringstream printed;
+  printed.precision(std::numeric_limits<double>::max_digits10);
   filter->PrintSelf(printed, vtkIndent());
   const std::string own = printed.str();
   const std::vector<Bytes> all = ranks.Gather(Bytes(own.begin(), own.end()));

@@ -14,7 +14,7 @@ namespace RectifiedTransport
 {
 
 // Throws Failure where a property that PrintSelf prints after Threading is not the same on all
-// ranks. Called by all ranks.
+// ranks. Collective.
 void requireSameProperties(vtkObject* filter, const Ranks& ranks);
 
 } // namespace RectifiedTransport

@@ -43,7 +43,7 @@ struct ArrayKind
 };
 
 // The arrays that the data sets of all ranks have that have points, in the order of the first of
-// these, and ghost arrays that any has. Called by all ranks; `data` may be nullptr.
+// these, and ghost arrays that any has. Collective; `data` may be nullptr.
 std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks);
 
 // Tuples that follow one another.

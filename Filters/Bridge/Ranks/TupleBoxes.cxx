@@ -25,16 +25,11 @@ std::vector<TupleRun> runsOf(const TupleBox& box, const TupleBox& image)
   {
     return runs;
   }
-  const vtkIdType row = image.High[0] - image.Low[0];
-  const vtkIdType rows = image.High[1] - image.Low[1];
-  for (int k = box.Low[2]; k < box.High[2]; ++k)
+  for (std::int64_t k = box.Low[2]; k < box.End(2); ++k)
   {
-    for (int j = box.Low[1]; j < box.High[1]; ++j)
+    for (std::int64_t j = box.Low[1]; j < box.End(1); ++j)
     {
-      runs.push_back(
-        { (static_cast<vtkIdType>(k - image.Low[2]) * rows + (j - image.Low[1])) * row +
-            (box.Low[0] - image.Low[0]),
-          box.High[0] - box.Low[0] });
+      runs.push_back({ image.NumberOf({ box.Low[0], j, k }), box.Cells[0] });
     }
   }
   return runs;
@@ -74,9 +69,21 @@ TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole)
   {
     const bool hasCells = owner == vtkDataObject::CELL && whole[2 * axis] < whole[2 * axis + 1];
     box.Low[axis] = extent[2 * axis];
-    box.High[axis] = extent[2 * axis + 1] + (hasCells ? 0 : 1);
+    box.Cells[axis] = std::max(0, extent[2 * axis + 1] - extent[2 * axis] + (hasCells ? 0 : 1));
   }
   return box;
+}
+
+Extent extentOf(const TupleBox& box, int owner, const Extent& whole)
+{
+  Extent extent{ 0, -1, 0, -1, 0, -1 };
+  for (std::size_t axis = 0; axis < 3 && !box.IsEmpty(); ++axis)
+  {
+    const bool hasCells = owner == vtkDataObject::CELL && whole[2 * axis] < whole[2 * axis + 1];
+    extent[2 * axis] = static_cast<int>(box.Low[axis]);
+    extent[2 * axis + 1] = static_cast<int>(box.End(static_cast<int>(axis))) - (hasCells ? 0 : 1);
+  }
+  return extent;
 }
 
 void subtract(const TupleBox& box, std::vector<TupleBox>& from)
@@ -89,12 +96,14 @@ void subtract(const TupleBox& box, std::vector<TupleBox>& from)
       left.push_back(rest);
       continue;
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis)
     {
+      const TupleBox common = rest.And(box);
       TupleBox below = rest;
-      below.High[axis] = std::min(rest.High[axis], box.Low[axis]);
+      below.Cells[axis] = common.Low[axis] - rest.Low[axis];
       TupleBox above = rest;
-      above.Low[axis] = std::max(rest.Low[axis], box.High[axis]);
+      above.Low[axis] = common.End(axis);
+      above.Cells[axis] = rest.End(axis) - common.End(axis);
       for (const TupleBox& side : { below, above })
       {
         if (!side.IsEmpty())
@@ -102,8 +111,8 @@ void subtract(const TupleBox& box, std::vector<TupleBox>& from)
           left.push_back(side);
         }
       }
-      rest.Low[axis] = std::max(rest.Low[axis], box.Low[axis]);
-      rest.High[axis] = std::min(rest.High[axis], box.High[axis]);
+      rest.Low[axis] = common.Low[axis];
+      rest.Cells[axis] = common.Cells[axis];
     }
   }
   from = std::move(left);
@@ -112,9 +121,9 @@ void subtract(const TupleBox& box, std::vector<TupleBox>& from)
 std::string describe(const TupleBox& box)
 {
   std::ostringstream os;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    os << (axis == 0 ? "" : " x ") << "[" << box.Low[axis] << ", " << box.High[axis] - 1 << "]";
+    os << (axis == 0 ? "" : " x ") << "[" << box.Low[axis] << ", " << box.End(axis) - 1 << "]";
   }
   return os.str();
 }
@@ -134,7 +143,7 @@ TupleBox BoxExchange::PartOf(std::size_t rank, const TupleBox& wanted) const
   {
     if (this->Held[lower].Contains(part))
     {
-      part.High = part.Low;
+      part.Cells = {};
     }
   }
   return part;

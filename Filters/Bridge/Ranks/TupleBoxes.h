@@ -37,52 +37,14 @@ Extent intersectionOf(const Extent& a, const Extent& b);
 // The pieces into which VTK divides an extent; points at their faces are in both.
 std::vector<Extent> dividedExtent(const Extent& whole, int ranks);
 
-// Tuples of an image: [Low, High) along each axis.
-struct TupleBox
-{
-  std::array<int, 3> Low;
-  std::array<int, 3> High;
-
-  bool IsEmpty() const
-  {
-    return this->Low[0] >= this->High[0] || this->Low[1] >= this->High[1] ||
-      this->Low[2] >= this->High[2];
-  }
-  std::int64_t Count() const
-  {
-    std::int64_t count = this->IsEmpty() ? 0 : 1;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      count *= this->High[axis] - this->Low[axis];
-    }
-    return count;
-  }
-  TupleBox And(const TupleBox& other) const
-  {
-    TupleBox both = *this;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      both.Low[axis] = std::max(both.Low[axis], other.Low[axis]);
-      both.High[axis] = std::min(both.High[axis], other.High[axis]);
-    }
-    return both;
-  }
-  bool Contains(const TupleBox& other) const
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (other.Low[axis] < this->Low[axis] || other.High[axis] > this->High[axis])
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-};
+// Tuples of an image along its axes, from those of index 0 on.
+using TupleBox = LatticePart<3>;
 
 // The tuples of the points or cells, by `owner`, of an extent in a whole one. Along an axis without
 // cells in the whole image there is one layer of them.
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole);
+// The extent whose tuples these are.
+Extent extentOf(const TupleBox& box, int owner, const Extent& whole);
 // The cells, or dual cells, of a grid that have the tuples of a box.
 template <int D>
 LatticePart<D> latticePartOf(const TupleBox& box, const ImageGrid& grid)
@@ -94,7 +56,7 @@ LatticePart<D> latticePartOf(const TupleBox& box, const ImageGrid& grid)
     if (grid.IsAxis(a))
     {
       part.Low[axis] = box.Low[a] - grid.Extent()[2 * a];
-      part.Cells[axis] = box.High[a] - box.Low[a];
+      part.Cells[axis] = box.Cells[a];
       ++axis;
     }
   }
@@ -110,7 +72,7 @@ std::string describe(const TupleBox& box);
 class BoxExchange
 {
 public:
-  // `held` are those of all ranks, `wanted` those that this rank wants. Called by all ranks.
+  // `held` are those of all ranks, `wanted` those that this rank wants. Collective.
   BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks);
 
   // Appends to the parts for the other ranks what they want of a contiguous array, whose tuples are
@@ -140,7 +102,7 @@ struct BoxArrays
   TupleBox All;
   vtkSmartPointer<vtkDataArray> To;
 };
-// Of several arrays together. Called by all ranks, with as many and the same ones.
+// Of several arrays together. Collective, with as many and the same ones.
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
 // Of one array whose tuples are those that this rank holds.
 void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,

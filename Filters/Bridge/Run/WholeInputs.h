@@ -32,7 +32,7 @@ class RankRun;
 class Ranks;
 
 // Whether all ranks have the same data, or none has any, so that it is one data set and not parts
-// of one. Called by all ranks; `data` may be nullptr.
+// of one. Collective; `data` may be nullptr.
 bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 
 // Of one filter. Remembers the last comparison with other ranks, so that it is made once for data

@@ -28,8 +28,8 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
 
-  // The image around a surface, or the parts of one on all ranks, which call this together; without
-  // points around none. Throws Failure.
+  // The image around a surface, of which each rank has a part; without points around none.
+  // Collective. Throws Failure.
   ImageGrid GridAround(vtkPolyData* surface, const Ranks& ranks) const;
 
   // Writes the fraction of each image cell that a closed surface encloses, of the cells of the

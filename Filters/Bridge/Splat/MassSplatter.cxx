@@ -5,9 +5,9 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Points/PointMasses.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Ranks/SharedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
@@ -110,7 +110,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
 {
   const Ranks& ranks = progress.Group();
   // Hidden points have no mass, but their places among the others.
-  const SharedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
+  const DistributedPoints counted(points, vtkDataSetAttributes::DUPLICATEPOINT, ranks);
   const PointMasses given = readPoints(counted.Set(), masses, progress);
   ImageGrid cells;
   if (target.HasReference)

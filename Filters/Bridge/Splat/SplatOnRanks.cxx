@@ -2,7 +2,7 @@
 #include "Bridge/Splat/SplatOnRanks.h"
 
 #include "Bridge/Points/PointMasses.h"
-#include "Bridge/Ranks/SharedPoints.h"
+#include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
@@ -37,25 +37,23 @@ struct TupleRange
 TupleRange rangeOf(const TupleBox& whole, int ranks, int rank)
 {
   std::size_t slowest = 2;
-  while (slowest > 0 && whole.High[slowest] - whole.Low[slowest] == 1)
+  while (slowest > 0 && whole.Cells[slowest] == 1)
   {
     --slowest;
   }
   const std::int64_t count = whole.Count();
-  const std::int64_t layer = count / (whole.High[slowest] - whole.Low[slowest]);
+  const std::int64_t layer = count / whole.Cells[slowest];
   const RankShare chunks((count + splatSumChunk - 1) / splatSumChunk, ranks, rank);
   const std::int64_t first = std::min(count, chunks.First * splatSumChunk);
   const std::int64_t last = std::min(count, (chunks.First + chunks.Count) * splatSumChunk);
   TupleRange range{ whole, first % layer, last - first };
-  range.Layers.Low[slowest] += static_cast<int>(first / layer);
-  range.Layers.High[slowest] = last > first
-    ? whole.Low[slowest] + static_cast<int>((last - 1) / layer) + 1
-    : range.Layers.Low[slowest];
+  range.Layers.Low[slowest] += first / layer;
+  range.Layers.Cells[slowest] = last > first ? (last - 1) / layer + 1 - first / layer : 0;
   return range;
 }
 
 double inOrder(
-  const SharedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
+  const DistributedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
 {
   if (onAllRanks(ranks, masses == nullptr))
   {
@@ -79,7 +77,7 @@ double inOrder(
 class CountedMasses
 {
 public:
-  CountedMasses(const SharedPoints& points, const PointMasses& masses)
+  CountedMasses(const DistributedPoints& points, const PointMasses& masses)
     : Values(masses.Values())
   {
     const CountedPoints& counted = points.Counted();

@@ -18,12 +18,12 @@ namespace RectifiedTransport
 {
 
 class PointMasses;
-class SharedPoints;
+class DistributedPoints;
 
 // The masses are those of all points of the set.
 struct RankSplatInput
 {
-  const SharedPoints& Points;
+  const DistributedPoints& Points;
   const PointMasses& Masses;
   const SplatTarget& Target;
 };

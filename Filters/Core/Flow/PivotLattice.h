@@ -46,7 +46,7 @@ FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
   const FlowOptions& options = {}, const Context& context = Context());
 // Only those from number `first` on, as many as there are positions: each as if with all others.
-// Where the context has ranks, all of them call this together, each for its own.
+// Collective, each rank for its own.
 template <int Dimension>
 FlowReport transportPivot(const RectifiedFlow<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,

@@ -35,8 +35,8 @@ namespace RectifiedTransport
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
 // Every particle's result depends on its seed, the density and the options alone, to the last bit;
 // with FlowMaps::Auto also on how many particles there are, and with times on the first of them.
-// Where a context has ranks, the particles are those of all ranks, each of which has the density
-// and gives its own part of the particles; all of them call the advection. Throws InvalidDensity,
+// Advections are collective: the particles are those of all ranks of the context, each of which has
+// the density and gives its own part of the particles. Throws InvalidDensity,
 // std::invalid_argument (options, sizes), std::bad_alloc (NoMemoryForFlowMap where FlowMaps::Off
 // may do) and Cancelled.
 template <int Dimension>
@@ -52,8 +52,8 @@ public:
   // by less than the error of either.
   RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
     const Context& context = Context(), const TileLimits& limits = {});
-  // Tiled, of a density that lies on the ranks of the context, which call all that needs a context
-  // together. None of them has more of it at a time than a part of about its share, or a tile.
+  // Tiled, of a density that lies on the ranks of the context. What takes a context is then
+  // collective. No rank has more of the density at a time than about its share, or a tile.
   RectifiedFlow(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
     const Context& context, const TileLimits& limits = {});
   // The same in the memory of `previous`, if its tables are as large: for a density that changes
@@ -84,7 +84,7 @@ public:
   void SetDensity(const SharedDensity<Dimension>& density);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
-  // For flows on ranks, which call this together: before Share of boxes in these grid cells.
+  // To be called before Share of boxes in these grid cells. Collective, for a density on ranks.
   void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high) const;
   // The share of the mass in a box.
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const;
@@ -94,7 +94,7 @@ public:
     const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const;
   // The same for many points and their shares, which may be in the memory of the measures. Of a
   // flow with tiles, too: the measures of boxes that reach far beyond a tile are interpolated.
-  // Those on ranks call this together, each for its own points. Throws std::bad_alloc and
+  // Collective, for a density on ranks, each rank for its own points. Throws std::bad_alloc and
   // Cancelled.
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
     const double* shares, double* measures, const Context& context = Context()) const;

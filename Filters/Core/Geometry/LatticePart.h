@@ -21,6 +21,10 @@ struct LatticePart
 
   static LatticePart WholeOf(const GridSize<Dimension>& lattice) { return { {}, lattice }; }
 
+  // Where it ends along an axis: the cell after its last one.
+  std::int64_t End(int axis) const { return this->Low[axis] + this->Cells[axis]; }
+  bool IsEmpty() const { return this->Count() == 0; }
+
   std::int64_t Count() const
   {
     std::int64_t count = 1;
@@ -55,7 +59,7 @@ struct LatticePart
   {
     for (int axis = 0; axis < Dimension; ++axis)
     {
-      if (cell[axis] < this->Low[axis] || cell[axis] >= this->Low[axis] + this->Cells[axis])
+      if (cell[axis] < this->Low[axis] || cell[axis] >= this->End(axis))
       {
         return false;
       }
@@ -77,9 +81,19 @@ struct LatticePart
     for (int axis = 0; axis < Dimension; ++axis)
     {
       both.Low[axis] = std::min(this->Low[axis], other.Low[axis]);
+      both.Cells[axis] = std::max(this->End(axis), other.End(axis)) - both.Low[axis];
+    }
+    return both;
+  }
+  // What both contain.
+  LatticePart And(const LatticePart& other) const
+  {
+    LatticePart both;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      both.Low[axis] = std::max(this->Low[axis], other.Low[axis]);
       both.Cells[axis] =
-        std::max(this->Low[axis] + this->Cells[axis], other.Low[axis] + other.Cells[axis]) -
-        both.Low[axis];
+        std::max<std::int64_t>(0, std::min(this->End(axis), other.End(axis)) - both.Low[axis]);
     }
     return both;
   }
@@ -94,8 +108,7 @@ struct LatticePart
     for (int axis = 0; axis < Dimension; ++axis)
     {
       around.Low[axis] = std::max<std::int64_t>(0, this->Low[axis] - 1);
-      around.Cells[axis] =
-        std::min(lattice[axis], this->Low[axis] + this->Cells[axis] + 1) - around.Low[axis];
+      around.Cells[axis] = std::min(lattice[axis], this->End(axis) + 1) - around.Low[axis];
     }
     return around;
   }

@@ -17,8 +17,8 @@ namespace RectifiedTransport
 {
 
 // The order is that of keys (of equal ones, and without keys: by rank, then by index). Every rank
-// has a share of it, of elements that follow one another; shares ascend with the ranks. All ranks
-// call the members together. Memory: 16 bytes for each element that a rank gives or gets, and while
+// has a share of it, of elements that follow one another; shares ascend with the ranks. The members
+// are collective. Memory: 16 bytes for each element that a rank gives or gets, and while
 // it is made 40 more, if keys are spread about evenly between the least and the largest one.
 class RankOrder
 {
@@ -71,7 +71,7 @@ Sums sumInTurn(const Ranks& ranks, Sums sums, const Add& add)
 }
 
 // As reduceChunks: the sum of the sums of chunks of `grain` values. Each rank gives whole chunks,
-// the last one that has values perhaps a shorter one at the end. Called by all ranks.
+// the last one that has values perhaps a shorter one at the end. Collective.
 inline double sumChunks(
   const double* values, std::int64_t count, std::int64_t grain, const Ranks& ranks)
 {

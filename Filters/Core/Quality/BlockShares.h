@@ -13,8 +13,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of `count` blocks from `first` on, as the work of stages up to the progress `end`. Ranks of the
-// progress call this together, each for its own blocks, and hold a few million cells of the density
+// Of `count` blocks from `first` on, as the work of stages up to the progress `end`. Collective on
+// the ranks of the progress, each for its own blocks; they hold a few million cells of the density
 // at a time. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,

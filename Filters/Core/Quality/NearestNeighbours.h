@@ -12,8 +12,8 @@ namespace RectifiedTransport
 {
 
 // Writes the distance of each point from the nearest other one: infinite if there is no other.
-// Where the context has ranks, the points are those of all ranks, which call this together, each
-// with its own; points that lie near those of few other ranks cost least. The boxes are divided
+// Collective: the points are those of all ranks of the context, each of which gives its own; points
+// that lie near those of few other ranks cost least. The boxes are divided
 // about the median along their widest axis, so that clusters cost no more than spread points;
 // O(count log count). Throws std::bad_alloc and Cancelled.
 void nearestDistances(

@@ -70,9 +70,9 @@ std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, do
 template <int Dimension>
 Point<Dimension> boxAspect(const ImageGrid& grid);
 
-// Compares particles with the density of a flow, which lies on `grid` in physical space. Where the
-// context has ranks, the particles are those of all ranks, which call this together, each with its
-// own and, if it has any, what the others have of them; all get the figures of all. Takes
+// Compares particles with the density of a flow, which lies on `grid` in physical space.
+// Collective: the particles are those of all ranks of the context, each of which gives its own and,
+// if it has any, what the others give of them; all get the figures of all. Takes
 // about 88 bytes a particle and 16 a block meanwhile, and O(particles log particles). Throws
 // std::invalid_argument for a block without cells and masses whose sum is not a positive number,
 // std::overflow_error for a figure past the largest double, std::bad_alloc and Cancelled.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points that lie on several ranks: which of them count, and in which order.
-#ifndef RectifiedTransport_SharedPoints_h
-#define RectifiedTransport_SharedPoints_h
+#ifndef RectifiedTransport_DistributedPoints_h
+#define RectifiedTransport_DistributedPoints_h
 
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/VTKCompatibility.h"
@@ -24,12 +24,12 @@ namespace RectifiedTransport
 // points of a mesh that ranks share at the borders of their cells those of the lowest one.
 // Particles lie on ranks in another order than on one: their order is that of the integers in their
 // point array SeedId, or else of their global ids, where all ranks that have points have the array.
-class SharedPoints
+class DistributedPoints
 {
 public:
-  // Without the points that the ghost array marks with one of these flags. Called by all ranks;
+  // Without the points that the ghost array marks with one of these flags. Collective;
   // `own` may be nullptr. Throws Failure.
-  SharedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks);
+  DistributedPoints(vtkPointSet* own, unsigned char ghosts, const Ranks& ranks);
 
   // Of this rank; without points where none count.
   vtkPointSet* Set() const { return this->Points; }
@@ -51,8 +51,8 @@ private:
 };
 
 // The points of this rank that count, with their arrays, where duplicates that the ghost array
-// marks do not: the set itself where all of them do, else points with a vertex each. Called by all
-// ranks; `given` may be nullptr. Throws Failure.
+// marks do not: the set itself where all of them do, else points with a vertex each. A single rank
+// gets what it gave. Collective; `given` may be nullptr. Throws Failure.
 vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& ranks);
 
 } // namespace RectifiedTransport

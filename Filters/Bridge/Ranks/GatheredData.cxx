@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Ranks/GatheredData.h"
+
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Ranks/DataSetBytes.h"
+#include "Bridge/Ranks/DistributedPoints.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/SampledFingerprint.h"
+#include "Core/Parallel/RankExchange.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStaticPointLocator.h"
+#include "vtkStructuredGrid.h"
+#include "vtkStructuredGridAppend.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+struct Key
+{
+  std::int64_t Number;
+  std::uint64_t Fingerprint;
+
+  bool operator==(const Key& other) const
+  {
+    return this->Number == other.Number && this->Fingerprint == other.Fingerprint;
+  }
+};
+
+using Keys = std::vector<Key>; // of the parts of a rank
+
+// Whether a part is one that no lower rank has.
+bool isFirst(const std::vector<Keys>& all, std::size_t rank, const Key& key)
+{
+  return std::none_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rank),
+    [&](const Keys& lower) { return std::find(lower.begin(), lower.end(), key) != lower.end(); });
+}
+
+void append(const DataPart& part, Bytes& to)
+{
+  const Bytes data = bytesOfDataSet(part.Data);
+  const std::uint64_t lengths[2] = { part.Name.size(), data.size() };
+  const Bytes head = toBytes(lengths, 2);
+  to.insert(to.end(), head.begin(), head.end());
+  to.insert(to.end(), part.Name.begin(), part.Name.end());
+  to.insert(to.end(), data.begin(), data.end());
+}
+
+std::vector<DataPart> partsFrom(const Bytes& bytes)
+{
+  std::vector<DataPart> parts;
+  for (const char* at = bytes.data(); at != bytes.data() + bytes.size();)
+  {
+    constexpr std::size_t head = 2 * sizeof(std::uint64_t);
+    const auto lengths = fromBytes<std::uint64_t>(Bytes(at, at + head));
+    at += head;
+    DataPart part;
+    part.Name.assign(at, at + lengths[0]);
+    at += lengths[0];
+    part.Data = dataSetOfBytes(at, lengths[1]);
+    at += lengths[1];
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+// Sends the parts of this rank that count.
+std::vector<Bytes> exchange(Bytes own, const Ranks& ranks, Receivers receivers)
+{
+  if (receivers == Receivers::All)
+  {
+    return ranks.Gather(own);
+  }
+  std::vector<Bytes> parts(static_cast<std::size_t>(ranks.Count()));
+  parts.front() = std::move(own);
+  return ranks.Exchange(std::move(parts));
+}
+
+} // namespace
+
+GatheredParts gatherDataParts(
+  const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers)
+{
+  Keys keys;
+  for (const DataPart& part : own)
+  {
+    keys.push_back({ part.Number, sampledFingerprint({ part.Data.Get() }) });
+  }
+  std::vector<Keys> all;
+  for (const Bytes& bytes : ranks.Gather(toBytes(keys)))
+  {
+    all.push_back(fromBytes<Key>(bytes));
+  }
+  const auto self = static_cast<std::size_t>(ranks.Own());
+  GatheredParts gathered;
+  const bool receives = receivers == Receivers::All || self == 0;
+  gathered.AreWhole =
+    std::all_of(all.begin(), all.end(), [&](const Keys& keysThere) { return keysThere == all[0]; });
+  if (gathered.AreWhole)
+  {
+    gathered.Parts = receives ? own : std::vector<DataPart>();
+    return gathered;
+  }
+  Bytes sent;
+  for (std::size_t i = 0; i < own.size() && (self > 0 || receivers == Receivers::All); ++i)
+  {
+    if (isFirst(all, self, keys[i]))
+    {
+      append(own[i], sent);
+    }
+  }
+  std::vector<Bytes> received = exchange(std::move(sent), ranks, receivers);
+  for (std::size_t rank = 0; rank < received.size() && receives; ++rank)
+  {
+    std::vector<DataPart> parts = rank == self ? own : partsFrom(received[rank]);
+    received[rank] = Bytes();
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all[rank].size(); ++i)
+    {
+      if (isFirst(all, rank, all[rank][i]))
+      {
+        DataPart& part = parts[rank == self ? i : next++];
+        part.Number = all[rank][i].Number;
+        gathered.Parts.push_back(part);
+      }
+    }
+  }
+  std::stable_sort(gathered.Parts.begin(), gathered.Parts.end(),
+    [](const DataPart& a, const DataPart& b) { return a.Number < b.Number; });
+  return gathered;
+}
+
+namespace
+{
+
+// Places that differ by less are rounded differently on ranks.
+double roundingOf(vtkPolyData* all)
+{
+  double bounds[6];
+  all->GetPoints()->GetBounds(bounds);
+  double farthest = 0.0;
+  for (const double bound : bounds)
+  {
+    farthest = std::max(farthest, std::abs(bound));
+  }
+  constexpr double units = 4.0;
+  return units * farthest *
+    (all->GetPoints()->GetDataType() == VTK_FLOAT ? std::numeric_limits<float>::epsilon()
+                                                  : std::numeric_limits<double>::epsilon());
+}
+
+// Of each point the one that it becomes.
+std::vector<vtkIdType> pointsToKeep(vtkPolyData* all, const std::vector<DataPart>& parts)
+{
+  std::vector<vtkIdType> becomes(static_cast<std::size_t>(all->GetNumberOfPoints()));
+  vtkNew<vtkStaticPointLocator> places;
+  places->SetDataSet(all);
+  places->BuildLocator();
+  const double rounding = roundingOf(all);
+  vtkNew<vtkIdList> near;
+  vtkIdType first = 0;
+  for (const DataPart& part : parts)
+  {
+    const vtkIdType end = first + part.Data->GetNumberOfPoints();
+    for (vtkIdType i = first; i < end; ++i)
+    {
+      vtkIdType point = i;
+      double x[3];
+      all->GetPoint(i, x);
+      places->FindPointsWithinRadius(rounding, x, near);
+      for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+      {
+        const vtkIdType other = near->GetId(k);
+        point = other < first ? std::min(point, other) : point;
+      }
+      becomes[static_cast<std::size_t>(i)] =
+        point < i ? becomes[static_cast<std::size_t>(point)] : i;
+    }
+    first = end;
+  }
+  return becomes;
+}
+
+vtkSmartPointer<vtkCellArray> withPoints(
+  vtkCellArray* cells, const std::vector<vtkIdType>& newPoints)
+{
+  auto made = vtkSmartPointer<vtkCellArray>::New();
+  made->AllocateExact(cells->GetNumberOfCells(), cells->GetNumberOfConnectivityIds());
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+  {
+    cells->GetCellAtId(cell, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      corners->SetId(i, newPoints[static_cast<std::size_t>(corners->GetId(i))]);
+    }
+    made->InsertNextCell(corners);
+  }
+  return made;
+}
+
+// Points of different parts whose coordinates differ by their rounding only become that of the
+// lowest part; those of one part stay apart. `all` has the points and cells of the parts in their
+// order.
+vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<DataPart>& parts)
+{
+  const std::vector<vtkIdType> becomes = pointsToKeep(all, parts);
+  vtkNew<vtkIdList> kept;
+  vtkNew<vtkIdList> places;
+  std::vector<vtkIdType> newPoints(becomes.size());
+  for (std::size_t i = 0; i < becomes.size(); ++i)
+  {
+    const auto old = static_cast<vtkIdType>(i);
+    if (becomes[i] == old)
+    {
+      newPoints[i] = kept->GetNumberOfIds();
+      places->InsertNextId(newPoints[i]);
+      kept->InsertNextId(old);
+    }
+    else
+    {
+      newPoints[i] = newPoints[static_cast<std::size_t>(becomes[i])];
+    }
+  }
+  auto joined = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(all->GetPoints()->GetDataType());
+  all->GetPoints()->GetPoints(kept, points);
+  joined->SetPoints(points);
+  joined->SetVerts(withPoints(all->GetVerts(), newPoints));
+  joined->SetLines(withPoints(all->GetLines(), newPoints));
+  joined->SetPolys(withPoints(all->GetPolys(), newPoints));
+  joined->SetStrips(withPoints(all->GetStrips(), newPoints));
+  joined->GetPointData()->CopyAllOn();
+  joined->GetPointData()->CopyAllocate(all->GetPointData(), kept->GetNumberOfIds());
+  joined->GetPointData()->CopyData(all->GetPointData(), kept, places);
+  joined->GetCellData()->PassData(all->GetCellData());
+  joined->GetFieldData()->ShallowCopy(all->GetFieldData());
+  return joined;
+}
+
+vtkSmartPointer<vtkPointSet> withoutGhostCells(vtkPointSet* set)
+{
+  const unsigned char* flags = ghostFlags(set, vtkDataObject::CELL, "input point set");
+  const bool hasDuplicates = flags &&
+    std::any_of(flags, flags + set->GetNumberOfCells(),
+      [](unsigned char flag) { return (flag & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+  if (!hasDuplicates)
+  {
+    return set;
+  }
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(set->NewInstance());
+  copy->ShallowCopy(set);
+  if (auto* surface = vtkPolyData::SafeDownCast(copy))
+  {
+    surface->RemoveGhostCells();
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(copy))
+  {
+    grid->RemoveGhostCells();
+  }
+  return copy;
+}
+
+// What counts of this rank's set; nullptr for nothing.
+vtkSmartPointer<vtkPointSet> countedPart(vtkPointSet* own, PointSetKind kind, const Ranks& ranks)
+{
+  vtkSmartPointer<vtkPointSet> part;
+  if (kind == PointSetKind::Points)
+  {
+    part = countedPoints(own, ranks);
+  }
+  else if (own && own->GetNumberOfPoints() > 0)
+  {
+    part = withoutGhostCells(own);
+  }
+  return part && part->GetNumberOfPoints() > 0 ? part : nullptr;
+}
+
+template <class AppendT>
+vtkSmartPointer<vtkPointSet> appendWith(const std::vector<DataPart>& parts)
+{
+  vtkNew<AppendT> append;
+  for (const DataPart& part : parts)
+  {
+    append->AddInputDataObject(part.Data);
+  }
+  append->Update();
+  vtkSmartPointer<vtkPointSet> made = append->GetOutput();
+  made->GetFieldData()->ShallowCopy(parts.front().Data->GetFieldData());
+  return made;
+}
+
+void requireOneType(const std::vector<DataPart>& parts)
+{
+  for (const DataPart& part : parts)
+  {
+    if (part.Data->GetDataObjectType() != parts.front().Data->GetDataObjectType())
+    {
+      throw Failure("The input is a " + std::string(parts.front().Data->GetClassName()) +
+        " on one rank and a " + part.Data->GetClassName() + " on another; it must be of one type");
+    }
+  }
+}
+
+vtkSmartPointer<vtkPointSet> joinParts(const std::vector<DataPart>& parts, PointSetKind kind)
+{
+  if (parts.empty())
+  {
+    return nullptr;
+  }
+  requireOneType(parts);
+  vtkDataSet* first = parts.front().Data;
+  if (parts.size() == 1)
+  {
+    return vtkPointSet::SafeDownCast(first);
+  }
+  if (vtkPolyData::SafeDownCast(first))
+  {
+    vtkSmartPointer<vtkPointSet> all = appendWith<vtkAppendPolyData>(parts);
+    if (kind == PointSetKind::Surface)
+    {
+      all = joinSurface(vtkPolyData::SafeDownCast(all), parts);
+    }
+    return all;
+  }
+  return vtkStructuredGrid::SafeDownCast(first) ? appendWith<vtkStructuredGridAppend>(parts)
+                                                : appendWith<vtkAppendFilter>(parts);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPointSet> gatherPoints(
+  vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind)
+{
+  if (!ranks.AreSeveral())
+  {
+    return own;
+  }
+  std::vector<DataPart> parts;
+  if (const vtkSmartPointer<vtkPointSet> points = countedPart(own, kind, ranks))
+  {
+    parts.push_back({ 0, "input", points });
+  }
+  return joinParts(gatherDataParts(parts, ranks, receivers).Parts, kind);
+}
+
+} // namespace RectifiedTransport
