@@ -28,8 +28,8 @@
 #define RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
 #endif
 
-// For tests: later an assertion of VTK's own ends the process where an image's extent is set to what
-// no image can have.
+// For tests: later an assertion of VTK's own ends the process where an image's extent is set to
+// what no image can have.
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240617)
 #define RECTIFIEDTRANSPORT_VTK_HAS_IMAGES_OF_ANY_EXTENT
 #endif

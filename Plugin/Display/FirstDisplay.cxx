@@ -126,8 +126,8 @@ void colourByCategories(vtkSMProxy* representation, int highest)
   table->UpdateVTKObjects();
 }
 
-void colourBy(vtkPVXMLElement* element, vtkPVDataInformation* data,
-  vtkSMPVRepresentationProxy* representation)
+void colourBy(
+  vtkPVXMLElement* element, vtkPVDataInformation* data, vtkSMPVRepresentationProxy* representation)
 {
   const char* array = element->GetAttribute("array");
   if (!array)

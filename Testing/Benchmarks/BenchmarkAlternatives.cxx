@@ -5,11 +5,11 @@
 #include "BenchmarkInputs.h"
 #include "KnotInput.h"
 
+#include "Core/Mesh/MergePoints.h"
+#include "Core/Mesh/SurfaceOrientation.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Quality/NearestNeighbours.h"
 #include "Core/Seeds/Seeds.h"
-#include "Core/Mesh/MergePoints.h"
-#include "Core/Mesh/SurfaceOrientation.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCleanPolyData.h>

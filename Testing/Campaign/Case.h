@@ -14,8 +14,8 @@ struct CaseResult
 {
   std::string Filter;
   std::string Log;          // what was done, a line a step
-  std::uint64_t Digest = 0;
-  std::uint64_t Input = 0; // of what a crafted file gave: readers leave memory as it was // of all that does not depend on threads or instruction sets
+  std::uint64_t Digest = 0; // of all that does not depend on threads or instruction sets
+  std::uint64_t Input = 0;  // of what a crafted file gave: readers leave memory as it was
   std::vector<std::string> Findings;
   int Runs = 0;
   int Errors = 0;

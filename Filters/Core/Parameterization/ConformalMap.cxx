@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Parameterization/ConformalMap.h"
 
+#include "Core/Algebra/SparseCholesky.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parameterization/IntrinsicDelaunay.h"
-#include "Core/Algebra/SparseCholesky.h"
 
 #include <algorithm>
 #include <cmath>

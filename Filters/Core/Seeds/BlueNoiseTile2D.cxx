@@ -507,4 +507,4 @@ const std::uint16_t BlueNoiseTile<2>::Coordinates[NumberOfPoints * 2] = {
 };
 // clang-format on
 
-}
+} // namespace RectifiedTransport

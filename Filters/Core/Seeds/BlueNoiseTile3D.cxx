@@ -753,4 +753,4 @@ const std::uint16_t BlueNoiseTile<3>::Coordinates[NumberOfPoints * 3] = {
 };
 // clang-format on
 
-}
+} // namespace RectifiedTransport

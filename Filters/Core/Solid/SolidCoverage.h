@@ -46,9 +46,9 @@ struct CoverageReport
 // row of cells. Where bodies pass through each other or through themselves the sum counts some
 // places more than once. These are found on supersampling^2 lines along axis 0 through each cell,
 // at the centres of as many equal squares: such a cell has the share of its sum that the lines
-// cover. What differs from 0 or 1 by no more than the rounding of coordinates, about 2e-15 times the
-// number of cells along the longest axis and the area of the surface in the cell and before it, is 0
-// or 1.
+// cover. What differs from 0 or 1 by no more than the rounding of coordinates, about 2e-15 times
+// the number of cells along the longest axis and the area of the surface in the cell and before it,
+// is 0 or 1.
 //
 // The same bits on any number of threads, for any order of the triangles, and for any part of the
 // grid. O(cells + pieces of triangles in cells + crossings of lines). Memory: 8 bytes for each

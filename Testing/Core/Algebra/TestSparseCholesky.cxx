@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse systems against dense ones, and factorizations that are cancelled on their way.
-#include "Core/Parallel/Progress.h"
 #include "Core/Algebra/SparseCholesky.h"
+#include "Core/Parallel/Progress.h"
 #include "RecordingContext.h"
 
 #include <Eigen/Dense>

@@ -80,7 +80,8 @@ void checkShuffled(Checks& checks)
 int TestSolidMeshes(int, char*[])
 {
   Checks checks;
-  for (const char* name : { "armadillo", "bunny00", "elephant", "knot2", "turbine", "beam", "cross" })
+  for (const char* name :
+    { "armadillo", "bunny00", "elephant", "knot2", "turbine", "beam", "cross" })
   {
     checkVolume(checks, name);
   }

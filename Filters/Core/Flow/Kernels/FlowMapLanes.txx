@@ -211,8 +211,8 @@ void readMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level
 
 // The states of particles that are given in place of their seeds.
 template <int Dimension>
-void loadStates(const FlowJob<Dimension>& job, const double* states, int count,
-  MultistepLanes<Dimension>& lanes)
+void loadStates(
+  const FlowJob<Dimension>& job, const double* states, int count, MultistepLanes<Dimension>& lanes)
 {
   for (int i = 0; i < BlockSize; ++i)
   {

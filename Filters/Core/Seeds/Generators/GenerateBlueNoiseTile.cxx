@@ -480,7 +480,7 @@ int writeTile(const char* fileName)
       column += std::strlen(text);
     }
   }
-  std::fputs("\n};\n// clang-format on\n\n}\n", file);
+  std::fputs("\n};\n// clang-format on\n\n} // namespace RectifiedTransport\n", file);
   std::fprintf(stderr, "spacing: smallest %.4f, mean %.4f\n", spacing[0], spacing[1]);
   return std::fclose(file) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
