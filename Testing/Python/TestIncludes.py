@@ -66,7 +66,7 @@ class Includes(unittest.TestCase):
         found = 0
         for path, text in sources(top, "*", "**", "*"):
             own = path.split(os.sep)[1]
-            for folder in re.findall(r'#include "%s/(\w+)/' % top, text):
+            for folder in re.findall(r'#include "(?:%s|\.\.)/(\w+)/' % top, text):
                 found += 1
                 with self.subTest(path, includes=folder):
                     self.assertIn(folder, allowed[own] | {own})
@@ -77,6 +77,22 @@ class Includes(unittest.TestCase):
 
     def test_bridge(self):
         self.check("Bridge", BRIDGE)
+
+    def test_relative_paths(self):
+        """Public headers of Core include each other by them, where no other project's folder Core can come
+        in between; all others name the path from Filters."""
+        with open(os.path.join(FILTERS, "Core", "CMakeLists.txt"), encoding="utf-8") as file:
+            listed = re.search(r"^set\(public_headers\n(.*?)\)$", file.read(), re.MULTILINE | re.DOTALL)
+        public = {os.path.join("Core", header) for header in listed.group(1).split()}
+        self.assertGreater(len(public), 40)
+        for path, text in sources("**", "*"):
+            for included in re.findall(r'#include "(.*)"', text):
+                with self.subTest(path, includes=included):
+                    if path in public:
+                        self.assertIn(os.path.normpath(os.path.join(os.path.dirname(path), included)),
+                                      public)
+                    else:
+                        self.assertFalse(included.startswith("."))
 
     def test_core_knows_neither_vtk_nor_bridge(self):
         for path, text in sources("Core", "**", "*"):

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_FlowTables_h
 #define RectifiedTransport_FlowTables_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/GridSize.h"
+#include "../Geometry/GridSize.h"
+#include "FlowOptions.h"
 
 #include <cstdint>
 

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_MapDerivatives_h
 #define RectifiedTransport_MapDerivatives_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/LatticePart.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/LatticePart.h"
 
 #include <cstdint>
 

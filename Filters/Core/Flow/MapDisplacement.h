@@ -4,11 +4,11 @@
 #ifndef RectifiedTransport_MapDisplacement_h
 #define RectifiedTransport_MapDisplacement_h
 
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Geometry/LatticePart.h"
-#include "Core/Geometry/LengthScale.h"
-#include "Core/Parallel/ExactSum.h"
-#include "Core/Parallel/Progress.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Geometry/LatticePart.h"
+#include "../Geometry/LengthScale.h"
+#include "../Parallel/ExactSum.h"
+#include "../Parallel/Progress.h"
 
 #include <cstdint>
 

@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_PivotLattice_h
 #define RectifiedTransport_PivotLattice_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
+#include "FlowOptions.h"
 
 #include <cstdint>
 #include <vector>

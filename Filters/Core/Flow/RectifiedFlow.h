@@ -16,13 +16,13 @@
 #ifndef RectifiedTransport_RectifiedFlow_h
 #define RectifiedTransport_RectifiedFlow_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Flow/FlowTables.h"
-#include "Core/Flow/NoMemoryForFlowMap.h"
-#include "Core/Geometry/LatticePart.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Tables/Density.h"
-#include "Core/Tables/SharedDensity.h"
+#include "../Geometry/LatticePart.h"
+#include "../Parallel/Context.h"
+#include "../Tables/Density.h"
+#include "../Tables/SharedDensity.h"
+#include "FlowOptions.h"
+#include "FlowTables.h"
+#include "NoMemoryForFlowMap.h"
 
 #include <cstdint>
 #include <memory>

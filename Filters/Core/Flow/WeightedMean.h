@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_WeightedMean_h
 #define RectifiedTransport_WeightedMean_h
 
-#include "Core/Geometry/Points.h"
+#include "../Geometry/Points.h"
 
 #include <cstdint>
 #include <vector>

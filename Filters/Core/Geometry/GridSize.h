@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_GridSize_h
 #define RectifiedTransport_GridSize_h
 
-#include "Core/Geometry/Points.h"
+#include "Points.h"
 
 #include <array>
 #include <cstdint>

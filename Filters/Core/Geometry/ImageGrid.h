@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_ImageGrid_h
 #define RectifiedTransport_ImageGrid_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/IndexMap.h"
+#include "GridSize.h"
+#include "IndexMap.h"
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_LatticePart_h
 #define RectifiedTransport_LatticePart_h
 
-#include "Core/Geometry/GridSize.h"
+#include "GridSize.h"
 
 #include <algorithm>
 #include <cstdint>

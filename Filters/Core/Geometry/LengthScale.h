@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_LengthScale_h
 #define RectifiedTransport_LengthScale_h
 
-#include "Core/Geometry/ImageGrid.h"
+#include "ImageGrid.h"
 
 #include <algorithm>
 #include <cmath>

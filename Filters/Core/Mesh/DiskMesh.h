@@ -6,10 +6,10 @@
 #ifndef RectifiedTransport_DiskMesh_h
 #define RectifiedTransport_DiskMesh_h
 
-#include "Core/Mesh/SurfaceEdges.h"
-#include "Core/Mesh/TriangleSurface.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parallel/LargeBuffer.h"
+#include "../Parallel/Context.h"
+#include "../Parallel/LargeBuffer.h"
+#include "SurfaceEdges.h"
+#include "TriangleSurface.h"
 
 #include <cstdint>
 #include <memory>

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_SurfaceEdges_h
 #define RectifiedTransport_SurfaceEdges_h
 
-#include "Core/Mesh/TriangleSurface.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parallel/LargeBuffer.h"
+#include "../Parallel/Context.h"
+#include "../Parallel/LargeBuffer.h"
+#include "TriangleSurface.h"
 
 #include <atomic>
 #include <cstdint>

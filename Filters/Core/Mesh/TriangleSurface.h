@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TriangleSurface_h
 #define RectifiedTransport_TriangleSurface_h
 
-#include "Core/Geometry/Points.h"
+#include "../Geometry/Points.h"
 
 #include <cstdint>
 

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_Overlap_h
 #define RectifiedTransport_Overlap_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/Points.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/Points.h"
 
 #include <array>
 #include <cstddef>

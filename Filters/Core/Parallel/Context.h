@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_Context_h
 #define RectifiedTransport_Context_h
 
-#include "Core/Parallel/Executor.h"
+#include "Executor.h"
 
 #include <functional>
 

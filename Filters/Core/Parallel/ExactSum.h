@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_ExactSum_h
 #define RectifiedTransport_ExactSum_h
 
-#include "Core/Parallel/Progress.h"
+#include "Progress.h"
 
 #include <array>
 #include <cstdint>

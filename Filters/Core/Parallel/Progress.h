@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_Progress_h
 #define RectifiedTransport_Progress_h
 
-#include "Core/Parallel/Context.h"
+#include "Context.h"
 
 #include <atomic>
 #include <chrono>

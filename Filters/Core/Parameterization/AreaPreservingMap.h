@@ -8,8 +8,8 @@
 #ifndef RectifiedTransport_AreaPreservingMap_h
 #define RectifiedTransport_AreaPreservingMap_h
 
-#include "Core/Parameterization/ConformalMap.h"
-#include "Core/Parameterization/MapDistortion.h"
+#include "ConformalMap.h"
+#include "MapDistortion.h"
 
 #include <cstdint>
 #include <vector>

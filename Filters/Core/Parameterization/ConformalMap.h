@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_ConformalMap_h
 #define RectifiedTransport_ConformalMap_h
 
-#include "Core/Geometry/Points.h"
-#include "Core/Mesh/DiskMesh.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parameterization/SquareCorners.h"
+#include "../Geometry/Points.h"
+#include "../Mesh/DiskMesh.h"
+#include "../Parallel/Context.h"
+#include "SquareCorners.h"
 
 #include <vector>
 

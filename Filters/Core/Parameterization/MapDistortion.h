@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_MapDistortion_h
 #define RectifiedTransport_MapDistortion_h
 
-#include "Core/Geometry/Points.h"
-#include "Core/Mesh/DiskMesh.h"
-#include "Core/Mesh/TriangleSurface.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/Points.h"
+#include "../Mesh/DiskMesh.h"
+#include "../Mesh/TriangleSurface.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_MassRaster_h
 #define RectifiedTransport_MassRaster_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SquareCorners_h
 #define RectifiedTransport_SquareCorners_h
 
-#include "Core/Mesh/DiskMesh.h"
+#include "../Mesh/DiskMesh.h"
 
 #include <array>
 #include <cstdint>

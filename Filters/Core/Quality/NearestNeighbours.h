@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_NearestNeighbours_h
 #define RectifiedTransport_NearestNeighbours_h
 
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

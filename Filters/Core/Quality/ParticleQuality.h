@@ -3,9 +3,9 @@
 #ifndef RectifiedTransport_ParticleQuality_h
 #define RectifiedTransport_ParticleQuality_h
 
-#include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/Context.h"
+#include "../Flow/RectifiedFlow.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Parallel/Context.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -7,10 +7,10 @@
 #ifndef RectifiedTransport_BlueNoiseRelaxation_h
 #define RectifiedTransport_BlueNoiseRelaxation_h
 
-#include "Core/Flow/RectifiedFlow.h"
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Tables/Density.h"
+#include "../Flow/RectifiedFlow.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
+#include "../Tables/Density.h"
 
 #include <stdexcept>
 #include <vector>

@@ -6,8 +6,8 @@
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_UnitSeeds_h
 #define RectifiedTransport_UnitSeeds_h
 
-#include "Core/Seeds/Seeds.h"
+#include "Seeds.h"
 
 #include <cstdint>
 

@@ -10,12 +10,12 @@
 #ifndef RectifiedTransport_DensitySiteCells_h
 #define RectifiedTransport_DensitySiteCells_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/Context.h"
-#include "Core/SiteCells/PixelMasses.h"
-#include "Core/SiteCells/SiteGroups.h"
-#include "Core/Tables/Density.h"
+#include "../Flow/FlowOptions.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Parallel/Context.h"
+#include "../Tables/Density.h"
+#include "PixelMasses.h"
+#include "SiteGroups.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,8 +4,8 @@
 #ifndef RectifiedTransport_PixelMasses_h
 #define RectifiedTransport_PixelMasses_h
 
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Tables/Density.h"
+#include "../Parallel/LargeBuffer.h"
+#include "../Tables/Density.h"
 
 #include <cstdint>
 

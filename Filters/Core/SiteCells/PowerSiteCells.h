@@ -10,12 +10,12 @@
 #ifndef RectifiedTransport_PowerSiteCells_h
 #define RectifiedTransport_PowerSiteCells_h
 
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
-#include "Core/SiteCells/SiteCellOutlines.h"
-#include "Core/SiteCells/SiteCellStatistics.h"
-#include "Core/Tables/Density.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
+#include "../Tables/Density.h"
+#include "SiteCellOutlines.h"
+#include "SiteCellStatistics.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SiteCellOutlines_h
 #define RectifiedTransport_SiteCellOutlines_h
 
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 #include <vector>

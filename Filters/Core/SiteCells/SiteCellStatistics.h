@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SiteCellStatistics_h
 #define RectifiedTransport_SiteCellStatistics_h
 
-#include "Core/SiteCells/DensitySiteCells.h"
-#include "Core/SiteCells/SiteCells.h"
+#include "DensitySiteCells.h"
+#include "SiteCells.h"
 
 #include <cstdint>
 

@@ -12,10 +12,10 @@
 #ifndef RectifiedTransport_SiteCells_h
 #define RectifiedTransport_SiteCells_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/ImageGrid.h"
-#include "Core/Parallel/Context.h"
-#include "Core/SiteCells/SiteDensity.h"
+#include "../Flow/FlowOptions.h"
+#include "../Geometry/ImageGrid.h"
+#include "../Parallel/Context.h"
+#include "SiteDensity.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SiteColors_h
 #define RectifiedTransport_SiteColors_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,8 +3,8 @@
 #ifndef RectifiedTransport_SiteDensity_h
 #define RectifiedTransport_SiteDensity_h
 
-#include "Core/SiteCells/SiteGroups.h"
-#include "Core/Tables/Density.h"
+#include "../Tables/Density.h"
+#include "SiteGroups.h"
 
 #include <cstdint>
 #include <vector>

@@ -7,10 +7,10 @@
 #ifndef RectifiedTransport_ClosedMesh_h
 #define RectifiedTransport_ClosedMesh_h
 
-#include "Core/Mesh/TriangleSurface.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Solid/SolidCoverage.h"
+#include "../Mesh/TriangleSurface.h"
+#include "../Parallel/Context.h"
+#include "../Parallel/LargeBuffer.h"
+#include "SolidCoverage.h"
 
 #include <array>
 #include <cstdint>

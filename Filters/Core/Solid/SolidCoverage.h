@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_SolidCoverage_h
 #define RectifiedTransport_SolidCoverage_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/LatticePart.h"
-#include "Core/Mesh/TriangleSurface.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/LatticePart.h"
+#include "../Mesh/TriangleSurface.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

@@ -4,10 +4,10 @@
 #ifndef RectifiedTransport_Splat_h
 #define RectifiedTransport_Splat_h
 
-#include "Core/Geometry/GridSize.h"
-#include "Core/Geometry/IndexMap.h"
-#include "Core/Geometry/LatticePart.h"
-#include "Core/Parallel/Context.h"
+#include "../Geometry/GridSize.h"
+#include "../Geometry/IndexMap.h"
+#include "../Geometry/LatticePart.h"
+#include "../Parallel/Context.h"
 
 #include <cstdint>
 

@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_FlatLocator_h
 #define RectifiedTransport_FlatLocator_h
 
-#include "Core/Geometry/Points.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parallel/Progress.h"
+#include "../Geometry/Points.h"
+#include "../Parallel/Context.h"
+#include "../Parallel/LargeBuffer.h"
+#include "../Parallel/Progress.h"
 
 #include <array>
 #include <cstdint>

@@ -7,14 +7,14 @@
 #ifndef RectifiedTransport_SurfaceSamples_h
 #define RectifiedTransport_SurfaceSamples_h
 
-#include "Core/Flow/FlowOptions.h"
-#include "Core/Geometry/GridSize.h"
-#include "Core/Mesh/DiskMesh.h"
-#include "Core/Parallel/Context.h"
-#include "Core/Parallel/LargeBuffer.h"
-#include "Core/Parameterization/ConformalMap.h"
-#include "Core/Seeds/UnitSeeds.h"
-#include "Core/SurfaceSampling/FlatLocator.h"
+#include "../Flow/FlowOptions.h"
+#include "../Geometry/GridSize.h"
+#include "../Mesh/DiskMesh.h"
+#include "../Parallel/Context.h"
+#include "../Parallel/LargeBuffer.h"
+#include "../Parameterization/ConformalMap.h"
+#include "../Seeds/UnitSeeds.h"
+#include "FlatLocator.h"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 #ifndef RectifiedTransport_Density_h
 #define RectifiedTransport_Density_h
 
-#include "Core/Geometry/GridSize.h"
+#include "../Geometry/GridSize.h"
 
 #include <cstdint>
 #include <limits>

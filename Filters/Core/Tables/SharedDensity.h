@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SharedDensity_h
 #define RectifiedTransport_SharedDensity_h
 
-#include "Core/Tables/Density.h"
+#include "Density.h"
 
 #include <memory>
 
