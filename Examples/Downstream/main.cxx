@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library from outside: the same particles from a filter in a VTK pipeline and from the
 // mathematics without VTK.
-#include "Core/Flow/RectifiedFlow.h"
-#include "Core/Seeds/Seeds.h"
-#include "vtkTransportSampler.h"
+#include <RectifiedTransport/Core/Flow/RectifiedFlow.h>
+#include <RectifiedTransport/Core/Seeds/Seeds.h>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkTransportSampler.h>
 
 #include <algorithm>
 #include <cmath>

@@ -76,6 +76,13 @@ function (check_loaded file)
   set(loaded "${loaded}" PARENT_SCOPE)
 endfunction ()
 
+# The core as a subfolder of another project compiles what includes it; its libraries are not built.
+function (check_subfolder)
+  run("${CMAKE_COMMAND}" -S "${SOURCE}/Testing/Install/Subfolder" -B "${WORK}/Subfolder" -G Ninja
+    "-DSOURCE=${SOURCE}")
+  run("${CMAKE_COMMAND}" --build "${WORK}/Subfolder" --target Subfolder)
+endfunction ()
+
 # The core of the moved prefix, for those who have no VTK. ARGN are our libraries, if shared.
 function (check_core)
   set(without_vtk -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON -DCMAKE_DISABLE_FIND_PACKAGE_ParaView=ON)

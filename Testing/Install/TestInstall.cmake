@@ -20,6 +20,7 @@ build_of_readme(ReadmeAfterVTK
 build_of_readme(ReadmeWithC "enable_language(C)")
 build_against_moved(Testing/Install/Headers Headers)
 check_core(RectifiedTransportCore)
+check_subfolder()
 
 file(GLOB_RECURSE libraries
   "${WORK}/moved/RectifiedTransport.so" "${WORK}/moved/vtkRectifiedTransport.so")

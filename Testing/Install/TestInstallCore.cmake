@@ -19,6 +19,7 @@ endif ()
 
 install_and_move("${BUILD}")
 check_core(${LIBRARIES})
+check_subfolder()
 build_against_moved(Testing/Install/Headers Headers)
 refuse("it was built without VTK" "${CMAKE_COMMAND}" -S "${SOURCE}/Testing/Install/Headers"
   -B "${WORK}/Refused" "-DCMAKE_PREFIX_PATH=${WORK}/moved" -DCOMPONENTS=VTK)

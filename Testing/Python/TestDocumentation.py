@@ -88,7 +88,7 @@ class Pages(unittest.TestCase):
             text, whole = read(page)
             spans = re.findall(r"`([^`\n]+)`", text)
             named = [name for span in spans for name in path.findall(span)]
-            named += re.findall(r"#include [<\"](Core/[^>\"]+)", whole)
+            named += re.findall(r"#include [<\"](?:RectifiedTransport/)?(Core/[^>\"]+)", whole)
             for name in named:
                 if name.startswith(MADE):
                     continue

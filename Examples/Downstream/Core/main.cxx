@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The core from outside, without VTK: particles of a density that is a formula, and back to where
 // they came from.
-#include "Core/Flow/RectifiedFlow.h"
-#include "Core/Seeds/Seeds.h"
+#include <RectifiedTransport/Core/Flow/RectifiedFlow.h>
+#include <RectifiedTransport/Core/Seeds/Seeds.h>
 
 #include <algorithm>
 #include <cmath>
