@@ -168,6 +168,8 @@ class Content(unittest.TestCase):
         fields = self.fields()
         with open(os.path.join(OPTIONS.source, "CMake/Conda/recipe.yaml"), encoding="utf-8") as file:
             self.assertIn('\n  version: "%s"\n' % OPTIONS.version, file.read())
+        with open(os.path.join(OPTIONS.source, "CITATION.cff"), encoding="utf-8") as file:
+            self.assertIn("\nversion: %s\n" % OPTIONS.version, file.read())
         self.assertEqual(fields["Package"], PACKAGE)
         self.assertEqual(fields["Version"], OPTIONS.version + "-1")
         self.assertTrue(fields["Maintainer"])
