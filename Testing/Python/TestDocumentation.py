@@ -59,7 +59,8 @@ def names():
 class Pages(unittest.TestCase):
     def setUp(self):
         self.pages = [page for pattern in ("README.md", "CONTRIBUTING.md", "SECURITY.md", "Documentation/*.md",
-                                           "Examples/*/README.md", "Testing/*/README.md")
+                                           "Examples/README.md", "Examples/*/README.md",
+                                           "Testing/*/README.md")
                       for page in sorted(glob.glob(pattern, root_dir=SOURCE))]
         self.assertGreater(len(self.pages), 20)
 

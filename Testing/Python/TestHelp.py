@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The help that is compiled for ParaView's window: a page for each filter under the name that its ?
-asks for, with all of its properties; links and pictures that are there; and the plugin has it."""
+asks for, with all of its properties or links to them; links and pictures that are there; and the
+plugin has it."""
 import base64
 import os
 import re
@@ -13,6 +14,7 @@ from rt_proxies import proxies
 from rt_testing import main
 
 INDEX = "index.html"
+SHARED = "Properties.html"
 
 
 def compiled():
@@ -40,6 +42,11 @@ class Help(unittest.TestCase):
         self.assertEqual(self.namespace, "RectifiedTransport.org")
         self.assertEqual(self.folder, "RectifiedTransport")
 
+    def shared_section(self, anchor):
+        """A section of the page of properties that several filters share."""
+        found = re.search(r'<a name="%s">.*?(?=<h\d>|$)' % anchor, self.pages[SHARED], re.DOTALL)
+        return found.group()
+
     def test_filters(self):
         for proxy in proxies():
             with self.subTest(proxy.label):
@@ -49,8 +56,10 @@ class Help(unittest.TestCase):
                 self.assertIn('href="%s"' % name, self.pages[INDEX])
                 if proxy.label != "Transport Quality":  # its output is a table
                     self.assertIn("<img", page)
+                text = page + "".join(self.shared_section(link) for link in
+                                      re.findall('href="%s#([^"]*)"' % SHARED, page))
                 for prop in proxy.properties:
-                    self.assertIn("<code>%s</code>" % prop, page)
+                    self.assertIn("<code>%s</code>" % prop, text)
 
     def test_markdown_is_gone(self):
         for name, page in self.pages.items():

@@ -80,9 +80,32 @@ def instance(proxy):
     return getattr(rectifiedtransport, proxy.class_name)()
 
 
-def page_rows(proxy):
-    """The tables of properties on a proxy's page: name, default and range."""
-    name = proxy.label.replace(" ", "").replace("-", "") + ".md"
+def read_page(name):
     with open(os.path.join(SOURCE, "Documentation", name), encoding="utf-8") as file:
-        return {row[0]: row[1:] for row in re.findall(
-            r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|[^|]*\|$", file.read(), re.MULTILINE)}
+        return file.read()
+
+
+def rows_in(text):
+    """The rows of the tables of properties in a text: name, default and range."""
+    tables = re.findall(r"^\| property \| default \| range \| meaning \|\n((?:\|.*\n)*)", text,
+                        re.MULTILINE)
+    return {row[0]: row[1:] for row in re.findall(
+        r"^\| `(\w+)` \| ([^|]*) \| ([^|]*) \|[^|]*\|$", "".join(tables), re.MULTILINE)}
+
+
+def shared_rows():
+    """The tables in each section of the page of shared properties, by the link to its heading."""
+    parts = re.split(r"^#+ (.*)$", read_page("Properties.md"), flags=re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-"): rows_in(text)
+            for heading, text in zip(parts[1::2], parts[2::2])}
+
+
+def page_rows(proxy):
+    """The properties that a proxy's page documents, in its tables and in the sections of the page
+    of shared properties that it links to. Where both have a row, the page's own counts."""
+    text = read_page(proxy.label.replace(" ", "").replace("-", "") + ".md")
+    shared = shared_rows()
+    rows = {}
+    for section in re.findall(r"\]\(Properties\.md#([^)]*)\)", text):
+        rows.update(shared[section])
+    return {**rows, **rows_in(text)}
