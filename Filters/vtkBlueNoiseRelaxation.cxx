@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBlueNoiseRelaxation.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
@@ -112,7 +112,7 @@ int vtkBlueNoiseRelaxation::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density || !input || input->GetNumberOfPoints() == 0)
   {
     return 1;

@@ -49,17 +49,13 @@
 #include "vtkGuardedAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
-#include <string> // for the protected interface
-#include <vector> // for the protected interface
 
 namespace RectifiedTransport
 {
-class BlockValues;
-class DensityImage;
-struct DensityRules;
+struct DensityChoice;
 class FlowCache;
 class ImageGrid;
-struct OtherLeaves;
+class InputDensity;
 class Progress;
 } // namespace RectifiedTransport
 
@@ -165,23 +161,17 @@ protected:
 
   /**
    * The density of a data object, input array `arrayIndex`; nullptr if it has no points. Of an
-   * image that lies on several ranks it is the density of the whole one, and all of them call this.
-   * Throws what RequestData may throw.
+   * image that lies on several ranks it is the density of the whole one. Collective on the ranks of
+   * the progress. Throws what RequestData may throw.
    */
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(vtkDataObject* input,
+  std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(vtkDataObject* input,
     RectifiedTransport::Progress& progress, int arrayIndex = 0, int number = 0);
 
   /**
    * The density on the constructor's port, input array 0; as above.
    */
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadDensity(
+  std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(
     vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);
-
-  /**
-   * The data sets of the last ReadDensity of an input; nullptr where it was an image, or images
-   * that tile one.
-   */
-  const std::vector<RectifiedTransport::BlockValues>* GetMeshes(int number = 0) const;
 
   /**
    * The tables that are kept between executions.
@@ -195,16 +185,8 @@ protected:
 
 private:
   vtkAbstractArray* FindDensityArray(vtkDataSet* data, int arrayIndex, int& association);
-  vtkDataArray* RequireDensityArray(
-    vtkDataSet* data, int arrayIndex, const std::string& what, int& association);
   bool IsDensityOnPoints(vtkInformation* inputInformation, int arrayIndex);
-  RectifiedTransport::DensityRules GetDensityRules();
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadPieces(vtkImageData* image, int arrayIndex);
-  std::unique_ptr<RectifiedTransport::DensityImage> ReadResampled(
-    vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number);
-
-  void ReportOthers(const RectifiedTransport::OtherLeaves& others);
-  void WarnOfDensity(const std::string& text);
+  RectifiedTransport::DensityChoice GetDensityChoice(int arrayIndex);
 
   const int DensityPort;
   struct vtkInternals;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDensityEqualizingWarp.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
@@ -95,7 +95,7 @@ int vtkDensityEqualizingWarp::RequestData(
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   // A rank without points takes part in what is collective.
   if (!density || !input || (input->GetNumberOfPoints() == 0 && !ranks.AreSeveral()))
   {

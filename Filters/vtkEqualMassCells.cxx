@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEqualMassCells.h"
 
-#include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
@@ -225,7 +225,7 @@ int vtkEqualMassCells::RequestData(
   EqualMassCells::Report report;
   if (this->Measure == DENSITY)
   {
-    const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+    const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
     if (!density || !input || input->GetNumberOfPoints() == 0)
     {
       return 1;

@@ -2,7 +2,7 @@
 #include "vtkTransportBlend.h"
 
 #include "Bridge/Blend/DensityBlend.h"
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/CommonGrid.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"

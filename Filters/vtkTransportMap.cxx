@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportMap.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/TransportMap.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/SameOnRanks.h"
@@ -117,7 +117,7 @@ int vtkTransportMap::RequestData(
   {
     return 1;
   }
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {
     return 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportQuality.h"
 
-#include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Quality/TransportQuality.h"
@@ -113,7 +113,7 @@ int vtkTransportQuality::RequestData(
     return 1;
   }
   vtkPointSet* input = pointSetOf(inputVector[0]);
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {
     return 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransportSampler.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Flow/TransportSampler.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/DistributedPoints.h"
@@ -116,7 +116,7 @@ int vtkTransportSampler::RequestData(
   {
     return 1;
   }
-  const std::unique_ptr<DensityImage> density = this->ReadDensity(inputVector, progress);
+  const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {
     return 1;
@@ -129,7 +129,7 @@ int vtkTransportSampler::RequestData(
   }
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   const TransportSampler::Report report =
-    sampler.Run(*density, this->GetMeshes(), seeds, this->GetFlowCache(), progress, output);
+    sampler.Run(*density, seeds, this->GetFlowCache(), progress, output);
   const std::string ofAll = " of " + std::to_string(report.Particles);
   if (report.SeedsMoved > 0)
   {

@@ -5,7 +5,7 @@
 
 #include "Core/Flow/RectifiedFlow.h"
 #include "Core/Parallel/RankExchange.h"
-#include "Core/Tables/SharedDensity.h"
+#include "Core/Tables/DistributedDensity.h"
 
 #include "TestDensities.h"
 #include "TestDimensions.h"
@@ -64,7 +64,7 @@ public:
 
 // Boxes of a density that is in memory once. What lies outside of a box is not read.
 template <int Dimension>
-class BoxesOfDensity final : public SharedDensity<Dimension>
+class BoxesOfDensity final : public DistributedDensity<Dimension>
 {
 public:
   BoxesOfDensity(const TestDensity<Dimension>& density, const Ranks& ranks)
@@ -74,11 +74,11 @@ public:
   {
   }
 
-  std::unique_ptr<const DensityValues> Gather(
+  std::shared_ptr<const DensityValues> Gather(
     const GridSize<Dimension>& low, const GridSize<Dimension>& high) const override
   {
     EXPECT_TRUE(onAllRanks(this->Group, true)); // all of them come
-    return std::make_unique<Box>(this->Size, this->Whole, low, high);
+    return std::make_shared<Box>(this->Size, this->Whole, low, high);
   }
 
 private:
@@ -129,7 +129,8 @@ public:
   RankFlow(const TestDensity<Dimension>& density, const Ranks& ranks, const TileLimits& limits)
     : Group(ranks)
     , Density(density, ranks)
-    , Flow(density.Size, Density, this->RankContext(), limits)
+    , Flow(DensitySource<Dimension>(density.Size, Density), FlowTables::Tiled, this->RankContext(),
+        limits)
   {
   }
 

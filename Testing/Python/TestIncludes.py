@@ -41,9 +41,10 @@ BRIDGE = {
     "Meshes": BLOCKS | {"Blocks"},
     "Lattices": BLOCKS | {"Blocks", "Meshes"},
     "Resampling": BLOCKS | {"Blocks", "Meshes", "Lattices"},
+    "Inputs": BLOCKS | {"Blocks", "Resampling"},
     "Blend": WORKERS | {"Splat"},
-    **{folder: WORKERS for folder in ("Quality", "Relaxation", "Seeds", "Splat")},
-    **{folder: WORKERS | {"Blocks", "Lattices", "Resampling"} for folder in ("Flow", "SiteCells")},
+    "SiteCells": WORKERS | {"Blocks"},
+    **{folder: WORKERS for folder in ("Flow", "Quality", "Relaxation", "Seeds", "Splat")},
     **{folder: WORKERS | {"Surface"}
        for folder in ("Solid", "Parameterization", "SurfaceSampling")},
 }

@@ -43,9 +43,9 @@ def sent(maps):
             return None
         counted = 0
         for path in files:
-            with open(path, encoding="ascii") as file:  # E: by the program, not within collectives
-                counted += sum(map(int, re.findall(r"^E\s+\d+\s+\d+\s+(\d+) bytes", file.read(),
-                                                   re.MULTILINE)))
+            with open(path, encoding="ascii") as file:  # E: by the program, I: within collectives
+                counted += sum(map(int, re.findall(r"^[EI]\s+\d+\s+\d+\s+(\d+) bytes",
+                                                   file.read(), re.MULTILINE)))
         return counted / 2
 
 

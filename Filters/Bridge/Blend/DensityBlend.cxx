@@ -97,7 +97,7 @@ void reuseOrMake(
 // as the work of the current stage. On ranks, whose times and kept maps differ, all of them have it
 // or none.
 template <class Maps>
-auto findMap(const Maps& begin, const Maps& end, DensityImage& density,
+auto findMap(const Maps& begin, const Maps& end, InputDensity& density,
   const LinearizedMapSettings& settings, bool byContents, Progress& progress)
 {
   Maps found =
@@ -195,7 +195,7 @@ std::size_t DensityBlend::MatchMaps(
   std::size_t missing = 0;
   for (const BlendInput& input : inputs)
   {
-    DensityImage& density = *input.Density;
+    InputDensity& density = *input.Density;
     this->Maps.emplace_back();
     const bool byContents = !before.empty() || progress.Group().AreSeveral();
     const auto match =
@@ -224,7 +224,7 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     LinearizedMap& map = this->Maps[i];
-    DensityImage& density = *inputs[i].Density;
+    InputDensity& density = *inputs[i].Density;
     if (map.Positions())
     {
       continue;

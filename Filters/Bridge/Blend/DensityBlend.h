@@ -43,7 +43,7 @@ enum class MassMode
 
 struct BlendInput
 {
-  std::unique_ptr<DensityImage> Density;
+  std::unique_ptr<InputDensity> Density;
   std::string Name;         // in messages
   std::string PositionName; // of the array of the particles' positions; empty for none
   double Weight = 0.0;      // at least 0; all sum to 1

@@ -39,7 +39,7 @@ void toPhysical(
 
 } // namespace
 
-bool LinearizedMap::IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const
+bool LinearizedMap::IsOf(const InputDensity& density, const LinearizedMapSettings& settings) const
 {
   return this->Kept && this->Settings == settings && this->Content.IsOf(density) &&
     this->Geometry == density.Grid();
@@ -52,7 +52,7 @@ bool LinearizedMap::IsOf(
     this->Geometry == grid;
 }
 
-std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSettings& settings,
+std::int64_t LinearizedMap::Make(InputDensity& density, const LinearizedMapSettings& settings,
   FlowCache& tables, Progress& progress, double end)
 {
   this->Settings = settings;
@@ -66,7 +66,7 @@ std::int64_t LinearizedMap::Make(DensityImage& density, const LinearizedMapSetti
 
 template <int D>
 std::int64_t LinearizedMap::Move(
-  DensityImage& density, FlowCache& tables, Progress& progress, double end)
+  InputDensity& density, FlowCache& tables, Progress& progress, double end)
 {
   constexpr double partOfTables = 0.04;
   constexpr double partOfConversion = 0.02;

@@ -42,17 +42,17 @@ class LinearizedMap
 {
 public:
   // Whether it is the map of a density: by modification times alone, or by the density's content.
-  bool IsOf(const DensityImage& density, const LinearizedMapSettings& settings) const;
+  bool IsOf(const InputDensity& density, const LinearizedMapSettings& settings) const;
   bool IsOf(
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
   // Advects the particles to a density; progress then reaches `end`. The tables are built in
   // `tables`. Collective on the ranks of the progress. Throws Failure and Cancelled. Returns how
   // many particles ended in an empty cell of the density and were moved to the nearest mass.
-  std::int64_t Make(DensityImage& density, const LinearizedMapSettings& settings, FlowCache& tables,
+  std::int64_t Make(InputDensity& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.
-  void SetTimes(const DensityImage& density) { this->Content.SetTimes(density); }
+  void SetTimes(const InputDensity& density) { this->Content.SetTimes(density); }
 
   // Physical, 3 components; tuples in the order of PivotLattice, those of the share. Read-only.
   vtkDoubleArray* Positions() const { return this->Kept; }
@@ -61,7 +61,7 @@ public:
 
 private:
   template <int D>
-  std::int64_t Move(DensityImage& density, FlowCache& tables, Progress& progress, double end);
+  std::int64_t Move(InputDensity& density, FlowCache& tables, Progress& progress, double end);
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions

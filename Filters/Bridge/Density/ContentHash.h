@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_ContentHash_h
 #define RectifiedTransport_ContentHash_h
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 
 namespace RectifiedTransport
 {
@@ -13,7 +13,7 @@ class ContentHash
 public:
   ContentHash() = default; // of no density
   // Takes the content of a density, as the work of the current stage. Throws Cancelled.
-  ContentHash(DensityImage& density, Progress& progress)
+  ContentHash(InputDensity& density, Progress& progress)
     : Known(true)
     , Times(density.GetTimes())
     , Content(density.GetContent(progress))
@@ -22,9 +22,9 @@ public:
 
   // Whether it is of this density by modification times and reading parameters alone. Where false,
   // contents have to be compared.
-  bool IsOf(const DensityImage& density) const
+  bool IsOf(const InputDensity& density) const
   {
-    DensityImage::Content reading = this->Content;
+    InputDensity::Content reading = this->Content;
     reading[0] = 0;
     return this->Known && this->Times == density.GetTimes() && reading == density.GetReading();
   }
@@ -36,15 +36,15 @@ public:
       (this->IsComplete() || this->Times == other.Times);
   }
   // Takes the times of another image that holds the same density.
-  void SetTimes(const DensityImage& density) { this->Times = density.GetTimes(); }
+  void SetTimes(const InputDensity& density) { this->Times = density.GetTimes(); }
 
   bool IsComplete() const { return this->Content[0] != 0; }
   bool operator<(const ContentHash& other) const { return this->Content < other.Content; }
 
 private:
   bool Known = false;
-  DensityImage::Times Times{};
-  DensityImage::Content Content{};
+  InputDensity::Times Times{};
+  InputDensity::Content Content{};
 };
 
 } // namespace RectifiedTransport

@@ -24,7 +24,7 @@ constexpr double Comparison = 4000.0;  // of a particle with a density
 constexpr double Relaxation = 20000.0; // of a point, in each iteration
 constexpr double Reading = 2.0;        // of a cell's value
 
-inline double tables(const FlowCache& cache, const DensityImage& density)
+inline double tables(const FlowCache& cache, const InputDensity& density)
 {
   constexpr double cell = 10.0;
   return cache.IsOutdated(density) ? cell * static_cast<double>(density.Grid().NumberOfCells())

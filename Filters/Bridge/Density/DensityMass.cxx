@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/DensityMass.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Core/Parallel/Reduction.h"
 #include "Core/Tables/DensityInspection.h"
 
@@ -15,12 +15,12 @@ namespace RectifiedTransport
 namespace
 {
 
-DensitySummary summaryOf(const DensityImage& density, Progress& progress)
+DensitySummary summaryOf(const InputDensity& density, Progress& progress)
 {
   constexpr std::int64_t grain = std::int64_t{ 1 } << 14;
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));
-    density.Values().Read(first, last - first, values.data());
+    density.Values()->Read(first, last - first, values.data());
     DensitySummary found;
     for (const double value : values)
     {
@@ -40,7 +40,7 @@ DensitySummary summaryOf(const DensityImage& density, Progress& progress)
 
 } // namespace
 
-double massOf(DensityImage& density, Progress& progress)
+double massOf(InputDensity& density, Progress& progress)
 {
   UnusualValues values = density.Unusual();
   values.Found = summaryOf(density, progress);

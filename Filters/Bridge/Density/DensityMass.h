@@ -6,13 +6,13 @@
 namespace RectifiedTransport
 {
 
-class DensityImage;
+class InputDensity;
 class Progress;
 
 // Density times cell measure, summed: of a density that is prepared, as the work of the current
 // stage. Tells of values that are probably not meant. Throws Failure for a sum whose mass is no
 // double, and Cancelled; values that are wrong, which the core counts, make the result meaningless.
-double massOf(DensityImage& density, Progress& progress);
+double massOf(InputDensity& density, Progress& progress);
 
 } // namespace RectifiedTransport
 

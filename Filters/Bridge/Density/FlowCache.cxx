@@ -11,7 +11,7 @@ namespace RectifiedTransport
 {
 
 const SharedFlow& FlowCache::Update(
-  DensityImage& density, Progress& progress, double end, FlowTables tables)
+  InputDensity& density, Progress& progress, double end, FlowTables tables)
 {
   if (this->Kept && this->Kept->Tables() != tables)
   {

@@ -15,7 +15,7 @@ class FlowCache
 {
 public:
   // Whether Update has to compute the content hash, and probably builds tables.
-  bool IsOutdated(const DensityImage& density) const
+  bool IsOutdated(const InputDensity& density) const
   {
     return !this->Kept || !this->Hash.IsOf(density);
   }
@@ -25,7 +25,7 @@ public:
   // With tiles it is to be used as long as the density lives. Throws Failure and Cancelled; the
   // next update then builds.
   const SharedFlow& Update(
-    DensityImage& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
+    InputDensity& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
 
   // Releases this filter's reference to the tables.
   void Release() { this->Kept.reset(); }

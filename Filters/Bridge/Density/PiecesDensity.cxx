@@ -1,20 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/PiecesDensity.h"
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/Fingerprint.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Parallel/RankExchange.h"
 
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
+#include "vtkUnsignedCharArray.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace RectifiedTransport
 {
 
 namespace
 {
+
+// One hash of those of all ranks, and of which part each has; 0 where one has no hash.
+std::uint64_t joinFingerprints(
+  const Ranks& ranks, const std::vector<Extent>& parts, std::uint64_t own)
+{
+  std::uint64_t joined = 0xcbf29ce484222325; // as FNV-1a, by words
+  const auto add = [&joined](std::uint64_t bits) { joined = (joined ^ bits) * 0x100000001b3; };
+  for (const std::uint64_t bits : gatherValues(ranks, own))
+  {
+    if (bits == 0)
+    {
+      return 0;
+    }
+    add(bits);
+  }
+  for (const Extent& part : parts)
+  {
+    for (const int bound : part)
+    {
+      add(static_cast<std::uint64_t>(bound));
+    }
+  }
+  return joined;
+}
+
+// The number in a whole image of a value of a part of it.
+std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t index)
+{
+  const std::array<int, 3> of = part.NumberOfValues();
+  const std::array<int, 3> all = whole.NumberOfValues();
+  std::int64_t number = 0;
+  std::int64_t step = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const int low = part.Extent()[2 * axis] - whole.Extent()[2 * axis];
+    number += (index % of[axis] + low) * step;
+    index /= of[axis];
+    step *= all[axis];
+  }
+  return number;
+}
 
 // The values of a box, by the numbers of the whole grid.
 template <int Dimension>
@@ -40,7 +92,7 @@ public:
       first /= this->Size[axis];
       cells *= this->High[axis] - this->Low[axis];
     }
-    this->Box->Values().Read(number, count, values);
+    this->Box->Values()->Read(number, count, values);
   }
 
 private:
@@ -52,9 +104,126 @@ private:
 
 } // namespace
 
-template <int Dimension>
-std::unique_ptr<const DensityValues> PiecesDensity<Dimension>::Gather(
-  const GridSize<Dimension>& low, const GridSize<Dimension>& high) const
+PiecesDensity::PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const std::string& name,
+  bool onPoints, const DensityRules& rules)
+  : InputDensity("density array '" + name + "'", rules)
+  , Distribution(std::move(pieces))
+  , ArrayName(name)
+{
+  this->Geometry = gridOf(this->Distribution->MakeFrame(), onPoints);
+  requireCells(this->Geometry);
+  const int owner = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  ArrayForm form{};
+  bool isFound = false;
+  for (const ArrayKind& kind : this->Distribution->Kinds())
+  {
+    if (kind.Owner == owner && kind.Name == name)
+    {
+      form.Type = kind.Type;
+      form.Components = kind.Components;
+      isFound = true;
+    }
+    else if (kind.IsGhosts())
+    {
+      (kind.Owner == vtkDataObject::POINT ? form.HasPointGhosts : form.HasCellGhosts) = true;
+    }
+  }
+  if (!isFound)
+  {
+    throw Failure("The " + this->GetName() +
+      " has not the same type and number of components on all ranks; it must have");
+  }
+  requireComponent(this->GetName(), rules.Component, form.Components);
+  // Times differ among the ranks: only contents are compared.
+  static std::atomic<std::uint64_t> count{ 0 };
+  this->Changed = { ++count, 0, 0, 0 };
+  this->SetForm(form);
+}
+
+PiecesDensity::~PiecesDensity() = default;
+
+std::uint64_t PiecesDensity::Fingerprint(Progress& progress) const
+{
+  vtkImageData* own = this->Distribution->OwnImage();
+  const bool onPoints = this->Geometry.IsOnPoints();
+  vtkDataSetAttributes* attributes =
+    own->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+  const std::uint64_t bits = fingerprint({ attributes->GetArray(this->ArrayName.c_str()),
+                                           own->GetPointGhostArray(), own->GetCellGhostArray() },
+    progress);
+  return joinFingerprints(this->Distribution->Group(),
+    onPoints ? this->Distribution->Points() : this->Distribution->Cells(),
+    own->GetNumberOfPoints() == 0 ? 1 : bits);
+}
+
+void PiecesDensity::Prepare(FlowTables tables, Progress& progress)
+{
+  if (tables == FlowTables::Tiled)
+  {
+    this->PreparePieces(progress);
+    return;
+  }
+  this->Gathered = this->Gather(this->Distribution->Whole());
+  this->Gathered->Prepare(tables, progress);
+  this->Known = this->Gathered->Unusual();
+}
+
+const DensityValues* PiecesDensity::Values() const
+{
+  return this->Gathered ? this->Gathered->Values() : nullptr;
+}
+
+const Extent& PiecesDensity::OwnExtent() const
+{
+  const auto own = static_cast<std::size_t>(this->Distribution->Group().Own());
+  return this->Geometry.IsOnPoints() ? this->Distribution->Points()[own]
+                                     : this->Distribution->Cells()[own];
+}
+
+void PiecesDensity::PreparePieces(Progress& progress)
+{
+  this->Known = {};
+  if (!this->NeedsWhite() && !this->Clamps())
+  {
+    return;
+  }
+  const Ranks& ranks = this->Distribution->Group();
+  const auto piece = this->Gather(this->OwnExtent());
+  // Of all ranks, by the numbers of the whole image.
+  const auto join = [&](auto own, auto& all) {
+    own.First = own.First < 0 ? -1 : indexIn(this->Geometry, piece->Grid(), own.First);
+    for (const auto& part : gatherValues(ranks, own))
+    {
+      merge(part, all);
+    }
+  };
+  join(piece ? piece->FindWhite(progress) : LargestValue(), this->Known.White);
+  if (piece)
+  {
+    piece->SetWhite(this->White(), progress);
+  }
+  join(piece ? piece->FindClamped(progress) : LowestValue(), this->Known.Clamped);
+}
+
+// The part in an extent; nullptr for an empty one. Each rank may want another one.
+std::unique_ptr<DensityImage> PiecesDensity::Gather(const Extent& extent) const
+{
+  const vtkSmartPointer<vtkImageData> image =
+    this->Distribution->Gather(extent, { this->ArrayName });
+  if (image->GetNumberOfPoints() == 0)
+  {
+    return nullptr;
+  }
+  const bool onPoints = this->Geometry.IsOnPoints();
+  vtkDataSetAttributes* attributes =
+    image->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+  return std::make_unique<DensityImage>(
+    image, attributes->GetArray(this->ArrayName.c_str()), onPoints, this->Rules);
+}
+
+template <int D>
+std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
+  const GridSize<D>& low, const GridSize<D>& high) const
 {
   const ImageGrid& grid = this->Density.Grid();
   Extent extent = grid.Extent();
@@ -76,17 +245,26 @@ std::unique_ptr<const DensityValues> PiecesDensity<Dimension>::Gather(
   {
     extent = { 0, -1, 0, -1, 0, -1 };
   }
-  std::unique_ptr<DensityImage> box = this->Density.GatherBox(extent);
-  if (!hasCells)
+  std::unique_ptr<DensityImage> box = this->Density.Gather(extent);
+  if (!box)
   {
-    return std::make_unique<DensityArray<Dimension, double>>(nullptr, GridSize<Dimension>{});
+    return std::make_shared<DensityArray<D, double>>(nullptr, GridSize<D>{});
   }
-  return std::make_unique<BoxOfDensity<Dimension>>(
-    std::move(box), grid.Size<Dimension>(), low, high);
+  const SerialExecutor serial;
+  Progress progress{ Context(serial) };
+  box->SetWhite(this->Density.White(), progress);
+  return std::make_shared<BoxOfDensity<D>>(std::move(box), grid.Size<D>(), low, high);
 }
 
-template class PiecesDensity<1>;
-template class PiecesDensity<2>;
-template class PiecesDensity<3>;
+vtkSmartPointer<vtkImageData> PiecesDensity::ImageIn(const Extent& extent) const
+{
+  return this->Distribution->Gather(extent);
+}
+
+void PiecesDensity::SampleArrays(
+  const Extent& extent, ConstPointSpan<3> particles, Progress& progress, vtkPointData* output) const
+{
+  sampleImage(this->ImageIn(extent), this->Geometry, extent, particles, progress, output);
+}
 
 } // namespace RectifiedTransport

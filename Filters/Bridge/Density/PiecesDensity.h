@@ -1,31 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The density of an image that lies on several ranks, for the core: parts of it on any rank.
+// An array of an image that lies on several ranks as a density.
 #ifndef RectifiedTransport_PiecesDensity_h
 #define RectifiedTransport_PiecesDensity_h
 
-#include "Core/Tables/SharedDensity.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 
 #include <memory>
 
 namespace RectifiedTransport
 {
 
-class DensityImage;
-
-template <int Dimension>
-class PiecesDensity final : public SharedDensity<Dimension>
+class PiecesDensity final : public InputDensity
 {
 public:
-  // The density must outlive this object, and be prepared.
-  explicit PiecesDensity(const DensityImage& density)
-    : Density(density)
-  {
-  }
-  std::unique_ptr<const DensityValues> Gather(
-    const GridSize<Dimension>& low, const GridSize<Dimension>& high) const override;
+  // `name` is that of the array. Collective. Throws Failure for errors that do not depend on the
+  // values.
+  PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const std::string& name, bool onPoints,
+    const DensityRules& rules);
+  ~PiecesDensity() override;
+
+  // For whole tables it gathers the whole image on each rank; else no rank gets all of it.
+  void Prepare(FlowTables tables, Progress& progress) override;
+  const DensityValues* Values() const override;
+  void ReleaseGathered() override { this->Gathered.reset(); }
+
+  const ImagePieces* Pieces() const override { return this->Distribution.get(); }
+  vtkSmartPointer<vtkImageData> ImageIn(const Extent& extent) const override;
+  void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
+    vtkPointData* output) const override;
 
 private:
-  const DensityImage& Density;
+  // Boxes of grid cells, for the core.
+  template <int D>
+  class Boxes final : public DistributedDensity<D>
+  {
+  public:
+    explicit Boxes(const PiecesDensity& density)
+      : Density(density)
+    {
+    }
+    std::shared_ptr<const DensityValues> Gather(
+      const GridSize<D>& low, const GridSize<D>& high) const override;
+
+  private:
+    const PiecesDensity& Density;
+  };
+
+  std::uint64_t Fingerprint(Progress& progress) const override;
+  AnyDistributed Distributed() const override
+  {
+    return { &this->Line, &this->Plane, &this->Space };
+  }
+  const Extent& OwnExtent() const;
+  std::unique_ptr<DensityImage> Gather(const Extent& extent) const;
+  void PreparePieces(Progress& progress);
+
+  const std::unique_ptr<const ImagePieces> Distribution;
+  const std::string ArrayName;
+  std::unique_ptr<DensityImage> Gathered; // all of it, where it is needed
+  const Boxes<1> Line{ *this };
+  const Boxes<2> Plane{ *this };
+  const Boxes<3> Space{ *this };
 };
 
 } // namespace RectifiedTransport

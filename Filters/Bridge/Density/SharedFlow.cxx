@@ -2,7 +2,6 @@
 #include "Bridge/Density/SharedFlow.h"
 
 #include "Bridge/Density/ContentHash.h"
-#include "Bridge/Density/PiecesDensity.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
@@ -27,16 +26,6 @@ template <int D>
 std::string describeTables(const GridSize<D>& size)
 {
   return "the tables of a density of " + describeSize<D>(size) + " cells";
-}
-
-void prepare(DensityImage& density, FlowTables tables, Progress& progress)
-{
-  if (tables == FlowTables::Tiled && density.Pieces())
-  {
-    density.PrepareShared(progress);
-    return;
-  }
-  density.Prepare(progress);
 }
 
 // The flows in use by any filter of the process, by the content of their densities. Expired entries
@@ -94,7 +83,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
+std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   const ContentHash& content, FlowTables tables, std::shared_ptr<SharedFlow> previous,
   Progress& progress, double end)
 {
@@ -114,7 +103,7 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
 
   constexpr double partOfPreparation = 0.1;
   progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
-  prepare(density, tables, progress);
+  density.Prepare(tables, progress);
   progress.BeginStage(end);
   const auto made = std::make_shared<SharedFlow>();
   made->Kind = tables;
@@ -129,22 +118,16 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(DensityImage& density,
   return made;
 }
 
-void SharedFlow::Attach(DensityImage& density, Progress& progress)
+void SharedFlow::Attach(InputDensity& density, Progress& progress)
 {
   if (this->Kind == FlowTables::Tiled)
   {
-    prepare(density, this->Kind, progress);
-    const bool isDistributed = density.Pieces() != nullptr;
+    density.Prepare(this->Kind, progress);
     const auto set = [&](auto dimension) {
       constexpr int D = decltype(dimension)::value;
-      auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept);
-      if (flow && isDistributed)
+      if (auto* flow = std::get_if<RectifiedFlow<D>>(&this->Kept))
       {
-        flow->SetDensity(this->ShareDensity<D>(density));
-      }
-      else if (flow)
-      {
-        flow->SetDensity(density.Source<D>().Values);
+        flow->SetDensity(density.Source<D>());
       }
     };
     set(std::integral_constant<int, 2>());
@@ -152,17 +135,9 @@ void SharedFlow::Attach(DensityImage& density, Progress& progress)
   }
 }
 
-template <int D>
-const SharedDensity<D>& SharedFlow::ShareDensity(const DensityImage& density)
-{
-  const auto made = std::make_shared<const PiecesDensity<D>>(density);
-  this->Distributed = made;
-  return *made;
-}
-
 // Old and new tables side by side would double the peak.
 template <int D>
-void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progress)
+void SharedFlow::Build(InputDensity& density, AnyFlow previous, Progress& progress)
 {
   const GridSize<D> size = density.Grid().Size<D>();
   withMemory(describeTables<D>(size), RectifiedFlow<D>::MemoryFor(size), [&]() {
@@ -171,9 +146,7 @@ void SharedFlow::Build(DensityImage& density, AnyFlow previous, Progress& progre
       if (this->Kind == FlowTables::Tiled)
       {
         previous = std::monostate();
-        this->Kept = density.Pieces()
-          ? RectifiedFlow<D>(size, this->ShareDensity<D>(density), progress.Stage())
-          : RectifiedFlow<D>(density.Source<D>(), FlowTables::Tiled, progress.Stage());
+        this->Kept = RectifiedFlow<D>(density.Source<D>(), FlowTables::Tiled, progress.Stage());
       }
       else if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))
       {

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_SharedFlow_h
 #define RectifiedTransport_SharedFlow_h
 
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Core/Flow/RectifiedFlow.h"
 
 #include "vtkTimeStamp.h"
@@ -34,23 +34,19 @@ public:
   // shared in turn; progress then reaches `end`. Flows with tiles are not shared, as they read the
   // density of one filter's run. Resets `previous` first, and reuses its memory
   // where it has no other owner. Throws Failure and Cancelled.
-  static std::shared_ptr<SharedFlow> FindOrBuild(DensityImage& density, const ContentHash& content,
+  static std::shared_ptr<SharedFlow> FindOrBuild(InputDensity& density, const ContentHash& content,
     FlowTables tables, std::shared_ptr<SharedFlow> previous, Progress& progress, double end);
 
   // For a flow with tiles: the density of the run, of the same content.
-  void Attach(DensityImage& density, Progress& progress);
+  void Attach(InputDensity& density, Progress& progress);
 
 private:
   using AnyFlow =
     std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>>;
 
   template <int D>
-  void Build(DensityImage& density, AnyFlow previous, Progress& progress);
+  void Build(InputDensity& density, AnyFlow previous, Progress& progress);
 
-  template <int D>
-  const SharedDensity<D>& ShareDensity(const DensityImage& density);
-
-  std::shared_ptr<const void> Distributed; // a PiecesDensity, where the flow reads one
   AnyFlow Kept;
   FlowTables Kind = FlowTables::Whole;
   double Mass = 0.0;

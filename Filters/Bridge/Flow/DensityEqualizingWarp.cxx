@@ -2,7 +2,7 @@
 #include "Bridge/Flow/DensityEqualizingWarp.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/Memory.h"
@@ -131,7 +131,7 @@ private:
 };
 
 template <int D>
-std::int64_t warp(const DensityEqualizingWarp& settings, DensityImage& density, vtkPointSet* input,
+std::int64_t warp(const DensityEqualizingWarp& settings, InputDensity& density, vtkPointSet* input,
   FlowCache& cache, Progress& progress, vtkPointSet* output)
 {
   const double count = static_cast<double>(input->GetNumberOfPoints());
@@ -155,7 +155,7 @@ std::int64_t warp(const DensityEqualizingWarp& settings, DensityImage& density, 
 
 } // namespace
 
-std::int64_t DensityEqualizingWarp::Run(DensityImage& density, vtkPointSet* input, FlowCache& cache,
+std::int64_t DensityEqualizingWarp::Run(InputDensity& density, vtkPointSet* input, FlowCache& cache,
   Progress& progress, vtkPointSet* output) const
 {
   return dispatchDimension(density.Grid().Dimension(), warp<1>, warp<2>, warp<3>)(

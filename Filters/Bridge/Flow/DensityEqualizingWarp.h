@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class Progress;
 
@@ -29,7 +29,7 @@ struct DensityEqualizingWarp
 
   // Sets the points and `Displacement` of an output that has the rest of the input already. Returns
   // the number of points outside of the domain. Throws Failure and Cancelled.
-  std::int64_t Run(DensityImage& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
+  std::int64_t Run(InputDensity& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
     vtkPointSet* output) const;
 };
 

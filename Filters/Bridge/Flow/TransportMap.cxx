@@ -2,12 +2,11 @@
 #include "Bridge/Flow/TransportMap.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Flow/MapField.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
-#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/RankExchange.h"
@@ -46,7 +45,7 @@ void prepareShares(
 }
 
 template <int D>
-TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
+TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const ImageGrid& samples, const Extent& wanted, FlowCache& cache, Progress& progress,
   vtkImageData* output)
 {
@@ -83,34 +82,21 @@ TransportMap::Report makeMap(const TransportMap& map, DensityImage& density,
   return { samples, all, sumOverRanks(ranks, report.MovedToMass) };
 }
 
-// Of an image that each rank has.
-vtkSmartPointer<vtkImageData> partOf(vtkImageData* image, const Extent& wanted)
-{
-  const auto part = vtkSmartPointer<vtkImageData>::New();
-  if (!isEmpty(wanted))
-  {
-    part->ShallowCopy(image);
-    part->Crop(wanted.data());
-  }
-  return part;
-}
-
 } // namespace
 
-ImageGrid TransportMap::SampleGrid(const DensityImage& density) const
+ImageGrid TransportMap::SampleGrid(const InputDensity& density) const
 {
   return gridWithValues(density.Grid(), this->SampleDimensions.data(), "SampleDimensions");
 }
 
-TransportMap::Report TransportMap::Run(DensityImage& density, const Extent& wanted,
+TransportMap::Report TransportMap::Run(InputDensity& density, const Extent& wanted,
   FlowCache& cache, Progress& progress, vtkImageData* output) const
 {
   const ImageGrid samples = this->SampleGrid(density);
   const Extent part = intersectionOf(wanted, samples.Extent());
   if (samples.Extent() == density.Grid().Extent())
   {
-    const vtkSmartPointer<vtkImageData> image =
-      density.Pieces() ? density.Pieces()->Gather(part) : partOf(density.Image(), wanted);
+    const vtkSmartPointer<vtkImageData> image = density.ImageIn(part);
     output->GetPointData()->PassData(image->GetPointData());
     output->GetCellData()->PassData(image->GetCellData());
   }

@@ -18,7 +18,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class Progress;
 
@@ -38,13 +38,13 @@ struct TransportMap
   };
 
   // Of the samples, on the density's domain. Throws Failure.
-  ImageGrid SampleGrid(const DensityImage& density) const;
+  ImageGrid SampleGrid(const InputDensity& density) const;
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
   // this grid; where it is that of the density, the image gets the arrays of the input, too. On
   // each rank it is the part of the grid in the extent that this rank wants. Collective. Throws
   // Failure and Cancelled.
-  Report Run(DensityImage& density, const std::array<int, 6>& wanted, FlowCache& cache,
+  Report Run(InputDensity& density, const std::array<int, 6>& wanted, FlowCache& cache,
     Progress& progress, vtkImageData* output) const;
 };
 

@@ -2,16 +2,12 @@
 #include "Bridge/Flow/TransportSampler.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
-#include "Bridge/Lattices/PlacesInLattice.h"
 #include "Bridge/Points/ParticleSet.h"
-#include "Bridge/Points/PlacesInImage.h"
 #include "Bridge/Points/SeedInput.h"
-#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/ParticleExchange.h"
 #include "Bridge/Ranks/PlaceOwners.h"
-#include "Bridge/Resampling/PlacesInMeshes.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Geometry/Dispatch.h"
@@ -115,41 +111,6 @@ Extent extentAround(const PlaceOwners& owners, const ImageGrid& grid)
   return intersectionOf(extent, grid.Extent());
 }
 
-// The arrays of the data that the density was read from; of pieces their `part`.
-template <int D>
-void sampleArraysOf(const DensityImage& density, const std::vector<BlockValues>* meshes,
-  const Extent& part, ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
-{
-  if (const ImagePieces* pieces = density.Pieces())
-  {
-    const vtkSmartPointer<vtkImageData> image = pieces->Gather(part);
-    sampleArrays({ { image }, "input image", false },
-      PlacesInImage<D>(density.Grid(), part, particles), progress, 1.0, output);
-    return;
-  }
-  if (!meshes)
-  {
-    sampleArrays({ { density.Image() }, "input image", false },
-      PlacesInImage<D>(density.Grid(), particles), progress, 1.0, output);
-    return;
-  }
-  constexpr double partOfSearch = 0.5;
-  progress.BeginStage(progress.StageEnd() + partOfSearch * (1.0 - progress.StageEnd()));
-  ArraySource source{ {}, "input", false };
-  for (const BlockValues& mesh : *meshes)
-  {
-    source.Sets.push_back(mesh.Data());
-  }
-  if (const CellLattice* lattice = meshes->front().Lattice())
-  {
-    const PlacesInLattice places(*lattice, *meshes, particles, progress);
-    sampleArrays(source, places, progress, 1.0, output);
-    return;
-  }
-  const PlacesInMeshes places(*meshes, density.Grid(), particles, progress);
-  sampleArrays(source, places, progress, 1.0, output);
-}
-
 // The particles of this rank among those of all.
 struct Share
 {
@@ -181,9 +142,8 @@ Share shareOf(const Ranks& ranks, vtkPointSet* given, double pattern)
 }
 
 template <int D>
-TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& density,
-  const std::vector<BlockValues>* meshes, vtkPointSet* given, FlowCache& cache, Progress& progress,
-  vtkPolyData* output)
+TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& density,
+  vtkPointSet* given, FlowCache& cache, Progress& progress, vtkPolyData* output)
 {
   const ImageGrid& grid = density.Grid();
   const UnitSeeds<D> pattern = patternOf<D>(sampler, grid);
@@ -266,7 +226,7 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
   if (addsArrays)
   {
     auto* places = vtkDoubleArray::SafeDownCast(output->GetPoints()->GetData());
-    sampleArraysOf<D>(density, meshes, extentAround(owners, grid),
+    density.SampleArrays(extentAround(owners, grid),
       { places->GetPointer(0), places->GetNumberOfTuples() }, progress, output->GetPointData());
   }
   addFieldValue(output, "TotalMass", mass);
@@ -276,12 +236,11 @@ TransportSampler::Report sample(const TransportSampler& sampler, DensityImage& d
 
 } // namespace
 
-TransportSampler::Report TransportSampler::Run(DensityImage& density,
-  const std::vector<BlockValues>* meshes, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
-  vtkPolyData* output) const
+TransportSampler::Report TransportSampler::Run(InputDensity& density, vtkPointSet* seeds,
+  FlowCache& cache, Progress& progress, vtkPolyData* output) const
 {
   return dispatchDimension(density.Grid().Dimension(), sample<1>, sample<2>, sample<3>)(
-    *this, density, meshes, seeds, cache, progress, output);
+    *this, density, seeds, cache, progress, output);
 }
 
 } // namespace RectifiedTransport

@@ -20,7 +20,7 @@ namespace RectifiedTransport
 {
 
 class BlockValues;
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class Progress;
 
@@ -53,10 +53,9 @@ struct TransportSampler
   }
 
   // Writes particles, or their paths, from the given seeds, or from those of the pattern where
-  // `seeds` is nullptr; `meshes` are the data whose arrays particles get, nullptr for those of the
-  // image. Throws Failure and Cancelled.
-  Report Run(DensityImage& density, const std::vector<BlockValues>* meshes, vtkPointSet* seeds,
-    FlowCache& cache, Progress& progress, vtkPolyData* output) const;
+  // `seeds` is nullptr. Collective. Throws Failure and Cancelled.
+  Report Run(InputDensity& density, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
+    vtkPolyData* output) const;
 };
 
 } // namespace RectifiedTransport

@@ -2,8 +2,8 @@
 #include "Bridge/Quality/TransportQuality.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Points/GhostFlags.h"
@@ -212,8 +212,8 @@ FlowTables choose(TableSetting setting, const ImageGrid& grid, std::int64_t part
 
 } // namespace
 
-ParticleQuality TransportQuality::Run(
-  const DistributedPoints& particles, DensityImage& density, FlowCache& cache, Progress& progress) const
+ParticleQuality TransportQuality::Run(const DistributedPoints& particles, InputDensity& density,
+  FlowCache& cache, Progress& progress) const
 {
   const CountedPoints& counted = particles.Counted();
   constexpr double partOfReading = 0.1;

@@ -10,7 +10,7 @@
 namespace RectifiedTransport
 {
 
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class DistributedPoints;
 
@@ -23,7 +23,7 @@ struct TransportQuality
   // Compares the particles of all ranks, at least one, with a density, whose tables are kept in the
   // cache. Collective on the ranks of the progress. Throws Failure, std::overflow_error and
   // Cancelled.
-  ParticleQuality Run(const DistributedPoints& particles, DensityImage& density, FlowCache& cache,
+  ParticleQuality Run(const DistributedPoints& particles, InputDensity& density, FlowCache& cache,
     Progress& progress) const;
 };
 

@@ -2,9 +2,9 @@
 #include "Bridge/Relaxation/BlueNoiseRelaxation.h"
 
 #include "Bridge/Density/CostModel.h"
-#include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Run/Failure.h"
@@ -114,7 +114,7 @@ Point<D> cellLengths(const ImageGrid& grid)
 }
 
 template <int D>
-RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const DensityImage& density,
+RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const InputDensity& density,
   const SharedFlow* flow, PointSpan<D> points, const Context& context)
 {
   const Point<D> spacing = cellLengths<D>(density.Grid());
@@ -143,7 +143,7 @@ RelaxationReport relaxPoints(const BlueNoiseRelaxation& settings, const DensityI
 }
 
 template <int D>
-BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityImage& density,
+BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, InputDensity& density,
   vtkPointSet* input, const CountedPoints& counted, FlowCache& cache, Progress& progress,
   vtkPointSet* output)
 {
@@ -168,7 +168,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityIm
     cache.Release();
   }
   progress.BeginStage(ends[1]);
-  density.Prepare(progress);
+  density.Prepare(FlowTables::Whole, progress);
   if (settings.ByTransport)
   {
     // A physical mass that is no double is an error here, too.
@@ -193,7 +193,7 @@ BlueNoiseRelaxation::Report relax(const BlueNoiseRelaxation& settings, DensityIm
 
 } // namespace
 
-BlueNoiseRelaxation::Report BlueNoiseRelaxation::Run(DensityImage& density, vtkPointSet* input,
+BlueNoiseRelaxation::Report BlueNoiseRelaxation::Run(InputDensity& density, vtkPointSet* input,
   const CountedPoints& counted, FlowCache& cache, Progress& progress, vtkPointSet* output) const
 {
   const int dimension = density.Grid().Dimension();

@@ -17,7 +17,7 @@ namespace RectifiedTransport
 {
 
 class CountedPoints;
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class Progress;
 
@@ -36,7 +36,7 @@ struct BlueNoiseRelaxation
   // Sets the points of an output that has the rest of the input already; those that are ghosts stay
   // where they are. Tables are kept in the cache; relaxation by transport needs none. Throws
   // Failure and Cancelled.
-  Report Run(DensityImage& density, vtkPointSet* input, const CountedPoints& counted,
+  Report Run(InputDensity& density, vtkPointSet* input, const CountedPoints& counted,
     FlowCache& cache, Progress& progress, vtkPointSet* output) const;
 };
 

@@ -9,6 +9,7 @@
 #include "vtkFieldData.h"
 #include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
@@ -53,15 +54,17 @@ void visitSamples(vtkIdType count, const Visit& visit)
   }
 }
 
+void addArray(vtkDataArray* array, Mixer& mixer)
+{
+  visitSamples(array ? array->GetNumberOfTuples() : 0,
+    [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
+}
+
 void addArrays(vtkFieldData* attributes, Mixer& mixer)
 {
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {
-    if (vtkDataArray* array = attributes->GetArray(i))
-    {
-      visitSamples(array->GetNumberOfTuples(),
-        [&](vtkIdType tuple) { mixer.Add(array->GetComponent(tuple, 0)); });
-    }
+    addArray(attributes->GetArray(i), mixer);
   }
 }
 
@@ -77,14 +80,18 @@ void addTrees(vtkHyperTreeGrid* grid, Mixer& mixer)
   }
 }
 
-void addDataSet(vtkDataSet* data, Mixer& mixer)
+// Grids of damaged files may have fewer coordinates than their extent says.
+void addPlaces(vtkDataSet* data, Mixer& mixer)
 {
-  double bounds[6];
-  data->GetBounds(bounds);
-  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
-  mixer.Add(data->GetNumberOfPoints());
-  mixer.Add(data->GetNumberOfCells());
-  if (!vtkImageData::SafeDownCast(data))
+  if (auto* grid = vtkRectilinearGrid::SafeDownCast(data))
+  {
+    for (vtkDataArray* axis :
+      { grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates() })
+    {
+      addArray(axis, mixer);
+    }
+  }
+  else if (!vtkImageData::SafeDownCast(data))
   {
     visitSamples(data->GetNumberOfPoints(), [&](vtkIdType i) {
       double x[3];
@@ -92,6 +99,16 @@ void addDataSet(vtkDataSet* data, Mixer& mixer)
       std::for_each(x, x + 3, [&](double place) { mixer.Add(place); });
     });
   }
+}
+
+void addDataSet(vtkDataSet* data, Mixer& mixer)
+{
+  double bounds[6];
+  data->GetBounds(bounds);
+  std::for_each(bounds, bounds + 6, [&](double bound) { mixer.Add(bound); });
+  mixer.Add(data->GetNumberOfPoints());
+  mixer.Add(data->GetNumberOfCells());
+  addPlaces(data, mixer);
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     addArrays(data->GetAttributes(owner), mixer);

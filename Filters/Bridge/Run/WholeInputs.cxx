@@ -79,6 +79,17 @@ bool isTimeRequested(vtkInformationVector* outputs)
   return false;
 }
 
+// Of the data on each port.
+std::vector<std::uint64_t> fingerprintsOf(const std::vector<std::vector<vtkDataObject*>>& inputs)
+{
+  std::vector<std::uint64_t> fingerprints;
+  for (const std::vector<vtkDataObject*>& port : inputs)
+  {
+    fingerprints.push_back(sampledFingerprint(port));
+  }
+  return fingerprints;
+}
+
 // Of the data on each port: what is not the same on all ranks, nor on the first one only, as a
 // text.
 std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& fingerprints)
@@ -296,22 +307,13 @@ void WholeInputs::Require(
       }
     }
   }
-  std::vector<std::uint64_t> fingerprints;
-  const auto find = [&]() {
-    for (const std::vector<vtkDataObject*>& port : inputs)
-    {
-      fingerprints.push_back(sampledFingerprint(port));
-    }
-  };
   if (run)
   {
-    find();
-    this->Difference = differenceOf(*run, fingerprints);
+    this->Difference = differenceOf(*run, fingerprintsOf(inputs));
   }
   else if (newest != this->ComparedTime)
   {
-    find();
-    if (!this->Compare(filter, fingerprints))
+    if (!this->Compare(filter, inputs))
     {
       return; // and ask again at the next run
     }
@@ -325,11 +327,16 @@ void WholeInputs::Require(
 
 //------------------------------------------------------------------------------
 // Sets Difference. Returns whether the other ranks answered.
-bool WholeInputs::Compare(vtkAlgorithm* filter, const std::vector<std::uint64_t>& fingerprints)
+bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
 {
   this->Difference.clear();
+  if (!sharesWithRanks(this->Piece, this->NumberOfPieces))
+  {
+    return true;
+  }
   // Those that were the same on all ranks: others may skip the comparison, as times are local.
-  if (!sharesWithRanks(this->Piece, this->NumberOfPieces) || fingerprints == this->Same)
+  const std::vector<std::uint64_t> fingerprints = fingerprintsOf(inputs);
+  if (fingerprints == this->Same)
   {
     return true;
   }

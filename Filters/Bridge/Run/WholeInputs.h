@@ -83,7 +83,7 @@ private:
   vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
   bool IsShared(int port, vtkInformation* input) const;
-  bool Compare(vtkAlgorithm* filter, const std::vector<std::uint64_t>& fingerprints);
+  bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
 
   std::set<int> Excepted;
   std::map<int, bool> Shared; // whether points alone

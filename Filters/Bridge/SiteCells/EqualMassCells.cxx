@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/SiteCells/EqualMassCells.h"
 
-#include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/DensityMass.h"
 #include "Bridge/Density/FlowCache.h"
+#include "Bridge/Density/InputDensity.h"
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/DoubleTuples.h"
@@ -212,14 +212,14 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
 // The sites' cells by the mass of a density.
 template <int D>
 EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* sites,
-  const ImageGrid& grid, DensityImage& density, FlowCache& cache, SiteLabels& kept,
+  const ImageGrid& grid, InputDensity& density, FlowCache& cache, SiteLabels& kept,
   Progress& progress, const EqualMassCells::Outputs& outputs)
 {
   const auto count = static_cast<vtkIdType>(sites->GetNumberOfPoints());
   progress.BeginStage(0.02);
   const SharedFlow& flow = cache.Update(density, progress, 0.04);
   progress.BeginStage(0.05);
-  density.Prepare(progress);
+  density.Prepare(FlowTables::Whole, progress);
   visitPoints(sites, "input point set", progress, [](std::int64_t, const double*) {});
   const DoubleTuples points(sites->GetPoints()->GetData(), progress);
   progress.BeginStage(0.06);
@@ -325,7 +325,7 @@ std::int64_t divideByPower(vtkPointSet* sites, const ImageGrid& grid, SiteLabels
     progress, outputs);
 }
 
-std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, DensityImage& density,
+std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, InputDensity& density,
   SiteLabels& kept, Progress& progress, const EqualMassCells::Outputs& outputs)
 {
   constexpr double rowMoments = 18.0; // bytes a cell of the density
@@ -335,7 +335,7 @@ std::int64_t divideMassByPower(vtkPointSet* sites, const ImageGrid& grid, Densit
   const auto make = [&](ConstPointSpan<3> points, const Context& context) {
     Progress work(context);
     work.BeginStage(0.02);
-    density.Prepare(work);
+    density.Prepare(FlowTables::Whole, work);
     const double mass = massOf(density, work);
     work.BeginStage(1.0);
     try
@@ -410,7 +410,7 @@ EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, vtkDataObject* do
     0 };
 }
 
-EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, DensityImage& density,
+EqualMassCells::Report EqualMassCells::Run(vtkPointSet* sites, InputDensity& density,
   FlowCache& cache, SiteLabels& kept, Progress& progress, const Outputs& outputs) const
 {
   const ImageGrid grid = LabelGrid{ this->Resolution }.On(density.Grid());

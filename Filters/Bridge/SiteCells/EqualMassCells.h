@@ -20,7 +20,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-class DensityImage;
+class InputDensity;
 class FlowCache;
 class Progress;
 
@@ -52,7 +52,7 @@ struct EqualMassCells
   // std::runtime_error, std::bad_alloc and Cancelled.
   Report Run(vtkPointSet* sites, vtkDataObject* domain, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;
-  Report Run(vtkPointSet* sites, DensityImage& density, FlowCache& cache, SiteLabels& kept,
+  Report Run(vtkPointSet* sites, InputDensity& density, FlowCache& cache, SiteLabels& kept,
     Progress& progress, const Outputs& outputs) const;
 };
 

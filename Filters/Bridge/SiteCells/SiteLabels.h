@@ -61,7 +61,7 @@ public:
 
   // Identifies a density; without reading its values where the division is of it by modification
   // times. As the work of the current stage. Throws Cancelled.
-  ContentHash HashOf(DensityImage& density, Progress& progress) const
+  ContentHash HashOf(InputDensity& density, Progress& progress) const
   {
     return this->Of.Density.IsOf(density) ? this->Of.Density : ContentHash(density, progress);
   }

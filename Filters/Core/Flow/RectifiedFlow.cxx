@@ -57,15 +57,6 @@ struct RectifiedFlow<Dimension>::Internals
     this->Tiles = std::make_unique<TiledFlow<Dimension>>(density, limits, progress);
   }
 
-  Internals(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
-    const Context& context, const TileLimits& limits)
-    : Size(size)
-  {
-    check<Dimension>(size, "a density");
-    Progress progress(context);
-    this->Tiles = std::make_unique<TiledFlow<Dimension>>(size, density, limits, progress);
-  }
-
   // Without levels where there are tiles.
   const TableView<Dimension>& View() const
   {
@@ -164,13 +155,6 @@ RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density,
 }
 
 template <int Dimension>
-RectifiedFlow<Dimension>::RectifiedFlow(const GridSize<Dimension>& size,
-  const SharedDensity<Dimension>& density, const Context& context, const TileLimits& limits)
-  : Data(std::make_unique<Internals>(size, density, context, limits))
-{
-}
-
-template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
 {
@@ -253,16 +237,7 @@ double RectifiedFlow<Dimension>::TiledSharesMemoryFor(const GridSize<Dimension>&
 }
 
 template <int Dimension>
-void RectifiedFlow<Dimension>::SetDensity(const DensityValues& values)
-{
-  if (this->Data->Tiles)
-  {
-    this->Data->Tiles->SetDensity(values);
-  }
-}
-
-template <int Dimension>
-void RectifiedFlow<Dimension>::SetDensity(const SharedDensity<Dimension>& density)
+void RectifiedFlow<Dimension>::SetDensity(const DensitySource<Dimension>& density)
 {
   if (this->Data->Tiles)
   {

@@ -19,7 +19,6 @@
 #include "../Geometry/LatticePart.h"
 #include "../Parallel/Context.h"
 #include "../Tables/Density.h"
-#include "../Tables/SharedDensity.h"
 #include "FlowOptions.h"
 #include "FlowTables.h"
 #include "NoMemoryForFlowMap.h"
@@ -49,13 +48,10 @@ public:
   // must outlive the flow, as every advection reads them again. It takes Multistep with
   // Interpolated alone, in enough steps, without times before the end, and not to cells: else, and
   // for MeasureOfShare, it throws std::invalid_argument. Results differ from those of whole tables
-  // by less than the error of either.
+  // by less than the error of either. With tiles of a distributed density, whatever takes a context
+  // is collective, and no rank has more of the density at a time than about its share, or a tile.
   RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
     const Context& context = Context(), const TileLimits& limits = {});
-  // Tiled, of a density that lies on the ranks of the context. What takes a context is then
-  // collective. No rank has more of the density at a time than about its share, or a tile.
-  RectifiedFlow(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
-    const Context& context, const TileLimits& limits = {});
   // The same in the memory of `previous`, if its tables are as large: for a density that changes
   // with time. Takes about half the time that new memory takes, and never allocates both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,
@@ -80,8 +76,7 @@ public:
   static double TiledSharesMemoryFor(const GridSize<Dimension>& size,
     const Point<Dimension>& aspect, double boxes, const TileLimits& limits = {});
   // For flows with tiles: the values are now at another place in memory.
-  void SetDensity(const DensityValues& values);
-  void SetDensity(const SharedDensity<Dimension>& density);
+  void SetDensity(const DensitySource<Dimension>& density);
   // Whether the grid cell that holds a point has mass (a point on a face: any of its cells).
   bool HasMass(const Point<Dimension>& point) const;
   // To be called before Share of boxes in these grid cells. Collective, for a density on ranks.

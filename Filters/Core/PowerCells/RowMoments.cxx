@@ -22,7 +22,7 @@ RowMoments::RowMoments(
   , Blocks(BlocksPerRow() * density.Size[1])
   , Occupied(WordsPerRow() * density.Size[1])
 {
-  const DensitySummary found = this->ReadValues(density.Values, progress);
+  const DensitySummary found = this->ReadValues(*density.Whole(), progress);
   requireDensity(found);
   this->Accumulate(total, found, progress);
 }

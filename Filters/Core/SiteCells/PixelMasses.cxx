@@ -50,6 +50,7 @@ class RowMasses
 public:
   RowMasses(const DensitySource<Dimension>& density, const GridSize<Dimension>& pixels)
     : Density(density)
+    , Whole(density.Whole())
     , Pixels(pixels)
     , Values(static_cast<std::size_t>(density.Size[0]))
     , Sums(static_cast<std::size_t>(density.Size[0]))
@@ -87,7 +88,7 @@ private:
     if (axis == 0)
     {
       const std::int64_t cells = this->Density.Size[0];
-      this->Density.Values.Read(cellRow * cells, cells, this->Values.data());
+      this->Whole->Read(cellRow * cells, cells, this->Values.data());
       for (std::size_t c = 0; c < this->Sums.size(); ++c)
       {
         this->Sums[c] += part * this->Values[c];
@@ -109,6 +110,7 @@ private:
   }
 
   const DensitySource<Dimension> Density;
+  const std::shared_ptr<const DensityValues> Whole;
   const GridSize<Dimension> Pixels;
   std::vector<double> Values;
   std::vector<double> Sums;

@@ -5,9 +5,11 @@
 #define RectifiedTransport_Density_h
 
 #include "../Geometry/GridSize.h"
+#include "DistributedDensity.h"
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace RectifiedTransport
@@ -22,12 +24,41 @@ public:
   virtual void Read(std::int64_t first, std::int64_t count, double* values) const = 0;
 };
 
-// Cell (i0, i1, i2) covers [i0, i0+1] x ... of index space.
+// A grid and its values, which are in this process or on several ranks; it owns neither. Cell
+// (i0, i1, i2) covers [i0, i0+1] x ... of index space.
 template <int Dimension>
-struct DensitySource
+class DensitySource
 {
+public:
+  DensitySource(const GridSize<Dimension>& size, const DensityValues& values)
+    : Size(size)
+    , Here(&values)
+  {
+  }
+  DensitySource(const GridSize<Dimension>& size, const DistributedDensity<Dimension>& values)
+    : Size(size)
+    , OnRanks(&values)
+  {
+  }
+
+  bool IsDistributed() const { return this->OnRanks != nullptr; }
+  // The values of the cells from `low` up to `high`, each under its number in the whole grid, and
+  // perhaps more. Collective, if the density is distributed. Throws std::bad_alloc.
+  std::shared_ptr<const DensityValues> Part(
+    const GridSize<Dimension>& low, const GridSize<Dimension>& high) const
+  {
+    // Without an owner where the values are here.
+    return this->OnRanks
+      ? this->OnRanks->Gather(low, high)
+      : std::shared_ptr<const DensityValues>(std::shared_ptr<void>(), this->Here);
+  }
+  std::shared_ptr<const DensityValues> Whole() const { return this->Part({}, this->Size); }
+
   GridSize<Dimension> Size;
-  const DensityValues& Values;
+
+private:
+  const DensityValues* Here = nullptr;
+  const DistributedDensity<Dimension>* OnRanks = nullptr;
 };
 
 // A contiguous array of any arithmetic type, not owned.

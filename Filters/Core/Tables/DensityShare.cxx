@@ -47,6 +47,7 @@ double densityIn(const DensitySource<Dimension>& density, const Point<Dimension>
   const CoveredCells x = covered(0);
   const CoveredCells y = covered(1);
   const CoveredCells z = covered(2);
+  const std::shared_ptr<const DensityValues> read = density.Whole();
   const std::int64_t rows = Dimension > 1 ? density.Size[Dimension > 1 ? 1 : 0] : 1;
   double sum = 0.0;
   for (std::int64_t k = z.First; k < z.End; ++k)
@@ -59,7 +60,7 @@ double densityIn(const DensitySource<Dimension>& density, const Point<Dimension>
       {
         double values[most];
         const std::int64_t count = std::min(most, x.End - i);
-        density.Values.Read(row + i, count, values);
+        read->Read(row + i, count, values);
         for (std::int64_t cell = 0; cell < count; ++cell)
         {
           sum += values[cell] * (x.PartOf(i + cell) * part);

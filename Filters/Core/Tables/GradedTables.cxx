@@ -53,7 +53,7 @@ std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t stride, do
 }
 
 template <int Dimension>
-GradedTables<Dimension>::GradedTables(
+void GradedTables<Dimension>::Allocate(
   const GridSize<Dimension>& size, const GridSize<Dimension>& strides, double ratio)
 {
   TableView<Dimension>& tables = this->Tables;
@@ -92,53 +92,17 @@ GradedTables<Dimension>::GradedTables(
 template <int Dimension>
 GradedTables<Dimension>::GradedTables(const DensitySource<Dimension>& density,
   const GridSize<Dimension>& strides, double ratio, Progress& progress)
-  : GradedTables(density.Size, strides, ratio)
 {
-  this->Finish([&](int scaling) {
-    const ScaledDensity scaled(density.Values, scaling);
-    const DensityValues* values = &density.Values;
-    if (scaling != 0)
-    {
-      values = &scaled;
-    }
-    const std::int64_t layers = this->NumberOfLayers();
-    std::vector<DensitySummary> found(static_cast<std::size_t>(layers));
-    progress.BeginStage(partOfReading);
-    this->AddLayers(*values, { 0, layers }, progress, found);
-    this->TakeSummaries(found);
-    progress.BeginStage(1.0);
-    this->SumNodes(progress);
-  });
-}
-
-template <int Dimension>
-GradedTables<Dimension>::GradedTables(const GridSize<Dimension>& size,
-  const SharedDensity<Dimension>& density, const GridSize<Dimension>& strides, double ratio,
-  Progress& progress)
-  : GradedTables(size, strides, ratio)
-{
-  this->Finish([&](int scaling) {
-    progress.BeginStage(partOfReading);
-    this->AddShared(density, scaling, progress.Group(), progress);
-    progress.BeginStage(1.0);
-    this->SumNodes(progress);
-  });
-}
-
-// addAll(scaling) sums the values, scaled by a power of two.
-template <int Dimension>
-template <class AddAll>
-void GradedTables<Dimension>::Finish(const AddAll& addAll)
-{
+  this->Allocate(density.Size, strides, ratio);
   TableView<Dimension>& tables = this->Tables;
-  addAll(0);
+  this->Add(density, 0, progress);
   const DensitySummary found = this->Found;
   requireDensity(found);
   tables.Largest = found.Maximum;
   this->Exponent = scalingOf(found.Maximum);
   if (this->Exponent != 0)
   {
-    addAll(this->Exponent);
+    this->Add(density, this->Exponent, progress);
     this->Found = found;
     tables.Largest = std::ldexp(found.Maximum, this->Exponent);
   }
@@ -199,42 +163,24 @@ void GradedTables<Dimension>::AddLayers(const DensityValues& density, const Laye
     2);
 }
 
+// Sums the values, scaled by a power of two. Each rank reads the layers that begin in its share of
+// the grid cells along the last axis.
 template <int Dimension>
-void GradedTables<Dimension>::TakeSummaries(const std::vector<DensitySummary>& found)
-{
-  this->Found = {};
-  for (const DensitySummary& part : found)
-  {
-    merge(part, this->Found);
-  }
-}
-
-// Each rank sums the layers that begin in its share of the grid cells along the last axis; all
-// ranks get the records, the bits and the summaries of all.
-template <int Dimension>
-void GradedTables<Dimension>::AddShared(
-  const SharedDensity<Dimension>& density, int scaling, const Ranks& ranks, Progress& progress)
+void GradedTables<Dimension>::Add(
+  const DensitySource<Dimension>& density, int scaling, Progress& progress)
 {
   constexpr int axis = Dimension - 1;
-  const std::vector<std::int64_t>& nodes = this->Nodes[axis];
-  const auto layersOf = [&](int rank) {
-    const auto layerAt = [&](int end) {
-      const std::int64_t cell = nodes.back() * end / ranks.Count();
-      return static_cast<std::int64_t>(
-        std::lower_bound(nodes.begin(), nodes.end(), cell) - nodes.begin());
-    };
-    return Layers{ layerAt(rank), layerAt(rank + 1) };
-  };
-  const auto nodeOf = [&](std::int64_t layer) { return nodes[static_cast<std::size_t>(layer)]; };
-  const Layers own = layersOf(ranks.Own());
+  const Ranks& ranks = progress.Group();
+  const Layers own = density.IsDistributed() ? this->LayersOf(ranks, ranks.Own())
+                                             : Layers{ 0, this->NumberOfLayers() };
   std::vector<DensitySummary> found(static_cast<std::size_t>(this->NumberOfLayers()));
+  progress.BeginStage(partOfReading);
   {
     GridSize<Dimension> low{};
-    GridSize<Dimension> high;
-    std::copy_n(this->Tables.Cells, Dimension, high.begin());
-    low[axis] = nodeOf(own.First);
-    high[axis] = nodeOf(own.End);
-    const std::unique_ptr<const DensityValues> values = density.Gather(low, high);
+    GridSize<Dimension> high = density.Size;
+    low[axis] = this->Nodes[axis][static_cast<std::size_t>(own.First)];
+    high[axis] = this->Nodes[axis][static_cast<std::size_t>(own.End)];
+    const std::shared_ptr<const DensityValues> values = density.Part(low, high);
     const ScaledDensity scaled(*values, scaling);
     const DensityValues* read = values.get();
     if (scaling != 0)
@@ -243,6 +189,38 @@ void GradedTables<Dimension>::AddShared(
     }
     this->AddLayers(*read, own, progress, found);
   }
+  if (density.IsDistributed())
+  {
+    this->GatherLayers(ranks, found);
+  }
+  this->Found = {};
+  for (const DensitySummary& part : found)
+  {
+    merge(part, this->Found);
+  }
+  progress.BeginStage(1.0);
+  this->SumNodes(progress);
+}
+
+template <int Dimension>
+auto GradedTables<Dimension>::LayersOf(const Ranks& ranks, int rank) const -> Layers
+{
+  const std::vector<std::int64_t>& nodes = this->Nodes[Dimension - 1];
+  const auto layerAt = [&](int end) {
+    const std::int64_t cell = nodes.back() * end / ranks.Count();
+    return static_cast<std::int64_t>(
+      std::lower_bound(nodes.begin(), nodes.end(), cell) - nodes.begin());
+  };
+  return { layerAt(rank), layerAt(rank + 1) };
+}
+
+// All ranks get the records, the bits and the summaries of all.
+template <int Dimension>
+void GradedTables<Dimension>::GatherLayers(const Ranks& ranks, std::vector<DensitySummary>& found)
+{
+  constexpr int axis = Dimension - 1;
+  const std::vector<std::int64_t>& nodes = this->Nodes[axis];
+  const auto nodeOf = [&](std::int64_t layer) { return nodes[static_cast<std::size_t>(layer)]; };
   const std::int64_t stride = this->Tables.Levels[1].Stride[axis];
   const std::int64_t rows = this->Occupied.size() / this->Tables.WordsPerRow / nodes.back();
   const std::int64_t words = this->Tables.WordsPerRow * rows; // of a slice
@@ -252,7 +230,7 @@ void GradedTables<Dimension>::AddShared(
     std::vector<std::int64_t> starts;
     for (int rank = 0; rank <= ranks.Count(); ++rank)
     {
-      starts.push_back(placeOf(layersOf(rank).First) * each);
+      starts.push_back(placeOf(this->LayersOf(ranks, rank).First) * each);
     }
     gatherParts(ranks, starts, all);
   };
@@ -260,7 +238,6 @@ void GradedTables<Dimension>::AddShared(
   gather(this->Records.data() + stride, stride, layerOf);
   gather(this->Occupied.data(), words, nodeOf);
   gather(found.data(), 1, layerOf);
-  this->TakeSummaries(found);
 }
 
 // The sums of the grid cells of one layer in the boxes between nodes, each at the node above its

@@ -5,7 +5,6 @@
 
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/Density.h"
-#include "Core/Tables/SharedDensity.h"
 #include "Core/Tables/TableView.h"
 
 #include <cstdint>
@@ -30,13 +29,10 @@ template <int Dimension>
 class GradedTables
 {
 public:
-  // Throws InvalidDensity, Cancelled and std::bad_alloc.
+  // Of a distributed density every rank sums some layers of the grid, and gets the tables of all;
+  // collective. Throws InvalidDensity, Cancelled and std::bad_alloc.
   GradedTables(const DensitySource<Dimension>& density, const GridSize<Dimension>& strides,
     double ratio, Progress& progress);
-  // The same tables of a density of the ranks of the progress, on each of them: every rank sums
-  // some layers of the grid. All of them call this.
-  GradedTables(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
-    const GridSize<Dimension>& strides, double ratio, Progress& progress);
 
   const TableView<Dimension>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
@@ -52,15 +48,13 @@ private:
     std::int64_t End;
   };
 
-  GradedTables(const GridSize<Dimension>& size, const GridSize<Dimension>& strides, double ratio);
-  template <class AddAll>
-  void Finish(const AddAll& addAll);
+  void Allocate(const GridSize<Dimension>& size, const GridSize<Dimension>& strides, double ratio);
+  void Add(const DensitySource<Dimension>& density, int scaling, Progress& progress);
   std::int64_t NumberOfLayers() const;
+  Layers LayersOf(const Ranks& ranks, int rank) const;
   void AddLayers(const DensityValues& density, const Layers& layers, Progress& progress,
     std::vector<DensitySummary>& found);
-  void AddShared(
-    const SharedDensity<Dimension>& density, int scaling, const Ranks& ranks, Progress& progress);
-  void TakeSummaries(const std::vector<DensitySummary>& found);
+  void GatherLayers(const Ranks& ranks, std::vector<DensitySummary>& found);
   void AddLayer(const DensityValues& density, std::int64_t layer, double* row,
     std::vector<std::uint64_t>& words, DensitySummary& found);
   void AddRow(const double* cells, double* record, const double* centres) const;

@@ -42,13 +42,14 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   : Memory(std::move(memory))
 {
   this->Allocate(density.Size);
-  this->Build(density.Values, progress);
+  const std::shared_ptr<const DensityValues> values = density.Whole();
+  this->Build(*values, progress);
   const DensitySummary found = this->Found;
   requireDensity(found);
   this->Tables.Largest = found.Maximum;
   if (const int exponent = scalingOf(found.Maximum))
   {
-    const ScaledDensity scaled(density.Values, exponent);
+    const ScaledDensity scaled(*values, exponent);
     this->Build(scaled, progress);
     this->Found = found;
     this->Tables.Largest = std::ldexp(found.Maximum, exponent);

@@ -19,9 +19,10 @@ template <int Dimension>
 class PartOfDensity final : public DensityValues
 {
 public:
-  PartOfDensity(const DensitySource<Dimension>& whole, const GridSize<Dimension>& low,
-    const GridSize<Dimension>& cells)
+  PartOfDensity(const DensityValues& whole, const GridSize<Dimension>& size,
+    const GridSize<Dimension>& low, const GridSize<Dimension>& cells)
     : Whole(whole)
+    , Size(size)
     , Low(low)
     , Cells(cells)
   {
@@ -31,18 +32,19 @@ public:
   {
     std::int64_t rest = first / this->Cells[0];
     std::int64_t start = this->Low[0] + first % this->Cells[0];
-    std::int64_t stride = this->Whole.Size[0];
+    std::int64_t stride = this->Size[0];
     for (int axis = 1; axis < Dimension; ++axis)
     {
       start += (this->Low[axis] + rest % this->Cells[axis]) * stride;
       rest /= this->Cells[axis];
-      stride *= this->Whole.Size[axis];
+      stride *= this->Size[axis];
     }
-    this->Whole.Values.Read(start, count, values);
+    this->Whole.Read(start, count, values);
   }
 
 private:
-  const DensitySource<Dimension> Whole;
+  const DensityValues& Whole;
+  const GridSize<Dimension>& Size;
   const GridSize<Dimension>& Low;
   const GridSize<Dimension>& Cells;
 };
@@ -114,7 +116,7 @@ void TileTables<Dimension>::Build(const DensityValues& density, const GridSize<D
   part.Levels[0].Nodes = this->Nodes.data();
   GridSize<Dimension> size;
   std::copy_n(this->Tables.Cells, Dimension, size.begin());
-  const PartOfDensity<Dimension> values({ size, density }, low, cells);
+  const PartOfDensity<Dimension> values(density, size, low, cells);
   const ScaledDensity scaled(values, this->Scaling);
   const DensityValues* read = &values;
   if (this->Scaling != 0)

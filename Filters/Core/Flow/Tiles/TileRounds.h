@@ -10,8 +10,8 @@
 #include "Core/Flow/Tiles/TileVisitors.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Tables/Density.h"
 #include "Core/Tables/GradedTables.h"
-#include "Core/Tables/SharedDensity.h"
 #include "Core/Tables/TileTables.h"
 
 #include <algorithm>
@@ -27,12 +27,10 @@ template <int Dimension>
 class TileRounds
 {
 public:
-  // Of the two densities one is given, the second where the progress has ranks, which then run this
-  // together.
-  TileRounds(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
-    const GradedTables<Dimension>& graded, const GridTiles<Dimension>& tiles, Progress& progress)
+  // Of a distributed density all members are collective on the ranks of the progress.
+  TileRounds(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
+    const GridTiles<Dimension>& tiles, Progress& progress)
     : Density(density)
-    , OfRanks(sharedDensity)
     , Tiles(tiles)
     , Work(progress)
     , Tile(graded.View(), graded.Scaling())
@@ -42,7 +40,7 @@ public:
   // Whether a condition holds here or on another rank.
   bool HasAnyRank(bool condition) const
   {
-    return this->OfRanks ? !onAllRanks(this->Work.Group(), !condition) : condition;
+    return this->Density.IsDistributed() ? !onAllRanks(this->Work.Group(), !condition) : condition;
   }
 
   // Of the tile that is worked on.
@@ -59,7 +57,7 @@ public:
   template <class Item, class Task>
   void Run(const ByTile<Item>& items, Task&& task, double begin, double end)
   {
-    if (this->OfRanks)
+    if (this->Density.IsDistributed())
     {
       this->RunOnRanks(items, task, begin, end);
       return;
@@ -79,7 +77,7 @@ public:
       GridSize<Dimension> low;
       GridSize<Dimension> high;
       this->Tiles.FindCells(tile, low, high);
-      this->BuildTile(*this->Density, low, high, from, to);
+      this->BuildTile(*this->Density.Part(low, high), low, high, from, to);
       task.Run(first, first + count);
     }
   }
@@ -183,15 +181,14 @@ private:
     {
       this->Tiles.FindCells(unit->Tile, low, high);
     }
-    const auto values = this->OfRanks->Gather(low, high);
+    const auto values = this->Density.Part(low, high);
     if (unit)
     {
       this->BuildTile(*values, low, high, from, to);
     }
   }
 
-  const DensityValues* const Density;
-  const SharedDensity<Dimension>* const OfRanks;
+  const DensitySource<Dimension> Density;
   const GridTiles<Dimension>& Tiles;
   Progress& Work;
   TileTables<Dimension> Tile;

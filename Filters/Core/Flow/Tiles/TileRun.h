@@ -35,15 +35,14 @@ template <int Dimension>
 class TileRun
 {
 public:
-  // Of the two densities one is given, the second where the progress has ranks, which then run this
-  // together. `wide` is the job on the graded tables.
-  TileRun(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
-    const GradedTables<Dimension>& graded, const TilePlan<Dimension>& plan,
-    const FlowJob<Dimension>& wide, Counters& counters, Progress& progress)
+  // `wide` is the job on the graded tables.
+  TileRun(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
+    const TilePlan<Dimension>& plan, const FlowJob<Dimension>& wide, Counters& counters,
+    Progress& progress)
     : Wide(wide)
     , Count(counters)
     , Work(progress)
-    , Rounds(density, sharedDensity, graded, plan.Tiles, progress)
+    , Rounds(density, graded, plan.Tiles, progress)
   {
   }
 

@@ -24,17 +24,15 @@ template <int Dimension>
 class TiledAdvection
 {
 public:
-  // Of the two densities one is given, the second where the progress has ranks, which then run this
-  // together. The map may be null; it is of the plan's shape.
-  TiledAdvection(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
-    const GradedTables<Dimension>& graded, const TilePlan<Dimension>& plan,
-    const AdvectionJob<Dimension>& shared, const FlowMap<Dimension>* map, Counters& counters,
-    Progress& progress)
+  // The map may be null; it is of the plan's shape.
+  TiledAdvection(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
+    const TilePlan<Dimension>& plan, const AdvectionJob<Dimension>& shared,
+    const FlowMap<Dimension>* map, Counters& counters, Progress& progress)
     : Plan(plan)
     , Wide(shared.Job)
     , Count(counters)
     , Work(progress)
-    , Tiles(density, sharedDensity, graded, plan, this->Wide, counters, progress)
+    , Tiles(density, graded, plan, this->Wide, counters, progress)
     , Read(flowKernels().Read<Dimension>())
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
   {

@@ -21,18 +21,9 @@ class TiledFlow
 public:
   TiledFlow(const DensitySource<Dimension>& density, const TileLimits& limits, Progress& progress)
     : Size(density.Size)
-    , Values(&density.Values)
+    , Density(density)
     , Limits(limits)
     , Graded(density, gradedStrides<Dimension>(density.Size, limits), gradedRatio, progress)
-  {
-  }
-  // On the ranks of the progress.
-  TiledFlow(const GridSize<Dimension>& size, const SharedDensity<Dimension>& density,
-    const TileLimits& limits, Progress& progress)
-    : Size(size)
-    , OfRanks(&density)
-    , Limits(limits)
-    , Graded(size, density, gradedStrides<Dimension>(size, limits), gradedRatio, progress)
   {
   }
 
@@ -43,15 +34,10 @@ public:
   {
     return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
-  void SetDensity(const DensityValues& values) { this->Values = &values; }
-  void SetDensity(const SharedDensity<Dimension>& density) { this->OfRanks = &density; }
+  void SetDensity(const DensitySource<Dimension>& density) { this->Density = density; }
   void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high)
   {
-    if (this->OfRanks)
-    {
-      this->Gathered = this->OfRanks->Gather(low, high);
-      this->Values = this->Gathered.get();
-    }
+    this->Prepared = this->Density.Part(low, high);
   }
   static double MemoryFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, bool isLattice, const TileLimits& limits)
@@ -67,14 +53,16 @@ public:
   }
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
   {
-    return densityIn<Dimension>({ this->Size, *this->Values }, low, high) / this->Summary().Total;
+    const std::shared_ptr<const DensityValues> values =
+      this->Density.IsDistributed() ? this->Prepared : this->Density.Whole();
+    return densityIn<Dimension>({ this->Size, *values }, low, high) / this->Summary().Total;
   }
 
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
     const double* shares, double* measures, Progress& progress)
   {
     const GridTiles<Dimension> tiles = tilesForShares<Dimension>(this->Size, aspect, this->Limits);
-    TiledShares<Dimension>(this->Values, this->OfRanks, this->Graded, tiles, aspect, progress)
+    TiledShares<Dimension>(this->Density, this->Graded, tiles, aspect, progress)
       .Run(centres, shares, measures);
   }
 
@@ -107,7 +95,7 @@ public:
       counters.Evaluations += isNew ? map->Evaluations() : 0;
     }
     TiledAdvection<Dimension>(
-      this->Values, this->OfRanks, this->Graded, plan, shared, map.get(), counters, progress)
+      this->Density, this->Graded, plan, shared, map.get(), counters, progress)
       .Run(source, positions);
     FlowReport report;
     report.Redone = counters.Redone;
@@ -130,9 +118,8 @@ private:
   }
 
   const GridSize<Dimension> Size;
-  const DensityValues* Values = nullptr;
-  const SharedDensity<Dimension>* OfRanks = nullptr;
-  std::unique_ptr<const DensityValues> Gathered; // of PrepareShares
+  DensitySource<Dimension> Density;
+  std::shared_ptr<const DensityValues> Prepared; // for Share
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
   KeptFlowMap<Dimension> Maps[2];
@@ -147,15 +134,10 @@ public:
   {
     throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
   }
-  TiledFlow(const GridSize<1>&, const SharedDensity<1>&, const TileLimits&, Progress&)
-  {
-    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
-  }
   const TableView<1>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
   std::int64_t MemorySize() { return 0; }
-  void SetDensity(const DensityValues&) {}
-  void SetDensity(const SharedDensity<1>&) {}
+  void SetDensity(const DensitySource<1>&) {}
   void PrepareShares(const GridSize<1>&, const GridSize<1>&) {}
   static double MemoryFor(
     const GridSize<1>&, const FlowOptions&, FlowDirection, double, bool, const TileLimits&)

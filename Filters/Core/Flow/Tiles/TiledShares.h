@@ -51,16 +51,13 @@ template <int Dimension>
 class TiledShares
 {
 public:
-  // Of the two densities one is given, the second where the progress has ranks, which then run this
-  // together.
-  TiledShares(const DensityValues* density, const SharedDensity<Dimension>* sharedDensity,
-    const GradedTables<Dimension>& graded, const GridTiles<Dimension>& tiles,
-    const Point<Dimension>& aspect, Progress& progress)
+  TiledShares(const DensitySource<Dimension>& density, const GradedTables<Dimension>& graded,
+    const GridTiles<Dimension>& tiles, const Point<Dimension>& aspect, Progress& progress)
     : Graded(graded.View())
     , Tiles(tiles)
     , Aspect(aspect)
     , Work(progress)
-    , Rounds(density, sharedDensity, graded, tiles, progress)
+    , Rounds(density, graded, tiles, progress)
   {
   }
 

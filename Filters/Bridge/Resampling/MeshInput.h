@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Data sets that were put on an image as a density.
+#ifndef RectifiedTransport_MeshInput_h
+#define RectifiedTransport_MeshInput_h
+
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Resampling/ResampledDensity.h"
+
+namespace RectifiedTransport
+{
+
+class MeshInput final : public DensityImage
+{
+public:
+  // What was made must outlive this object. The rules are for images that tile a lattice.
+  MeshInput(const ResampledDensity& made, const DensityRules& rules);
+
+  // From the data sets, where they are no images that tile a lattice.
+  void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
+    vtkPointData* output) const override;
+
+protected:
+  std::vector<std::string> Describe(const UnusualValues& values) const override;
+
+  const ResampledDensity& Made;
+};
+
+} // namespace RectifiedTransport
+
+#endif
