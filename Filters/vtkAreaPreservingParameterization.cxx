@@ -26,7 +26,7 @@ vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->GatherOnFirstRank(0, GATHERED_SURFACE);
+  this->SetPortPolicy(0, PORT_GATHERED_SURFACE);
 }
 
 //------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ int vtkAreaPreservingParameterization::FillOutputPortInformation(int, vtkInforma
 
 //------------------------------------------------------------------------------
 int vtkAreaPreservingParameterization::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   AreaPreservingParameterization parameterization{};
   parameterization.Corners = *this->Corners;
@@ -87,11 +87,6 @@ int vtkAreaPreservingParameterization::RequestData(
   parameterization.Check();
   AlgorithmProgress progress(this, this->Threading);
 
-  // All data are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
   if (!input.Get())
   {

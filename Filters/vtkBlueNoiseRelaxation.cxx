@@ -38,8 +38,8 @@ vtkBlueNoiseRelaxation::vtkBlueNoiseRelaxation()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->GatherOnFirstRank(0, GATHERED_POINTS);
-  this->GatherOnFirstRank(1, GATHERED_DENSITY);
+  this->SetPortPolicy(0, PORT_GATHERED_POINTS);
+  this->SetPortPolicy(1, PORT_GATHERED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -98,7 +98,7 @@ int vtkBlueNoiseRelaxation::RequestDataObject(
 
 //------------------------------------------------------------------------------
 int vtkBlueNoiseRelaxation::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Method", this->Method, MethodTexts);
   requireThat(
@@ -106,11 +106,6 @@ int vtkBlueNoiseRelaxation::RequestData(
   requireThat(this->Tolerance >= 0.0 && this->Tolerance < 1.0, "Tolerance", this->Tolerance,
     "at least 0 and less than 1");
   AlgorithmProgress progress(this, this->Threading);
-  // All points are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density || !input || input->GetNumberOfPoints() == 0)

@@ -31,8 +31,8 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->PassPieces(0); // each point is moved independently of the others
-  this->ShareAmongRanks(1, false);
+  this->SetPortPolicy(0, PORT_PIECES); // each point is moved independently of the others
+  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

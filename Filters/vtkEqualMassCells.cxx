@@ -54,8 +54,8 @@ vtkEqualMassCells::vtkEqualMassCells()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
-  this->GatherOnFirstRank(0, GATHERED_POINTS);
-  this->GatherOnFirstRank(1, GATHERED_DENSITY);
+  this->SetPortPolicy(0, PORT_GATHERED_POINTS);
+  this->SetPortPolicy(1, PORT_GATHERED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -182,7 +182,7 @@ void vtkEqualMassCells::ShareOutputs(const Ranks& ranks, vtkInformationVector* o
 
 //------------------------------------------------------------------------------
 int vtkEqualMassCells::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(
     this->NormExponent >= 1.0, "NormExponent", this->NormExponent, "at least 1, or infinite");
@@ -206,11 +206,6 @@ int vtkEqualMassCells::RequestData(
   cells.IsPower = this->Shape == POWER;
   AlgorithmProgress progress(this, this->Threading);
 
-  // All data are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   vtkPointSet* input = pointSetOf(inputVector[0]);
   requireReadableCells(input, "input");
   vtkDataObject* domain = vtkDataObject::GetData(inputVector[1], 0);

@@ -5,122 +5,34 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Ranks/SameProperties.h"
+#include "Bridge/Run/ConsumerExtents.h"
+#include "Bridge/Run/EarlyUpdate.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"
+#include "Bridge/Run/OutputInformation.h"
 #include "Bridge/Run/RankRun.h"
 #include "Bridge/Run/RequestedTimes.h"
 #include "Bridge/Run/SMPExecutor.h"
 #include "Bridge/Run/WholeInputs.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
-#include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-
-namespace
-{
-// The executive copies the times of the first input only; the outputs depend on those of all.
-void publishTimes(
-  vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  std::set<double> steps;
-  std::set<double> ends;
-  for (int port = 0; port < numberOfPorts; ++port)
-  {
-    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      vtkInformation* input = inputVector[port]->GetInformationObject(i);
-      if (input->Has(Pipeline::TIME_STEPS()))
-      {
-        const double* times = input->Get(Pipeline::TIME_STEPS());
-        steps.insert(times, times + input->Length(Pipeline::TIME_STEPS()));
-      }
-      if (input->Has(Pipeline::TIME_RANGE()))
-      {
-        const double* range = input->Get(Pipeline::TIME_RANGE());
-        ends.insert(range, range + input->Length(Pipeline::TIME_RANGE()));
-      }
-    }
-  }
-  const std::vector<double> times(steps.begin(), steps.end());
-  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkInformation* output = outputVector->GetInformationObject(i);
-    if (!times.empty())
-    {
-      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-    }
-    if (!ends.empty())
-    {
-      const double range[2] = { *ends.begin(), *ends.rbegin() };
-      output->Set(Pipeline::TIME_RANGE(), range, 2);
-    }
-  }
-}
-
-// The executive copies the array information of the first input, which holds for no output.
-void removeArrayInformation(vtkInformationVector* outputVector)
-{
-  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkInformation* output = outputVector->GetInformationObject(i);
-    output->Remove(vtkDataObject::POINT_DATA_VECTOR());
-    output->Remove(vtkDataObject::CELL_DATA_VECTOR());
-  }
-}
-
-// The executive leaves the extent of an image and the scalars of its points from the last run.
-void clearImages(vtkInformationVector* outputVector)
-{
-  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
-  {
-    if (vtkImageData* image = vtkImageData::GetData(outputVector, i))
-    {
-      image->SetExtent(0, -1, 0, -1, 0, -1);
-      image->GetPointData()->Initialize();
-    }
-  }
-}
-
-// A rank's own piece; for one rank, what was requested last. What is requested upstream, as of an
-// input that this one depends on, stays as it is.
-void updatePiece(vtkAlgorithm* producer, int port, const RectifiedTransport::Ranks& ranks)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const RectifiedTransport::RequestedTimes kept(producer);
-  if (!ranks.AreSeveral())
-  {
-    producer->Update(port);
-    return;
-  }
-  vtkNew<vtkInformationVector> requests;
-  requests->SetNumberOfInformationObjects(producer->GetNumberOfOutputPorts());
-  vtkInformation* request = requests->GetInformationObject(port);
-  request->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks.Own());
-  request->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks.Count());
-  request->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  producer->Update(port, requests);
-}
-} // namespace
 
 //------------------------------------------------------------------------------
 vtkGuardedAlgorithm::vtkGuardedAlgorithm()
   : Threading(THREADING_AUTO)
   , Whole(new RectifiedTransport::WholeInputs)
+  , Early(new RectifiedTransport::EarlyUpdate)
 {
 }
 
@@ -151,8 +63,8 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
     }
     if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
     {
-      publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
-      removeArrayInformation(outputVector);
+      RectifiedTransport::publishTimes(inputVector, this->GetNumberOfInputPorts(), outputVector);
+      RectifiedTransport::removeArrayInformation(outputVector);
       return this->ProcessInformation(request, inputVector, outputVector);
     }
     if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_TIME_DEPENDENT_INFORMATION()))
@@ -217,7 +129,7 @@ int vtkGuardedAlgorithm::ProcessInformation(
 int vtkGuardedAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  clearImages(outputVector);
+  RectifiedTransport::clearImages(outputVector);
   this->Run = this->Whole->BeginRun(this, inputVector);
   if (this->Run)
   {
@@ -226,9 +138,15 @@ int vtkGuardedAlgorithm::ProcessData(
   vtkInformationVector** inputs = this->Whole->Separate().Inputs(this, inputVector);
   RectifiedTransport::requireExtents(this, inputs);
   this->Whole->Require(this, inputs, this->Run.get());
-  const int result = this->Run && !this->Gathered.empty()
-    ? this->GatherAndRun(request, inputs, outputVector)
-    : this->RequestData(request, inputs, outputVector);
+  int result = 1;
+  if (this->Run && !this->Gathered.empty())
+  {
+    result = this->GatherAndRun(request, inputs, outputVector);
+  }
+  else if (!this->IsLaterPiece(request, outputVector))
+  {
+    result = this->RequestData(request, inputs, outputVector);
+  }
   this->EndRun();
   this->Whole->Separate().End();
   return RectifiedTransport::clearUnmetRequests(outputVector) ? result : 0;
@@ -240,11 +158,11 @@ int vtkGuardedAlgorithm::GatherAndRun(
 {
   using RectifiedTransport::GatheredKind;
   std::map<int, GatheredKind> kinds;
-  for (const auto& [port, type] : this->Gathered)
+  for (const auto& [port, policy] : this->Gathered)
   {
-    kinds[port] = type == GATHERED_POINTS ? GatheredKind::Points
-      : type == GATHERED_SURFACE          ? GatheredKind::Surface
-                                          : GatheredKind::Density;
+    kinds[port] = policy == PORT_GATHERED_POINTS ? GatheredKind::Points
+      : policy == PORT_GATHERED_SURFACE          ? GatheredKind::Surface
+                                                 : GatheredKind::Density;
   }
   RectifiedTransport::GatheredInputs inputs(inputVector, kinds, *this->Run);
   int result = 1;
@@ -276,13 +194,13 @@ void vtkGuardedAlgorithm::EndRun()
 int vtkGuardedAlgorithm::ProcessTimeDependentInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (this->Updated.empty())
+  if (!this->Early->HasAny())
   {
     return 1;
   }
   vtkInformation* output = outputVector->GetInformationObject(0);
   const RectifiedTransport::ImageGrid before = RectifiedTransport::announcedGrid(output, true);
-  this->Updated.clear();
+  this->Early->Clear();
   const int result = this->ProcessInformation(request, inputVector, outputVector);
   if (result && !(RectifiedTransport::announcedGrid(output, true) == before))
   {
@@ -329,8 +247,8 @@ int vtkGuardedAlgorithm::RequestInformation(
 void vtkGuardedAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
-  this->UpdateInputPiece(
-    port, inputVector, outputVector, connection, RectifiedTransport::SoloRanks::Get());
+  this->Early->Run(this, port, connection, inputVector[port]->GetInformationObject(connection),
+    outputVector->GetInformationObject(0), RectifiedTransport::SoloRanks::Get());
 }
 
 //------------------------------------------------------------------------------
@@ -341,40 +259,9 @@ const RectifiedTransport::Ranks& vtkGuardedAlgorithm::UpdateInputOnRanks(
   {
     this->Run = this->Whole->BeginWithoutPieces(this, port, inputVector);
   }
-  this->UpdateInputPiece(port, inputVector, outputVector, 0, this->GetRanks());
+  this->Early->Run(this, port, 0, inputVector[port]->GetInformationObject(0),
+    outputVector->GetInformationObject(0), this->GetRanks());
   return this->GetRanks();
-}
-
-//------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::UpdateInputPiece(int port, vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks& ranks)
-{
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* input = inputVector[port]->GetInformationObject(connection);
-  if (input && (input->Has(Pipeline::TIME_STEPS()) || input->Has(Pipeline::TIME_RANGE())))
-  {
-    outputVector->GetInformationObject(0)->Set(Pipeline::TIME_DEPENDENT_INFORMATION(), 1);
-  }
-  int outputPort = 0;
-  vtkAlgorithm* producer = this->GetInputAlgorithm(port, connection, outputPort);
-  auto* pipeline =
-    vtkDemandDrivenPipeline::SafeDownCast(producer ? producer->GetExecutive() : nullptr);
-  if (!pipeline)
-  {
-    return;
-  }
-  // While the executive iterates over blocks the producer's output is replaced by one of them; the
-  // producer must not run then.
-  vtkDataObject* data = producer->GetOutputDataObject(outputPort);
-  const auto updated = this->Updated.find({ port, connection });
-  if (updated != this->Updated.end() && producer == updated->second.Producer &&
-    outputPort == updated->second.Port && data && !data->GetDataReleased() &&
-    pipeline->GetPipelineMTime() == updated->second.Time)
-  {
-    return;
-  }
-  updatePiece(producer, outputPort, ranks);
-  this->Updated[{ port, connection }] = { producer, outputPort, pipeline->GetPipelineMTime() };
 }
 
 //------------------------------------------------------------------------------
@@ -401,15 +288,23 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::PassPieces(int port)
+void vtkGuardedAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
 {
-  this->Whole->Except(port);
-}
-
-//------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::ShareAmongRanks(int port, bool takesPoints)
-{
-  this->Whole->Share(port, takesPoints);
+  switch (policy)
+  {
+    case PORT_WHOLE:
+      break;
+    case PORT_PIECES:
+      this->Whole->Except(port);
+      break;
+    case PORT_SHARED_POINTS:
+    case PORT_SHARED_DENSITY:
+      this->Whole->Share(port, policy == PORT_SHARED_POINTS);
+      break;
+    default:
+      this->Whole->Share(port, policy != PORT_GATHERED_DENSITY);
+      this->Gathered[port] = policy;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -430,17 +325,9 @@ void vtkGuardedAlgorithm::WarnOnFirstRank(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::GatherOnFirstRank(int port, GatheredType type)
+bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector)
 {
-  this->ShareAmongRanks(port, type != GATHERED_DENSITY);
-  this->Gathered[port] = type;
-}
-
-//------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::IsLaterPiece(
-  vtkInformation* request, vtkInformationVector* outputVector) const
-{
-  if (this->Run)
+  if (this->Run || this->GetNumberOfInputPorts() == 0 || this->Whole->HasPieces())
   {
     return false;
   }

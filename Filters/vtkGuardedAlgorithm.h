@@ -19,13 +19,13 @@
 #include "vtkAlgorithm.h"
 #include "vtkRectifiedTransportModule.h" // for the export macro
 
-#include <map>     // for what was updated
-#include <memory>  // for std::unique_ptr
-#include <string>  // for texts
-#include <utility> // for what was updated
+#include <map>    // for the gathered ports
+#include <memory> // for std::unique_ptr
+#include <string> // for texts
 
 namespace RectifiedTransport
 {
+class EarlyUpdate;
 class RankRun;
 class Ranks;
 class WholeInputs;
@@ -115,7 +115,7 @@ protected:
     vtkInformationVector* outputVector, int connection = 0);
 
   /**
-   * The same on a port of ShareAmongRanks or GatherOnFirstRank: where there are several ranks, all
+   * The same on a port that is shared or gathered: where there are several ranks, all
    * of them meet here, and each updates its own piece. Returns the ranks, so that all announce the
    * same; GetRanks returns them, too, until RequestInformation returns. If ranks do not meet in
    * time, or execute blocks, this process runs alone and updates all data.
@@ -124,34 +124,27 @@ protected:
     int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
 
   /**
-   * For a constructor: pass requests of pieces of an input port upstream. On all other ports the
-   * filter needs all data: whole images, because a transport is global, and all points.
+   * What the filter needs of an input port. By default all data: whole images, because a transport
+   * is global, and all points. With several ranks, all of them run the filter together if a port is
+   * shared or gathered.
    */
-  void PassPieces(int port);
-
-  /**
-   * For a constructor: where there are several ranks, all of them run the filter together. It
-   * requests of each rank its own piece of the points on this port (`takesPoints`), or of a density
-   * of any type, and gives each rank its piece of the output. Other ports are needed whole.
-   */
-  void ShareAmongRanks(int port, bool takesPoints);
-
-  /**
-   * What is gathered of a port.
-   */
-  enum GatheredType
+  enum PortPolicyType
   {
-    GATHERED_POINTS,
-    GATHERED_SURFACE,
-    GATHERED_DENSITY
+    PORT_WHOLE,            // all data, on each rank
+    PORT_PIECES,           // the requested piece, each by itself
+    PORT_SHARED_POINTS,    // of each rank its own piece of the points
+    PORT_SHARED_DENSITY,   // of each rank its own piece of a density of any type
+    PORT_GATHERED_POINTS,  // as shared ones; gathered on the first rank, which alone runs
+                           // RequestData
+    PORT_GATHERED_SURFACE, // the same
+    PORT_GATHERED_DENSITY  // the same
   };
 
   /**
-   * For a constructor, of all ports: where there are several ranks, the data of all of them are
-   * gathered on the first one, which alone runs RequestData; the others have empty outputs, but for
-   * what ShareOutputs gives them.
+   * For a constructor. If a port is gathered, all are that are not whole. The other ranks then have
+   * empty outputs, except for what ShareOutputs gives them.
    */
-  void GatherOnFirstRank(int port, GatheredType type);
+  void SetPortPolicy(int port, PortPolicyType policy);
 
   /**
    * Whether RequestData runs on the first rank alone, of data that are gathered.
@@ -183,8 +176,7 @@ protected:
     vtkInformationVector* outputVector);
 
   /**
-   * Request the whole extent, or piece 0 of 1, but on the ports of PassPieces and, of what is
-   * distributed, of ShareAmongRanks. Inputs that are partial nevertheless, as other data
+   * Request of each port what its policy says. Inputs that are partial nevertheless, as other data
    * distributed over ranks, are an error before RequestData.
    */
   virtual int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -196,13 +188,9 @@ protected:
   static void RequestWhole(vtkInformationVector* port);
 
   /**
-   * Whether a piece other than 0 is requested, and not shared among ranks: piece 0 holds all data.
-   * The executive sets the piece that is requested of one output port on all of them.
-   */
-  bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector) const;
-
-  /**
    * Fill the outputs. An exception becomes one error and empty outputs, an abort empty outputs.
+   * Without other ranks piece 0 holds all data of a filter whose inputs have no pieces: for other
+   * pieces this is not called, and the outputs are empty.
    */
   virtual int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
@@ -210,8 +198,6 @@ protected:
   int Threading;
 
 private:
-  void UpdateInputPiece(int port, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, int connection, const RectifiedTransport::Ranks& ranks);
   int ProcessInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   int ProcessTimeDependentInformation(vtkInformation* request, vtkInformationVector** inputVector,
@@ -221,19 +207,12 @@ private:
   int GatherAndRun(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   void EndRun();
+  bool IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector);
   std::unique_ptr<RectifiedTransport::WholeInputs> Whole;
+  std::unique_ptr<RectifiedTransport::EarlyUpdate> Early;
   std::unique_ptr<RectifiedTransport::RankRun> Run; // during RequestData and RequestInformation
-  std::map<int, GatheredType> Gathered;             // by port; none where ranks share the work
+  std::map<int, PortPolicyType> Gathered;           // by port; none where ranks share the work
   bool IsAlone = false;                             // on the first rank, with gathered data
-
-  // What UpdateInputBeforeData updated last.
-  struct vtkUpdated
-  {
-    const vtkAlgorithm* Producer; // compared, never dereferenced
-    int Port;
-    vtkMTimeType Time;
-  };
-  std::map<std::pair<int, int>, vtkUpdated> Updated; // by port and connection
 
   vtkGuardedAlgorithm(const vtkGuardedAlgorithm&) = delete;
   void operator=(const vtkGuardedAlgorithm&) = delete;

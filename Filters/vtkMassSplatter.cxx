@@ -53,8 +53,8 @@ vtkMassSplatter::vtkMassSplatter()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
-  this->ShareAmongRanks(0, true);
-  this->ShareAmongRanks(1, false);
+  this->SetPortPolicy(0, PORT_SHARED_POINTS);
+  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ vtkDataArray* vtkMassSplatter::FindMasses(vtkPointSet* points)
 
 //------------------------------------------------------------------------------
 int vtkMassSplatter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireDimensions(this->Dimensions);
   MassSplatter splatter = this->GetSplatter();
@@ -181,11 +181,6 @@ int vtkMassSplatter::RequestData(
   splatter.Splat.Boundary = static_cast<SplatBoundary>(this->Boundary);
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
-  // On one rank all data are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   vtkPointSet* input = pointSetOf(inputVector[0]);
   auto* reference = requireBlock<vtkImageData>(
     vtkDataObject::GetData(inputVector[1]), "The Reference", "a vtkImageData");

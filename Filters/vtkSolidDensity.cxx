@@ -36,7 +36,7 @@ vtkSolidDensity::vtkSolidDensity()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->ShareAmongRanks(0, true);
+  this->SetPortPolicy(0, PORT_SHARED_POINTS);
 }
 
 //------------------------------------------------------------------------------
@@ -92,7 +92,7 @@ int vtkSolidDensity::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkSolidDensity::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->Supersampling >= 1 && this->Supersampling <= MaximumSupersampling,
     "Supersampling", this->Supersampling, "from 1 to 16");
@@ -101,11 +101,6 @@ int vtkSolidDensity::RequestData(
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // On one rank all data are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   auto* input = requireBlock<vtkPolyData>(vtkDataObject::GetData(inputVector[0]), "The input",
     "a vtkPolyData, as Extract Surface makes one of it");
   const vtkSmartPointer<vtkPointSet> gathered =

@@ -38,7 +38,7 @@ vtkSurfaceSampler::vtkSurfaceSampler()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->GatherOnFirstRank(0, GATHERED_SURFACE);
+  this->SetPortPolicy(0, PORT_GATHERED_SURFACE);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
 
@@ -94,12 +94,6 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
-FlowSettings vtkSurfaceSampler::GetFlowSettings()
-{
-  return flowSettingsOf(*this);
-}
-
-//------------------------------------------------------------------------------
 vtkPolyData* vtkSurfaceSampler::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
@@ -147,10 +141,10 @@ SurfaceDensity vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
 
 //------------------------------------------------------------------------------
 int vtkSurfaceSampler::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   SurfaceSampler sampler{};
-  sampler.Flow = this->GetFlowSettings().Options();
+  sampler.Flow = flowOptionsOf(*this);
   sampler.Corners = *this->Corners;
   sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.Resolution = this->Resolution;
@@ -159,11 +153,6 @@ int vtkSurfaceSampler::RequestData(
   sampler.Check();
   AlgorithmProgress progress(this, this->Threading);
 
-  // All particles are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   const SurfaceInput input(vtkDataObject::GetData(inputVector[0]), progress);
   if (!input.Get())
   {
@@ -188,6 +177,6 @@ void vtkSurfaceSampler::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
   os << indent << "RandomSeed: " << this->RandomSeed << "\n";
   this->Corners->Print(os, indent);
-  this->GetFlowSettings().Print(os, indent);
+  printFlowOptions(*this, os, indent);
 }
 VTK_ABI_NAMESPACE_END

@@ -71,7 +71,6 @@
 namespace RectifiedTransport
 {
 struct CornerSettings;
-struct FlowSettings;
 class SurfaceDensity;
 } // namespace RectifiedTransport
 
@@ -280,7 +279,6 @@ protected:
   int FlowMaps;
 
 private:
-  RectifiedTransport::FlowSettings GetFlowSettings();
   RectifiedTransport::SurfaceDensity FindDensity(vtkPolyData* surface);
 
   std::unique_ptr<RectifiedTransport::CornerSettings> Corners;

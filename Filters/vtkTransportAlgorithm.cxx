@@ -47,15 +47,9 @@ const char* vtkTransportAlgorithm::GetFlowMapsAsString()
 }
 
 //------------------------------------------------------------------------------
-FlowSettings vtkTransportAlgorithm::GetFlowSettings()
-{
-  return flowSettingsOf(*this);
-}
-
-//------------------------------------------------------------------------------
 FlowOptions vtkTransportAlgorithm::GetFlowOptions()
 {
-  return this->GetFlowSettings().Options();
+  return flowOptionsOf(*this);
 }
 
 //------------------------------------------------------------------------------
@@ -63,6 +57,6 @@ void vtkTransportAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Tables: " << this->GetTablesAsString() << "\n";
-  this->GetFlowSettings().Print(os, indent);
+  printFlowOptions(*this, os, indent);
 }
 VTK_ABI_NAMESPACE_END

@@ -20,7 +20,6 @@
 namespace RectifiedTransport
 {
 struct FlowOptions;
-struct FlowSettings;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
@@ -173,8 +172,6 @@ protected:
   int FlowMaps;
 
 private:
-  RectifiedTransport::FlowSettings GetFlowSettings();
-
   vtkTransportAlgorithm(const vtkTransportAlgorithm&) = delete;
   void operator=(const vtkTransportAlgorithm&) = delete;
 };

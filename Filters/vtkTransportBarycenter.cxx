@@ -35,7 +35,7 @@ vtkTransportBarycenter::vtkTransportBarycenter()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(1);
-  this->ShareAmongRanks(0, false);
+  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -99,16 +99,11 @@ int vtkTransportBarycenter::FillInputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportBarycenter::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const BlendSettings settings = this->GetBlendSettings();
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
 
-  // On one rank all data are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   std::vector<BlendInput> inputs = this->ReadInputs(inputVector, nullptr, progress);
   if (inputs.empty())
   {

@@ -42,8 +42,8 @@ vtkTransportInterpolator::vtkTransportInterpolator()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(2);
-  this->ShareAmongRanks(0, false);
-  this->ShareAmongRanks(1, false);
+  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
   vtkTransportInterpolator::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
@@ -178,19 +178,14 @@ int vtkTransportInterpolator::RequestData(
   BlendSettings settings = this->GetBlendSettings();
   settings.AddCost = true;
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
-
-  // On one rank all data are in piece 0, whatever pieces are requested.
-  if (!this->IsLaterPiece(request, outputVector))
+  static const char* const names[] = { "Source", "Target" };
+  std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);
+  if (!inputs.empty())
   {
-    static const char* const names[] = { "Source", "Target" };
-    std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);
-    if (!inputs.empty())
-    {
-      inputs[0].Weight = 1.0 - parameter;
-      inputs[1].Weight = parameter;
-      this->WarnOfMoved(this->Blend->Run(
-        inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector)));
-    }
+    inputs[0].Weight = 1.0 - parameter;
+    inputs[1].Weight = parameter;
+    this->WarnOfMoved(this->Blend->Run(
+      inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector)));
   }
   for (int i = 0; this->PublishTime && i < outputVector->GetNumberOfInformationObjects(); ++i)
   {

@@ -34,7 +34,7 @@ vtkTransportMap::vtkTransportMap()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->ShareAmongRanks(0, false);
+  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -101,7 +101,7 @@ int vtkTransportMap::RequestInformation(
 
 //------------------------------------------------------------------------------
 int vtkTransportMap::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireChoice("Direction", this->Direction, DirectionTexts);
   TransportMap map{};
@@ -112,11 +112,6 @@ int vtkTransportMap::RequestData(
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // On one rank all samples are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {

@@ -46,8 +46,8 @@ vtkTransportQuality::vtkTransportQuality()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->ShareAmongRanks(0, true);
-  this->ShareAmongRanks(1, false);
+  this->SetPortPolicy(0, PORT_SHARED_POINTS);
+  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -98,7 +98,7 @@ int vtkTransportQuality::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportQuality::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   requireThat(this->BlockSize >= 0, "BlockSize", this->BlockSize,
     "at least 1, or 0 for blocks of about 64 particles");
@@ -107,11 +107,6 @@ int vtkTransportQuality::RequestData(
   measure.Tables = tableSetting(this->Tables);
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
-  // The row is in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   vtkPointSet* input = pointSetOf(inputVector[0]);
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)

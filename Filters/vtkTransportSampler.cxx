@@ -36,8 +36,8 @@ vtkTransportSampler::vtkTransportSampler()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->ShareAmongRanks(0, false);
-  this->ShareAmongRanks(1, true);
+  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(1, PORT_SHARED_POINTS);
 }
 
 //------------------------------------------------------------------------------
@@ -89,7 +89,7 @@ int vtkTransportSampler::FillOutputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 int vtkTransportSampler::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* seeds = pointSetOf(inputVector[1]);
   TransportSampler sampler{};
@@ -111,11 +111,6 @@ int vtkTransportSampler::RequestData(
   const Ranks& ranks = this->GetRanks();
   AlgorithmProgress progress(this, this->Threading, ranks);
 
-  // On one rank all particles are in piece 0, whatever pieces are requested.
-  if (this->IsLaterPiece(request, outputVector))
-  {
-    return 1;
-  }
   const std::unique_ptr<InputDensity> density = this->ReadDensity(inputVector, progress);
   if (!density)
   {

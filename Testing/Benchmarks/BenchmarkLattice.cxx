@@ -34,8 +34,8 @@ void latticeFlow(benchmark::State& state)
     }
     else
     {
-      Backward ? flow.BackwardLattice(density.Size, positions, {}, serial)
-               : flow.ForwardLattice(density.Size, positions, {}, serial);
+      Backward ? flow.Backward(FlowSeeds<Dimension>::Lattice(density.Size), positions, {}, serial)
+               : flow.Forward(FlowSeeds<Dimension>::Lattice(density.Size), positions, {}, serial);
     }
     benchmark::DoNotOptimize(positions.data());
   }

@@ -85,8 +85,10 @@ void core(benchmark::State& state, Tables tables, FlowMaps maps)
   Particles<Dimension> particles(density.Values.size());
   const SerialExecutor serial;
   timeFlow(state, density, tables, serial, [&](const RectifiedFlow<Dimension>& flow) {
-    Backward ? flow.BackwardLattice(density.Size, particles, withMaps(maps), serial)
-             : flow.ForwardLattice(density.Size, particles, withMaps(maps), serial);
+    Backward ? flow.Backward(
+                 FlowSeeds<Dimension>::Lattice(density.Size), particles, withMaps(maps), serial)
+             : flow.Forward(
+                 FlowSeeds<Dimension>::Lattice(density.Size), particles, withMaps(maps), serial);
   });
   lattice.Truth.Report(state, particles);
 }

@@ -165,7 +165,7 @@ FlowOptions multistep(int steps, FlowMaps maps)
 FlowOptions adaptive()
 {
   FlowOptions options;
-  options.Method = Integrator::Adaptive;
+  options.Integrator = Integrator::Adaptive;
   return options;
 }
 

@@ -74,8 +74,8 @@ void run(benchmark::State& state, FlowTables tables, FlowDirection direction, in
     resetPeakMemory();
     const double before = peakMemory();
     const RectifiedFlow<3> flow(density, tables);
-    isLattice&& isForward ? flow.ForwardLattice(size, positions, options)
-      : isLattice         ? flow.BackwardLattice(size, positions, options)
+    isLattice&& isForward ? flow.Forward(FlowSeeds<3>::Lattice(size), positions, options)
+      : isLattice         ? flow.Backward(FlowSeeds<3>::Lattice(size), positions, options)
       : isForward         ? flow.Forward(positions, positions, options)
                           : flow.Backward(positions, positions, options);
     state.counters["peak_bytes"] = peakMemory() - before;

@@ -128,7 +128,7 @@ void expectFlow(const GridSize<Dimension>& size)
     digest.Add(valuesOf(runBackward(large, places, options)));
     const auto samples = sizeFor<Dimension>({}, { 64, 32 }, { 13, 15, 7 });
     places.resize(static_cast<std::size_t>(cellCount<Dimension>(samples)));
-    large.ForwardLattice(samples, places, options);
+    large.Forward(FlowSeeds<Dimension>::Lattice(samples), places, options);
     digest.Add(valuesOf(places));
     expectDigest(name + "maps", digest);
   }
@@ -136,8 +136,8 @@ void expectFlow(const GridSize<Dimension>& size)
   const auto lattice = evenSize<Dimension>(Dimension == 1 ? 700 : Dimension == 2 ? 24 : 9);
   Points<Dimension> positions(static_cast<std::size_t>(cellCount<Dimension>(lattice)));
   std::vector<std::int64_t> cells(positions.size());
-  flow.ForwardLattice(lattice, positions);
-  flow.ForwardLatticeToCells(lattice, cells.data());
+  flow.Forward(FlowSeeds<Dimension>::Lattice(lattice), positions);
+  flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(lattice), cells.data());
   std::vector<double> divergence(cells.size());
   std::vector<double> determinant(cells.size());
   MapDerivatives<Dimension>(lattice, evenPoint<Dimension>(0.5), positions)
@@ -189,7 +189,7 @@ void addCells(const GridSize<Dimension>& size, Digest& digest)
   spacing[0] = 1.25;
   std::vector<std::int64_t> labels(static_cast<std::size_t>(cellCount<Dimension>(size)));
   const RectifiedFlow<Dimension> flow(sites);
-  flow.ForwardLatticeToCells(size, labels.data());
+  flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels.data());
   for (std::int64_t& label : labels)
   {
     label = sites.Find(label);

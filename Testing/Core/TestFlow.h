@@ -93,7 +93,7 @@ RectifiedFlow<Dimension> makeFlow(const TestDensity<Dimension>& density)
 inline FlowOptions steps(int count, Integrator method = Integrator::Multistep)
 {
   FlowOptions options;
-  options.Method = method;
+  options.Integrator = method;
   options.NumberOfSteps = count;
   return options;
 }
@@ -107,7 +107,7 @@ inline FlowOptions with(FlowMaps maps, FlowOptions options = {})
 inline FlowOptions adaptive(double tolerance)
 {
   FlowOptions options;
-  options.Method = Integrator::Adaptive;
+  options.Integrator = Integrator::Adaptive;
   options.Tolerance = tolerance;
   return options;
 }

@@ -188,7 +188,7 @@ OTHERS = [
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),
     E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
       "this->NumberOfPoints != 0"),
-    S("Filters/vtkGuardedAlgorithm.cxx", "image->GetPointData()->Initialize();", ";"),
+    S(BRIDGE + "Run/OutputInformation.cxx", "image->GetPointData()->Initialize();", ";"),
     # disks and their parameterization
     E(CORE + "Mesh/DiskMesh.cxx", "if («reached != valence[static_cast<std::size_t>(point)]»)",
       "reached > valence[static_cast<std::size_t>(point)]"),
@@ -233,9 +233,9 @@ OTHERS = [
     E(CORE + "Flow/FlowMap.cxx", "(«isStraight» ? 0 : isBent(axis))", "true"),
     E(CORE + "Flow/FlowMap.cxx", "int relevant = «isTroubled»", "0"),
     E(CORE + "Flow/FlowMapShape.cxx", "return particles * share * saved > «this->Cost»", "0.0"),
-    E(CORE + "Flow/PivotLattice.cxx", "[static_cast<std::size_t>(place)], part, «same», progress", "options"),
+    E(CORE + "Flow/PivotLattice.cxx", "flow.Forward(seeds, part, «same», progress", "options"),
     E(CORE + "Flow/KeptFlowMap.h", "return «steps == this->Of» ?", "true"),
-    E(CORE + "Flow/RectifiedFlow.cxx", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
+    E(CORE + "Flow/WholeEngine.h", "«firstTime < 1.0 - shape.Levels.back().TimeLeft»", "false"),
     # relaxation and power cells
     E(CORE + "Relaxation/RelaxationDescent.cxx", "const double rest = «isAimed» ? 0.0", "false"),
     E(CORE + "Relaxation/TransportRelaxation.cxx", "const double area = «frame.Sides[0] * frame.Sides[1]»",

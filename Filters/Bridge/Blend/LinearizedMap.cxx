@@ -93,8 +93,8 @@ std::int64_t LinearizedMap::Move(
 
   const double begin = progress.StageEnd();
   progress.BeginStage(begin + (1.0 - partOfConversion) * (end - begin));
-  const FlowReport report = transportPivot<D>(flow.Flow<D>(), pivot, this->Settings.Share.First,
-    { positions, particles }, options, progress.Stage());
+  const FlowReport report = transportPivot<D>(flow.Transport<D>(), pivot,
+    this->Settings.Share.First, { positions, particles }, options, progress.Stage());
   progress.BeginStage(end);
   toPhysical<D>(
     this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });

@@ -36,7 +36,7 @@ inline double flow(const FlowOptions& options, int dimension)
 {
   const double evaluation = dimension == 3 ? 60.0 : 15.0;
   return evaluation * options.NumberOfSteps *
-    (options.Method == Integrator::RungeKutta4 ? 4.0 : 1.0);
+    (options.Integrator == Integrator::RungeKutta4 ? 4.0 : 1.0);
 }
 
 } // namespace Cost

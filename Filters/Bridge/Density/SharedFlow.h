@@ -19,6 +19,13 @@ class ContentHash;
 class SharedFlow
 {
 public:
+  // What moves points.
+  template <int D>
+  const PointTransport<D>& Transport() const
+  {
+    return this->Flow<D>();
+  }
+  // The same, and what its tables tell of the density.
   template <int D>
   const RectifiedFlow<D>& Flow() const
   {

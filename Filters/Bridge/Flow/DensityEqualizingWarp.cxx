@@ -78,7 +78,7 @@ public:
     return outside;
   }
 
-  void Flow(const RectifiedFlow<D>& flow, const FlowOptions& options)
+  void Flow(const PointTransport<D>& flow, const FlowOptions& options)
   {
     withMemory(this->Purpose, static_cast<double>(this->Count) * sizeof(std::int64_t), [&]() {
       const PointSpan<D> points(this->Index, this->Count);
@@ -146,7 +146,7 @@ std::int64_t warp(const DensityEqualizingWarp& settings, InputDensity& density, 
   if (settings.Blend > 0.0)
   {
     progress.BeginStage(ends[2]);
-    points.Flow(flow.Flow<D>(), settings.Flow);
+    points.Flow(flow.Transport<D>(), settings.Flow);
   }
   progress.BeginStage(1.0);
   points.Write(settings.Blend, output);

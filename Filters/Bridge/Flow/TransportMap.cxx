@@ -67,10 +67,11 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
   const SharedFlow& shared = cache.Update(density, progress, ends[0], tables);
   const RectifiedFlow<D>& flow = shared.Flow<D>();
   progress.BeginStage(ends[1]);
+  const auto seeds = FlowSeeds<D>::Lattice(lattice, field.Parts());
+  const PointTransport<D>& transport = shared.Transport<D>();
   const FlowReport report = map.Backward
-    ? flow.BackwardLattice(lattice, field.Parts(), field.Positions(), map.Flow, progress.Stage())
-    : flow.ForwardLattice(
-        lattice, field.Parts(), cellCentre<D>(), field.Positions(), map.Flow, progress.Stage());
+    ? transport.Backward(seeds, field.Positions(), map.Flow, progress.Stage())
+    : transport.Forward(seeds, field.Positions(), map.Flow, progress.Stage());
   if (map.Backward)
   {
     prepareShares<D>(flow, field.Whole(), field.Part());

@@ -195,11 +195,11 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
     else if (times.back() == 1.0 && times.size() == 1)
     {
       report.ParticlesMoved =
-        flow.Flow<D>().Forward(seeds, positions, sampler.Flow, progress.Stage()).MovedToMass;
+        flow.Transport<D>().Forward(seeds, positions, sampler.Flow, progress.Stage()).MovedToMass;
     }
     else
     {
-      report.ParticlesMoved = flow.Flow<D>()
+      report.ParticlesMoved = flow.Transport<D>()
                                 .ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage())
                                 .MovedToMass;
     }

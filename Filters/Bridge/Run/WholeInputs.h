@@ -43,6 +43,7 @@ public:
   // Excepts a port; all others are needed whole.
   void Except(int port) { this->Excepted.insert(port); }
   bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
+  bool HasPieces() const { return !this->Excepted.empty(); }
   // Takes pieces of the points on a port, or of any data, where the filter runs on all ranks.
   void Share(int port, bool takesPoints) { this->Shared[port] = takesPoints; }
 

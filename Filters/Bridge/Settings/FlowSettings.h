@@ -19,55 +19,35 @@ constexpr const char* IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler",
 constexpr const char* TableLookupTexts[] = { "Interpolated", "Nearest" };
 constexpr const char* FlowMapsTexts[] = { "Auto", "On", "Off" };
 
-struct FlowSettings
-{
-  int Integrator;
-  int NumberOfSteps;
-  double Tolerance;
-  int TableLookup;
-  int FlowMaps;
-
-  // Throws Failure for values out of range.
-  FlowOptions Options() const
-  {
-    constexpr int most = FlowOptions::MaximumNumberOfSteps;
-    requireChoice("Integrator", this->Integrator, IntegratorTexts);
-    requireThat(this->NumberOfSteps >= 1 && this->NumberOfSteps <= most, "NumberOfSteps",
-      this->NumberOfSteps, "from 1 to 10000");
-    requireThat(this->Tolerance > 0.0 && std::isfinite(this->Tolerance), "Tolerance",
-      this->Tolerance, "a positive number of cells");
-    requireChoice("TableLookup", this->TableLookup, TableLookupTexts);
-    requireChoice("FlowMaps", this->FlowMaps, FlowMapsTexts);
-    FlowOptions options;
-    options.Method = static_cast<RectifiedTransport::Integrator>(this->Integrator);
-    options.NumberOfSteps = this->NumberOfSteps;
-    options.Tolerance = this->Tolerance;
-    options.Lookup = static_cast<RectifiedTransport::TableLookup>(this->TableLookup);
-    options.Maps = static_cast<RectifiedTransport::FlowMaps>(this->FlowMaps);
-    return options;
-  }
-
-  void Print(std::ostream& os, vtkIndent indent) const
-  {
-    os << indent << "Integrator: " << choiceText(IntegratorTexts, this->Integrator) << "\n";
-    os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-    os << indent << "Tolerance: " << this->Tolerance << "\n";
-    os << indent << "TableLookup: " << choiceText(TableLookupTexts, this->TableLookup) << "\n";
-    os << indent << "FlowMaps: " << choiceText(FlowMapsTexts, this->FlowMaps) << "\n";
-  }
-};
-
-// The properties of a filter that has them all.
+// Of a filter that has these properties. Throws Failure for values out of range.
 template <class Filter>
-FlowSettings flowSettingsOf(Filter& filter)
+FlowOptions flowOptionsOf(Filter& filter)
 {
-  FlowSettings settings{};
-  settings.Integrator = filter.GetIntegrator();
-  settings.NumberOfSteps = filter.GetNumberOfSteps();
-  settings.Tolerance = filter.GetTolerance();
-  settings.TableLookup = filter.GetTableLookup();
-  settings.FlowMaps = filter.GetFlowMaps();
-  return settings;
+  constexpr int most = FlowOptions::MaximumNumberOfSteps;
+  requireChoice("Integrator", filter.GetIntegrator(), IntegratorTexts);
+  requireThat(filter.GetNumberOfSteps() >= 1 && filter.GetNumberOfSteps() <= most, "NumberOfSteps",
+    filter.GetNumberOfSteps(), "from 1 to 10000");
+  requireThat(filter.GetTolerance() > 0.0 && std::isfinite(filter.GetTolerance()), "Tolerance",
+    filter.GetTolerance(), "a positive number of cells");
+  requireChoice("TableLookup", filter.GetTableLookup(), TableLookupTexts);
+  requireChoice("FlowMaps", filter.GetFlowMaps(), FlowMapsTexts);
+  FlowOptions options;
+  options.Integrator = static_cast<Integrator>(filter.GetIntegrator());
+  options.NumberOfSteps = filter.GetNumberOfSteps();
+  options.Tolerance = filter.GetTolerance();
+  options.Lookup = static_cast<TableLookup>(filter.GetTableLookup());
+  options.Maps = static_cast<FlowMaps>(filter.GetFlowMaps());
+  return options;
+}
+
+template <class Filter>
+void printFlowOptions(Filter& filter, std::ostream& os, vtkIndent indent)
+{
+  os << indent << "Integrator: " << filter.GetIntegratorAsString() << "\n";
+  os << indent << "NumberOfSteps: " << filter.GetNumberOfSteps() << "\n";
+  os << indent << "Tolerance: " << filter.GetTolerance() << "\n";
+  os << indent << "TableLookup: " << filter.GetTableLookupAsString() << "\n";
+  os << indent << "FlowMaps: " << filter.GetFlowMapsAsString() << "\n";
 }
 
 } // namespace RectifiedTransport

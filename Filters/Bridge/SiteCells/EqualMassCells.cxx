@@ -248,7 +248,7 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
           progress.BeginStage(0.95);
           return { makeLabels<D>(grid, bytesOfLabellingByMass<D>(grid),
                      [&](std::int64_t* values) {
-                       placed.Label(flow.Flow<D>(), values, cells.Flow, progress.Stage());
+                       placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
                      }),
             nullptr };
         })

@@ -53,7 +53,7 @@ double coarseRatio(const FlowOptions& options, AdvectionKind kind)
 {
   constexpr double never = 1e12;
   constexpr double usual = Dimension == 3 ? 32.0 : 16.0;
-  const bool adaptive = options.Method == Integrator::Adaptive;
+  const bool adaptive = options.Integrator == Integrator::Adaptive;
   const bool exact = adaptive ? options.Tolerance < 0.003 : options.NumberOfSteps >= 128;
   const bool accurate = kind == AdvectionKind::ForwardToCells ||
     (adaptive ? options.Tolerance < 0.03 : options.NumberOfSteps >= 48);
@@ -70,7 +70,7 @@ inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
   }
   constexpr int enough = 128;
   int refinement = 0;
-  while (options.Method != Integrator::Adaptive && refinement < refinements &&
+  while (options.Integrator != Integrator::Adaptive && refinement < refinements &&
     (options.NumberOfSteps << refinement) < enough)
   {
     ++refinement;
@@ -89,14 +89,14 @@ public:
   {
     check(options);
     this->Job.Tables = tables;
-    this->Job.Method = options.Method;
+    this->Job.Integrator = options.Integrator;
     this->Job.Backward = kind == AdvectionKind::Backward;
     this->Job.Nearest = options.Lookup == TableLookup::Nearest;
     const double longest = *std::max_element(tables.Size, tables.Size + Dimension);
     this->Job.Tolerance = std::max(options.Tolerance, finestTolerance * longest);
     this->Job.Steps = std::int64_t{ options.NumberOfSteps } << this->Refinement;
     this->Job.CoarseRatio = coarseRatio<Dimension>(options, kind);
-    if (options.Method == Integrator::Multistep)
+    if (options.Integrator == Integrator::Multistep)
     {
       this->Weights.reserve(static_cast<std::size_t>(this->Job.Steps));
       for (std::int64_t step = 0; step < this->Job.Steps; ++step)

@@ -5,6 +5,7 @@
 #define RectifiedTransport_AdvectionRun_h
 
 #include "Core/Flow/AdvectionJob.h"
+#include "Core/Flow/Compaction.h"
 #include "Core/Flow/FlowMap.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
@@ -99,16 +100,14 @@ public:
       bool unresolved[BlockSize] = {};
       this->Count.Evaluations += this->Advect(
         this->Job, this->Seeds + first * Dimension, this->Index + first, lanes, pass, unresolved);
-      for (int i = 0; i < lanes; ++i)
-      {
-        if (unresolved[i])
-        {
-          this->Index[this->Number] = this->Index[first + i];
+      const int before = this->Number;
+      this->Number += compact(
+        lanes, [&](int i) { return unresolved[i]; },
+        [&](int i, int place) {
+          this->Index[before + place] = this->Index[first + i];
           std::copy_n(this->Seeds + (first + i) * Dimension, Dimension,
-            this->Seeds + this->Number * Dimension);
-          ++this->Number;
-        }
-      }
+            this->Seeds + (before + place) * Dimension);
+        });
     }
     if (pass == 0)
     {
@@ -199,17 +198,13 @@ private:
     this->Work.Threads().For(count, BlockSize, [&advect](std::int64_t first, std::int64_t last) {
       forGrains(first, last, BlockSize, advect);
     });
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < this->Index.size(); ++i)
-    {
-      if (this->IsUnresolved[i])
-      {
-        this->Index[left] = this->Index[i];
+    const std::size_t left = compact(
+      this->Index.size(), [&](std::size_t i) { return this->IsUnresolved[i] != 0; },
+      [&](std::size_t i, std::size_t place) {
+        this->Index[place] = this->Index[i];
         std::copy_n(
-          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + left * Dimension);
-        ++left;
-      }
-    }
+          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + place * Dimension);
+      });
     this->Index.resize(left);
   }
 

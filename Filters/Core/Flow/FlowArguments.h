@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_FlowArguments_h
 #define RectifiedTransport_FlowArguments_h
 
+#include "Core/Flow/FlowSeeds.h"
 #include "Core/Flow/LatticeOrder.h"
 #include "Core/Geometry/CountText.h"
 #include "Core/Geometry/GridSize.h"
@@ -87,16 +88,20 @@ void check(const LatticeParts<Dimension>& parts, const LatticePart<Dimension>& p
 }
 
 template <int Dimension>
-LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
-  const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
-  const GridSize<Dimension>& size, std::int64_t positions)
+LatticeOrder<Dimension> checkedOrder(
+  const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size, std::int64_t positions)
 {
-  check<Dimension>(lattice, "a lattice");
-  for (const LatticePart<Dimension>& part : parts.Parts)
+  const GridSize<Dimension>& lattice = seeds.Cells();
+  if (seeds.IsWholeLattice())
   {
-    check<Dimension>(parts, part, lattice, positions);
+    checkCount(positions, numberOfCells<Dimension>(lattice));
   }
-  for (const double coordinate : place)
+  check<Dimension>(lattice, "a lattice");
+  for (const LatticePart<Dimension>& part : seeds.Parts().Parts)
+  {
+    check<Dimension>(seeds.Parts(), part, lattice, positions);
+  }
+  for (const double coordinate : seeds.Place())
   {
     if (!(coordinate >= 0.0 && coordinate <= 1.0))
     {
@@ -104,7 +109,7 @@ LatticeOrder<Dimension> checkedOrder(const GridSize<Dimension>& lattice,
         std::to_string(coordinate) + ", it must be from 0 to 1");
     }
   }
-  return LatticeOrder<Dimension>(lattice, parts, size, place);
+  return LatticeOrder<Dimension>(lattice, seeds.Parts(), size, seeds.Place());
 }
 
 } // namespace RectifiedTransport

@@ -54,7 +54,7 @@ bool isAfterStart(FlowDirection direction, int handOver, int steps);
 // Whether the method of the options can start from flow maps.
 inline bool takesFlowMaps(const FlowOptions& options)
 {
-  return options.Method == Integrator::Multistep && options.Lookup == TableLookup::Interpolated;
+  return options.Integrator == Integrator::Multistep && options.Lookup == TableLookup::Interpolated;
 }
 
 // Options, which must be valid, with Auto replaced by what it means for so many particles, On or

@@ -41,7 +41,7 @@ struct FlowOptions
 {
   static constexpr int MaximumNumberOfSteps = 10000;
 
-  Integrator Method = Integrator::Multistep;
+  RectifiedTransport::Integrator Integrator = RectifiedTransport::Integrator::Multistep;
   int NumberOfSteps = 32; // of the fixed-step methods, 1 to 10000
   // Error of a step in grid cells, Adaptive only, > 0; raised to 2^-40 of the domain's longest
   // side.
@@ -51,7 +51,7 @@ struct FlowOptions
 
   bool operator==(const FlowOptions& other) const
   {
-    return this->Method == other.Method && this->NumberOfSteps == other.NumberOfSteps &&
+    return this->Integrator == other.Integrator && this->NumberOfSteps == other.NumberOfSteps &&
       this->Tolerance == other.Tolerance && this->Lookup == other.Lookup &&
       this->Maps == other.Maps;
   }

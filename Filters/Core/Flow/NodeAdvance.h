@@ -4,6 +4,7 @@
 #ifndef RectifiedTransport_NodeAdvance_h
 #define RectifiedTransport_NodeAdvance_h
 
+#include "Core/Flow/Compaction.h"
 #include "Core/Flow/Kernels/FlowKernels.h"
 #include "Core/Parallel/Progress.h"
 
@@ -74,13 +75,9 @@ private:
         }
       },
       blocks * BlockSize);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < left.size(); ++i)
-    {
-      left[kept] = left[i];
-      kept += deferred[i];
-    }
-    left.resize(kept);
+    left.resize(compact(
+      left.size(), [&](std::size_t i) { return deferred[i] != 0; },
+      [&](std::size_t i, std::size_t place) { left[place] = left[i]; }));
     return evaluations;
   }
 

@@ -16,12 +16,12 @@
 #ifndef RectifiedTransport_RectifiedFlow_h
 #define RectifiedTransport_RectifiedFlow_h
 
-#include "../Geometry/LatticePart.h"
 #include "../Parallel/Context.h"
 #include "../Tables/Density.h"
 #include "FlowOptions.h"
 #include "FlowTables.h"
 #include "NoMemoryForFlowMap.h"
+#include "PointTransport.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,6 +29,9 @@
 
 namespace RectifiedTransport
 {
+
+template <int Dimension>
+class FlowEngine;
 
 // The summed-area tables of one density and the flow that they define. Construction costs
 // O(cells), an advection O(particles * steps * 2^Dimension). Const members may run concurrently.
@@ -39,7 +42,7 @@ namespace RectifiedTransport
 // std::invalid_argument (options, sizes), std::bad_alloc (NoMemoryForFlowMap where FlowMaps::Off
 // may do) and Cancelled.
 template <int Dimension>
-class RectifiedFlow
+class RectifiedFlow final : public PointTransport<Dimension>
 {
 public:
   explicit RectifiedFlow(
@@ -56,11 +59,11 @@ public:
   // with time. Takes about half the time that new memory takes, and never allocates both tables.
   RectifiedFlow(const DensitySource<Dimension>& density, RectifiedFlow&& previous,
     const Context& context = Context());
-  ~RectifiedFlow();
+  ~RectifiedFlow() override;
   RectifiedFlow(RectifiedFlow&&) noexcept;
   RectifiedFlow& operator=(RectifiedFlow&&) noexcept;
 
-  const GridSize<Dimension>& Size() const;
+  const GridSize<Dimension>& Size() const override { return this->Cells; }
   double Total() const;                  // sum of the density over the cells
   const DensitySummary& Summary() const; // of the density's values
   Point<Dimension> Centroid() const;     // of the density
@@ -94,59 +97,26 @@ public:
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
     const double* shares, double* measures, const Context& context = Context()) const;
 
-  // Advects points of time 0 (uniform) to time 1 (distributed like the density). There are as many
-  // positions as seeds, and both may be in the same memory. Points outside the box are clamped to
-  // its border.
-  FlowReport Forward(ConstPointSpan<Dimension> seeds, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-
-  // The positions at several times of [0,1], ascending, from one run: all times of a particle
-  // together.
-  FlowReport ForwardAt(ConstPointSpan<Dimension> seeds, const std::vector<double>& times,
+  bool Serves(TransportUse use) const override;
+  FlowReport Forward(const FlowSeeds<Dimension>& seeds, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context()) const override;
+  FlowReport Backward(const FlowSeeds<Dimension>& points, PointSpan<Dimension> positions,
+    const FlowOptions& options = {}, const Context& context = Context()) const override;
+  FlowReport ForwardAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
     PointSpan<Dimension> positions, const FlowOptions& options = {},
-    const Context& context = Context()) const;
-
-  // Advects points of time 1 back to time 0: the inverse map, density to uniform.
-  FlowReport Backward(ConstPointSpan<Dimension> points, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-
-  // The same for the centres of a grid of cells that fill the box, axis 0 fastest; cells along an
-  // axis: 1 to 2^30. It needs neither an array of points nor a sort. Forwards also for the points
-  // at another `place` in the cells, in [0,1].
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice, const Point<Dimension>& place,
-    PointSpan<Dimension> positions, const FlowOptions& options = {},
-    const Context& context = Context()) const;
-  FlowReport BackwardLattice(const GridSize<Dimension>& lattice, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-  // The same for parts of a lattice: each position as if for all of it.
-  FlowReport ForwardLattice(const GridSize<Dimension>& lattice,
-    const LatticeParts<Dimension>& parts, const Point<Dimension>& place,
-    PointSpan<Dimension> positions, const FlowOptions& options = {},
-    const Context& context = Context()) const;
-  FlowReport BackwardLattice(const GridSize<Dimension>& lattice,
-    const LatticeParts<Dimension>& parts, PointSpan<Dimension> positions,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-
-  // Forwards, but writes of each sample only the number, axis 0 fastest, of the density's cell with
-  // mass that it ends in. For densities of isolated cells, which most particles miss at first:
-  // fewer than 128 steps become up to 32 times as many in the first pass.
-  FlowReport ForwardLatticeToCells(const GridSize<Dimension>& lattice, std::int64_t* cells,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
-  // The same for any points: a number for each.
-  FlowReport ForwardToCells(ConstPointSpan<Dimension> seeds, std::int64_t* cells,
-    const FlowOptions& options = {}, const Context& context = Context()) const;
+    const Context& context = Context()) const override;
+  FlowReport ForwardToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
+    const FlowOptions& options = {}, const Context& context = Context()) const override;
 
 private:
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  GridSize<Dimension> Cells;
+  std::unique_ptr<FlowEngine<Dimension>> Engine;
 };
 
 // One-off: builds the tables, transports the points, releases the tables.
 template <int Dimension>
 std::vector<Point<Dimension>> transportPoints(const DensitySource<Dimension>& density,
-  ConstPointSpan<Dimension> seeds, const FlowOptions& options = {},
+  const FlowSeeds<Dimension>& seeds, const FlowOptions& options = {},
   const Context& context = Context());
 
 } // namespace RectifiedTransport

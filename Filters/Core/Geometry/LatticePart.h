@@ -23,7 +23,11 @@ struct LatticePart
 
   // Where it ends along an axis: the cell after its last one.
   std::int64_t End(int axis) const { return this->Low[axis] + this->Cells[axis]; }
-  bool IsEmpty() const { return this->Count() == 0; }
+  bool IsEmpty() const
+  {
+    return std::any_of(
+      this->Cells.begin(), this->Cells.end(), [](std::int64_t cells) { return cells <= 0; });
+  }
 
   std::int64_t Count() const
   {
@@ -73,9 +77,9 @@ struct LatticePart
   // The smallest part that contains both.
   LatticePart With(const LatticePart& other) const
   {
-    if (this->Count() == 0 || other.Count() == 0)
+    if (this->IsEmpty() || other.IsEmpty())
     {
-      return other.Count() == 0 ? *this : other;
+      return other.IsEmpty() ? *this : other;
     }
     LatticePart both;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -100,7 +104,7 @@ struct LatticePart
   // The part with one more layer of cells on each side, where the lattice has them.
   LatticePart Around(const GridSize<Dimension>& lattice) const
   {
-    if (this->Count() == 0)
+    if (this->IsEmpty())
     {
       return *this;
     }

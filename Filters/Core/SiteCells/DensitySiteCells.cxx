@@ -129,7 +129,7 @@ DensitySiteCells<Dimension>::DensitySiteCells(ConstPointSpan<3> sites, const Ima
 }
 
 template <int Dimension>
-void DensitySiteCells<Dimension>::Label(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
+void DensitySiteCells<Dimension>::Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
   const FlowOptions& options, const Context& context) const
 {
   if constexpr (Dimension == 1)
@@ -180,7 +180,7 @@ void DensitySiteCells<Dimension>::LabelIntervals(std::int64_t* labels) const
 
 // Labels pixels by groups of the sites that the map takes into one pixel.
 template <int Dimension>
-SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimension>& flow,
+SiteGroups DensitySiteCells<Dimension>::LabelGroups(const PointTransport<Dimension>& flow,
   std::int64_t* labels, const FlowOptions& options, const Context& context) const
 {
   const GridSize<Dimension> size = this->Masses().Size();
@@ -203,7 +203,8 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
     LargeBuffer<double> memory(pixels * Dimension);
     const PointSpan<Dimension> positions(memory.data(), pixels);
     progress.BeginStage(0.2);
-    flow.BackwardLattice(size, positions, refined(options), progress.Stage());
+    flow.Backward(
+      FlowSeeds<Dimension>::Lattice(size), positions, refined(options), progress.Stage());
     progress.BeginStage(0.21);
     rescale<Dimension>(positions, flow.Size(), size, progress);
     progress.BeginStage(0.23);
@@ -224,7 +225,7 @@ SiteGroups DensitySiteCells<Dimension>::LabelGroups(const RectifiedFlow<Dimensio
 // Where the mass of several groups lies in one pixel, only one of them has got it. The others join
 // it, and divide the pixels of all of them.
 template <int Dimension>
-void DensitySiteCells<Dimension>::MergeGroups(const RectifiedFlow<Dimension>& flow,
+void DensitySiteCells<Dimension>::MergeGroups(const PointTransport<Dimension>& flow,
   const std::vector<Point<Dimension>>& even, SiteGroups& groups, std::int64_t* labels,
   const FlowOptions& options, const Context& context) const
 {

@@ -26,7 +26,7 @@ namespace RectifiedTransport
 {
 
 template <int Dimension>
-class RectifiedFlow;
+class PointTransport;
 
 // Thrown where there are more sites than pixels with mass.
 class TooFewPixels : public std::invalid_argument
@@ -62,14 +62,14 @@ public:
   // Masses are equal to about that of the heaviest pixel. In 1D cells are intervals in the order of
   // the sites, and the flow does not count. Takes about 50 and 57 bytes a pixel in 2D and 3D
   // meanwhile. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
-  void Label(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
+  void Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 
 private:
   void LabelIntervals(std::int64_t* labels) const;
-  SiteGroups LabelGroups(const RectifiedFlow<Dimension>& flow, std::int64_t* labels,
+  SiteGroups LabelGroups(const PointTransport<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options, const Context& context) const;
-  void MergeGroups(const RectifiedFlow<Dimension>& flow, const std::vector<Point<Dimension>>& even,
+  void MergeGroups(const PointTransport<Dimension>& flow, const std::vector<Point<Dimension>>& even,
     SiteGroups& groups, std::int64_t* labels, const FlowOptions& options,
     const Context& context) const;
 

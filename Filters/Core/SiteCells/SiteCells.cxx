@@ -64,7 +64,7 @@ void SiteCells<Dimension>::Label(
     progress.BeginStage(0.03);
     const RectifiedFlow<Dimension> flow(sites, progress.Stage());
     progress.BeginStage(0.93);
-    flow.ForwardLatticeToCells(size, labels, options, progress.Stage());
+    flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(size), labels, options, progress.Stage());
     progress.BeginStage(0.95);
     progress.For(pixels, grain, [&](std::int64_t first, std::int64_t last) {
       std::transform(labels + first, labels + last, labels + first,

@@ -222,8 +222,14 @@ TEST(Errors, NumbersOfPositions)
     expectBoth(refusal([&]() { flow.Forward(seeds, first(wrong)); }), "17");
     expectBoth(refusal([&]() { flow.Backward(seeds, first(wrong)); }), "17");
     expectBoth(refusal([&]() { flow.ForwardAt(seeds, times, first(wrong)); }), "51");
-    expectBoth(refusal([&]() { flow.ForwardLattice({ 4, 5 }, first(wrong)); }), "20");
-    expectBoth(refusal([&]() { flow.BackwardLattice({ 4, 5 }, first(wrong)); }), "20");
+    expectBoth(refusal([&]() {
+      flow.Forward(FlowSeeds<2>::Lattice({ 4, 5 }), first(wrong));
+    }),
+      "20");
+    expectBoth(refusal([&]() {
+      flow.Backward(FlowSeeds<2>::Lattice({ 4, 5 }), first(wrong));
+    }),
+      "20");
   }
   EXPECT_EQ(room, Points<2>(60, Point<2>{ -7.0, -7.0 }));
 }

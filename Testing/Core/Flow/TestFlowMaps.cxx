@@ -103,9 +103,9 @@ TYPED_TEST(FlowMapRun, LatticeIsItsPoints)
   {
     const Points<D> centres = latticePoints<D>(density.Size, lattice);
     Points<D> positions(centres.size());
-    flow.ForwardLattice(lattice, positions, usual<D>(FlowMaps::On));
+    flow.Forward(FlowSeeds<D>::Lattice(lattice), positions, usual<D>(FlowMaps::On));
     EXPECT_TRUE(sameBits<D>(positions, runForward(flow, centres, usual<D>(FlowMaps::On))));
-    flow.BackwardLattice(lattice, positions, usual<D>(FlowMaps::On));
+    flow.Backward(FlowSeeds<D>::Lattice(lattice), positions, usual<D>(FlowMaps::On));
     EXPECT_TRUE(sameBits<D>(positions, runBackward(flow, centres, usual<D>(FlowMaps::On))));
   }
 }

@@ -83,7 +83,7 @@ void expectSameBits(const TestDensity<Dimension>& density)
       {
         FlowJob<Dimension> job{};
         job.Tables = tables.View();
-        job.Method = method;
+        job.Integrator = method;
         job.Backward = back;
         job.Nearest = nearest;
         job.Tolerance = 0.01;

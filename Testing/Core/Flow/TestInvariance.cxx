@@ -63,7 +63,7 @@ std::vector<FlowOptions> allOptions()
 
 std::string describe(const FlowOptions& options)
 {
-  return nameOf(options.Method) + ", " + nameOf(options.Maps);
+  return nameOf(options.Integrator) + ", " + nameOf(options.Maps);
 }
 
 template <class T>

@@ -20,8 +20,8 @@ Points<Dimension> runLattice(const RectifiedFlow<Dimension>& flow,
   const Context& context = Context())
 {
   Points<Dimension> positions(cellCount<Dimension>(lattice));
-  backward ? flow.BackwardLattice(lattice, positions, options, context)
-           : flow.ForwardLattice(lattice, positions, options, context);
+  backward ? flow.Backward(FlowSeeds<Dimension>::Lattice(lattice), positions, options, context)
+           : flow.Forward(FlowSeeds<Dimension>::Lattice(lattice), positions, options, context);
   return positions;
 }
 
@@ -182,8 +182,10 @@ TEST(Lattice, WrongSizes)
     { std::int64_t{ 0 }, std::int64_t{ -4 }, std::int64_t{ 1 } << 31 })
   {
     const PointSpan<2> positions(&nothing, 4 * cells);
-    EXPECT_THROW(flow.ForwardLattice({ 4, cells }, positions), std::invalid_argument);
-    EXPECT_THROW(flow.BackwardLattice({ cells, 4 }, positions), std::invalid_argument);
+    EXPECT_THROW(
+      flow.Forward(FlowSeeds<2>::Lattice({ 4, cells }), positions), std::invalid_argument);
+    EXPECT_THROW(
+      flow.Backward(FlowSeeds<2>::Lattice({ cells, 4 }), positions), std::invalid_argument);
   }
 }
 
@@ -195,10 +197,12 @@ TEST(Lattice, Cancel)
   const SerialExecutor serial;
   const Context cancelled(
     serial, [&last](double progress) { last = progress; }, []() { return true; });
-  EXPECT_THROW(flow.ForwardLattice({ 200, 200 }, positions, {}, cancelled), Cancelled);
+  EXPECT_THROW(
+    flow.Forward(FlowSeeds<2>::Lattice({ 200, 200 }), positions, {}, cancelled), Cancelled);
   EXPECT_LT(last, 0.9);
   last = 0.0;
-  EXPECT_THROW(flow.BackwardLattice({ 200, 200 }, positions, {}, cancelled), Cancelled);
+  EXPECT_THROW(
+    flow.Backward(FlowSeeds<2>::Lattice({ 200, 200 }), positions, {}, cancelled), Cancelled);
   EXPECT_LT(last, 0.9);
 }
 

@@ -133,11 +133,11 @@ std::vector<double> measureRatios(std::int64_t side, bool backward)
   Points<Dimension> positions(samples.size());
   if (backward)
   {
-    flow.BackwardLattice(size, positions, adaptive(0.0001));
+    flow.Backward(FlowSeeds<Dimension>::Lattice(size), positions, adaptive(0.0001));
   }
   else
   {
-    flow.ForwardLattice(size, positions, adaptive(0.0001));
+    flow.Forward(FlowSeeds<Dimension>::Lattice(size), positions, adaptive(0.0001));
   }
   const Derivatives found = derive<Dimension>(size, size, positions);
   const double mean = flow.Total() / static_cast<double>(samples.size());

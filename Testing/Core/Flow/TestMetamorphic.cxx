@@ -258,8 +258,8 @@ TEST(Metamorphic, ConstantAxis)
   const Points<2> flatPositions = runForward(makeFlow(density), flatSeeds, options);
   for (std::size_t i = 0; i < seeds.size(); ++i)
   {
-    EXPECT_NEAR(positions[i][0], flatPositions[i][0], rounding(options.Method));
-    EXPECT_NEAR(positions[i][1], flatPositions[i][1], rounding(options.Method));
+    EXPECT_NEAR(positions[i][0], flatPositions[i][0], rounding(options.Integrator));
+    EXPECT_NEAR(positions[i][1], flatPositions[i][1], rounding(options.Integrator));
   }
 }
 

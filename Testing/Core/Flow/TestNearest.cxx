@@ -51,7 +51,7 @@ template <int Dimension>
 void expectTranscription(const TestDensity<Dimension>& density, int count)
 {
   FlowOptions options = nearest(count);
-  options.Method = Integrator::Euler;
+  options.Integrator = Integrator::Euler;
   const Paper::Tables<Dimension> tables = Paper::buildTables(density.Values, density.Size);
   Points<Dimension> points = randomPoints<Dimension>(density.Size, 1000);
   const Points<Dimension> actual = runForward(makeFlow(density), points, options);

@@ -235,9 +235,9 @@ TEST(PivotLattice, ReportsOfAllPlaces)
   FlowReport sum;
   for (std::int64_t place = 0; place < 3; ++place)
   {
-    const FlowReport part =
-      flow.ForwardLattice(pivot.Lattice, pivot.Places[static_cast<std::size_t>(place)],
-        PointSpan<2>(positions).Part(place * each, each), few);
+    const FlowReport part = flow.Forward(
+      FlowSeeds<2>::Lattice(pivot.Lattice, pivot.Places[static_cast<std::size_t>(place)]),
+      PointSpan<2>(positions).Part(place * each, each), few);
     EXPECT_GT(part.MovedToMass, 0);
     sum.Redone += part.Redone;
     sum.MovedToMass += part.MovedToMass;

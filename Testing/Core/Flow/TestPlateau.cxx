@@ -36,7 +36,7 @@ TYPED_TEST(Plateau, EndsEarly)
   const auto lattice = evenSize<D>(D == 1 ? 4096 : 32); // of many blocks of neighbours
   Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
   const RectifiedFlow<D> flow(shape.Source());
-  const FlowReport report = flow.ForwardLattice(lattice, positions);
+  const FlowReport report = flow.Forward(FlowSeeds<D>::Lattice(lattice), positions);
   EXPECT_LT(report.Evaluations, 30 * cellCount<D>(lattice));
 }
 
@@ -54,7 +54,7 @@ TEST(PlateauTolerance, IsThatOfRounding)
     const RectifiedFlow<2> flow(density.Source());
     FlowOptions options;
     options.Maps = FlowMaps::Off;
-    return flow.ForwardLattice({ 100, 100 }, positions, options).Evaluations;
+    return flow.Forward(FlowSeeds<2>::Lattice({ 100, 100 }), positions, options).Evaluations;
   };
   EXPECT_LT(evaluations(shape), 28 * 10000);
   for (std::size_t i = 0; i < shape.Values.size(); ++i)
@@ -75,7 +75,7 @@ TYPED_TEST(Plateau, IsTheScaling)
   options.NumberOfSteps = 64;
   const auto lattice = evenSize<D>(16);
   Points<D> positions(static_cast<std::size_t>(cellCount<D>(lattice)));
-  flow.ForwardLattice(lattice, positions, options);
+  flow.Forward(FlowSeeds<D>::Lattice(lattice), positions, options);
   for (std::int64_t i = 0; i < cellCount<D>(lattice); ++i)
   {
     const GridSize<D> cell = cellAt<D>(i, lattice);

@@ -145,10 +145,10 @@ TYPED_TEST(Tiles, LatticesAndOrdersAreTheSamePoints)
     SCOPED_TRACE(nameOf(maps));
     const FlowOptions options = with(maps, steps(24));
     const Points<D> forward = runForward(flow, seeds, options);
-    flow.ForwardLattice(lattice, positions, options);
+    flow.Forward(FlowSeeds<D>::Lattice(lattice), positions, options);
     EXPECT_TRUE(sameBits<D>(forward, positions));
     const Points<D> backward = runBackward(flow, seeds, options);
-    flow.BackwardLattice(lattice, positions, options);
+    flow.Backward(FlowSeeds<D>::Lattice(lattice), positions, options);
     EXPECT_TRUE(sameBits<D>(backward, positions));
 
     Points<D> reversed(seeds.rbegin(), seeds.rend());
@@ -210,8 +210,9 @@ TYPED_TEST(Tiles, RedoWhatMeetsEmptyBoxes)
       const FlowOptions options = with(maps, steps(24));
       Points<D> expected(static_cast<std::size_t>(cellCount<D>(lattice)));
       Points<D> found(expected.size());
-      const FlowReport wholeReport = whole.ForwardLattice(lattice, expected, options);
-      const FlowReport report = tiled.ForwardLattice(lattice, found, options);
+      const FlowReport wholeReport =
+        whole.Forward(FlowSeeds<D>::Lattice(lattice), expected, options);
+      const FlowReport report = tiled.Forward(FlowSeeds<D>::Lattice(lattice), found, options);
       redone += report.Redone;
       EXPECT_LE(report.MovedToMass, 2 * wholeReport.MovedToMass + 20);
       std::size_t far = 0;
@@ -243,9 +244,10 @@ TEST(TilesOfIslands, RedoWhatMeetsEmptyBoxesBefore)
   const FlowOptions options = with(FlowMaps::On, steps(24));
   const GridSize<2> lattice = evenSize<2>(60);
   Points<2> found(static_cast<std::size_t>(cellCount<2>(lattice)));
-  const FlowReport whole = makeFlow(islands).ForwardLattice(lattice, found, options);
+  const FlowReport whole =
+    makeFlow(islands).Forward(FlowSeeds<2>::Lattice(lattice), found, options);
   const TiledRun<2> run(islands, smallTiles<2>());
-  const FlowReport tiled = run.Flow.ForwardLattice(lattice, found, options);
+  const FlowReport tiled = run.Flow.Forward(FlowSeeds<2>::Lattice(lattice), found, options);
   EXPECT_GT(tiled.Redone, whole.Redone * 5 / 6);
 }
 
@@ -378,8 +380,9 @@ TYPED_TEST(Tiles, ReportAndStop)
         const RectifiedFlow<D>& flow = tiled.Flow;
         recording.Reported.clear();
         const FlowOptions options = with(maps, steps(24));
-        isBackward ? flow.BackwardLattice(lattice, positions, options, recording.Context())
-                   : flow.ForwardLattice(lattice, positions, options, recording.Context());
+        isBackward
+          ? flow.Backward(FlowSeeds<D>::Lattice(lattice), positions, options, recording.Context())
+          : flow.Forward(FlowSeeds<D>::Lattice(lattice), positions, options, recording.Context());
       };
       run();
       recording.ExpectReported(0.0, 1.0);
@@ -420,10 +423,11 @@ TYPED_TEST(Tiles, TakeTheMemoryForetold)
           const MemoryLimit limit(static_cast<std::int64_t>(bytes));
           const TiledRun<D> tiled(density, limits, context);
           const RectifiedFlow<D>& flow = tiled.Flow;
-          isLattice&& isForward ? flow.ForwardLattice(lattice, positions, options, context)
-            : isLattice         ? flow.BackwardLattice(lattice, positions, options, context)
-            : isForward         ? flow.Forward(positions, positions, options, context)
-                                : flow.Backward(positions, positions, options, context);
+          isLattice&& isForward
+            ? flow.Forward(FlowSeeds<D>::Lattice(lattice), positions, options, context)
+            : isLattice ? flow.Backward(FlowSeeds<D>::Lattice(lattice), positions, options, context)
+            : isForward ? flow.Forward(positions, positions, options, context)
+                        : flow.Backward(positions, positions, options, context);
         };
         const double bytes = RectifiedFlow<D>::TiledMemoryFor(
           size, options, direction, static_cast<double>(positions.size()), isLattice, limits);

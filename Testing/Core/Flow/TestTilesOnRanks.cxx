@@ -93,7 +93,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
   const GridSize<D> lattice = evenSize<D>(D == 3 ? 80 : 150);
   Points<D> expected(cellCount<D>(lattice));
   const FlowOptions options = with(FlowMaps::Auto, steps(32));
-  alone.ForwardLattice(lattice, expected, options);
+  alone.Forward(FlowSeeds<D>::Lattice(lattice), expected, options);
   for (const int count : { 2, 3 })
   {
     Points<D> all(expected.size());
@@ -104,7 +104,7 @@ TYPED_TEST(TilesOnRanks, LatticesHaveTheBitsOfOneRank)
       part.Low[last] = share.First;
       part.Cells[last] = share.Count;
       const std::int64_t layer = part.Count() / share.Count;
-      run.Flow.ForwardLattice(lattice, { part, part }, cellCentre<D>(),
+      run.Flow.Forward(FlowSeeds<D>::Lattice(lattice, { part, part }),
         { all.data()->data() + D * share.First * layer, part.Count() }, options, run.RankContext());
     });
     EXPECT_TRUE(sameBits<D>(expected, all));

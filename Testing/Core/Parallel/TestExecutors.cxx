@@ -145,9 +145,13 @@ TEST(Executors, NoMemoryForTheFlow)
   expectBadAlloc("forward", [&]() { flow.Forward(seeds, positions, few); });
   expectBadAlloc("at times", [&]() { flow.ForwardAt(seeds, times, paths, few); });
   expectBadAlloc("backward", [&]() { flow.Backward(seeds, positions, few); });
-  expectBadAlloc("a lattice", [&]() { flow.ForwardLattice({ 60, 50 }, positions, few); });
+  expectBadAlloc("a lattice", [&]() {
+    flow.Forward(FlowSeeds<2>::Lattice({ 60, 50 }), positions, few);
+  });
   std::vector<std::int64_t> cells(3000);
-  expectBadAlloc("cells", [&]() { flow.ForwardLatticeToCells({ 60, 50 }, cells.data(), few); });
+  expectBadAlloc("cells", [&]() {
+    flow.ForwardToCells(FlowSeeds<2>::Lattice({ 60, 50 }), cells.data(), few);
+  });
 }
 
 // What is made for a run alone is said to be so.

@@ -396,7 +396,7 @@ TEST(RectifiedFlow, ForwardToCellsIsThatOfALattice)
   const Points<2> points = latticePoints<2>(size, size);
   Labels lattice(points.size());
   Labels cells(points.size());
-  flow.ForwardLatticeToCells(size, lattice.data());
+  flow.ForwardToCells(FlowSeeds<2>::Lattice(size), lattice.data());
   const FlowReport report = flow.ForwardToCells(points, cells.data());
   EXPECT_EQ(cells, lattice);
   EXPECT_GT(report.Evaluations, 0);

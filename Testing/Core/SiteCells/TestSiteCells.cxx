@@ -32,7 +32,7 @@ Labels flowToSites(const SiteDensity<Dimension>& sites, const FlowOptions& optio
 {
   const RectifiedFlow<Dimension> flow(sites, context);
   Labels labels(cellCount<Dimension>(sites.Size()));
-  flow.ForwardLatticeToCells(sites.Size(), labels.data(), options, context);
+  flow.ForwardToCells(FlowSeeds<Dimension>::Lattice(sites.Size()), labels.data(), options, context);
   for (std::int64_t& label : labels)
   {
     const std::int64_t k = sites.Find(label);
@@ -176,9 +176,9 @@ TEST(SiteCells, FlowGivesNearlyEqualCells)
   {
     const auto counts = countLabels(flowToSites(sites, options), 64);
     const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
-    const double tolerance = options.Method == Integrator::Euler ? 120.0 : 90.0;
-    EXPECT_NEAR(static_cast<double>(*least), 1024.0, tolerance) << nameOf(options.Method);
-    EXPECT_NEAR(static_cast<double>(*most), 1024.0, tolerance) << nameOf(options.Method);
+    const double tolerance = options.Integrator == Integrator::Euler ? 120.0 : 90.0;
+    EXPECT_NEAR(static_cast<double>(*least), 1024.0, tolerance) << nameOf(options.Integrator);
+    EXPECT_NEAR(static_cast<double>(*most), 1024.0, tolerance) << nameOf(options.Integrator);
   }
 }
 

@@ -42,7 +42,7 @@ template <int Dimension>
 struct FlowJob
 {
   TableView<Dimension> Tables;
-  Integrator Method;
+  RectifiedTransport::Integrator Integrator;
   bool Backward;
   bool Nearest;
   bool Sparse = false; // neighbouring particles have few table nodes in common

@@ -43,11 +43,11 @@ template <int Dimension>
 std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int pass, bool* unresolved)
 {
-  if (job.Method == Integrator::Adaptive)
+  if (job.Integrator == Integrator::Adaptive)
   {
     return advectAdaptive<Dimension>(job, seeds, index, count, pass, unresolved);
   }
-  if (job.Method == Integrator::Multistep)
+  if (job.Integrator == Integrator::Multistep)
   {
     return job.Backward ? multistepBackward<Dimension>(job, seeds, index, count, pass, unresolved)
                         : multistepForward<Dimension>(job, seeds, index, count, pass, unresolved);

@@ -42,7 +42,7 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   alignas(64) LaneVectors<Dimension> previous;
   alignas(64) LaneVectors<Dimension> slope; // at the step's start
   alignas(64) LaneVectors<Dimension> sum;
-  const bool fourStages = job.Method == Integrator::RungeKutta4;
+  const bool fourStages = job.Integrator == Integrator::RungeKutta4;
   const std::int64_t steps = job.Steps << refinement;
   const double length = (job.Backward ? -1.0 : 1.0) / static_cast<double>(steps);
   const auto timeAt = [&](std::int64_t halfSteps) {

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow of a large density, whose tables of tiles are made anew in every advection.
-#ifndef RectifiedTransport_TiledFlow_h
-#define RectifiedTransport_TiledFlow_h
+// A flow of a large density, whose tables of tiles are made anew in every advection.
+#ifndef RectifiedTransport_TiledEngine_h
+#define RectifiedTransport_TiledEngine_h
 
+#include "Core/Flow/FlowEngine.h"
 #include "Core/Flow/KeptFlowMap.h"
+#include "Core/Flow/ParticleSource.h"
 #include "Core/Flow/Tiles/TiledAdvection.h"
 #include "Core/Flow/Tiles/TiledShares.h"
 #include "Core/Tables/DensityShare.h"
 
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 
 namespace RectifiedTransport
 {
 
+// Of two or three axes: densities of one are not cut in tiles.
 template <int Dimension>
-class TiledFlow
+class TiledEngine final : public FlowEngine<Dimension>
 {
 public:
-  TiledFlow(const DensitySource<Dimension>& density, const TileLimits& limits, Progress& progress)
+  TiledEngine(const DensitySource<Dimension>& density, const TileLimits& limits, Progress& progress)
     : Size(density.Size)
     , Density(density)
     , Limits(limits)
@@ -27,15 +29,15 @@ public:
   {
   }
 
-  // Without levels.
-  const TableView<Dimension>& View() const { return this->Graded.View(); }
-  const DensitySummary& Summary() const { return this->Graded.Summary(); }
-  std::int64_t MemorySize()
+  const TableView<Dimension>& View() const override { return this->Graded.View(); }
+  const DensitySummary& Summary() const override { return this->Graded.Summary(); }
+  bool HasWholeTables() const override { return false; }
+  std::int64_t MemorySize() override
   {
     return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
   }
-  void SetDensity(const DensitySource<Dimension>& density) { this->Density = density; }
-  void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high)
+  void SetDensity(const DensitySource<Dimension>& density) override { this->Density = density; }
+  void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high) override
   {
     this->Prepared = this->Density.Part(low, high);
   }
@@ -51,7 +53,7 @@ public:
     return gradedMemory<Dimension>(size, gradedStrides<Dimension>(size, limits)) +
       TiledShares<Dimension>::MemoryFor(tilesForShares<Dimension>(size, aspect, limits), boxes);
   }
-  double Share(const Point<Dimension>& low, const Point<Dimension>& high) const
+  double Share(const Point<Dimension>& low, const Point<Dimension>& high) const override
   {
     const std::shared_ptr<const DensityValues> values =
       this->Density.IsDistributed() ? this->Prepared : this->Density.Whole();
@@ -59,17 +61,27 @@ public:
   }
 
   void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
-    const double* shares, double* measures, Progress& progress)
+    const double* shares, double* measures, const Context& context) override
   {
+    Progress progress(context);
     const GridTiles<Dimension> tiles = tilesForShares<Dimension>(this->Size, aspect, this->Limits);
     TiledShares<Dimension>(this->Density, this->Graded, tiles, aspect, progress)
       .Run(centres, shares, measures);
   }
 
-  // Throws std::invalid_argument where tiles do not serve the options, NoMemoryForFlowMap,
-  // std::bad_alloc and Cancelled.
+  // In chunks, each of which goes through all tiles. Throws std::invalid_argument also where tiles
+  // do not serve the options.
+  FlowReport Advect(AdvectionKind kind, const FlowSeeds<Dimension>& seeds,
+    PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
+  {
+    return withSource<Dimension>(seeds, this->Size, TilePlan<Dimension>::SortedParticles,
+      positions.size(),
+      [&](auto source) { return this->AdvectSource(kind, source, positions, options, context); });
+  }
+
+private:
   template <class Source>
-  FlowReport Advect(AdvectionKind kind, Source&& source, PointSpan<Dimension> positions,
+  FlowReport AdvectSource(AdvectionKind kind, Source& source, PointSpan<Dimension> positions,
     const FlowOptions& options, const Context& context)
   {
     const AdvectionJob<Dimension> shared(this->View(), kind, options);
@@ -104,7 +116,6 @@ public:
     return report;
   }
 
-private:
   static TilePlan<Dimension> PlanFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, const TileLimits& limits)
   {
@@ -123,44 +134,6 @@ private:
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
   KeptFlowMap<Dimension> Maps[2];
-};
-
-// Densities of one axis are not cut in tiles.
-template <>
-class TiledFlow<1>
-{
-public:
-  TiledFlow(const DensitySource<1>&, const TileLimits&, Progress&)
-  {
-    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
-  }
-  const TableView<1>& View() const { return this->Tables; }
-  const DensitySummary& Summary() const { return this->Found; }
-  std::int64_t MemorySize() { return 0; }
-  void SetDensity(const DensitySource<1>&) {}
-  void PrepareShares(const GridSize<1>&, const GridSize<1>&) {}
-  static double MemoryFor(
-    const GridSize<1>&, const FlowOptions&, FlowDirection, double, bool, const TileLimits&)
-  {
-    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
-  }
-  static double MemoryForShares(const GridSize<1>&, const Point<1>&, double, const TileLimits&)
-  {
-    throw std::invalid_argument("a density of one axis has no tiles, it needs whole tables");
-  }
-  void MeasuresOfShares(ConstPointSpan<1>, const Point<1>&, const double*, double*, const Progress&)
-  {
-  }
-  double Share(const Point<1>&, const Point<1>&) const { return 0.0; }
-  template <class Source>
-  FlowReport Advect(AdvectionKind, Source&&, PointSpan<1>, const FlowOptions&, const Context&)
-  {
-    return {};
-  }
-
-private:
-  TableView<1> Tables{};
-  DensitySummary Found;
 };
 
 } // namespace RectifiedTransport

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/ConsumerExtents.h"
+
+#include "vtkDataObject.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkInformationIntegerVectorKey.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+const int emptyExtent[6] = { 0, -1, 0, -1, 0, -1 };
+
+bool isStructured(vtkInformation* output)
+{
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  return data && data->GetExtentType() == VTK_3D_EXTENT;
+}
+
+bool isWithin(const int* part, const int* whole)
+{
+  const bool isEmpty = part[0] > part[1] || part[2] > part[3] || part[4] > part[5];
+  return isEmpty ||
+    (part[0] >= whole[0] && part[1] <= whole[1] && part[2] >= whole[2] && part[3] <= whole[3] &&
+      part[4] >= whole[4] && part[5] <= whole[5]);
+}
+
+void clearUpdateExtent(vtkInformation* output)
+{
+  output->Set(Pipeline::UPDATE_EXTENT(), emptyExtent, 6);
+  output->Remove(Pipeline::COMBINED_UPDATE_EXTENT()); // else the executive would restore it
+  output->Remove(Pipeline::UPDATE_EXTENT_INITIALIZED());
+}
+
+// Visits the structured outputs of an output's consumers, and those of their consumers in turn.
+// Returns whether all were reached.
+template <class Visit>
+bool visitConsumers(vtkInformation* output, const Visit& visit)
+{
+  // A deleted filter remains in CONSUMERS(), as a dangling pointer, but holds no reference to the
+  // information object any more. Which entry it is cannot be determined.
+  const int count = vtkExecutive::CONSUMERS()->Length(output);
+  if (output->GetReferenceCount() != count + 1)
+  {
+    return false;
+  }
+  bool isComplete = true;
+  vtkExecutive** consumers = vtkExecutive::CONSUMERS()->GetExecutives(output);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkInformationVector* outputs = consumers[i]->GetOutputInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      vtkInformation* next = outputs->GetInformationObject(j);
+      if (isStructured(next))
+      {
+        visit(next);
+        isComplete = visitConsumers(next, visit) && isComplete;
+      }
+    }
+  }
+  return isComplete;
+}
+
+// The requested pieces of the structured outputs downstream of an output.
+struct PieceRequest
+{
+  vtkInformation* Output;
+  std::array<int, 3> Values; // of the keys
+};
+
+std::array<vtkInformationIntegerKey*, 3> pieceKeys()
+{
+  return { Pipeline::UPDATE_PIECE_NUMBER(), Pipeline::UPDATE_NUMBER_OF_PIECES(),
+    Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS() };
+}
+
+std::vector<PieceRequest> pieceRequests(vtkInformation* output)
+{
+  std::vector<PieceRequest> requests;
+  visitConsumers(output, [&requests](vtkInformation* next) {
+    if (next->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()))
+    {
+      requests.push_back({ next, {} });
+      for (std::size_t i = 0; i < pieceKeys().size(); ++i)
+      {
+        requests.back().Values[i] = next->Get(pieceKeys()[i]);
+      }
+    }
+  });
+  return requests;
+}
+
+bool updateInformationOfConsumers(vtkInformation* output)
+{
+  const bool isComplete = visitConsumers(output, clearUpdateExtent);
+  const int count = isComplete ? vtkExecutive::CONSUMERS()->Length(output) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    vtkExecutive* consumer = vtkExecutive::CONSUMERS()->GetExecutives(output)[i];
+    vtkInformationVector* outputs = consumer->GetOutputInformation();
+    consumer->UpdateInformation();
+    for (int j = 0; j < outputs->GetNumberOfInformationObjects(); ++j)
+    {
+      updateInformationOfConsumers(outputs->GetInformationObject(j));
+    }
+  }
+  return isComplete;
+}
+
+} // namespace
+
+bool announceEmptyExtents(vtkInformationVector* outputs)
+{
+  const auto announceEmpty = [](vtkInformation* output) {
+    output->Set(Pipeline::WHOLE_EXTENT(), emptyExtent, 6);
+    clearUpdateExtent(output);
+  };
+  bool isComplete = true;
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    if (isStructured(output))
+    {
+      announceEmpty(output);
+      isComplete = visitConsumers(output, announceEmpty) && isComplete;
+    }
+    else if (output->Has(Pipeline::UPDATE_EXTENT()))
+    {
+      clearUpdateExtent(output); // left from a structured data object of this port
+    }
+  }
+  return isComplete;
+}
+
+bool updateConsumerInformation(vtkInformation* output)
+{
+  // The executive would request piece 0 of 1, and on several ranks the request is another one.
+  const std::vector<PieceRequest> requests = pieceRequests(output);
+  const bool isComplete = updateInformationOfConsumers(output);
+  for (const PieceRequest& request : requests)
+  {
+    for (std::size_t i = 0; i < pieceKeys().size(); ++i)
+    {
+      request.Output->Set(pieceKeys()[i], request.Values[i]);
+    }
+  }
+  return isComplete;
+}
+
+bool clearUnmetRequests(vtkInformationVector* outputs)
+{
+  bool isComplete = true;
+  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputs->GetInformationObject(i);
+    const int* requested = output->Get(Pipeline::UPDATE_EXTENT());
+    if (requested && isStructured(output) &&
+      !isWithin(requested,
+        vtkDataObject::GetData(output)->GetInformation()->Get(vtkDataObject::DATA_EXTENT())))
+    {
+      // Else this filter would not execute for the next consumer.
+      output->Remove(vtkDataObject::ALL_PIECES_EXTENT());
+      isComplete = visitConsumers(output, clearUpdateExtent) && isComplete;
+    }
+  }
+  return isComplete;
+}
+
+} // namespace RectifiedTransport

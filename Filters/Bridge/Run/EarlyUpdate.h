@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Producers of inputs, updated in REQUEST_INFORMATION.
+//
+// A filter should look at data in REQUEST_DATA only. But where the extent of an image output
+// follows from points or cells, VTK 9.1 to 9.6 have no other request in which it could be
+// announced, and filters downstream that were told no extent, or a wrong one, get no data, or read
+// past the end of the image (TestAnnounced.py, TestUpstreamRequest.cxx).
+#ifndef RectifiedTransport_EarlyUpdate_h
+#define RectifiedTransport_EarlyUpdate_h
+
+#include "Bridge/VTKCompatibility.h"
+
+#include "vtkType.h"
+
+#include <map>
+#include <utility>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAlgorithm;
+class vtkInformation;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Ranks;
+
+// Of one filter. Remembers what it updated, so that a producer runs once for each change.
+class EarlyUpdate
+{
+public:
+  // Updates the producer of an input: the piece of this rank, or for one rank what was requested
+  // last. If the input changes with time, `output` gets TIME_DEPENDENT_INFORMATION: the executive
+  // then sends another request, for the time that is requested downstream.
+  void Run(vtkAlgorithm* filter, int port, int connection, vtkInformation* input,
+    vtkInformation* output, const Ranks& ranks);
+
+  // Whether inputs were updated since the last Clear.
+  bool HasAny() const { return !this->Updated.empty(); }
+  void Clear() { this->Updated.clear(); }
+
+private:
+  struct Update
+  {
+    const vtkAlgorithm* Producer; // compared, never dereferenced
+    int Port;
+    vtkMTimeType Time;
+  };
+  std::map<std::pair<int, int>, Update> Updated; // the last of each port and connection
+};
+
+} // namespace RectifiedTransport
+
+#endif

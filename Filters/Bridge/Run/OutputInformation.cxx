@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Run/OutputInformation.h"
+
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
+#include "vtkInformationInformationVectorKey.h"
+#include "vtkInformationVector.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <set>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+void publishTimes(
+  vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector)
+{
+  std::set<double> steps;
+  std::set<double> ends;
+  for (int port = 0; port < numberOfPorts; ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* input = inputVector[port]->GetInformationObject(i);
+      if (input->Has(Pipeline::TIME_STEPS()))
+      {
+        const double* times = input->Get(Pipeline::TIME_STEPS());
+        steps.insert(times, times + input->Length(Pipeline::TIME_STEPS()));
+      }
+      if (input->Has(Pipeline::TIME_RANGE()))
+      {
+        const double* range = input->Get(Pipeline::TIME_RANGE());
+        ends.insert(range, range + input->Length(Pipeline::TIME_RANGE()));
+      }
+    }
+  }
+  const std::vector<double> times(steps.begin(), steps.end());
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(i);
+    if (!times.empty())
+    {
+      output->Set(Pipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    }
+    if (!ends.empty())
+    {
+      const double range[2] = { *ends.begin(), *ends.rbegin() };
+      output->Set(Pipeline::TIME_RANGE(), range, 2);
+    }
+  }
+}
+
+void removeArrayInformation(vtkInformationVector* outputVector)
+{
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* output = outputVector->GetInformationObject(i);
+    output->Remove(vtkDataObject::POINT_DATA_VECTOR());
+    output->Remove(vtkDataObject::CELL_DATA_VECTOR());
+  }
+}
+
+void clearImages(vtkInformationVector* outputVector)
+{
+  for (int i = 0; i < outputVector->GetNumberOfInformationObjects(); ++i)
+  {
+    if (vtkImageData* image = vtkImageData::GetData(outputVector, i))
+    {
+      image->SetExtent(0, -1, 0, -1, 0, -1);
+      image->GetPointData()->Initialize();
+    }
+  }
+}
+
+} // namespace RectifiedTransport

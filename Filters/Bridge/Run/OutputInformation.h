@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the executive leaves wrong in the information and data of outputs.
+#ifndef RectifiedTransport_OutputInformation_h
+#define RectifiedTransport_OutputInformation_h
+
+#include "Bridge/VTKCompatibility.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkInformationVector;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+// The executive copies the times of the first input only; the outputs depend on those of all.
+void publishTimes(
+  vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector);
+
+// The executive copies the array information of the first input, which holds for no output.
+void removeArrayInformation(vtkInformationVector* outputVector);
+
+// The executive leaves the extent of an image and the scalars of its points from the last run.
+void clearImages(vtkInformationVector* outputVector);
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A flow on the summed-area tables of the whole grid, with flow maps that are kept.
+#ifndef RectifiedTransport_WholeEngine_h
+#define RectifiedTransport_WholeEngine_h
+
+#include "Core/Flow/AdvectionRun.h"
+#include "Core/Flow/FlowEngine.h"
+#include "Core/Flow/KeptFlowMap.h"
+#include "Core/Flow/ParticleSource.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Tables/BoxShare.h"
+#include "Core/Tables/SummedAreaTables.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace RectifiedTransport
+{
+
+template <int Dimension>
+class WholeEngine final : public FlowEngine<Dimension>
+{
+public:
+  WholeEngine(const DensitySource<Dimension>& density, TableMemory memory, Progress& progress)
+    : Size(density.Size)
+    , Tables(density, progress, std::move(memory))
+  {
+  }
+
+  const TableView<Dimension>& View() const override { return this->Tables.View(); }
+  const DensitySummary& Summary() const override { return this->Tables.Summary(); }
+  std::int64_t MemorySize() override
+  {
+    return this->Tables.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
+  }
+  bool HasWholeTables() const override { return true; }
+  TableMemory ReleaseMemory() override { return this->Tables.ReleaseMemory(); }
+
+  FlowReport Advect(AdvectionKind kind, const FlowSeeds<Dimension>& seeds,
+    PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
+  {
+    return this->WithSource(seeds, positions.size(), [&](auto source) {
+      AdvectionRun<Dimension> run(this->View(), kind, options, context);
+      this->Prepare(run, options, source.CountOfAll(*context.Group));
+      return run.Advect(source, positions);
+    });
+  }
+
+  FlowReport AdvectAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
+    PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
+  {
+    const auto each = static_cast<std::int64_t>(times.size());
+    return this->WithSource(seeds, positions.size() / each, [&](auto source) {
+      AdvectionRun<Dimension> run(this->View(), AdvectionKind::Forward, options, context);
+      this->Prepare(run, options, source.CountOfAll(*context.Group), times.front());
+      return run.Advect(source, positions, times);
+    });
+  }
+
+  FlowReport AdvectToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
+    const FlowOptions& options, const Context& context) override
+  {
+    const auto count = static_cast<std::int64_t>(seeds.Count());
+    return this->WithSource(seeds, count, [&](auto source) {
+      AdvectionRun<Dimension> run(this->View(), AdvectionKind::ForwardToCells, options, context);
+      this->Prepare(run, options, source.CountOfAll(*context.Group));
+      return run.AdvectToCells(source, cells);
+    });
+  }
+
+  double Share(const Point<Dimension>& low, const Point<Dimension>& high) const override
+  {
+    return boxShare<Dimension>(this->View(), low, high);
+  }
+  double MeasureOfShare(
+    const Point<Dimension>& centre, const Point<Dimension>& aspect, double share) const override
+  {
+    return measureOfShare<Dimension>(this->View(), centre, aspect, share);
+  }
+  void MeasuresOfShares(ConstPointSpan<Dimension> centres, const Point<Dimension>& aspect,
+    const double* shares, double* measures, const Context& context) override
+  {
+    constexpr std::int64_t grain = 256;
+    Progress progress(context);
+    progress.BeginStage(1.0);
+    progress.For(
+      centres.size(), grain,
+      [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i)
+        {
+          Point<Dimension> centre;
+          std::copy_n(centres[i], Dimension, centre.begin());
+          measures[i] = measureOfShare<Dimension>(this->View(), centre, aspect, shares[i]);
+        }
+      },
+      16 * grain);
+  }
+
+private:
+  template <class Use>
+  FlowReport WithSource(
+    const FlowSeeds<Dimension>& seeds, std::int64_t positions, const Use& use) const
+  {
+    return withSource<Dimension>(
+      seeds, this->Size, SortedPoints<Dimension>::UsualChunk, positions, use);
+  }
+
+  // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
+  // that its options ask for, if any.
+  void Prepare(AdvectionRun<Dimension>& run, const FlowOptions& options, double particles,
+    double firstTime = 1.0)
+  {
+    const AdvectionJob<Dimension>& shared = run.SharedJob();
+    const FlowJob<Dimension>& job = shared.Job;
+    if (!takesFlowMaps(options) || options.Maps == FlowMaps::Off || particles == 0.0)
+    {
+      return;
+    }
+    const FlowMapShape<Dimension> shape(this->Size, options.NumberOfSteps,
+      job.Backward ? FlowDirection::Backward : FlowDirection::Forward, shared.Refinement);
+    // Isolated cells leave most boxes empty before particles could take over.
+    const bool pays = shared.Kind != AdvectionKind::ForwardToCells && shape.PaysFor(particles);
+    if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||
+      (options.Maps == FlowMaps::Auto && !pays))
+    {
+      return;
+    }
+    const double particlesCost = particles * shape.Levels.back().HandOver;
+    bool isNew = false;
+    auto map = this->Maps[job.Backward ? 1 : 0].FindOrMake(
+      shape, shared.Refinement, job, run.Group(),
+      [&]() { return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)); }, isNew);
+    run.UseMap(std::move(map), isNew);
+  }
+
+  const GridSize<Dimension> Size;
+  SummedAreaTables<Dimension> Tables;
+  KeptFlowMap<Dimension> Maps[2]; // forward and backward
+};
+
+} // namespace RectifiedTransport
+
+#endif
