@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the benchmarks and prints the tables of Documentation/Speed.md.
 
-usage: python3 run.py [--repetitions N] [--quality | --morphs | --parameterization | --relaxation] PROGRAM
+usage: python3 run.py [--help] [--repetitions N] [--quality | --tiles | ...] PROGRAM
 
 Every figure is the median of the repetitions, which are interleaved at random. One thread is
 measured in processor time, two in wall-clock time.
@@ -13,6 +13,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 
 class Results:
@@ -45,11 +46,17 @@ class Results:
         return " / ".join(f"{self.median(name, what):.2g}"
                           for what in ("error_mean", "error_95", "error_999"))
 
-    def timed(self, name, paper):
-        return f"{milliseconds(self.median(name))}, {self.ratio(paper, name):.1f}×"
+    def time(self, name):
+        return milliseconds(self.median(name))
 
-    def threads(self, name, side):
-        return f"{self.ratio(f'{name}/{side}', f'{name}_2_threads/{side}', 'real_time'):.2f}×"
+    def timed(self, name, paper):
+        return f"{self.time(name)}, {self.ratio(paper, name):.1f}×"
+
+    def threads(self, name, kind):
+        return f"{self.ratio(name % kind, name % f'{kind}_2_threads', 'real_time'):.2f}×"
+
+    def strays(self, name):
+        return " and ".join(f"{self.median(name, what):.0f}" for what in ("in_empty_cells", "lost"))
 
 
 def milliseconds(value):
@@ -57,112 +64,126 @@ def milliseconds(value):
 
 
 def print_table(head, rows):
-    print("| " + " | ".join(head) + " |")
-    print("|" + "---|" * len(head))
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
+    lines = ["|" + "".join(f" {cell} |" if cell else " |" for cell in row) for row in (head, *rows)]
+    print(lines[0], "|" + "---|" * len(head), *lines[1:], "", sep="\n")
+
+
+def print_text(text):
+    print(textwrap.fill(text, 100) + "\n")
+
+
+def expect_no_strays(r, name):
+    if r.strays(name) != "0 and 0":
+        print(f"Speed.md says none, but {name} has strays: {r.strays(name)}", file=sys.stderr)
+
+
+def grids(group, squares=()):
+    """The labels and benchmarks of squares with these sides, and of the cubes."""
+    return ([(f"{side}²", f"{group}2D/%s/{side}") for side in squares] +
+            [(f"{side}³", f"{group}3D/%s/{side}") for side in (64, 128, 256)])
 
 
 def machine(results):
     model = "unknown processor"
-    try:
+    if os.path.exists("/proc/cpuinfo"):
         with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
-        model = names[0] if names else model
-    except OSError:
-        pass
+            model = next((line.split(":")[1].strip() for line in lines
+                          if line.startswith("model name")), model)
     context = results.context
-    return (f"{model}, {context['num_cpus']} processors, {context['mhz_per_cpu']} MHz, "
-            f"{context.get('instruction_set', '?')} kernels, gcc {context.get('compiler', '?')}")
+    return (f"{model} ({context['num_cpus']} processors, {context['mhz_per_cpu']} MHz, "
+            f"{context.get('instruction_set', '?')} kernels, gcc {context.get('compiler', '?')})")
 
 
-# Of one particle a cell: the text, the direction, the size and the filter.
-GRIDS = (("one particle a pixel, photograph of 1024²: Transport Map", "2D/forward", 1024, "map"),
-         ("the same backward", "2D/backward", 1024, "map"),
-         ("one particle a cell, 64³: Sample Density", "3D/forward", 64, "sampler"),
-         ("one particle a cell, 128³: Sample Density", "3D/forward", 128, "sampler"),
-         ("one particle a cell, 256³: Sample Density", "3D/forward", 256, "sampler"),
-         ("128³ backward: Transport Map", "3D/backward", 128, "map"))
+# The job, its benchmarks, and the filter's among them: one beside the paper's, or several alone.
+JOBS = (
+    ("Sample Density: 40,000 particles, photograph of 1024²", "Photograph/%s", "filter"),
+    ("Transport Map: one particle a pixel, photograph of 1024²",
+     "OnePerCell2D/forward/%s/1024", "map"),
+    ("Transport Map: the same backward", "OnePerCell2D/backward/%s/1024", "map"),
+    *((f"Sample Density: one particle a cell, {side}³", f"OnePerCell3D/forward/%s/{side}",
+       "sampler") for side in (64, 128, 256)),
+    ("Transport Map: one particle a cell, 128³ backward", "OnePerCell3D/backward/%s/128", "map"),
+    ("Sample Density: one particle a pixel, photograph of 1024²",
+     "OnePerCell2D/forward/sampler/%s", (1024,)),
+    ("Transport Map: one particle a cell, 64³, 128³, 256³", "OnePerCell3D/forward/map/%s",
+     (64, 128, 256)),
+    ("Morph Densities: 5 steps between two shapes, 256², 65,536 particles", "Morph/%s", "filter"),
+    ("Morph Densities: a change of `Parameter`, 256², 128³", "Morph/%s",
+     ("step2D/256", "step3D/128")),
+    ("Density Barycenter: 5 × 5 barycenters of four shapes, 256², 65,536 particles",
+     "Barycenters/%s", "filter"),
+    ("Equal-Mass Cells: 1024 sites, 512², 1024²", "Filters/cells/%s", (512, 1024)),
+    ("Solid Density: 50,000 triangles, `Resolution` 64, 128, 256", "Solid/50000/%s",
+     (64, 128, 256)),
+    ("Solid Density: 200,000 and 800,000 triangles, `Resolution` 128", "Solid/%s/128",
+     (200000, 800000)))
+# What other tables call the first seven.
+CORE = tuple(zip(("40,000 particles, photograph", "one a pixel, photograph", "the same backward",
+                  "one a cell, 64³", "128³", "256³", "128³ backward"),
+                 (name for _, name, _ in JOBS)))
+FLOWS = grids("Flow", (256, 512, 1024, 2048, 4096))
 
 
-def whole_jobs(r):
-    jobs = [("40,000 particles, photograph of 1024²: Sample Density", "Photograph/%s", "filter")]
-    jobs += [(text, f"OnePerCell{group}/%s/{side}", filter) for text, group, side, filter in GRIDS]
+def jobs(r, chosen=JOBS):
     rows = []
-    for text, name, whole in jobs:
-        paper = name % "paper"
-        rows.append([text, milliseconds(r.median(paper))] +
-                    [r.timed(name % kind, paper) for kind in
-                     ("core", "core_again", "core_off", whole, f"{whole}_off")] +
-                    [r.errors(name % kind) for kind in ("paper", "core", "core_off")])
-    print_table(["work", "paper", "core, new density", "same density again",
-                 "new density, without maps", "filter's whole update, new density", "without maps",
-                 "error in cells (mean / 95 % / 99.9 %): paper", "core", "without maps"], rows)
+    for text, name, kinds in chosen:
+        if isinstance(kinds, str):
+            paper = name % "paper"
+            rows.append([text, r.timed(name % kinds, paper), r.timed(name % f"{kinds}_off", paper),
+                         r.time(paper)])
+        else:
+            rows.append([text, ", ".join(r.time(name % kind) for kind in kinds), "", ""])
+    print_table(["job", "time", "without flow maps", "paper"], rows)
 
 
-def tables(r):
-    rows = []
-    for group, sides, power in (("Tables2D", (1024, 4096), "²"),
-                                ("Tables3D", (64, 128, 256), "³")):
-        for side in sides:
-            name = f"{group}/%s/{side}"
-            rows.append([f"{side}{power}", milliseconds(r.median(name % "paper")),
-                         milliseconds(r.median(name % "core")),
-                         f"{r.ratio(name % 'paper', name % 'core'):.1f}×",
-                         f"{r.ratio(name % 'paper_reused', name % 'core_reused'):.1f}×",
-                         f"{r.ratio(name % 'core', name % 'core_2_threads', 'real_time'):.2f}×"])
-    print_table(["tables", "paper", "core", "ratio", "ratio in reused memory", "two threads"], rows)
+def memory(r):
+    peak, table, made = (r.median("Memory/core/256", f"{what}_bytes") / 1e6
+                         for what in ("peak", "table", "map"))
+    without = r.median("Memory/core_off/256", "peak_bytes") / 1e6
+    print_text(f"One particle a cell of 256³, besides input and particles: {peak:.0f} MB at most, "
+               f"of which {table:.0f} MB are tables and {made:.0f} MB flow maps; {without:.0f} MB "
+               f"at most without maps.")
+
+
+def core(r):
+    print_table(["core", "new density", "same density again", "new density, without maps"],
+                [[text] + [r.timed(name % kind, name % "paper")
+                           for kind in ("core", "core_again", "core_off")] for text, name in CORE])
+    print_text(f"With sorted seeds the paper takes {r.time('Photograph/paper_sorted')} on the "
+               "photograph.")
 
 
 def flows(r):
-    costs, maps = [], []
-    for group, sides, power in (("Flow2D", (256, 512, 1024, 2048, 4096), "²"),
-                                ("Flow3D", (64, 128, 256), "³")):
-        for side in sides:
-            def cost(kind, what, scale, unit):
-                return f"{scale * r.median(f'{group}/{kind}/{side}', what):.3g} {unit}"
-
-            costs.append([f"{side}{power}"] +
-                         [cost(kind, "per_velocity", 1e9, "ns") for kind in ("paper", "core_off")] +
-                         [cost(kind, "per_particle", 1e6, "µs")
-                          for kind in ("paper", "core_off", "core")] +
-                         [r.threads(f"{group}/{kind}", side) for kind in ("core_off", "core")])
-            made = f"{group}/maps/{side}"
-            maps.append([f"{side}{power}", milliseconds(r.median(made)),
-                         r.threads(f"{group}/maps", side),
-                         *(f"{r.median(made, f'{what}_bytes') / 1e6:.3g} MB"
-                           for what in ("map", "table"))])
     print_table(["flow", "one velocity: paper", "core", "one particle: paper", "core without maps",
-                 "core with maps", "two threads: without maps", "with maps"], costs)
-    print_table(["flow maps", "making", "two threads", "memory", "of the tables"], maps)
+                 "core with maps", "two threads: without maps", "with maps"],
+                [[text,
+                  *(f"{1e9 * r.median(name % kind, 'per_velocity'):.3g} ns"
+                    for kind in ("paper", "core_off")),
+                  *(f"{1e6 * r.median(name % kind, 'per_particle'):.3g} µs"
+                    for kind in ("paper", "core_off", "core")),
+                  *(r.threads(name, kind) for kind in ("core_off", "core"))]
+                 for text, name in FLOWS])
     growths = [f"{r.ratio(f'Flow2D/{kind}/4096', f'Flow2D/{kind}/256', 'per_particle'):.2f}"
                for kind in ("core", "core_off")]
-    print(f"A particle costs {growths[0]} times as much on 4096² as on 256²; "
-          f"{growths[1]} times without maps.", end=" ")
-    for text, name in (("1,024 particles on 1024²", "Flow2D/%s/1024"),
-                       ("8,192 in 256³", "Flow3D/%s/256")):
-        print(f"{text}: {milliseconds(r.median(name % 'few'))} with Auto, "
-              f"{milliseconds(r.median(name % 'few_off'))} with Off.", end=" ")
-    for group in ("Sort2D", "Sort3D"):
-        each = r.median(f"{group}/core/1000000")  # ms a million: ns each
-        print(f"{group[4:]} sort: {each:.2g} ns a particle.", end=" ")
-    print("\n")
+    few = [r.time(f"Flow{name}")
+           for name in ("2D/few/1024", "2D/few_off/1024", "3D/few/256", "3D/few_off/256")]
+    sorts = [r.median(f"Sort{group}/core/1000000") for group in ("2D", "3D")]  # ms a million: ns
+    print_text(f"A particle costs {growths[0]} times as much on 4096² as on 256²; {growths[1]} "
+               f"times without maps. 1,024 particles on 1024² take {few[0]} with Auto and {few[1]} "
+               f"with Off; 8,192 in 256³ take {few[2]} and {few[3]}. The sort takes "
+               f"{sorts[0]:.2g} ns a particle in 2D and {sorts[1]:.2g} ns in 3D.")
 
 
-BANDWIDTHS = (("read", "reading"), ("write", "writing"), ("add", "adding in place"),
-              ("copy", "copying"), ("clear", "clearing"),
-              ("first_write", "writing new huge pages"), ("none", "sums within a cache"))
-
-
-def bandwidths(r):
-    rows = []
-    for kind, text in BANDWIDTHS:
-        one, two = f"Bandwidth/{kind}", f"Bandwidth/{kind}_2_threads"
-        speeds = [f"{r.median(name, 'bytes_per_second') / 1e9:.3g} GB/s" if kind != "none" else ""
-                  for name in (one, two)]
-        rows.append([text, *speeds, f"{r.ratio(one, two, 'real_time'):.2f}×"])
-    print_table(["memory", "one thread", "two threads", "ratio"], rows)
+def tables(r):
+    print_table(["tables", "paper", "core", "ratio", "ratio in reused memory", "two threads"],
+                [[text, *(r.time(name % kind) for kind in ("paper", "core")),
+                  *(f"{r.ratio(name % f'paper{memory}', name % f'core{memory}'):.1f}×"
+                    for memory in ("", "_reused")), r.threads(name, "core")]
+                 for text, name in grids("Tables", (1024, 4096))])
+    print_table(["flow maps", "making", "two threads", "memory", "of the tables"],
+                [[text, r.time(name % "maps"), r.threads(name, "maps"),
+                  *(f"{r.median(name % 'maps', f'{what}_bytes') / 1e6:.3g} MB"
+                    for what in ("map", "table"))] for text, name in FLOWS])
 
 
 # The work: its text, and the benchmarks of its tables, map, particles and filter; cells, particles,
@@ -196,36 +217,49 @@ def breakdown(r):
                  "flow map", "particles", "input and output", "whole"], rows)
 
 
-def remarks(r):
-    peak, table, made = (r.median("Memory/core/256", f"{what}_bytes") / 1e6
-                         for what in ("peak", "table", "map"))
-    without = r.median("Memory/core_off/256", "peak_bytes") / 1e6
-    print(f"Memory at 256³, input and particles aside: {peak:.0f} MB at most, {table:.0f} MB of "
-          f"them tables, {made:.0f} MB flow maps; {without:.0f} MB at most without maps.")
-    for name, shape in (("Holes2D/%s/256", "256²"), ("Holes3D/%s/64", "64³")):
-        counts = [", ".join(f"{r.median(name % kind, what):.0f} {text}"
-                            for what, text in (("in_empty_cells", "in empty cells"),
-                                               ("lost", "outside or NaN")))
-                  for kind in ("paper", "core")]
-        particles = r.median(name % "core", "particles")
-        print(f"0/1 shape with a hole, {shape}, {particles:.0f} particles: "
-              f"paper {counts[0]}; core {counts[1]}.")
-    print(f"With the correct velocity at t = 1 the paper's error on the photograph is "
-          f"{r.errors('Photograph/paper_limit')}; with its seeds sorted it takes "
-          f"{milliseconds(r.median('Photograph/paper_sorted'))}.")
-    print(f"Two threads on the photograph: "
-          f"{r.ratio('Photograph/core', 'Photograph/core_2_threads', 'real_time'):.2f}×.")
-    particles, maps = (", ".join(
-        f"{milliseconds(r.median(f'OnePerCell{place}'))} ({text})" for place, text in places)
-        for places in ((("2D/forward/sampler/1024", "photograph"),),
-                       [(f"3D/forward/map/{side}", f"{side}³") for side in (64, 128, 256)]))
-    print(f"Sample Density with one particle a pixel: {particles}; Transport Map: {maps}.")
+BANDWIDTHS = (("read", "reading"), ("write", "writing"), ("add", "adding in place"),
+              ("copy", "copying"), ("clear", "clearing"),
+              ("first_write", "writing new huge pages"), ("none", "sums within a cache"))
+
+
+def bandwidths(r):
+    rows = []
+    for kind, text in BANDWIDTHS:
+        speeds = [f"{r.median(f'Bandwidth/{kind}{threads}', 'bytes_per_second') / 1e9:.3g} GB/s"
+                  if kind != "none" else "" for threads in ("", "_2_threads")]
+        rows.append([text, *speeds, r.threads("Bandwidth/%s", kind)])
+    print_table(["memory", "one thread", "two threads", "ratio"], rows)
+    gain = r.threads("Photograph/%s", "core").replace("×", " times")
+    print_text(f"40,000 particles of the photograph gain {gain}.")
+
+
+def splats(r):
+    print_table(["splat, one particle a cell", "read particles, write grid", "CloudInCell",
+                 "NearestCell", "TriangularShapedCloud", "Gaussian", "CloudInCell, random order",
+                 "CloudInCell / reading and writing"],
+                [[text, *(r.time(name % kernel) for kernel in
+                          ("read_and_write", "CloudInCell", "NearestCell", "TriangularShapedCloud",
+                           "Gaussian", "CloudInCell_random")),
+                  f"{r.ratio(name % 'CloudInCell', name % 'read_and_write'):.1f}×"]
+                 for text, name in grids("Splat")])
+
+
+def errors(r):
+    print_text(f"With 65,536 particles at 256² they are {r.strays('Holes2D/paper/256')}, with "
+               f"262,144 at 64³ {r.strays('Holes3D/paper/64')}.")
+    expect_no_strays(r, "Holes2D/core/256")
+    expect_no_strays(r, "Holes3D/core/64")
+    print_table(["error in cells (mean / 95 % / 99.9 %)", "paper", "core", "without maps"],
+                [[text] + [r.errors(name % kind) for kind in ("paper", "core", "core_off")]
+                 for text, name in CORE])
+    print_text(f"With the correct velocity at t = 1 the paper's error on the photograph is "
+               f"{r.errors('Photograph/paper_limit')}.")
 
 
 QUALITY = (("photograph", "photograph, 1024²"), ("gaussians_1024", "two Gaussians, 1024²"),
            ("shape_256", "0/1 shape with a hole, 256²"), ("gaussians_128", "two Gaussians, 128³"),
            ("shape_64", "0/1 shape with a hole, 64³"))
-METHODS = (("paper", "paper, 50 steps of RK4"),
+METHODS = (("paper", "paper"),
            ("multistep_16", "Multistep, 16"), ("multistep_16_off", "without maps"),
            ("multistep_32", "**Multistep, 32**"), ("multistep_32_off", "without maps"),
            ("multistep_64", "Multistep, 64"), ("multistep_64_off", "without maps"),
@@ -236,67 +270,38 @@ def quality(r):
     rows = []
     for density, text in QUALITY:
         for method, label in METHODS:
-            name, backward = (f"Quality/{density}/{way}/{method}" for way in ("forward", "backward"))
+            name = f"Quality/{density}/forward/{method}"
             rows.append([text if method == "paper" else "", label,
                          f"{r.median(name, 'evaluations'):.0f}", r.errors(name),
-                         r.errors(backward),
-                         f"{r.median(name, 'density_error'):.3g}",
-                         f"{r.median(name, 'in_empty_cells'):.0f}",
-                         f"{r.median(name, 'lost'):.0f}"])
+                         r.errors(name.replace("forward", "backward")),
+                         f"{r.median(name, 'density_error'):.3g}"])
+            if method != "paper" or "shape" not in density:
+                expect_no_strays(r, name)
     print_table(["density", "integrator", "velocities a particle",
-                 "error in cells (mean / 95 % / 99.9 %)", "backward", "density error",
-                 "in empty cells",
-                 "outside or NaN"], rows)
-
-
-def filters(r):
-    print(f"Cells of 1024 sites: {milliseconds(r.median('Filters/cells/512'))} at 512², "
-          f"{milliseconds(r.median('Filters/cells/1024'))} at 1024².")
-    sides = ", ".join(f"{milliseconds(r.median(f'Solid/50000/{side}'))} at {side}"
-                      for side in (64, 128, 256))
-    print(f"The density of a solid of 50,000 triangles: {sides}; at 128 of 200,000: "
-          f"{milliseconds(r.median('Solid/200000/128'))}, of 800,000: "
-          f"{milliseconds(r.median('Solid/800000/128'))}.\n")
+                 "error in cells (mean / 95 % / 99.9 %)", "backward", "density error"], rows)
+    print_text("Particles in empty cells, and outside or NaN, for the shape with a hole: "
+               f"{r.strays('Quality/shape_256/forward/paper')} of the paper's at 256², "
+               f"{r.strays('Quality/shape_64/forward/paper')} at 64³.")
 
 
 def morphs(r):
-    rows = []
-    for name, work in (("Morph", "5 steps between two shapes"),
-                       ("Barycenters", "5 × 5 barycenters of four shapes")):
-        paper, whole = (f"{name}/{kind}" for kind in ("paper", "filter"))
-        rows.append([f"{work}, 256², 65,536 particles", milliseconds(r.median(paper)),
-                     r.timed(whole, paper), r.timed(f"{whole}_off", paper)])
-    print_table(["transport and all", "paper", "filter", "without flow maps"], rows)
-    print(f"A change of Parameter alone: {milliseconds(r.median('Morph/step2D/256'))} at 256², "
-          f"{milliseconds(r.median('Morph/step3D/128'))} at 128³.\n")
-    rows = []
-    for side in (64, 128, 256):
-        floor = f"Splat3D/read_and_write/{side}"
-        rows.append([f"{side}³", milliseconds(r.median(floor))] +
-                    [milliseconds(r.median(f"Splat3D/{kernel}/{side}")) for kernel in
-                     ("CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian",
-                      "CloudInCell_random")] +
-                    [f"{r.ratio(f'Splat3D/CloudInCell/{side}', floor):.1f}×"])
-    print_table(["splat, one particle a cell", "read particles, write grid", "CloudInCell",
-                 "NearestCell", "TriangularShapedCloud", "Gaussian", "CloudInCell, random order",
-                 "CloudInCell / reading and writing"], rows)
+    jobs(r, [job for job in JOBS if job[1].startswith(("Morph", "Barycenters"))])
+    splats(r)
 
 
 def parameterization(r):
     rows = []
     for size in (1 << 14, 1 << 16, 1 << 18, 1 << 20):
-        name = f"Parameterization/%s/{size}"
-        paper, flow, polish = (name % kind for kind in ("flow/paper", "flow/core", "polish/core"))
-        triangles = r.median(polish, "triangles")
-        rows.append([f"{triangles:,.0f}", milliseconds(r.median(name % "conformal")),
-                     *(milliseconds(r.median(kind)) for kind in (paper, flow, polish)),
-                     f"{r.ratio(paper, flow):.1f}×",
-                     f"{1e3 * r.median(polish) / triangles:.1f} µs",
-                     *(f"{r.median(kind, 'rms'):.3f} / {r.median(kind, 'flipped'):.0f}"
-                       for kind in (name % "conformal", paper, flow, polish))])
-    print_table(["triangles", "conformal map", "flow: paper", "core", "and polish", "flow: ratio",
-                 "flow and polish, a triangle", "rms / flipped: conformal", "flow: paper",
-                 "core", "and polish"], rows)
+        kinds = [f"Parameterization/{kind}/{size}"
+                 for kind in ("conformal", "flow/paper", "flow/core", "polish/core")]
+        times = [r.time(kind) for kind in kinds]
+        times.insert(3, f"{r.ratio(kinds[1], kinds[2]):.1f}×")
+        rows.append([f"{r.median(kinds[0], 'triangles'):,.0f}", *times] +
+                    [f"{r.median(kind, 'rms'):.3f}, {r.median(kind, 'flipped'):.0f}"
+                     for kind in kinds])
+    print_table(["triangles", "conformal map", "flow: paper", "core", "ratio", "with the polish",
+                 "rms of the areas, flipped: conformal", "flow: paper", "core", "with the polish"],
+                rows)
 
 
 def relaxation(r):
@@ -314,12 +319,12 @@ def relaxation(r):
     print_table(["points", "method", "flow: before the first iteration", "an iteration",
                  "energy, 10 iterations", "random: before", "an iteration",
                  "energy, 10 iterations"], rows)
-    print("50 iterations of 8,192 points from the flow: " + ", ".join(
-        f"{method} {milliseconds(r.median(f'Relaxation/{method}/flow/8192/50'))}"
-        for method in ("transport", "repulsion")) + ".\n")
+    print_text("50 iterations of 8,192 points from the flow: " + ", ".join(
+        f"{method} {r.time(f'Relaxation/{method}/flow/8192/50')}"
+        for method in ("transport", "repulsion")) + ".")
 
 
-TILED = [  # cells, particles, direction, steps, tables
+TILED = (  # cells, particles, direction, steps, tables
     ("256³", "one a cell", "forward", "32", "whole", "forward/whole/32/256"),
     ("256³", "one a cell", "forward", "32", "tiled", "forward/tiled/32/256"),
     ("512³", "one a cell", "forward", "32", "tiled", "forward/tiled/32/512"),
@@ -327,18 +332,27 @@ TILED = [  # cells, particles, direction, steps, tables
     ("256³", "one a cell", "backward", "32", "whole", "backward/whole/32/256"),
     ("256³", "one a cell", "backward", "32", "tiled", "backward/tiled/32/256"),
     ("512³", "one a cell", "backward", "32", "tiled", "backward/tiled/32/512"),
-    ("1024³", "10,000,000", "forward", "64", "tiled", "points/tiled/64/1024"),
-]
+    ("1024³", "10,000,000", "forward", "64", "tiled", "points/tiled/64/1024"))
 
 
 def tiles(r):
     rows = []
     for *text, name in TILED:
         name = f"Tiles/{name}"
-        peak, foretold = (r.median(name, f"{what}_bytes") / 1e6 for what in ("peak", "foretold"))
-        rows.append(text + [f"{r.median(name, 'real_time'):.1f} s", f"{peak:.0f} MB", f"{foretold:.0f} MB"])
+        peak, predicted = (r.median(name, f"{what}_bytes") / 1e6 for what in ("peak", "foretold"))
+        rows.append(text + [f"{r.median(name, 'real_time'):.1f} s", f"{peak:.0f} MB",
+                            f"{'tables: ' if 'whole' in text else ''}{predicted:.0f} MB"])
     print_table(["cells", "particles", "direction", "steps", "tables", "two threads",
-                 "memory beyond input and output", "foretold"], rows)
+                 "memory beyond input and output", "predicted"], rows)
+
+
+# What prints the figures without an option; of each option its help, benchmarks and what prints.
+ALL = (jobs, memory, core, flows, tables, breakdown, bandwidths, splats, errors)
+OPTIONS = {"quality": ("how good the particles are", "Quality", quality),
+           "morphs": ("morphs, barycenters and splats", "Morph|Barycenters|Splat3D", morphs),
+           "parameterization": ("maps of disks", "Parameterization", parameterization),
+           "relaxation": ("blue noise", "Relaxation", relaxation),
+           "tiles": ("large grids: 7 GB of memory, 8 minutes a repetition", "Tiles", tiles)}
 
 
 def run(arguments, names):
@@ -361,37 +375,23 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="RectifiedTransportBenchmarks")
     parser.add_argument("--repetitions", type=int, default=5)
-    parser.add_argument("--quality", action="store_true", help="only how good the particles are")
-    parser.add_argument("--morphs", action="store_true", help="only morphs, barycenters and splats")
-    parser.add_argument("--parameterization", action="store_true", help="only maps of disks")
-    parser.add_argument("--relaxation", action="store_true", help="only blue noise")
-    parser.add_argument("--tiles", action="store_true",
-                        help="only large grids: 7 GB of memory, 8 minutes a repetition")
+    for option, (text, _, _) in OPTIONS.items():
+        parser.add_argument(f"--{option}", action="store_const", const=option, dest="option",
+                            help=f"only {text}")
     arguments = parser.parse_args()
 
-    if arguments.tiles:
-        return tiles(Results(run(arguments, "Tiles")))
-    if arguments.relaxation:
-        return relaxation(Results(run(arguments, "Relaxation")))
-    if arguments.parameterization:
-        return parameterization(Results(run(arguments, "Parameterization")))
-    if arguments.quality:
-        return quality(Results(run(arguments, "Quality")))
-    if arguments.morphs:
-        return morphs(Results(run(arguments, "Morph|Barycenters|Splat3D")))
+    if arguments.option:
+        _, names, show = OPTIONS[arguments.option]
+        return show(Results(run(arguments, names)))
     # A process that has ever kept freed memory reuses it: those benchmarks run on their own.
-    results = Results(run(arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation"))
+    results = Results(run(
+        arguments, "-_reused|Lattice|Tiles|Quality|_fresh|Parameterization|Relaxation"))
     results.add(run(arguments, "_reused"))
 
-    print(f"{machine(results)}; median of {arguments.repetitions}; one thread unless stated.\n")
-    whole_jobs(results)
-    tables(results)
-    flows(results)
-    breakdown(results)
-    bandwidths(results)
-    remarks(results)
-    filters(results)
-    morphs(results)
+    print_text("Whole updates of filters with a new density, on one thread of an "
+               f"{machine(results)}, median of {arguments.repetitions}:")
+    for show in ALL:
+        show(results)
     return None
 
 
