@@ -7,6 +7,7 @@
 #include "Core/Flow/AdvectionJob.h"
 #include "Core/Flow/Compaction.h"
 #include "Core/Flow/FlowMap.h"
+#include "Core/Flow/ParticleSource.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Tables/NearestMass.h"
 
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -218,11 +218,11 @@ private:
 };
 
 // The particles of a source for one range, with local memory for their end points.
-template <int Dimension, class Source>
+template <int Dimension>
 class RangeCells
 {
 public:
-  RangeCells(const Source& source, const FlowJob<Dimension>& job)
+  RangeCells(const ParticleSource<Dimension>& source, const FlowJob<Dimension>& job)
     : Order(source)
     , Job(job)
   {
@@ -275,7 +275,7 @@ private:
     return middle;
   }
 
-  const Source& Order;
+  const ParticleSource<Dimension>& Order;
   FlowJob<Dimension> Job;
   std::int64_t Number[rangeBlocks * BlockSize];
   double Ends[rangeBlocks * BlockSize * Dimension];
@@ -325,13 +325,10 @@ public:
     this->First = hasLevels ? -this->Job.Map->LevelCount : 0;
   }
 
-  // Advects the particles of a source chunk by chunk: source.Prepare(first) makes the chunk that
-  // begins at particle `first` and returns its length, source.Fill reads particles of it. Writes
-  // the positions at the ascending times, all of a particle together, or without times at the end.
-  // Throws Cancelled.
-  template <class Source>
-  FlowReport Advect(
-    Source&& source, PointSpan<Dimension> positions, const std::vector<double>& times = {})
+  // Advects the particles of a source chunk by chunk. Writes the positions at the ascending times,
+  // all of a particle together, or without times at the end. Throws Cancelled.
+  FlowReport Advect(ParticleSource<Dimension>& source, PointSpan<Dimension> positions,
+    const std::vector<double>& times = {})
   {
     this->Job.Output = positions.data();
     this->Job.Times = times.empty() ? nullptr : times.data();
@@ -380,8 +377,7 @@ public:
   }
 
   // Advects the particles of a source and writes the grid cell that each ends in. Throws Cancelled.
-  template <class Source>
-  FlowReport AdvectToCells(Source&& source, std::int64_t* cells)
+  FlowReport AdvectToCells(ParticleSource<Dimension>& source, std::int64_t* cells)
   {
     const auto all = static_cast<double>(source.Count());
     for (std::int64_t chunk = 0; chunk < source.Count();)
@@ -389,7 +385,7 @@ public:
       const std::int64_t count = source.Prepare(chunk);
       const auto advect = [&](std::int64_t first, std::int64_t last) {
         const int length = static_cast<int>(last - first);
-        RangeCells<Dimension, std::decay_t<Source>> ends(source, this->Job);
+        RangeCells<Dimension> ends(source, this->Job);
         RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
         range.Fill(ends, first, length);
         range.Run(this->First, this->Shared.LastPass());

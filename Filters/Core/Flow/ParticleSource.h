@@ -10,25 +10,60 @@
 #include "Core/Geometry/GridSize.h"
 
 #include <cstdint>
+#include <variant>
 
 namespace RectifiedTransport
 {
 
-// Returns use(source) for the seeds on a box of `size`: source.Prepare(first) makes the chunk that
-// begins at particle `first` and returns its length, at most `chunk` points of an array;
-// source.Fill reads particles of it. Throws std::invalid_argument, also where there is not memory
-// for so many positions.
-template <int Dimension, class Use>
-auto withSource(const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size,
-  std::int64_t chunk, std::int64_t positions, const Use& use)
+class Ranks;
+
+template <int Dimension>
+class ParticleSource
 {
-  if (seeds.IsLattice())
+public:
+  // On a box of `size`, in chunks of at most `chunk` points of an array. Throws
+  // std::invalid_argument, also where there is not memory for so many positions.
+  ParticleSource(const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size,
+    std::int64_t positions, std::int64_t chunk = SortedPoints<Dimension>::UsualChunk)
+    : Order(SortedPoints<Dimension>(seeds.Points(), chunk))
   {
-    return use(checkedOrder<Dimension>(seeds, size, positions));
+    if (seeds.IsLattice())
+    {
+      this->Order = checkedOrder<Dimension>(seeds, size, positions);
+      return;
+    }
+    checkCount(positions, static_cast<double>(seeds.Points().size()));
   }
-  checkCount(positions, static_cast<double>(seeds.Points().size()));
-  return use(SortedPoints<Dimension>(seeds.Points(), chunk));
-}
+
+  std::int64_t Count() const
+  {
+    return std::visit([](const auto& order) { return order.Count(); }, this->Order);
+  }
+  // The number of particles of all ranks. Collective.
+  double CountOfAll(const Ranks& ranks) const
+  {
+    return std::visit([&](const auto& order) { return order.CountOfAll(ranks); }, this->Order);
+  }
+  // Makes the chunk that begins at particle `first`; returns its length.
+  std::int64_t Prepare(std::int64_t first)
+  {
+    return std::visit([&](auto& order) { return order.Prepare(first); }, this->Order);
+  }
+  // Reads `count` particles of the chunk from its number `first` on: where their results are, and
+  // their coordinates.
+  void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
+  {
+    if (const auto* lattice = std::get_if<LatticeOrder<Dimension>>(&this->Order))
+    {
+      lattice->Fill(first, count, index, points);
+      return;
+    }
+    std::get_if<SortedPoints<Dimension>>(&this->Order)->Fill(first, count, index, points);
+  }
+
+private:
+  std::variant<SortedPoints<Dimension>, LatticeOrder<Dimension>> Order;
+};
 
 } // namespace RectifiedTransport
 

@@ -23,26 +23,21 @@ namespace
 constexpr const char* noTiles = "a density of one axis has no tiles, it needs whole tables";
 
 template <int Dimension>
-std::unique_ptr<FlowEngine<Dimension>> makeWhole(
-  const DensitySource<Dimension>& density, const Context& context, TableMemory memory = {})
+std::unique_ptr<FlowEngine<Dimension>> makeEngine(const DensitySource<Dimension>& density,
+  FlowTables tables, const Context& context, const TileLimits& limits)
 {
   check<Dimension>(density.Size, "a density");
   Progress progress(context);
-  return std::make_unique<WholeEngine<Dimension>>(density, std::move(memory), progress);
-}
-
-template <int Dimension>
-std::unique_ptr<FlowEngine<Dimension>> makeTiled(
-  const DensitySource<Dimension>& density, const Context& context, const TileLimits& limits)
-{
-  check<Dimension>(density.Size, "a density");
+  if (tables == FlowTables::Whole)
+  {
+    return std::make_unique<WholeEngine<Dimension>>(density, progress);
+  }
   if constexpr (Dimension == 1)
   {
     throw std::invalid_argument(noTiles);
   }
   else
   {
-    Progress progress(context);
     return std::make_unique<TiledEngine<Dimension>>(density, limits, progress);
   }
 }
@@ -52,8 +47,7 @@ std::unique_ptr<FlowEngine<Dimension>> makeTiled(
 template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, const Context& context)
-  : Cells(density.Size)
-  , Engine(makeWhole(density, context))
+  : RectifiedFlow(density, FlowTables::Whole, context)
 {
 }
 
@@ -61,8 +55,7 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
   const Context& context, const TileLimits& limits)
   : Cells(density.Size)
-  , Engine(tables == FlowTables::Tiled ? makeTiled(density, context, limits)
-                                       : makeWhole(density, context))
+  , Engine(makeEngine(density, tables, context, limits))
 {
 }
 
@@ -71,12 +64,14 @@ RectifiedFlow<Dimension>::RectifiedFlow(
   const DensitySource<Dimension>& density, RectifiedFlow&& previous, const Context& context)
   : Cells(density.Size)
 {
+  check<Dimension>(density.Size, "a density");
   TableMemory memory;
   if (const std::unique_ptr<FlowEngine<Dimension>> engine = std::move(previous.Engine))
   {
     memory = engine->ReleaseMemory();
   }
-  this->Engine = makeWhole(density, context, std::move(memory));
+  Progress progress(context);
+  this->Engine = std::make_unique<WholeEngine<Dimension>>(density, progress, std::move(memory));
 }
 
 template <int Dimension>

@@ -23,7 +23,7 @@ template <int Dimension>
 class WholeEngine final : public FlowEngine<Dimension>
 {
 public:
-  WholeEngine(const DensitySource<Dimension>& density, TableMemory memory, Progress& progress)
+  WholeEngine(const DensitySource<Dimension>& density, Progress& progress, TableMemory memory = {})
     : Size(density.Size)
     , Tables(density, progress, std::move(memory))
   {
@@ -41,33 +41,30 @@ public:
   FlowReport Advect(AdvectionKind kind, const FlowSeeds<Dimension>& seeds,
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
-    return this->WithSource(seeds, positions.size(), [&](auto source) {
-      AdvectionRun<Dimension> run(this->View(), kind, options, context);
-      this->Prepare(run, options, source.CountOfAll(*context.Group));
-      return run.Advect(source, positions);
-    });
+    ParticleSource<Dimension> source(seeds, this->Size, positions.size());
+    AdvectionRun<Dimension> run(this->View(), kind, options, context);
+    this->Prepare(run, options, source.CountOfAll(*context.Group));
+    return run.Advect(source, positions);
   }
 
   FlowReport AdvectAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
     const auto each = static_cast<std::int64_t>(times.size());
-    return this->WithSource(seeds, positions.size() / each, [&](auto source) {
-      AdvectionRun<Dimension> run(this->View(), AdvectionKind::Forward, options, context);
-      this->Prepare(run, options, source.CountOfAll(*context.Group), times.front());
-      return run.Advect(source, positions, times);
-    });
+    ParticleSource<Dimension> source(seeds, this->Size, positions.size() / each);
+    AdvectionRun<Dimension> run(this->View(), AdvectionKind::Forward, options, context);
+    this->Prepare(run, options, source.CountOfAll(*context.Group), times.front());
+    return run.Advect(source, positions, times);
   }
 
   FlowReport AdvectToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
     const FlowOptions& options, const Context& context) override
   {
     const auto count = static_cast<std::int64_t>(seeds.Count());
-    return this->WithSource(seeds, count, [&](auto source) {
-      AdvectionRun<Dimension> run(this->View(), AdvectionKind::ForwardToCells, options, context);
-      this->Prepare(run, options, source.CountOfAll(*context.Group));
-      return run.AdvectToCells(source, cells);
-    });
+    ParticleSource<Dimension> source(seeds, this->Size, count);
+    AdvectionRun<Dimension> run(this->View(), AdvectionKind::ForwardToCells, options, context);
+    this->Prepare(run, options, source.CountOfAll(*context.Group));
+    return run.AdvectToCells(source, cells);
   }
 
   double Share(const Point<Dimension>& low, const Point<Dimension>& high) const override
@@ -99,14 +96,6 @@ public:
   }
 
 private:
-  template <class Use>
-  FlowReport WithSource(
-    const FlowSeeds<Dimension>& seeds, std::int64_t positions, const Use& use) const
-  {
-    return withSource<Dimension>(
-      seeds, this->Size, SortedPoints<Dimension>::UsualChunk, positions, use);
-  }
-
   // Gives a run of so many particles, whose positions are wanted from `firstTime` on, the flow map
   // that its options ask for, if any.
   void Prepare(AdvectionRun<Dimension>& run, const FlowOptions& options, double particles,

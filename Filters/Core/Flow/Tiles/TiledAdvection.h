@@ -5,6 +5,7 @@
 
 #include "Core/Flow/AdvectionRun.h"
 #include "Core/Flow/NodeAdvance.h"
+#include "Core/Flow/ParticleSource.h"
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TilePlan.h"
 #include "Core/Flow/Tiles/TileRun.h"
@@ -55,8 +56,7 @@ public:
   }
 
   // As AdvectionRun::Advect, without times.
-  template <class Source>
-  void Run(Source&& source, PointSpan<Dimension> positions)
+  void Run(ParticleSource<Dimension>& source, PointSpan<Dimension> positions)
   {
     const std::int64_t all = source.Count();
     const double begin = this->Work.StageEnd();
@@ -92,9 +92,8 @@ private:
       this->Map.Levels[this->Map.LevelCount - 1].HandOver == this->Plan.HandOver;
   }
 
-  template <class Source>
-  void RunChunk(const Source& source, std::int64_t length, PointSpan<Dimension> positions,
-    double begin, double end)
+  void RunChunk(const ParticleSource<Dimension>& source, std::int64_t length,
+    PointSpan<Dimension> positions, double begin, double end)
   {
     constexpr double partOfMap = 0.1;
     constexpr double partOfTiles = 0.9;
@@ -136,9 +135,8 @@ private:
     return particles >= BlockSize ? ~std::uint64_t{ 0 } : (std::uint64_t{ 1 } << particles) - 1;
   }
 
-  template <class Source>
-  static int fillBlock(const Source& source, std::int64_t length, std::int64_t block,
-    std::int64_t* index, double* seeds)
+  static int fillBlock(const ParticleSource<Dimension>& source, std::int64_t length,
+    std::int64_t block, std::int64_t* index, double* seeds)
   {
     const auto count =
       static_cast<int>(std::min<std::int64_t>(BlockSize, length - block * BlockSize));
@@ -147,8 +145,8 @@ private:
   }
 
   // The entries of all particles, but those that the map does not serve: these are `left`.
-  template <class Source>
-  ByTile<Entry> FindTiles(const Source& source, std::int64_t length, ParticleMask& left)
+  ByTile<Entry> FindTiles(
+    const ParticleSource<Dimension>& source, std::int64_t length, ParticleMask& left)
   {
     const std::int64_t blocks = left.Blocks();
     std::vector<std::vector<Entry>> found(static_cast<std::size_t>((blocks + grain - 1) / grain));
@@ -211,8 +209,9 @@ private:
   }
 
   // Calls give(values, index, particle) for each particle of an item of a tile.
-  template <class Source, class Give>
-  static void giveEntry(const Source& source, const Entry& entry, const Give& give)
+  template <class Give>
+  static void giveEntry(
+    const ParticleSource<Dimension>& source, const Entry& entry, const Give& give)
   {
     std::int64_t index[BlockSize];
     double seeds[BlockSize * Dimension];
@@ -238,9 +237,9 @@ private:
 
   // Takes all that is in `given` from the seeds, with 2^pass times as many steps; what is still
   // unresolved is in `left` then.
-  template <class Source>
-  void RunPass(const Source& source, int pass, const ParticleMask& given, std::int64_t count,
-    PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
+  void RunPass(const ParticleSource<Dimension>& source, int pass, const ParticleMask& given,
+    std::int64_t count, PointSpan<Dimension> positions, ParticleMask& left, double begin,
+    double end)
   {
     const std::int64_t most = this->Plan.ExtraParticles();
     std::int64_t block = 0;
@@ -271,9 +270,8 @@ private:
     }
   }
 
-  template <class Source>
-  void RunExtra(const Source& source, int pass, Extra& extra, PointSpan<Dimension> positions,
-    ParticleMask& left, double begin, double end)
+  void RunExtra(const ParticleSource<Dimension>& source, int pass, Extra& extra,
+    PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
   {
     constexpr int forward = FlowMapLevel<Dimension>::ForwardRecord;
     constexpr int backward = FlowMapLevel<Dimension>::BackwardRecord;
@@ -353,8 +351,8 @@ private:
       });
   }
 
-  template <class Source>
-  void WriteSeeds(const Source& source, const Extra& extra, PointSpan<Dimension> positions)
+  void WriteSeeds(
+    const ParticleSource<Dimension>& source, const Extra& extra, PointSpan<Dimension> positions)
   {
     constexpr int record = FlowMapLevel<Dimension>::BackwardRecord;
     constexpr std::int64_t seedGrain = 4096;
@@ -376,8 +374,8 @@ private:
     this->Work.Check();
   }
 
-  template <class Source>
-  void MoveToMass(const Source& source, const ParticleMask& left, PointSpan<Dimension> positions)
+  void MoveToMass(const ParticleSource<Dimension>& source, const ParticleMask& left,
+    PointSpan<Dimension> positions)
   {
     FlowJob<Dimension> job = this->Wide;
     job.Output = positions.data();

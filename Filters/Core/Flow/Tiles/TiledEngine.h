@@ -74,16 +74,8 @@ public:
   FlowReport Advect(AdvectionKind kind, const FlowSeeds<Dimension>& seeds,
     PointSpan<Dimension> positions, const FlowOptions& options, const Context& context) override
   {
-    return withSource<Dimension>(seeds, this->Size, TilePlan<Dimension>::SortedParticles,
-      positions.size(),
-      [&](auto source) { return this->AdvectSource(kind, source, positions, options, context); });
-  }
-
-private:
-  template <class Source>
-  FlowReport AdvectSource(AdvectionKind kind, Source& source, PointSpan<Dimension> positions,
-    const FlowOptions& options, const Context& context)
-  {
+    ParticleSource<Dimension> source(
+      seeds, this->Size, positions.size(), TilePlan<Dimension>::SortedParticles);
     const AdvectionJob<Dimension> shared(this->View(), kind, options);
     const bool isBackward = kind == AdvectionKind::Backward;
     const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
@@ -116,6 +108,8 @@ private:
     return report;
   }
 
+private:
+private:
   static TilePlan<Dimension> PlanFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, const TileLimits& limits)
   {
