@@ -114,7 +114,8 @@ OTHERS = [
     E(CORE + "Tables/BoxShare.cxx", "«std::clamp(this->Centre[axis] + h * this->Aspect[axis], 0.0, size)»",
       "this->Centre[axis] + h * this->Aspect[axis]"),
     E(CORE + "Flow/MapDerivatives.cxx", "«below && above» ? 2.0 * this->Step[axis]", "below || above"),
-    E(CORE + "Quality/NearestNeighbours.cxx", "const bool lowest = «!(pivot > box.Low[axis])»", "false"),
+    E(CORE + "Geometry/BoxTree.h", "withEqual ? «value(item) <= pivot»",
+      "value(item) < pivot || &item == items + first"),
     E(CORE + "Flow/WeightedMean.cxx", "begin += «block»", "block + 1"),
     # maps of disks
     E(CORE + "Parameterization/SquareCorners.cxx", "return «length(a) > length(b)»", "length(a) < length(b)"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/PowerCells/SiteTree.h"
 
+#include "Core/Geometry/BoxTree.h"
 #include "Core/Parallel/Progress.h"
 
 #include <limits>
@@ -17,46 +18,33 @@ constexpr std::int64_t leafSites = 6;
 
 void SiteTree::Build(ConstPointSpan<2> sites, Progress& progress)
 {
-  struct Task
-  {
-    std::int64_t First;
-    std::int64_t Last;
-    std::int64_t Parent; // of a second child, else -1
-  };
   this->Sites.resize(static_cast<std::size_t>(sites.size()));
-  this->Boxes.clear();
   for (std::int64_t i = 0; i < sites.size(); ++i)
   {
     this->Sites[static_cast<std::size_t>(i)] = { { sites[i][0], sites[i][1] }, 0.0, i };
   }
-  std::vector<Task> tasks{ { 0, sites.size(), -1 } };
-  while (!tasks.empty())
-  {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const auto number = static_cast<std::int64_t>(this->Boxes.size());
-    if (task.Parent >= 0)
-    {
-      this->Boxes[static_cast<std::size_t>(task.Parent)].Second = number;
-    }
-    Box box{ {}, {}, 0.0, {}, 0.0, task.First, task.Last, -1 };
-    this->Bound(box);
-    this->Boxes.push_back(box);
-    progress.Add(task.Last - task.First);
-    if (task.Last - task.First <= leafSites)
-    {
-      continue;
-    }
-    const std::size_t axis = box.High[1] - box.Low[1] > box.High[0] - box.Low[0] ? 1 : 0;
-    const std::int64_t middle = task.First + (task.Last - task.First) / 2;
-    const auto at = [this](std::int64_t i) { return this->Sites.begin() + i; };
-    std::nth_element(at(task.First), at(middle), at(task.Last),
-      [axis](const WeightedSite& a, const WeightedSite& b) {
-        return std::make_pair(a.X[axis], a.Id) < std::make_pair(b.X[axis], b.Id);
-      });
-    tasks.push_back({ middle, task.Last, number });
-    tasks.push_back({ task.First, middle, -1 });
-  }
+  this->Boxes = makeBoxTree<Box>(
+    sites.size(),
+    [&](std::int64_t first, std::int64_t last) {
+      Box box{ {}, {}, 0.0, {}, 0.0, first, last, -1 };
+      this->Bound(box);
+      progress.Add(last - first);
+      return box;
+    },
+    [&](const Box& box) {
+      if (box.Last - box.First <= leafSites)
+      {
+        return box.First;
+      }
+      const std::size_t axis = box.High[1] - box.Low[1] > box.High[0] - box.Low[0] ? 1 : 0;
+      const std::int64_t middle = box.First + (box.Last - box.First) / 2;
+      const auto at = [this](std::int64_t i) { return this->Sites.begin() + i; };
+      std::nth_element(at(box.First), at(middle), at(box.Last),
+        [axis](const WeightedSite& a, const WeightedSite& b) {
+          return std::make_pair(a.X[axis], a.Id) < std::make_pair(b.X[axis], b.Id);
+        });
+      return middle;
+    });
 }
 
 void SiteTree::Bound(Box& box) const

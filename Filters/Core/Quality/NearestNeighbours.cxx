@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Quality/NearestNeighbours.h"
 
+#include "Core/Geometry/BoxTree.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -51,12 +51,6 @@ public:
   // Throws Cancelled.
   void Build(ConstPointSpan<3> points, Progress& progress, double end)
   {
-    struct Task
-    {
-      std::int64_t First;
-      std::int64_t Last;
-      std::int64_t Parent; // of a second child, else -1
-    };
     const std::int64_t count = this->Points.size();
     // Every level of the tree reads each point twice.
     std::int64_t passes = 2;
@@ -66,26 +60,14 @@ public:
     }
     progress.BeginStage(end, passes * count);
     this->Read(points, progress);
-    std::vector<Task> tasks{ { 0, count, -1 } };
-    while (!tasks.empty())
-    {
-      const Task task = tasks.back();
-      tasks.pop_back();
-      const auto box = static_cast<std::int64_t>(this->Boxes.size());
-      if (task.Parent >= 0)
-      {
-        this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
-      }
-      TreeBox made = EmptyBox(task.First, task.Last);
-      this->Bound(made, progress);
-      this->Boxes.push_back(made);
-      const std::int64_t middle = this->Divide(made, progress);
-      if (middle > task.First)
-      {
-        tasks.push_back({ middle, task.Last, box });
-        tasks.push_back({ task.First, middle, -1 });
-      }
-    }
+    this->Boxes = makeBoxTree<TreeBox>(
+      count,
+      [&](std::int64_t first, std::int64_t last) {
+        TreeBox made = EmptyBox(first, last);
+        this->Bound(made, progress);
+        return made;
+      },
+      [&](const TreeBox& box) { return this->Divide(box, progress); });
   }
 
   const TreePoint& At(std::int64_t place) const { return this->Points.data()[place]; }
@@ -179,58 +161,22 @@ private:
     }
   }
 
-  // Partitions the points of a box along its widest axis, about the median of a sample. Returns
-  // where the second part begins, the first point of the box if it is a leaf.
+  // Partitions the points of a box along its widest axis. Returns where the second part begins, the
+  // first point of the box if it is a leaf.
   std::int64_t Divide(const TreeBox& box, Progress& progress)
   {
-    std::int64_t middle = box.First;
     int axis = 0;
     for (int r = 1; r < 3; ++r)
     {
       axis = box.High[r] - box.Low[r] > box.High[axis] - box.Low[axis] ? r : axis;
     }
-    const std::int64_t count = box.Last - box.First;
-    if (count <= leafPoints || !(box.High[axis] > box.Low[axis]))
+    if (box.Last - box.First <= leafPoints || !(box.High[axis] > box.Low[axis]))
     {
-      return middle;
+      return box.First;
     }
-    std::array<double, 63> sample;
-    const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
-    for (std::int64_t i = 0; i < taken; ++i)
-    {
-      sample[static_cast<std::size_t>(i)] = this->At(box.First + i * count / taken).X[axis];
-    }
-    const auto median = sample.begin() + taken / 2;
-    std::nth_element(sample.begin(), median, sample.begin() + taken);
-    // Points equal to the pivot are in the upper part, unless all others are above it, too.
-    const double pivot = *median;
-    const bool lowest = !(pivot > box.Low[axis]);
-    const auto isBelow = [=](const TreePoint& point) {
-      return lowest ? point.X[axis] <= pivot : point.X[axis] < pivot;
-    };
-    TreePoint* points = this->Points.data();
-    std::int64_t last = box.Last;
-    while (middle < last)
-    {
-      const std::int64_t open = last - middle;
-      while (middle < last && open - (last - middle) < mostAtOnce)
-      {
-        if (isBelow(points[middle]))
-        {
-          ++middle;
-        }
-        else if (!isBelow(points[last - 1]))
-        {
-          --last;
-        }
-        else
-        {
-          std::swap(points[middle++], points[--last]);
-        }
-      }
-      progress.Add(open - (last - middle));
-    }
-    return middle;
+    return partitionAboutMedian(
+      this->Points.data(), box.First, box.Last,
+      [axis](const TreePoint& point) { return point.X[axis]; }, progress);
   }
 
   double Gap(const TreePoint& point, std::int64_t box) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Relaxation/ReachTree.h"
 
+#include "Core/Geometry/BoxTree.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Relaxation/Polls.h"
 
@@ -102,42 +103,28 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
 template <int Dimension>
 void ReachTree<Dimension>::MakeBoxes()
 {
-  struct Task
-  {
-    std::int64_t First;
-    std::int64_t Last;
-    std::int64_t Parent; // of a second child, else -1
-  };
-  this->Boxes.clear();
   this->TileBox.assign(static_cast<std::size_t>(this->Tiles()), 0);
-  std::vector<Task> tasks;
-  if (this->Tiles() > 0)
+  this->Boxes.clear();
+  if (this->Tiles() == 0)
   {
-    tasks.push_back({ 0, this->Tiles(), -1 });
+    return;
   }
-  while (!tasks.empty())
+  this->Boxes = makeBoxTree<Box>(
+    this->Tiles(),
+    [](std::int64_t first, std::int64_t last) {
+      Box box{};
+      box.First = first;
+      box.Last = last;
+      box.Second = -1;
+      return box;
+    },
+    [](const Box& box) { return (box.First + box.Last) / 2; }); // of one tile: the first
+  for (std::size_t i = 0; i < this->Boxes.size(); ++i)
   {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const auto at = static_cast<std::int64_t>(this->Boxes.size());
-    if (task.Parent >= 0)
+    if (this->Boxes[i].Second < 0)
     {
-      this->Boxes[static_cast<std::size_t>(task.Parent)].Second = at;
+      this->TileBox[static_cast<std::size_t>(this->Boxes[i].First)] = static_cast<std::int64_t>(i);
     }
-    Box box{};
-    box.First = task.First;
-    box.Last = task.Last;
-    box.Second = -1;
-    this->Boxes.push_back(box);
-    if (task.Last - task.First == 1)
-    {
-      this->TileBox[static_cast<std::size_t>(task.First)] = at;
-      continue;
-    }
-    const std::int64_t middle = (task.First + task.Last) / 2;
-    tasks.push_back({ middle, task.Last, at });
-    tasks.push_back({ task.First, middle, -1 });
-    this->Boxes.back().Second = 0; // known once the first child's boxes are made
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/SurfaceSampling/FlatLocator.h"
 
+#include "Core/Geometry/BoxTree.h"
 #include "Core/SurfaceSampling/Turn.h"
 
 #include <algorithm>
@@ -84,32 +85,14 @@ void FlatLocator::ReadTriangles(Progress& progress)
 
 void FlatLocator::Build(Progress& progress)
 {
-  struct Task
-  {
-    std::int64_t First;
-    std::int64_t Last;
-    std::int64_t Parent; // of a second child, else -1
-  };
-  std::vector<Task> tasks{ { 0, this->NumberOfItems, -1 } };
-  while (!tasks.empty())
-  {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const auto box = static_cast<std::int64_t>(this->Boxes.size());
-    if (task.Parent >= 0)
-    {
-      this->Boxes[static_cast<std::size_t>(task.Parent)].Second = box;
-    }
-    Box made{ { infinity, infinity }, { -infinity, -infinity }, task.First, task.Last, -1 };
-    this->Bound(made, progress);
-    this->Boxes.push_back(made);
-    const std::int64_t middle = this->Divide(made, progress);
-    if (middle > task.First)
-    {
-      tasks.push_back({ middle, task.Last, box });
-      tasks.push_back({ task.First, middle, -1 });
-    }
-  }
+  this->Boxes = makeBoxTree<Box>(
+    this->NumberOfItems,
+    [&](std::int64_t first, std::int64_t last) {
+      Box made{ { infinity, infinity }, { -infinity, -infinity }, first, last, -1 };
+      this->Bound(made, progress);
+      return made;
+    },
+    [&](const Box& box) { return this->Divide(box, progress); });
 }
 
 void FlatLocator::Bound(Box& box, Progress& progress) const
@@ -133,63 +116,26 @@ void FlatLocator::Bound(Box& box, Progress& progress) const
   }
 }
 
-// Partitions the triangles of a box by their centres, about the median of a sample. Returns where
-// the second part begins, the first triangle of the box if it is a leaf.
+// Partitions the triangles of a box by their centres along its longer axis, or the other one.
+// Returns where the second part begins, the first triangle of the box if it is a leaf.
 std::int64_t FlatLocator::Divide(const Box& box, Progress& progress)
 {
-  Item* items = this->Items.data();
-  const std::int64_t count = box.Last - box.First;
-  if (count <= leafTriangles)
+  if (box.Last - box.First <= leafTriangles)
   {
     return box.First;
   }
-  std::array<double, 63> sample;
-  const std::int64_t taken = std::min<std::int64_t>(count, sample.size());
-  const auto median = sample.begin() + taken / 2;
   const int longer = (box.High[1] - box.Low[1]) * this->Mesh.Lengths[1] >
       (box.High[0] - box.Low[0]) * this->Mesh.Lengths[0]
     ? 1
     : 0;
   for (const int axis : { longer, 1 - longer })
   {
-    for (std::int64_t i = 0; i < taken; ++i)
+    const std::int64_t middle = partitionAboutMedian(
+      this->Items.data(), box.First, box.Last,
+      [axis](const Item& item) { return item.Centre[axis]; }, progress);
+    if (middle < box.Last)
     {
-      sample[static_cast<std::size_t>(i)] = items[box.First + i * count / taken].Centre[axis];
-    }
-    std::nth_element(sample.begin(), median, sample.begin() + taken);
-    const double pivot = *median;
-    // Centres equal to the pivot are in the upper part, or, if that were all, in the lower one.
-    for (const bool withEqual : { false, true })
-    {
-      std::int64_t middle = box.First;
-      std::int64_t last = box.Last;
-      const auto isBelow = [=](const Item& item) {
-        return withEqual ? item.Centre[axis] <= pivot : item.Centre[axis] < pivot;
-      };
-      while (middle < last)
-      {
-        const std::int64_t open = last - middle;
-        while (middle < last && open - (last - middle) < mostAtOnce)
-        {
-          if (isBelow(items[middle]))
-          {
-            ++middle;
-          }
-          else if (!isBelow(items[last - 1]))
-          {
-            --last;
-          }
-          else
-          {
-            std::swap(items[middle++], items[--last]);
-          }
-        }
-        progress.Add(open - (last - middle));
-      }
-      if (middle > box.First && middle < box.Last)
-      {
-        return middle;
-      }
+      return middle;
     }
   }
   return box.First; // all centres are one point
