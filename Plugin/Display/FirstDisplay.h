@@ -3,8 +3,9 @@
 // filter's proxy; the first one that applies holds:
 //   <FirstDisplay port="0" dimension="3" property="OutputPaths" value="1" type="Wireframe"
 //     array="Time" categories="1"> <Set property="LineWidth" values="2"/> </FirstDisplay>
-// port, dimension (of the data) and property with value say when it applies, each if given; type is
-// that of the representation; array colours, by categories if they are 1, an empty name by none.
+// port, dimension (of the data) and property with value say when it applies, each if given. type is
+// the type of the representation. array colours it, by categories if they are 1; an empty name
+// colours by none.
 #ifndef RectifiedTransport_FirstDisplay_h
 #define RectifiedTransport_FirstDisplay_h
 
@@ -14,8 +15,8 @@ class vtkSMSourceProxy;
 namespace RectifiedTransport
 {
 
-// Sets up a representation that has just been made. Where the elements depend on properties of the
-// producer, the representation follows these later, as long as nobody has chosen another type.
+// Sets up a representation that has just been made. If the elements depend on properties of the
+// producer, the representation follows these later until the user chooses another type.
 void applyFirstDisplay(vtkSMSourceProxy* producer, int port, vtkSMProxy* representation);
 
 } // namespace RectifiedTransport

@@ -3,10 +3,10 @@
  * @class   vtkTransportDisplayController
  * @brief   ParaView's controller, which sets up what a filter's output looks like at first
  *
- * ParaView's own hints know one type of representation for an output, whatever the data, and no
- * array to colour by but the active scalars. This one replaces ParaView's controller in the
- * client's factory of objects, shows as that one does, and then follows the elements FirstDisplay
- * among the hints of the filter's proxy. Proxies without these are shown as ever.
+ * ParaView's own hints support one type of representation for an output, whatever the data, and
+ * colour only by the active scalars. This class replaces ParaView's controller in the client's
+ * object factory. It shows an output as that one does, then follows the FirstDisplay elements in
+ * the hints of the filter's proxy. Proxies without them are shown as before.
  *
  * @sa vtkSMParaViewPipelineControllerWithRendering
  */

@@ -44,8 +44,7 @@ pqBoundsOfDataWidget::pqBoundsOfDataWidget(
   auto* button = new QToolButton(this);
   button->setObjectName("TakeBounds");
   button->setIcon(QIcon(":/pqWidgets/Icons/pqZoomToData.svg"));
-  button->setToolTip(
-    tr("Take the bounds of the data that are shown, or by the arrow of one of them"));
+  button->setToolTip(tr("Take the bounds of all visible data, or of one data set by the arrow"));
   button->setPopupMode(QToolButton::MenuButtonPopup);
   button->setMenu(this->Outputs);
   QObject::connect(button, SIGNAL(clicked()), this, SLOT(takeVisible()));
