@@ -3,48 +3,48 @@
  * @class   vtkAreaPreservingParameterization
  * @brief   texture coordinates of a disk that preserve areas
  *
- * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons, whose polygons
- * and triangle strips are a disk: one component with one boundary, without holes and handles, as a
- * surface that was cut open. Output: the same surface
- * with coordinates in the unit square for every point, so that every triangle has the share of the
- * square that it has of the surface. The method is that of Section 5.4 of Do, Coeurjolly, Memari
- * and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4),
- * 2025, doi:10.1145/3731147: a conformal map of the surface to the square, whose density of area is
- * then transported to the uniform one, and the points with it. As the flow moves points and
- * triangles stay straight between them, Polish improves the result until triangles have their
- * areas: 95 % of the area within 3 %, no triangle flipped.
+ * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons. Its polygons and
+ * triangle strips form a disk: one component with one boundary, without holes and handles, such as
+ * a surface that was cut open. Output: the same surface with coordinates in the unit square for
+ * every point. Each triangle's share of the square equals its share of the surface.
  *
- * Output, a vtkPolyData with the points, cells and data of the input in their order, and
+ * The method is that of Section 5.4 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
+ * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. A conformal
+ * map takes the surface to the square. Its density of area is transported to the uniform one, and
+ * the points with it. The flow moves only the points; triangles stay straight between them. Polish
+ * then corrects the areas: 95 % of the area within 3 %, no triangle flipped.
+ *
+ * The output is a vtkPolyData with the points, cells and data of the input in their order, and
  *
  * - point data `AreaPreserving` (2 components, float, active texture coordinates),
  *   `AreaPreservingExact` (the same in double) and `Conformal` (2 components, double): all in
  *   [0,1]^2, the boundary of the surface on the sides;
- * - cell data `AreaDistortion` (double: the share of the area in the square by that of the
- *   surface's area, 1 where it is kept), `AngleDistortion` (double: the quotient of the singular
- *   values of the map of the triangle, 1 where it keeps its shape, at most 1000), and `Flipped`
- *   (unsigned char: 1 where a triangle is turned over, or has no area left); 1, 1 and 0 for cells
- *   that are no polygons or have no area;
+ * - cell data `AreaDistortion` (double: the triangle's share of the square divided by its share of
+ *   the surface; 1 is best), `AngleDistortion` (double: the quotient of the singular values of the
+ *   triangle's map; 1 if it keeps its shape, at most 1000), and `Flipped` (unsigned char: 1 if the
+ *   triangle is turned over or has no area left). Cells that are not polygons or have no area get
+ *   1, 1 and 0;
  * - field data `AreaDistortionRMS` (the root mean square of the deviation of AreaDistortion from 1,
  *   weighted by area), `AngleDistortionMean` (weighted by area) and `FlippedCount`.
  *
- * All of them are of AreaPreservingExact; they replace arrays of the same names. Where there are
- * polygons of more than three points, or strips, these are cut into triangles, each with the cell
- * data of the polygon; global ids of cells are then dropped. Lines and vertices pass unchanged.
+ * The figures are those of AreaPreservingExact. The arrays replace arrays of the same names.
+ * Polygons of more than three points and strips are cut into triangles with the cell data of the
+ * polygon; global ids of cells are then dropped. Lines and vertices pass unchanged.
  *
- * Points that are in no polygon (their coordinates are 0 0) and triangles without area are left out
- * of the map, and points at one place merged, with a warning that counts them, where the surface is
- * no disk otherwise. A cut along which points are there twice stays a cut. Polygons that disagree
- * in their orientation are mapped with the one that most of the area has. Surfaces that are closed,
- * have several components, boundaries, handles or edges of more than two triangles are errors that
- * say which. No points give an empty output.
+ * If the surface is no disk otherwise, points in no polygon (their coordinates are 0 0) and
+ * triangles without area are left out of the map, and points at the same position are merged, with
+ * a warning that counts them. A cut whose points are duplicated stays a cut. Polygons with
+ * inconsistent orientation are mapped with the orientation that most of the area has. A closed
+ * surface, several components or boundaries, handles, and edges of more than two triangles are
+ * errors that say which. An input without points gives an empty output.
  *
- * On several ranks of MPI the surface is gathered on the first one, which has the output.
+ * With several MPI ranks the surface is gathered on rank 0, which has the output.
  *
  * Cost: O(points^1.5) for the conformal map, O(points + Resolution^2) for the rest. Memory: up to
  * 1350 bytes a point, and 40 bytes a cell of the grid.
  *
- * @warning A nearly closed surface, whose boundary is short, cannot be mapped with areas that are
- * near; the warning says how near they are.
+ * @warning On a nearly closed surface, with a short boundary, areas cannot be kept well. The
+ * warning says how well they are kept.
  *
  * \code{.cpp}
  * vtkNew<vtkAreaPreservingParameterization> map;
@@ -87,8 +87,8 @@ public:
 
   ///@{
   /**
-   * Whether points are moved on after the flow until triangles have their areas. Off: the paper's
-   * method alone. Default on.
+   * Whether points are moved after the flow until triangles have their areas. Off: only the paper's
+   * method. Default on.
    */
   vtkSetMacro(Polish, bool);
   vtkGetMacro(Polish, bool);
@@ -98,8 +98,9 @@ public:
   ///@{
   /**
    * The points of the surface's boundary that become the corners of the unit square: four point
-   * ids, of which the first goes to (0,0) and the others, in the order of the boundary, to (1,0),
-   * (1,1) and (0,1). Without any (default) they are chosen. 1000000 at most.
+   * ids. The first goes to (0,0), the others, in the order of the boundary, to (1,0), (1,1) and
+   * (0,1). By default there are none, and the corners are chosen automatically. The count is at
+   * most 1000000.
    */
   void SetNumberOfCorners(int count);
   int GetNumberOfCorners();
@@ -108,7 +109,7 @@ public:
 
   ///@{
   /**
-   * One of them. The list becomes as long as needed, with -1 for corners that are not set.
+   * One of the corners. The list grows as needed, with -1 for corners that are not set.
    */
   void SetCorner(int index, vtkIdType point);
   vtkIdType GetCorner(int index);

@@ -3,43 +3,46 @@
  * @class   vtkDensityAlgorithm
  * @brief   superclass of the filters that read a density
  *
- * The density is an array of a data set, or of the data sets of a composite one, chosen with
- * SetInputArrayToProcess(0, ...), where the port is that of the image; without a choice it is
- * the active scalars of the points, else of the cells, else the only array, ids and flags aside.
- * That of a vtkImageData is piecewise constant on cells: cell arrays are taken as they are; the
- * values of a point array are those of the dual cells, so that the domain is the image's bounds
- * grown by half a spacing on each side of every axis. An axis of one point is no axis, so that
- * images may be 1D, 2D (in any coordinate plane) or 3D; one cell between two points is an axis
- * of one cell. Origin, spacing, extent and direction matrix are arbitrary, and so is the numeric
- * type. Cells and points that the ghost array marks as duplicate or hidden carry no mass, and
- * neither do the cells of a hidden point.
+ * The density is an array of a data set, or of the data sets of a composite one. Choose it with
+ * SetInputArrayToProcess(0, ...) and the port of the data. Without a choice it is the active
+ * scalars of the points, else those of the cells, else the only array that is neither ids nor
+ * flags.
  *
- * Any other data set (rectilinear, structured and unstructured grids, polygons in one plane, closed
- * lines around regions of one, lines on one straight line), and any composite of data sets, is one
- * domain: an image on the bounds of
- * its cells of the highest dimension, with DensityResolution cells along the longest axis. The
- * value of a grid cell is the mean over it, 0 outside the data sets: point arrays are linear on the
- * simplices into which VTK divides the cells, cell arrays constant, cells that overlap add up.
- * Cells of a plane or line that is oblique get an image in it. Images that tile one lattice are
- * joined to one image instead, value by value, and cells of one lattice, as vtkThreshold leaves of
- * an image, are the image that they are of. The leaves of a vtkHyperTreeGrid are its cells. Blocks
- * without the array carry no mass, and those without cells, such as tables, are passed over; both
- * are a warning. Blanked cells and cells of AMR grids that finer ones
- * cover carry no mass. An input of surfaces that lie in no plane, or without cells of a measure, is
- * an error.
+ * The density of a vtkImageData is piecewise constant on cells. Cell arrays are used as they are.
+ * The values of a point array are those of the dual cells: the domain is the image's bounds plus
+ * half a spacing on each side of every axis. An axis of one point is no axis: images may be 1D, 2D
+ * (in any coordinate plane) or 3D. One cell between two points is an axis of one cell. Origin,
+ * spacing, extent, direction matrix and numeric type are arbitrary. Cells and points that the ghost
+ * array marks as duplicate or hidden carry no mass. The cells of a hidden point carry no mass
+ * either.
  *
- * Mass is physical: density times cell measure, which is the length, area or volume that the
+ * Any other data set and any composite of data sets is one domain. It may be a rectilinear,
+ * structured or unstructured grid, polygons in one plane, closed lines around regions of a plane,
+ * or lines on one straight line. It is resampled to an image on the bounds of its cells of the
+ * highest dimension, with DensityResolution cells along the longest axis. The value of a grid cell
+ * is the mean over it, 0 outside the data sets. Point arrays are linear on the simplices into which
+ * VTK divides the cells. Cell arrays are constant. Cells that overlap add up. Cells in an oblique
+ * plane or line get an image in it.
+ *
+ * Images that tile one lattice are joined to one image instead, value by value. Cells of one
+ * lattice, for example what vtkThreshold leaves of an image, become that image again. The leaves of
+ * a vtkHyperTreeGrid are its cells. Blocks without the array carry no mass. Blocks without cells,
+ * such as tables, are ignored. Both give a warning. Blanked cells and AMR cells covered by finer
+ * ones carry no mass. Surfaces that lie in no plane, and inputs without cells of positive measure,
+ * are errors.
+ *
+ * Mass is physical: density times cell measure. The measure is the length, area or volume that the
  * image's axes of more than one point span.
  *
- * An array that is missing or of the wrong length, values that are NaN, infinite or (unless
- * NegativeValues is Clamp) negative, and a total mass of zero or past the largest double are
- * errors. The message names the array, how many values are wrong and the index of the first; the
- * output is then empty. An input without points gives an empty output without an error.
+ * These are errors: an array that is missing or has the wrong length; values that are NaN, infinite
+ * or, unless NegativeValues is Clamp, negative; a total mass of zero or beyond the largest double.
+ * The message gives the name of the array, the number of wrong values and the index of the first
+ * one. The output is then empty. An input without points gives an empty output and no error.
  *
- * The summed-area tables of a density are built when they are needed, and kept until it changes
- * (its values, ghost arrays, grid or the properties below), at a cost of O(cells) in time and of
- * about 21, 34 and 33 bytes a cell in 1D, 2D and 3D in memory. Filters that read the same values
- * share them; they are released with the last of these filters.
+ * The summed-area tables of a density are built when they are needed. They are kept until the
+ * density changes: its values, ghost arrays, grid or the properties below. They take O(cells) time
+ * and about 21, 34 and 33 bytes a cell in 1D, 2D and 3D. Filters that read the same values share
+ * them; the last of these filters releases them.
  *
  * @sa vtkTransportAlgorithm
  */
@@ -83,11 +86,11 @@ public:
 
   ///@{
   /**
-   * Which component of the array is the density: an index from 0, or -1 (default) for luminance.
-   * The luminance of 3 or 4 components is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709), that of 1 or 2
-   * the first one. The last of 2 or 4 components is alpha, and the picture is composited over
-   * white: 255 for unsigned char, else the largest value of the array. An array of more than 4
-   * components needs an index.
+   * The component of the array that is the density: an index from 0, or -1 (default) for the
+   * luminance. With 3 or 4 components the luminance is 0.2126 R + 0.7152 G + 0.0722 B (Rec. 709);
+   * with 1 or 2 it is the first component. The last of 2 or 4 components is alpha: the picture is
+   * composited over white, which is 255 for unsigned char, else the largest value of the array. An
+   * array of more than 4 components needs an index.
    */
   vtkSetMacro(Component, int);
   vtkGetMacro(Component, int);
@@ -95,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Take (white - value) for the density, so that dark ink is mass. White is 255 for unsigned char,
-   * else the largest value of the array (of the component, where Component is an index). Off by
+   * Use (white - value) as the density, so that dark ink is mass. White is 255 for unsigned char,
+   * else the largest value of the array (of the component, if Component is an index). Off by
    * default.
    */
   vtkSetMacro(InvertDensity, vtkTypeBool);
@@ -106,8 +109,8 @@ public:
 
   ///@{
   /**
-   * What negative values of the density do: Error (default) stops with a message that counts them,
-   * Clamp takes them as 0.
+   * What to do with negative values. Error (default): stop with a message that counts them. Clamp:
+   * use 0.
    */
   vtkSetMacro(NegativeValues, int);
   vtkGetMacro(NegativeValues, int);
@@ -118,17 +121,18 @@ public:
 
   ///@{
   /**
-   * For inputs that are no images: the number of cells along the longest axis of the image that the
-   * density is put on; along the others as many as make the cells nearest to cubes. From 1 to 2^30.
-   * Default 256. Images, images that tile one lattice, and cell values of cells of one lattice are
-   * taken as they are.
+   * For inputs other than images: the number of cells along the longest axis of the image that the
+   * density is resampled to, from 1 to 2^30. Default 256. The numbers along the other axes make the
+   * cells as near to cubes as possible. Images, images that tile one lattice, and cell values of
+   * cells of one lattice are used as they are.
    */
   vtkSetMacro(DensityResolution, int);
   vtkGetMacro(DensityResolution, int);
   ///@}
 
   /**
-   * The modification time of the density's tables: increases with each build, 0 before the first.
+   * The modification time of the density's tables. It increases with each build and is 0 before the
+   * first.
    */
   vtkMTimeType GetTableBuildTime();
 
@@ -140,35 +144,35 @@ protected:
   ~vtkDensityAlgorithm() override;
 
   /**
-   * For FillInputPortInformation: the port takes any data sets, and composites of these as one.
+   * For FillInputPortInformation: the port takes any data set, and a composite as one data set.
    */
   static void FillDensityPortInformation(vtkInformation* info);
 
   /**
-   * The grid of the density of an input, as far as its information object determines it before the
-   * data; of data that are no images, those that are there. Without points where it is not known.
-   * `number` is that of the input among those of the filter.
+   * The grid of the density of an input, as its information object announces it before the data. If
+   * the data are not an image, the grid of the data that are there. It has no points if it is not
+   * known. `number` is the number of the input among those of the filter.
    */
   RectifiedTransport::ImageGrid AnnouncedDensityGrid(
     vtkInformation* inputInformation, int arrayIndex = 0, int number = 0);
 
   /**
-   * The grid of the density of data that are there; without points if they have none. Throws what
-   * RequestData may throw.
+   * The grid of the density of data that are there. It has no points if the data have none. Throws
+   * what RequestData may throw.
    */
   RectifiedTransport::ImageGrid FindDensityGrid(
     vtkDataObject* data, int arrayIndex = 0, int number = 0);
 
   /**
-   * The density of a data object, input array `arrayIndex`; nullptr if it has no points. Of an
-   * image that lies on several ranks it is the density of the whole one. Collective on the ranks of
-   * the progress. Throws what RequestData may throw.
+   * The density of a data object, input array `arrayIndex`; nullptr if the object has no points. If
+   * an image is distributed over ranks, this is the density of the whole image. Collective on the
+   * ranks of the progress. Throws what RequestData may throw.
    */
   std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(vtkDataObject* input,
     RectifiedTransport::Progress& progress, int arrayIndex = 0, int number = 0);
 
   /**
-   * The density on the constructor's port, input array 0; as above.
+   * The same for the density on the constructor's port, input array 0.
    */
   std::unique_ptr<RectifiedTransport::InputDensity> ReadDensity(
     vtkInformationVector** inputVector, RectifiedTransport::Progress& progress);

@@ -4,30 +4,29 @@
  * @brief   move points so that a density becomes uniform
  *
  * Moves the points of any vtkPointSet by the map that takes a density to the uniform measure on its
- * domain: space expands where the density is high, and contracts where it is low. A map of a
- * country becomes a cartogram. The map is the rectified flow of Do, Coeurjolly, Memari and Bonneel,
+ * domain: space expands where the density is high and contracts where it is low. A map of a country
+ * becomes a cartogram. The map is the rectified flow of Do, Coeurjolly, Memari and Bonneel,
  * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
  * doi:10.1145/3731147, backward in time (Section 4.2). It is the inverse of the map of
- * vtkTransportSampler, and like that not an optimal transport.
+ * vtkTransportSampler. Neither is an optimal transport.
  *
- * Input 0 is the vtkPointSet, input 1 the density, a data set (see vtkDensityAlgorithm), chosen
- * with SetInputArrayToProcess(0, 1, 0, ...). The output is of the type of input 0: the same points
- * and cells in the same order with all their data, the points moved and double, and point data
- * `Displacement` (the new position less the old one, 3 components in physical units, active
- * vectors), which replaces an array of the same name.
+ * Input 0 is the vtkPointSet. Input 1 is the density, a data set (see vtkDensityAlgorithm), chosen
+ * with SetInputArrayToProcess(0, 1, 0, ...). The output has the type of input 0: the same points
+ * and cells in the same order with all their data. The points are moved and double. Point data
+ * `Displacement` (the new position minus the old one, 3 components in physical units, active
+ * vectors) replaces an array of the same name.
  *
- * With a density of one or two dimensions, points off the image's line or plane move as their
- * projections onto it and keep their offset. A point outside of the domain moves as the nearest
- * point of the border (axis by axis) and keeps its offset from it; one warning counts such points.
- * NaN or infinite coordinates are an error.
+ * If the density has one or two dimensions, points off the image's line or plane move as their
+ * projections onto it and keep their offset. A point outside the domain moves as the nearest point
+ * of the border (axis by axis) and keeps its offset from it; one warning counts such points. NaN or
+ * infinite coordinates are an error.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(points * steps).
- * Memory: 48 bytes a point for the output and while it runs 16 more in 2D, beside the tables (see
+ * Memory: 48 bytes a point for the output and, while it runs, 16 more in 2D, plus the tables (see
  * vtkTransportAlgorithm).
  *
  * @warning Regions without mass contract to nothing: their points coincide with points of other
- * regions, up to the error of the integrator. Add a small number to the density to keep such
- * regions open.
+ * regions, up to the error of the integrator. To keep them open, add a small number to the density.
  * @warning Normals are passed on unchanged, although the surface is deformed.
  *
  * \code{.cpp}
@@ -58,7 +57,7 @@ public:
 
   ///@{
   /**
-   * The fraction of the displacement that is applied, in [0,1]: 0 leaves the points unchanged, 1
+   * The fraction of the displacement that is applied, in [0,1]: 0 leaves the points unmoved, 1
    * (default) is the whole map.
    */
   vtkSetMacro(Blend, double);

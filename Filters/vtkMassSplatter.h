@@ -3,50 +3,50 @@
  * @class   vtkMassSplatter
  * @brief   spread the mass of points over the cells of an image: a density
  *
- * Every point adds its mass to the image's cells around it, by a kernel that is a product of one
+ * Each point adds its mass to the image's cells around it, by a kernel that is a product of one
  * kernel for each axis (Hockney and Eastwood, "Computer Simulation Using Particles", 1988, Section
- * 5-3). This is the inverse of sampling: the density of the particles of vtkTransportSampler, or of
- * any others.
+ * 5-3). This is the inverse of sampling: it gives the density of the particles of
+ * vtkTransportSampler or of any other points.
  *
- * Input 0 is the points, any vtkPointSet; they weigh by the point array that
- * `SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)` chooses, of one
- * component and any numeric type; without a name, or with "None" where there is no such array, each
- * has the mass 1. Masses may be negative. Points that vtkGhostType marks as duplicates or hidden
- * have none. Input 1 is optional: the Reference, a vtkImageData of which only the geometry counts,
- * in 1D, 2D or 3D, with any origin, spacing, direction and extent. Without it the bounds of the
- * points are cut into `Dimensions` cells; an axis along which they are flat is no axis.
+ * Input 0 is the points, any vtkPointSet. Their masses are the point array that
+ * `SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name)` chooses, with
+ * one component of any numeric type. Without a name, or with "None" if there is no such array, each
+ * point has mass 1. Masses may be negative. Points that vtkGhostType marks as duplicates or hidden
+ * have no mass. Input 1, optional, is the Reference, a vtkImageData in 1D, 2D or 3D, with any
+ * origin, spacing, direction and extent; only its geometry is used. Without it, the bounds of the
+ * points are cut into `Dimensions` cells. An axis along which the points have no extent is no axis.
  *
  * Output: a vtkImageData with the array `Density` (double, active scalars): mass per length, area
- * or volume, or with `DivideByVolume` off mass; and beside the points' field data `TotalMass`, the
- * mass that the image holds: that of all points, or with `Boundary` Drop the part inside. With a
- * Reference the image has its geometry, and the values are cell data, or point data, whose domain
- * extends half a spacing beyond the bounds. Without, the same values are cell data, or point data
- * at the cells' centres. Such points have no axis where there is one value along it: the values
- * remain per volume of the cells.
+ * or volume or, with `DivideByVolume` off, mass. It has the field data of the points and
+ * `TotalMass`, the mass that the image holds: that of all points or, with `Boundary` Drop, the part
+ * inside. With a Reference, the image has its geometry. The values are cell data, or point data
+ * whose domain extends half a spacing beyond the bounds. Without a Reference, the same values are
+ * cell data, or point data at the cells' centres. An axis with one value is then no axis of these
+ * points, but the values remain per volume of the cells.
  *
- * The values times the cells' measure sum to the points' mass, and the centroid is theirs, both to
- * rounding; for the centroid NearestCell and kernels that reach past the border are exceptions.
+ * The values times the cells' measure sum to the mass of the points, to rounding. The centroid is
+ * kept, to rounding, except with NearestCell and with kernels that cross the border.
  *
- * Points outside of the domain (by more than a millionth of its diagonal; with a flat image, those
- * off its plane too) are moved to the nearest point of the border, or with `Boundary` Drop ignored;
- * a warning counts them. No points give an image without mass if there is a Reference, else an
- * empty one. NaN or infinite coordinates and masses, and points that are all in one place without a
- * Reference, are errors.
+ * Points outside the domain (by more than a millionth of its diagonal; with a 2D image, also those
+ * off its plane) are moved to the nearest point of the border or, with `Boundary` Drop, ignored; a
+ * warning counts them. An input without points gives an image without mass if there is a Reference,
+ * else an empty image. NaN or infinite coordinates and masses are errors. Without a Reference,
+ * points that are all at one position are an error, too.
  *
- * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell, 8 a point if there are
- * masses; with many threads and points in no order up to 6 more a point, of 16 million at a time.
- * The result is the same to the last bit for every number of threads: the shares of a cell are
- * added in the order of the points.
+ * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell and 8 a point if there are
+ * masses; with many threads and unordered points up to 6 more a point, for 16 million points at a
+ * time. The result is bitwise the same for every number of threads: the shares of a cell are added
+ * in the order of the points.
  *
- * Where ranks of MPI request a piece each, all of them run the filter together: each gives its part
- * of points and Reference, and gets the extent that is requested of it, with the bits of one rank.
- * The shares are then added in the order of the point array `SeedId` of integers, or else of the
- * global ids, where all ranks have them; else of the ranks. A rank takes about 100 bytes for each
- * point that it gives or that reaches its cells. Points that are the same on all ranks are one data
- * set, and those of a mesh that several ranks have count once.
+ * If MPI ranks request one piece each, they run the filter together. Each rank gives its part of
+ * the points and of the Reference, and gets the extent that is requested of it, bitwise as on one
+ * rank. The shares are then added in the order of the integer point array `SeedId`, or else of the
+ * global ids, if all ranks have them; else in the order of the ranks. A rank takes about 100 bytes
+ * for each point that it gives or that reaches its cells. If all ranks have the same points, they
+ * are one data set. Points of a mesh that several ranks have count once.
  *
- * @warning Without a Reference the extent follows from the points, whose producer is therefore
- * updated in REQUEST_INFORMATION, where the ranks meet, too.
+ * @warning Without a Reference, the extent depends on the points. Their producer is therefore
+ * updated in REQUEST_INFORMATION, which is then collective.
  *
  * \code{.cpp}
  * vtkNew<vtkMassSplatter> splatter;
@@ -113,8 +113,8 @@ public:
 
   ///@{
   /**
-   * The number of values of the output along x, y and z without a Reference, at least 1 each; one
-   * along an axis on which the points are flat. Default 128 128 128.
+   * Without a Reference: the number of values of the output along x, y and z, at least 1 each. An
+   * axis along which the points have no extent has one. Default 128 128 128.
    */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
@@ -122,9 +122,9 @@ public:
 
   ///@{
   /**
-   * The field association of the values of the output. Points (default): point data, on points at
-   * the cells' centres (with a Reference: on its points), ready for contours and volume rendering.
-   * Cells: cell data. The numbers are the same.
+   * The field association of the output's values. Points (default): point data, on points at the
+   * cells' centres (with a Reference: on its points), ready for contours and volume rendering.
+   * Cells: cell data. The values are the same.
    */
   vtkSetMacro(Association, int);
   vtkGetMacro(Association, int);
@@ -137,7 +137,7 @@ public:
   /**
    * How the mass of a particle is spread over the image's cells (or dual cells) around it.
    * CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the cell that
-   * contains the point (on a face, the upper one). TriangularShapedCloud: quadratically over 3
+   * contains the point (on a face, the upper cell). TriangularShapedCloud: quadratically over 3
    * cells. Gaussian: as a Gaussian of the given Radius.
    */
   vtkSetMacro(Kernel, int);
@@ -151,9 +151,9 @@ public:
 
   ///@{
   /**
-   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
-   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
-   * cell it is the CloudInCell. Default 1.
+   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. Default 1. The
+   * kernel is cut at 3 standard deviations and corrected to first order so that it keeps the
+   * centroid. Up to a third of a cell it is CloudInCell.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
@@ -161,8 +161,8 @@ public:
 
   ///@{
   /**
-   * What happens to the part of a kernel that is beyond the border: Renormalize (default)
-   * distributes it over the cells inside, axis by axis; with Drop it is lost.
+   * What happens to the part of a kernel beyond the border. Renormalize (default): it is
+   * distributed over the cells inside, axis by axis. Drop: it is lost.
    */
   vtkSetMacro(Boundary, int);
   vtkGetMacro(Boundary, int);
@@ -173,7 +173,7 @@ public:
 
   ///@{
   /**
-   * Whether the values are densities, or else the masses of the image's cells. On by default.
+   * Whether the values are densities; else they are the masses of the image's cells. On by default.
    */
   vtkSetMacro(DivideByVolume, vtkTypeBool);
   vtkGetMacro(DivideByVolume, vtkTypeBool);
@@ -181,7 +181,7 @@ public:
   ///@}
 
   /**
-   * Set the image whose geometry the output gets (input 1, optional), as the output of another
+   * Set the image that gives the output its geometry (input 1, optional), as the output of another
    * filter.
    */
   void SetReferenceConnection(vtkAlgorithmOutput* reference);

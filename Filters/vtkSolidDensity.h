@@ -4,41 +4,40 @@
  * @brief   the fraction of each cell of an image that a closed surface encloses
  *
  * Input: a vtkPolyData whose polygons and triangle strips are a closed surface; lines and vertices
- * do not count. Output: a vtkImageData of cubic cells with the array `Density` (double, active
- * scalars), the covered fraction of each cell of the image from 0 to 1: a density for the filters
- * of this module, for contours and for volume rendering. The sum of Density times the volume of a
- * cell is the volume of the solid.
+ * are ignored. Output: a vtkImageData of cubic cells with the array `Density` (double, active
+ * scalars), the covered fraction of each cell from 0 to 1: a density for the filters of this
+ * module, for contours and for volume rendering. The sum of Density times the cell volume is the
+ * volume of the solid.
  *
  * The image covers the bounds of the polygons and a margin (Padding), with the surface in the
  * middle. Its axes are the coordinate axes.
  *
- * Values are exact but for rounding, however thin the solid is: volumes of prisms over the pieces
- * of the triangles in each cell, with their signs. Inside is where the winding number is not zero:
- * components that overlap are united, and a component within another one that is turned the other
- * way is a cavity, as vtkMassProperties counts it. Whether all is turned inside out does not
- * matter. A component whose polygons do not agree gets the orientation that most of its area has.
- * Only where components overlap, or pass through themselves, values are sampled, on Supersampling^2
+ * Values are exact to rounding, however thin the solid is: they are sums of signed volumes of
+ * prisms over the pieces of the triangles in each cell. Inside is where the winding number is not
+ * zero: components that overlap are united, and a component inside another one with the opposite
+ * orientation is a cavity, as in vtkMassProperties. It does not matter if the whole surface is
+ * inside out. A component with inconsistent polygons gets the orientation that most of its area
+ * has. Only where components overlap or intersect themselves are values sampled, on Supersampling^2
  * lines along x through each cell.
  *
- * Polygons are cut into triangles and points of equal coordinates merged first. If edges are open
- * then, points that differ by less than 1e-9 of the longest side are merged, too, and of float
- * points those that differ by less than 4 rounding errors. Every edge must then be one of two
- * triangles, or of another even number, as where voxels touch along an edge: else an error counts
- * the open edges (of one triangle) and the non-manifold edges (of another odd number), and says how
- * to close the surface. Where triangles do not agree about an edge of four or more, inside is what
- * an odd number of crossings says. Polygons that are there twice count once, and two of opposite
- * directions cancel each other. Coordinates that are not finite, points without polygons and
- * surfaces that are not orientable are errors, too; no points give an empty output.
+ * Polygons are cut into triangles, and points with equal coordinates are merged. If edges are still
+ * open, points that differ by less than 1e-9 of the longest side are merged, too; float points, if
+ * they differ by less than 4 rounding errors. Every edge must then belong to two triangles or
+ * another even number, for example where voxels touch along an edge. Otherwise an error counts the
+ * open edges (one triangle) and the non-manifold edges (another odd number) and says how to close
+ * the surface. If the triangles at an edge of four or more have inconsistent orientation, inside is
+ * where the number of crossings is odd. Duplicate polygons count once; two with opposite
+ * orientation cancel each other. Coordinates that are not finite, points without polygons and
+ * surfaces that are not orientable are errors, too. An input without points gives an empty output.
  *
- * Cost: O(cells + pieces of triangles in cells + crossings of lines), and linear in the points and
- * triangles before that. Memory: 8 bytes a cell; while it runs up to 72 bytes a point, 81 a
- * triangle, 8 more for each layer of cells that a triangle has a part in, and for each thread 40
- * for each cell of a layer.
+ * Cost: linear in the points and triangles, then O(cells + pieces of triangles in cells + crossings
+ * of lines). Memory: 8 bytes a cell; while it runs, up to 72 bytes a point, 81 a triangle, 8 more
+ * for each layer of cells that a triangle crosses, and for each thread 40 for each cell of a layer.
  *
- * On several ranks of MPI the surface is gathered on each, which has the extent of the image that
- * is requested of it.
+ * With several MPI ranks the surface is gathered on every rank. Each has the extent of the image
+ * that is requested of it.
  *
- * @warning The extent follows from the surface, whose producer is therefore updated in
+ * @warning The extent depends on the surface. Its producer is therefore updated in
  * REQUEST_INFORMATION.
  *
  * \code{.cpp}
@@ -82,8 +81,8 @@ public:
 
   ///@{
   /**
-   * The number of cells along the longest side of the image, from 1; along the others as many as
-   * cover the surface and its margin. Default 64.
+   * The number of cells along the longest side of the image, at least 1. Default 64. Along the
+   * other sides, as many as cover the surface and its margin.
    */
   vtkSetMacro(Resolution, int);
   vtkGetMacro(Resolution, int);
@@ -91,8 +90,8 @@ public:
 
   ///@{
   /**
-   * The square root of the number of lines through a cell of the image that find where components
-   * overlap; 1 to 16, because the crossings of a layer of cells are held in memory. Default 2.
+   * The square root of the number of sampling lines through a cell where components overlap: 1 to
+   * 16, because the crossings of a layer of cells are held in memory. Default 2.
    */
   vtkSetMacro(Supersampling, int);
   vtkGetMacro(Supersampling, int);
@@ -100,8 +99,8 @@ public:
 
   ///@{
   /**
-   * The margin on each side of the surface, as a share of its longest side; finite, not negative.
-   * Default 0.05.
+   * The margin on each side of the surface, as a fraction of its longest side; finite, not
+   * negative. Default 0.05.
    */
   vtkSetMacro(Padding, double);
   vtkGetMacro(Padding, double);
@@ -109,9 +108,9 @@ public:
 
   ///@{
   /**
-   * The field association of the values of the output. Points (default): point data, on points at
-   * the cells' centres, ready for contours and volume rendering. Cells: cell data. The numbers
-   * are the same.
+   * The field association of the output's values. Points (default): point data, on points at the
+   * cells' centres, ready for contours and volume rendering. Cells: cell data. The values are the
+   * same.
    */
   vtkSetMacro(Association, int);
   vtkGetMacro(Association, int);

@@ -3,53 +3,53 @@
  * @class   vtkSurfaceSampler
  * @brief   sample a surface with particles
  *
- * Places particles on a surface that is a disk so that each region holds as many as its share of
- * the area, or of the mass of a density per area. Seeds of an even pattern fill the rectangle that
- * the surface is mapped to conformally, which keeps angles and so the pattern; they are moved along
- * the rectified flow of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
- * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147, to the density of the
- * surface in the rectangle, and from there put on its triangles.
+ * Places particles on a surface that is a disk. Each region gets its share of the particles by its
+ * area or by the mass of a density per area. The surface is mapped conformally to a rectangle; this
+ * keeps angles and so the pattern of the seeds. Even seeds fill the rectangle. They move to the
+ * density of the surface there along the rectified flow of Do, Coeurjolly, Memari and Bonneel,
+ * "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4), 2025,
+ * doi:10.1145/3731147. Then they are put on the triangles.
  *
- * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons, whose polygons
- * and triangle strips are a disk: one component with one boundary, without holes and handles.
- * Others are errors that say which: clip a closed surface open. Polygons are cut into triangles.
- * Where the surface is no disk otherwise, points that are in no polygon and triangles without area
- * are left out, and points at one place merged, with a warning that counts them; a cut along which
- * points are there twice stays a cut. Lines and vertices do not count. No points give an empty
- * output.
+ * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons. Its polygons and
+ * triangle strips form a disk: one component with one boundary, without holes and handles. Other
+ * surfaces are errors that say what is wrong. Cut a closed surface open, for example by clipping.
+ * Polygons are cut into triangles. If the surface is no disk otherwise, points in no polygon and
+ * triangles without area are left out, and points at the same position are merged, with a warning
+ * that counts them. A cut whose points are duplicated stays a cut. Lines and vertices are ignored.
+ * An input without points gives an empty output.
  *
  * The density is array 0 of SetInputArrayToProcess, a point or cell array of one component and any
- * numeric type; none (the default) is 1. The mass of a triangle is its area times the mean of the
- * values at its points (of linear interpolation the exact mass), or times the value of its cell.
- * Negative, NaN and infinite values, and a total mass of zero or past the largest double, are
- * errors. Ghost cells (duplicate, hidden or refined) have no mass.
+ * numeric type. Without an array (the default) it is 1. The mass of a triangle is its area times
+ * the mean of the values at its points (exact for linear interpolation), or times the value of its
+ * cell. Negative, NaN and infinite values, and a total mass of zero or beyond the largest double,
+ * are errors. Ghost cells (duplicate, hidden or refined) have no mass.
  *
  * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
- * - point data `SeedId` (the particle's number), `Mass` (an equal share of the total mass each),
- *   `CellId` (the cell of the input that it is on), `Normal` (that of its triangle, of length 1,
- *   active normals; on the side from which most of the area is seen to turn left), and the input's
- *   point arrays, interpolated linearly in its triangle (integers are rounded, text is that of the
- *   nearest point), and cell arrays; not those of the names above, no ghost arrays, and no ids of
- *   points (vtkIdTypeArray), which VTK does not interpolate;
- * - field data `TotalMass` (density times area, summed), beside the input's own.
+ * - point data `SeedId` (the particle's number), `Mass` (equal shares of the total mass), `CellId`
+ *   (the cell of the input that it is on), and `Normal` (the unit normal of its triangle, active
+ *   normals; on the side from which most of the area appears counterclockwise). The input's point
+ *   arrays are interpolated linearly in the triangle; integers are rounded, text is that of the
+ *   nearest point. Its cell arrays have the cell's value. Arrays with the names above, ghost arrays
+ *   and ids of points (vtkIdTypeArray), which VTK does not interpolate, are left out;
+ * - field data `TotalMass` (density times area, summed), and the input's field data.
  *
- * A cell of the grid in the rectangle spreads its mass evenly: where it is in triangles with and
- * without mass, particles that would be on the latter are moved to the nearest place that has mass.
- * With 24 bands of density 0 and 1 across a head 3.4 % of the particles were; more Resolution makes
- * them fewer. Where the map turns triangles over, which is rare, their particles are on those
- * above them.
+ * A cell of the grid in the rectangle spreads its mass evenly. If it overlaps triangles with mass
+ * and without, particles on the latter are moved to the nearest place that has mass. With 24 bands
+ * of density 0 and 1 across a head, 3.4 % of the particles were moved; a higher Resolution lowers
+ * this number. In rare cases the map turns triangles over. Their particles are then on the
+ * triangles above them.
  *
  * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *
- * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle
- * and the arrays that are passed.
+ * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle,
+ * plus the arrays that are passed.
  *
- * The output is in one piece: where several are requested, piece 0 holds all particles. On
- * several ranks of MPI the surface is gathered on the first one, which has the output.
+ * The output is in one piece: if several are requested, piece 0 holds all particles. With several
+ * MPI ranks the surface is gathered on rank 0, which has the output.
  *
- * @warning The flow stretches the pattern where the conformal map is very uneven, as on a neck that
- * the map wraps around a head. Where it squeezes much of the surface into few cells of the grid, as
- * the far end of a long tube, the numbers of particles would be wrong: the area-preserving map (see
- * vtkAreaPreservingParameterization) is used instead, with a warning.
+ * @warning The flow stretches the pattern where the conformal map is very uneven, for example on
+ * the neck of a head. If the map squeezes much of the surface into few cells of the grid, for
+ * example the far end of a long tube, the numbers of particles would be wrong. The area-preserving
+ * map (see vtkAreaPreservingParameterization) is then used instead, with a warning.
  *
  * \code{.cpp}
  * vtkNew<vtkSurfaceSampler> sampler;
@@ -128,8 +128,7 @@ public:
 
   ///@{
   /**
-   * The number of particles, at least 1. Default 8192. The output has exactly as many, except where
-   * SeedPattern is Lattice.
+   * The number of particles, at least 1. Default 8192. It is exact unless SeedPattern is Lattice.
    */
   vtkSetMacro(NumberOfParticles, vtkIdType);
   vtkGetMacro(NumberOfParticles, vtkIdType);
@@ -138,7 +137,8 @@ public:
   ///@{
   /**
    * The number of cells along the longer side of the rectangle that the surface is mapped to, 1 to
-   * 16384; along the other one as many as make them nearest to squares. Default 1024.
+   * 16384. Default 1024. The number along the other side makes the cells as near to squares as
+   * possible.
    */
   vtkSetMacro(Resolution, int);
   vtkGetMacro(Resolution, int);
@@ -146,11 +146,11 @@ public:
 
   ///@{
   /**
-   * How the uniform seeds that particles start from are distributed, evenly in lengths.
+   * The distribution of the uniform seeds that particles start from, even in physical lengths.
    * BlueNoise (default): even and irregular, without preferred directions. Lattice: the centres of
-   * a grid of equal boxes, whose number is as near to NumberOfParticles as the aspect ratio allows.
-   * Jittered: one at random in each of as many boxes of equal measure. LowDiscrepancy: an additive
-   * recurrence. Random: independent.
+   * a grid of equal boxes, as near to NumberOfParticles as the aspect ratio allows. Jittered: one
+   * random point in each of as many boxes of equal measure. LowDiscrepancy: an additive recurrence.
+   * Random: independent.
    */
   vtkSetMacro(SeedPattern, int);
   vtkGetMacro(SeedPattern, int);
@@ -164,8 +164,8 @@ public:
 
   ///@{
   /**
-   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
-   * the same one gives the same seeds on every machine. Default 1.
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer.
+   * The same number gives the same seeds on every machine. Default 1.
    */
   vtkSetMacro(RandomSeed, int);
   vtkGetMacro(RandomSeed, int);
@@ -174,8 +174,9 @@ public:
   ///@{
   /**
    * The points of the surface's boundary that become the corners of the unit square: four point
-   * ids, of which the first goes to (0,0) and the others, in the order of the boundary, to (1,0),
-   * (1,1) and (0,1). Without any (default) they are chosen. 1000000 at most.
+   * ids. The first goes to (0,0), the others, in the order of the boundary, to (1,0), (1,1) and
+   * (0,1). By default there are none, and the corners are chosen automatically. The count is at
+   * most 1000000.
    */
   void SetNumberOfCorners(int count);
   int GetNumberOfCorners();
@@ -184,7 +185,7 @@ public:
 
   ///@{
   /**
-   * One of them. The list becomes as long as needed, with -1 for corners that are not set.
+   * One of the corners. The list grows as needed, with -1 for corners that are not set.
    */
   void SetCorner(int index, vtkIdType point);
   vtkIdType GetCorner(int index);
@@ -193,9 +194,9 @@ public:
   ///@{
   /**
    * How the velocity field of the flow (equation 12) is integrated. Multistep (default): a graded
-   * Adams-Bashforth-Moulton method of order 3, one velocity a step. RungeKutta4 (the paper's
+   * Adams-Bashforth-Moulton method of order 3, with one velocity a step. RungeKutta4 (the paper's
    * Algorithm 2, with the correct limit of the velocity at t = 1) and Euler: uniform steps.
-   * Adaptive: individual steps of each particle, controlled by Tolerance.
+   * Adaptive: individual steps for each particle, controlled by Tolerance.
    */
   vtkSetMacro(Integrator, int);
   vtkGetMacro(Integrator, int);
@@ -210,8 +211,7 @@ public:
   /**
    * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. The default, 32, keeps the
    * mean error of Multistep below a quarter of a cell up to about 1024 cells an axis in 2D and 256
-   * in 3D; at a fixed number the error in cells grows with the grid, so use 48 for 512^3 and 64 for
-   * 1024^3 and 4096^2.
+   * in 3D. The error in cells grows with the grid: use 48 for 512^3 and 64 for 1024^3 and 4096^2.
    */
   vtkSetMacro(NumberOfSteps, int);
   vtkGetMacro(NumberOfSteps, int);
@@ -227,8 +227,8 @@ public:
 
   ///@{
   /**
-   * What the flow reads of a box. Interpolated (default) integrates the density exactly over every
-   * box (the paper's Algorithm 1). Nearest rounds boxes to whole cells (its Figure 4): coarser, for
+   * How the density is integrated over a box. Interpolated (default): exactly (the paper's
+   * Algorithm 1). Nearest: boxes are rounded to whole cells (its Figure 4); coarser, for
    * comparisons.
    */
   vtkSetMacro(TableLookup, int);
@@ -240,11 +240,11 @@ public:
 
   ///@{
   /**
-   * Whether lattices of seeds carry the smooth part of the flow, and particles take over by
-   * interpolation for the last few steps. Auto (default): where that saves time, decided from the
-   * size of the density, NumberOfSteps and the number of particles alone (never for site cells).
-   * On, Off. Only Multistep with Interpolated in 2D and 3D uses them, and not with small densities:
-   * below about 126 cells a side in 2D and 77 in 3D with 32 steps, with more steps the sooner.
+   * Whether lattices of seeds carry the smooth part of the flow. Particles are then interpolated
+   * from them and take only the last few steps themselves. Auto (default): if that saves time,
+   * which depends only on the size of the density, NumberOfSteps and the number of particles. On,
+   * Off. Only Multistep with Interpolated uses flow maps, and not for small grids: with 32 steps,
+   * those below about 126 cells a side. More steps lower this limit.
    */
   vtkSetMacro(FlowMaps, int);
   vtkGetMacro(FlowMaps, int);

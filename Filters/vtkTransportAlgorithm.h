@@ -4,11 +4,11 @@
  * @brief   superclass of the filters that move points along the rectified flow of a density
  *
  * The flow is that of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport with Rectified
- * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: points that are uniform at
- * time 0 follow the velocity field of its equation 12, which needs the mass and the centroid of the
- * density in a box (equations 10 and 11); both come from summed-area tables (Section 3.3).
+ * Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Points that are uniform at
+ * time 0 follow the velocity field of equation 12. The velocity needs the mass and the centroid of
+ * the density in a box (equations 10 and 11). Both come from summed-area tables (Section 3.3).
  *
- * This class holds the properties of its tables and of its integration.
+ * This class holds the properties of the tables and of the integration.
  *
  * @sa vtkDensityAlgorithm vtkTransportSampler vtkTransportMap
  */
@@ -72,13 +72,13 @@ public:
 
   ///@{
   /**
-   * What a flow keeps of a density. Whole: summed-area tables of the whole grid, 32 bytes a cell,
-   * until the density changes. Tiled: tables of few nodes, and those of tiles, which are made in
-   * each run and worked through one after another: an eighth of the memory at 512^3 cells, in about
-   * the same time, as exact but of other bits. It takes Multistep with Interpolated in 2D and 3D,
-   * NumberOfSteps of about 8 or more, and gives positions at the end of the flow alone; else it is
-   * an error. Auto (default): Tiled for densities of more than 2^26 cells where it serves, else
-   * Whole.
+   * Which tables a flow uses. Whole: summed-area tables of the whole grid, 32 bytes a cell, which
+   * are kept until the density changes. Tiled: tables of few nodes and, one after another, tables
+   * of tiles, made in each run. Tiled takes an eighth of the memory at 512^3 cells in about the
+   * same time. It is as exact but not bitwise equal. It needs Multistep with Interpolated in 2D or
+   * 3D and a NumberOfSteps of about 8 or more, and it gives only positions at the end of the flow;
+   * anything else is an error. Auto (default): Tiled for densities of more than 2^26 cells if tiles
+   * support the other settings, else Whole.
    */
   vtkSetMacro(Tables, int);
   vtkGetMacro(Tables, int);
@@ -91,9 +91,9 @@ public:
   ///@{
   /**
    * How the velocity field of the flow (equation 12) is integrated. Multistep (default): a graded
-   * Adams-Bashforth-Moulton method of order 3, one velocity a step. RungeKutta4 (the paper's
+   * Adams-Bashforth-Moulton method of order 3, with one velocity a step. RungeKutta4 (the paper's
    * Algorithm 2, with the correct limit of the velocity at t = 1) and Euler: uniform steps.
-   * Adaptive: individual steps of each particle, controlled by Tolerance.
+   * Adaptive: individual steps for each particle, controlled by Tolerance.
    */
   vtkSetMacro(Integrator, int);
   vtkGetMacro(Integrator, int);
@@ -108,8 +108,7 @@ public:
   /**
    * The number of steps of Multistep, RungeKutta4 and Euler, 1 to 10000. The default, 32, keeps the
    * mean error of Multistep below a quarter of a cell up to about 1024 cells an axis in 2D and 256
-   * in 3D; at a fixed number the error in cells grows with the grid, so use 48 for 512^3 and 64 for
-   * 1024^3 and 4096^2.
+   * in 3D. The error in cells grows with the grid: use 48 for 512^3 and 64 for 1024^3 and 4096^2.
    */
   vtkSetMacro(NumberOfSteps, int);
   vtkGetMacro(NumberOfSteps, int);
@@ -125,8 +124,8 @@ public:
 
   ///@{
   /**
-   * What the flow reads of a box. Interpolated (default) integrates the density exactly over every
-   * box (the paper's Algorithm 1). Nearest rounds boxes to whole cells (its Figure 4): coarser, for
+   * How the density is integrated over a box. Interpolated (default): exactly (the paper's
+   * Algorithm 1). Nearest: boxes are rounded to whole cells (its Figure 4); coarser, for
    * comparisons.
    */
   vtkSetMacro(TableLookup, int);
@@ -138,11 +137,12 @@ public:
 
   ///@{
   /**
-   * Whether lattices of seeds carry the smooth part of the flow, and particles take over by
-   * interpolation for the last few steps. Auto (default): where that saves time, decided from the
-   * size of the density, NumberOfSteps and the number of particles alone (never for site cells).
-   * On, Off. Only Multistep with Interpolated in 2D and 3D uses them, and not with small densities:
-   * below about 126 cells a side in 2D and 77 in 3D with 32 steps, with more steps the sooner.
+   * Whether lattices of seeds carry the smooth part of the flow. Particles are then interpolated
+   * from them and take only the last few steps themselves. Auto (default): if that saves time,
+   * which depends only on the size of the density, NumberOfSteps and the number of particles; never
+   * for site cells. On, Off. Only Multistep with Interpolated in 2D and 3D uses flow maps, and not
+   * for small densities: with 32 steps, those below about 126 cells a side in 2D and 77 in 3D. More
+   * steps lower this limit.
    */
   vtkSetMacro(FlowMaps, int);
   vtkGetMacro(FlowMaps, int);

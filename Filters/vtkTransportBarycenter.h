@@ -3,19 +3,19 @@
  * @class   vtkTransportBarycenter
  * @brief   the weighted mean of several densities, by transport
  *
- * The (linearized) barycenters of Section 5.3 of the paper named in vtkTransportBlend: every
- * particle of the unit box is mapped to each density, and placed at the weighted mean of these
+ * The (linearized) barycenters of Section 5.3 of the paper named in vtkTransportBlend. Each
+ * particle of the unit box is mapped to each density and placed at the weighted mean of these
  * positions.
  *
- * Inputs: data sets, by repeated connections to port 0 or as the blocks of a composite data set
- * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order; at least one. The one
- * density array (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are
- * those of vtkTransportBlend; their extent is announced in REQUEST_INFORMATION, for composite
- * inputs only once their blocks exist.
+ * Inputs: one or more data sets, as connections to port 0 or as the blocks of a composite data set
+ * (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection), in their order. The one density array
+ * (SetInputArrayToProcess(0, 0, ...)) is looked up in all of them. The outputs are those of
+ * vtkTransportBlend. Their extent is announced in REQUEST_INFORMATION, for composite inputs only
+ * when their blocks exist.
  *
- * Cost and memory: see vtkTransportBlend. The maps are kept: a change of the weights only takes
- * means and splats, so that 25 barycenters of 4 densities cost 4 maps and 25 splats. Weights 1, 0,
- * 0 ... give the first density, up to what the kernel and the number of particles resolve.
+ * Cost and memory: see vtkTransportBlend. The maps are kept. A change of the weights only computes
+ * means and splats: 25 barycenters of 4 densities cost 4 maps and 25 splats. Weights 1, 0, 0 ...
+ * give the first density, up to the resolution of the kernel and the number of particles.
  *
  * @sa vtkTransportBlend vtkTransportInterpolator vtkMassSplatter
  */
@@ -40,8 +40,9 @@ public:
 
   ///@{
   /**
-   * The weights of the inputs, in their order: one for each, none negative, with a sum above 0, by
-   * which they are divided. Without any (default) all inputs weigh the same. 1000000 at most.
+   * The weights of the inputs, in their order: one for each, none negative, with a sum above 0.
+   * They are divided by their sum. By default there are none, and all inputs weigh the same. The
+   * count is at most 1000000.
    */
   void SetNumberOfWeights(int count);
   int GetNumberOfWeights();
@@ -49,7 +50,7 @@ public:
 
   ///@{
   /**
-   * One of them. The list becomes as long as needed, with 0 for weights that are not set.
+   * One of the weights. The list grows as needed, with 0 for weights that are not set.
    */
   void SetWeight(int index, double weight);
   double GetWeight(int index);

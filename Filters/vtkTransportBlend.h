@@ -4,10 +4,10 @@
  * @brief   superclass of the filters that interpolate several densities
  *
  * Follows Sections 3.4, 5.2 and 5.3 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
- * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147: particles
- * that are uniform in the unit box, the pivot, are moved to each density independently; between
- * the densities every particle is at the weighted mean of its positions, in physical space. Their
- * mass is spread on an image (see vtkMassSplatter).
+ * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. Particles
+ * that are uniform in the unit box, the pivot, are moved to each density independently. Between the
+ * densities each particle is at the weighted mean of these positions, in physical space. The mass
+ * of the particles is spread on an image (see vtkMassSplatter).
  *
  * The inputs are densities (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
  * axes of more than one point along the same directions. The outputs are
@@ -16,24 +16,24 @@
  * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data
  *   `TotalMass`.
  *
- * The grid of the output does not depend on the weights: it covers the smallest box that holds all
- * domains, at the finest spacing along each axis (numbers of cells are rounded up, and the box
- * extended at its upper end), unless Dimensions are set. For inputs of equal geometry, up to the
- * rounding of single precision, it is exactly that of the first one.
+ * The grid of the output does not depend on the weights. Unless Dimensions are set, it covers the
+ * smallest box that holds all domains, at the finest spacing along each axis. Numbers of cells are
+ * rounded up, and the box grows at its upper end. If the inputs have the same geometry, up to the
+ * rounding of single precision, the grid is exactly that of the first input.
  *
- * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once; the maps
+ * Cost: O(cells) for the tables and O(particles * steps) for the map of each input, once. The maps
  * are kept until a density, the integration, ParticlesPerCell or the grid changes. A change of the
  * weights costs O(particles + cells). Memory: 24 bytes a particle for each input and 48 for the
- * output, 8 bytes a cell, and while a map is made the tables of one density (see
- * Tables). Several ranks share particles and cells.
+ * output, 8 bytes a cell, and while a map is made the tables of one density (see Tables). Particles
+ * and cells are distributed over the ranks.
  *
- * Images may lie on several ranks of MPI, and each rank gets its piece of the outputs: the image by
- * the extent that is requested, the particles whose places it has. On one rank the outputs are in
- * one piece: where several are requested, piece 0 holds all data. Data that are no images are
- * gathered on every rank.
+ * Images may be distributed over MPI ranks. Each rank gets the extent of the output image that it
+ * requests and the particles at the positions that it owns. On one rank the outputs are in one
+ * piece: if several are requested, piece 0 holds all data. Data other than images are gathered on
+ * every rank.
  *
- * @warning The pivot makes this a linearized transport: the results resemble the displacement
- * interpolation and the barycenters of optimal transport, but are not them.
+ * @warning The pivot makes this a linearized transport. The results resemble the displacement
+ * interpolation and the barycenters of optimal transport but are not optimal.
  *
  * @sa vtkTransportInterpolator vtkTransportBarycenter vtkTransportAlgorithm
  */
@@ -96,8 +96,8 @@ public:
   ///@{
   /**
    * The number of particles in each cell of the output's grid, scaled to the unit box: at least 1,
-   * default 1. They are the centres of a finer grid where the number is a power of the dimension
-   * (4, 9 ... in 2D, 8, 27 ... in 3D), else a fixed set of low discrepancy.
+   * default 1. If it is 4, 9 ... in 2D or 8, 27 ... in 3D, the particles are the centres of a finer
+   * grid, else a fixed low-discrepancy set.
    */
   vtkSetMacro(ParticlesPerCell, int);
   vtkGetMacro(ParticlesPerCell, int);
@@ -105,8 +105,8 @@ public:
 
   ///@{
   /**
-   * The total mass of the output, where the inputs have the masses M_i and the weights w_i: Linear
-   * (default) sum of w_i M_i, Geometric product of M_i^w_i, Source M_0, Normalize 1.
+   * The total mass of the output, from the masses M_i and the weights w_i of the inputs. Linear
+   * (default): the sum of w_i M_i. Geometric: the product of M_i^w_i. Source: M_0. Normalize: 1.
    */
   vtkSetMacro(MassMode, int);
   vtkGetMacro(MassMode, int);
@@ -121,7 +121,7 @@ public:
   /**
    * How the mass of a particle is spread over the image's cells (or dual cells) around it.
    * CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the cell that
-   * contains the point (on a face, the upper one). TriangularShapedCloud: quadratically over 3
+   * contains the point (on a face, the upper cell). TriangularShapedCloud: quadratically over 3
    * cells. Gaussian: as a Gaussian of the given Radius.
    */
   vtkSetMacro(Kernel, int);
@@ -135,9 +135,9 @@ public:
 
   ///@{
   /**
-   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. The kernel is cut
-   * at 3 of them, and corrected to first order so that it keeps the centroid; up to a third of a
-   * cell it is the CloudInCell. Default 1.
+   * The standard deviation of the Gaussian, in cells, above 0 and at most 10000. Default 1. The
+   * kernel is cut at 3 standard deviations and corrected to first order so that it keeps the
+   * centroid. Up to a third of a cell it is CloudInCell.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
@@ -155,16 +155,16 @@ public:
 
 protected:
   /**
-   * Whether each block of a composite input is an input of its own, or all of them are one density.
+   * Whether each block of a composite input is an input of its own; else all of them are one
+   * density.
    */
   explicit vtkTransportBlend(bool blocksAreInputs);
   ~vtkTransportBlend() override;
 
   /**
-   * Read the densities of all inputs. `names` are used
-   * in messages and, with "Position" appended, for arrays of the particles; where nullptr, messages
-   * have numbers. Returns no inputs if one of them has no points. Throws what RequestData may
-   * throw.
+   * Read the densities of all inputs. `names` are used in messages and, with "Position" appended,
+   * for arrays of the particles; if nullptr, messages number the inputs. Returns no inputs if one
+   * of them has no points. Throws what RequestData may throw.
    */
   std::vector<RectifiedTransport::BlendInput> ReadInputs(vtkInformationVector** inputVector,
     const char* const* names, RectifiedTransport::Progress& progress);
@@ -175,7 +175,7 @@ protected:
   void WarnOfMoved(std::int64_t particles);
 
   /**
-   * Warn of blocks that are no data sets of cells; it is an error if all are such.
+   * Warn of blocks that are not data sets with cells. It is an error if no block is one.
    */
   void ReportOtherBlocks(std::int64_t others, bool areAll);
 

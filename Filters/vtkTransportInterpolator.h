@@ -3,30 +3,29 @@
  * @class   vtkTransportInterpolator
  * @brief   move the mass of one density to another
  *
- * Unlike a cross-fade, which would show both densities at once, each particle moves on a straight
- * line in physical space from its position in the first density, `SourcePosition`, to that in the
- * second, `TargetPosition`. Both come from one point of the unit box, the pivot (Section 3.4 of
- * the paper named in vtkTransportBlend; Section 5.2 shows results).
+ * Each particle moves on a straight line in physical space from its position in the first density,
+ * `SourcePosition`, to its position in the second, `TargetPosition`. A cross-fade would show both
+ * densities at once instead. Both positions come from one point of the unit box, the pivot (Section
+ * 3.4 of the paper named in vtkTransportBlend; Section 5.2 shows results).
  *
- * Inputs: port 0 the source, port 1 the target, both data sets; they may differ in size, spacing
+ * Inputs: port 0 is the source, port 1 the target, both data sets. They may differ in size, spacing
  * and box. The density of the source is input array 0 (SetInputArrayToProcess(0, 0, ...)), that of
  * the target input array 1 (SetInputArrayToProcess(1, 1, ...)). The outputs are those of
- * vtkTransportBlend, and the particles have also `SourcePosition` and `TargetPosition` (3
- * components each, physical). Both outputs have the field data `TransportCost`: the mean of
- * |TargetPosition - SourcePosition|^2 over the mass, in squared physical units, which does not
- * depend on Parameter. It is an upper bound on W2^2 between the densities, each divided by its
- * mass.
+ * vtkTransportBlend; the particles also have `SourcePosition` and `TargetPosition` (3 components
+ * each, physical). Both outputs have the field data `TransportCost`: the mean of |TargetPosition -
+ * SourcePosition|^2 over the mass, in squared physical units. It does not depend on Parameter. It
+ * is an upper bound on W2^2 between the densities, each divided by its mass.
  *
- * A Parameter of 0 gives the source and one of 1 the target, up to what the kernel and the number
- * of particles resolve. Cost and memory: see vtkTransportBlend. The maps are kept: a change of
- * Parameter, or of time, only interpolates and splats.
+ * Parameter 0 gives the source and 1 the target, up to the resolution of the kernel and the number
+ * of particles. Cost and memory: see vtkTransportBlend. The maps are kept: a change of Parameter or
+ * of the time only interpolates and splats.
  *
- * With PublishTime on the filter is a time source on [0,1] with NumberOfTimeSteps steps: the
- * requested time replaces Parameter. The first time of the inputs is requested then, if they have
- * times, so that they do not change with the requested time.
+ * With PublishTime on, the filter is a time source on [0,1] with NumberOfTimeSteps steps: the
+ * requested time replaces Parameter. If the inputs have times, their first time is requested, so
+ * that they do not change with the requested time.
  *
  * Images of different dimensions, planes or direction matrices are an error. Elements of direction
- * matrices may differ by 1e-6, and the output has those of the source.
+ * matrices may differ by 1e-6; the output has those of the source.
  *
  * @sa vtkTransportBlend vtkTransportBarycenter vtkMassSplatter vtkSolidDensity
  */
@@ -62,7 +61,7 @@ public:
 
   using vtkAlgorithm::SetInputArrayToProcess;
   /**
-   * Choose the array of a density. With port 1 it is that of the target, input array 1, also where
+   * Choose the array of a density. With port 1 it is that of the target, input array 1, even if
    * `idx` is 0, which ParaView passes by default.
    */
   void SetInputArrayToProcess(
@@ -71,7 +70,7 @@ public:
   ///@{
   /**
    * The interpolation parameter, from 0 (the source) to 1 (the target). Default 0.5. With
-   * PublishTime on the requested time replaces it.
+   * PublishTime on, the requested time replaces it.
    */
   vtkSetMacro(Parameter, double);
   vtkGetMacro(Parameter, double);

@@ -10,40 +10,41 @@
  *
  * The input is the density, a data set (see vtkDensityAlgorithm). The output is a vtkImageData
  * on the same domain with
- * - `Displacement` (active vectors): the mapped sample less the sample; 3 components in physical
+ * - `Displacement` (active vectors): the mapped sample minus the sample; 3 components in physical
  *   units along the physical axes;
  * - `Divergence`: the trace of the gradient of Displacement;
- * - `JacobianDeterminant`: that of the map x + Displacement(x), det(I + gradient). Where the
- *   density f is positive and smooth it is mean / f(x + Displacement) forward and f(x) / mean
+ * - `JacobianDeterminant`: the determinant of the map x + Displacement(x), det(I + gradient). Where
+ *   the density f is positive and smooth, it is mean / f(x + Displacement) forward and f(x) / mean
  *   backward;
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
- *   |Displacement|^2, in physical units), beside the input's own.
+ *   |Displacement|^2, in physical units), and the input's field data.
  *
- * They are point data where the density is, at the image's points, which are the centres of the
- * dual cells; else cell data, at the centres of the cells. Derivatives are taken along the image's
- * axes of more than one point only, by central differences, one-sided at the border. Along an axis
- * of one sample Displacement is taken to be constant. In the corners of the domain the map has no
- * derivative, and the determinant of the corner's sample is off at any resolution.
+ * If the density is point data, so are the arrays, at the image's points, the centres of the dual
+ * cells. Otherwise they are cell data, at the centres of the cells. Derivatives are taken only
+ * along the image's axes of more than one point, by central differences, one-sided at the border.
+ * Along an axis of one sample, Displacement is taken as constant. In the corners of the domain the
+ * map has no derivative: the determinant of a corner sample is wrong at any resolution.
  *
  * TransportCost is the mean over the measure that the map starts from: forward the mean of all
- * samples, backward weighted with the density's mass in each sample's cell. As the map takes this
- * measure to the other one (up to the integrator's error and the spacing of the samples), the cost
- * is an upper bound on the squared 2-Wasserstein distance between the density, per unit of mass,
- * and the uniform measure.
+ * samples, backward weighted by the density's mass in each sample's cell. The map takes this
+ * measure to the other one, up to the integrator's error and the spacing of the samples. The cost
+ * is therefore an upper bound on the squared 2-Wasserstein distance between the density, per unit
+ * of mass, and the uniform measure.
  *
  * The output has the input's geometry unless SampleDimensions are set. If it has, the input's point
  * and cell data are passed on.
  *
- * Cost: O(cells) for the tables, which are kept until the density changes and serve both directions
- * and all SampleDimensions, and O(samples * steps) for the flow. Memory: 40 bytes a sample for the
- * output, and while it runs 16 more in 2D, beside the tables (see vtkTransportAlgorithm).
+ * Cost: O(cells) for the tables and O(samples * steps) for the flow. The tables serve both
+ * directions and all SampleDimensions and are kept until the density changes. Memory: 40 bytes a
+ * sample for the output and, while it runs, 16 more in 2D, plus the tables (see
+ * vtkTransportAlgorithm).
  *
- * On several ranks of MPI each has the extent that is requested of it; in other programs piece 0
+ * With several MPI ranks, each rank has the extent that is requested of it. Without MPI, piece 0
  * holds all data.
  *
- * @warning A sample where the density is 0 has no inverse. Backward it keeps its relative position
- * in the box of its possible destinations until this box has mass, so that the map is not one to
- * one there; where the density is low it needs more NumberOfSteps than elsewhere.
+ * @warning A sample where the density is 0 has no inverse. Backward, it keeps its relative position
+ * in the box of its possible destinations until this box has mass; the map is not one to one there.
+ * Where the density is low, the map needs more NumberOfSteps than elsewhere.
  *
  * @sa vtkTransportSampler vtkTransportAlgorithm vtkDensityAlgorithm
  */
@@ -73,7 +74,7 @@ public:
 
   ///@{
   /**
-   * The direction of the map: UniformToDensity (default) takes the uniform measure to the density,
+   * The direction of the map. UniformToDensity (default) takes the uniform measure to the density.
    * DensityToUniform is the inverse map.
    */
   vtkSetMacro(Direction, int);
@@ -85,9 +86,9 @@ public:
 
   ///@{
   /**
-   * The number of values of the output along the image's x, y and z, on the same domain; 0: as many
-   * as the density. At least 0 each; along an axis of one point 0 or 1; for point data 0 or at
-   * least 2 along the others. Default 0 0 0.
+   * The number of values of the output along the image's x, y and z, on the same domain. 0: as many
+   * as the density. At least 0 each; 0 or 1 along an axis of one point; for point data 0 or at
+   * least 2 along the other axes. Default 0 0 0.
    */
   vtkSetVector3Macro(SampleDimensions, int);
   vtkGetVector3Macro(SampleDimensions, int);

@@ -3,50 +3,50 @@
  * @class   vtkTransportQuality
  * @brief   how well particles follow a density, in one row of numbers
  *
- * Input 0 is the particles, any vtkPointSet, input 1 the density, a data set (see
- * vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). Particles weigh by their
- * point array `Mass` if they have it, else equally; weights count as shares of their sum. Points
+ * Input 0 is the particles, any vtkPointSet. Input 1 is the density, a data set (see
+ * vtkDensityAlgorithm), chosen with SetInputArrayToProcess(0, 1, 0, ...). The point array `Mass`
+ * weights the particles; without it they weigh the same. Weights are divided by their sum. Points
  * that the ghost array marks as duplicate or hidden count neither as particles nor as neighbours.
  *
  * The output is a vtkTable of one row with the columns
  * - `Particles`, their number, and `TotalMass`, the density times cell measure, summed;
- * - `Outside`, the number of particles outside of the domain (off the plane or line of a density of
- *   fewer than three dimensions, too), by more than a millionth of its diagonal;
- * - `InEmptyCells`, the number of the others that are in cells of the density without mass (on a
- *   face: where all cells at it are);
+ * - `Outside`, the number of particles outside the domain by more than a millionth of its diagonal
+ *   (with a density of one or two dimensions, also those off its line or plane);
+ * - `InEmptyCells`, the number of other particles in cells of the density without mass (on a face:
+ *   if all cells at it are without mass);
  * - `DensityError`, the relative L2 distance between the particles' density and the given one, both
- *   averaged over blocks of BlockSize cells: with p and m a block's shares of the particles' mass
- *   and of the density's, and v its measure, sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v). Particles
- *   outside count in the total mass, but in no block;
+ *   averaged over blocks of BlockSize cells: sqrt(sum (p - m)^2 / v) / sqrt(sum m^2 / v), where p
+ *   and m are a block's shares of the particles' mass and of the density's, and v is its measure.
+ *   Particles outside count in the total mass, but in no block;
  * - `TransportCost`, the mean of |Displacement|^2, by weight, in squared physical units, from the
  *   point array `Displacement`; 0 without it;
  * - `SmallestSpacing` and `MeanSpacing`, over the particles in the domain that have mass: the
- *   distance from the nearest other particle, relative to the largest possible one for the local
+ *   distance to the nearest other particle, relative to the largest possible one for the local
  *   density. That is the distance in a regular row (1D), the hexagonal (2D) or face-centred cubic
  *   lattice (3D) in which each point takes the measure V: V, sqrt(2 V / sqrt(3)), cbrt(sqrt(2) V)
  *   (twice the r_max of Lagae and Dutre, "A Comparison of Methods for Generating Poisson Disk
  *   Distributions", Computer Graphics Forum 27(1), 2008). V is the measure of the smallest cube
  *   about the particle, clipped to the domain, in which the density has the particle's share of the
- *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 where no particle in
- *   the domain has a neighbour.
+ *   mass. Perfect lattices have 1, blue noise less, clumps near 0. Both are 0 if no particle in the
+ *   domain has a neighbour.
  *
- * An input without points, or of ghosts only, gives a table without rows, and so does every piece
- * but piece 0. Where ranks of MPI request a piece each, they run the filter together: each gives
- * its part of particles and density, and the first one has the row of all, with the bits of one
- * rank; sums are in the order of the point array `SeedId` of integers, or else of the global ids,
- * where all ranks have them, else of the ranks. Particles that are the same on all ranks are one
- * data set. With Tables Tiled no rank has the density or the tables of all.
+ * An input without points or with only ghosts gives a table without rows; so does every piece
+ * except piece 0. If MPI ranks request one piece each, they run the filter together. Each rank
+ * gives its part of the particles and of the density. Rank 0 has the row of all, bitwise as on one
+ * rank. Sums are in the order of the integer point array `SeedId`, or else of the global ids, if
+ * all ranks have them; else in the order of the ranks. If all ranks have the same particles, they
+ * are one data set. With Tables Tiled, no rank holds the whole density or its tables.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(n log n) for n
- * particles. Tables Tiled takes 2D and 3D densities and any particles; those of tiles are made in
- * each run. The V of a particle is then interpolated where its cube is wider than the rim of a tile
- * (11.5 strides of the tables of few nodes), else it differs by rounding. Memory: about 100 bytes a
- * particle and 16 a block while it runs, beside the tables (see vtkTransportAlgorithm). Where there
- * are ghosts or values that are not double, copies of the points, of Mass and of Displacement take
- * 24, 8 and 24 more. The numbers are the same to the last bit for every number of threads.
+ * particles. Tables Tiled supports 2D and 3D densities and any particles; the tables of tiles are
+ * made in each run. The V of a particle is then interpolated if its cube is wider than the rim of a
+ * tile (11.5 strides of the tables of few nodes), else it differs by rounding. Memory: about 100
+ * bytes a particle and 16 a block while it runs, plus the tables (see vtkTransportAlgorithm). With
+ * ghosts or values that are not double, copies of the points, of Mass and of Displacement take 24,
+ * 8 and 24 more. The numbers are bitwise the same for every number of threads.
  *
- * @warning With fewer than several particles a block, DensityError measures their noise: about
- * 1 / sqrt(particles a block) for independent ones.
+ * @warning With few particles a block, DensityError measures their noise: about 1 / sqrt(particles
+ * a block) for independent particles.
  *
  * \code{.cpp}
  * vtkNew<vtkTransportQuality> quality;
@@ -86,10 +86,10 @@ public:
 
   ///@{
   /**
-   * The number of cells of the density along each axis in a block of DensityError, at least 1; the
-   * last block of an axis may have fewer. Default 0: the least number with which blocks have 64
-   * particles on average over the domain. DensityError is then about 1/8 for independent particles,
-   * and less for those that are spread more evenly.
+   * The number of cells of the density along each axis in a block of DensityError. The last block
+   * of an axis may have fewer. Default 0: the smallest number with which blocks hold 64 particles
+   * on average over the domain. DensityError is then about 1/8 for independent particles, and less
+   * for particles that are spread more evenly.
    */
   vtkSetMacro(BlockSize, int);
   vtkGetMacro(BlockSize, int);
@@ -97,11 +97,11 @@ public:
 
   ///@{
   /**
-   * What the measurement keeps of a density. Whole: summed-area tables of the whole grid, 32 bytes
-   * a cell, until the density changes. Tiled: tables of few nodes, and those of tiles, which are
-   * made in each run and worked through one after another: an eighth of the memory at 512^3 cells,
-   * in about the same time, as exact but of other bits. Auto (default): Tiled for densities of more
-   * than 2^26 cells where it serves, else Whole.
+   * Which tables the measurement uses. Whole: summed-area tables of the whole grid, 32 bytes a
+   * cell, which are kept until the density changes. Tiled: tables of few nodes and, one after
+   * another, tables of tiles, made in each run. Tiled takes an eighth of the memory at 512^3 cells
+   * in about the same time. It is as exact but not bitwise equal. Auto (default): Tiled for
+   * densities of more than 2^26 cells in 2D and 3D, else Whole.
    */
   vtkSetMacro(Tables, int);
   vtkGetMacro(Tables, int);

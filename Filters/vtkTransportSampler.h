@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTransportSampler
- * @brief   sample a density of an image with particles
+ * @brief sample a density with particles
  *
- * Moves points that are spread uniformly over the domain of an image so that in the end they are
- * distributed like its density, along the rectified flow (equation 12) of Do, Coeurjolly, Memari
- * and Bonneel, "Linear-Time Transport with Rectified Flows", ACM Transactions on Graphics 44(4),
- * 2025, doi:10.1145/3731147. It stipples pictures and samples volumes.
+ * Moves points that fill the domain uniformly until they are distributed like the density, along
+ * the rectified flow (equation 12) of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
+ * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. It stipples
+ * pictures and samples volumes.
  *
- * Input 0 is the density, a data set (see vtkDensityAlgorithm). Input 1 is optional: a
- * vtkPointSet of seeds in physical space, in place of SeedPattern. Seeds outside the domain are
- * moved to its border, with one warning that counts them; NaN or infinite ones are an error. Point
- * data of the seeds is passed on, to the particles or as cell data to their paths.
+ * Input 0 is the density, a data set (see vtkDensityAlgorithm). Input 1, optional, is a vtkPointSet
+ * of seeds in physical space, which replace SeedPattern. Seeds outside the domain are moved to its
+ * border, with a warning that counts them. NaN or infinite coordinates are an error. Point data of
+ * the seeds is passed to the particles, or as cell data to their paths.
  *
  * The output is a vtkPolyData with one vertex a particle, in the order of the seeds, and
- * - point data `SeedId` (the particle's number), `SeedPosition` (that of its seed), `Displacement`
- *   (position - SeedPosition, active vectors), `Mass` (an equal share of the total mass each);
+ * - point data `SeedId` (the particle's number), `SeedPosition` (the position of its seed),
+ *   `Displacement` (position - SeedPosition, active vectors), `Mass` (equal shares of the total
+ *   mass);
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
- *   |Displacement|^2, in physical units; where FlowTime is 1 an upper bound on the squared
+ *   |Displacement|^2, in physical units; with FlowTime 1 an upper bound on the squared
  *   2-Wasserstein distance between the uniform measure and the density, which was found 2 to 14 %
- *   above it), beside the input's own field data.
+ *   above it), and the input's field data.
  *
- * With OutputPaths the output is one polyline a particle instead, see there.
+ * With OutputPaths, the output is one polyline a particle instead (see OutputPaths).
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(particles * steps)
- * for the flow. Memory: 104 bytes a particle for the output, and while it runs 32 more in 2D,
- * beside the tables (see vtkTransportAlgorithm).
+ * for the flow. Memory: 104 bytes a particle for the output and, while it runs, 32 more in 2D, plus
+ * the tables (see vtkTransportAlgorithm).
  *
- * On several ranks of MPI each has the particles of its places; in other programs piece 0 holds all
- * of them.
+ * With several MPI ranks, each rank has the particles at the positions that it owns. Without MPI,
+ * piece 0 holds all particles.
  *
- * @warning Particles of seeds that are not uniform in the domain do not follow the density.
+ * @warning If the seeds are not uniform in the domain, the particles do not follow the density.
  *
  * \code{.cpp}
  * vtkNew<vtkPNGReader> reader;
@@ -77,8 +78,8 @@ public:
 
   ///@{
   /**
-   * The number of particles, at least 1. Default 8192. The output has exactly as many, except where
-   * SeedPattern is Lattice, SamplesPerCell is used or seeds are given.
+   * The number of particles, at least 1. Default 8192. It is exact unless SeedPattern is Lattice,
+   * SamplesPerCell is used or seeds are given.
    */
   vtkSetMacro(NumberOfParticles, vtkIdType);
   vtkGetMacro(NumberOfParticles, vtkIdType);
@@ -86,11 +87,11 @@ public:
 
   ///@{
   /**
-   * How the uniform seeds that particles start from are distributed, evenly in lengths;
-   * not used where seeds are given. BlueNoise (default): even and irregular, without preferred
-   * directions. Lattice: the centres of a grid of equal boxes, whose number is as near to
-   * NumberOfParticles as the aspect ratio allows. Jittered: one at random in each of as many boxes
-   * of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
+   * The distribution of the uniform seeds that particles start from, even in physical lengths. Not
+   * used if seeds are given. BlueNoise (default): even and irregular, without preferred directions.
+   * Lattice: the centres of a grid of equal boxes, as near to NumberOfParticles as the aspect ratio
+   * allows. Jittered: one random point in each of as many boxes of equal measure. LowDiscrepancy:
+   * an additive recurrence. Random: independent.
    */
   vtkSetMacro(SeedPattern, int);
   vtkGetMacro(SeedPattern, int);
@@ -104,8 +105,8 @@ public:
 
   ///@{
   /**
-   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
-   * the same one gives the same seeds on every machine. Default 1.
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer.
+   * The same number gives the same seeds on every machine. Default 1.
    */
   vtkSetMacro(RandomSeed, int);
   vtkGetMacro(RandomSeed, int);
@@ -113,8 +114,8 @@ public:
 
   ///@{
   /**
-   * For Lattice and Jittered, above 0: the number of seeds along each axis in every cell of the
-   * density, instead of NumberOfParticles. 0 (default): not used. The other patterns do not use it.
+   * If above 0: the number of seeds along each axis in every cell of the density, instead of
+   * NumberOfParticles. 0 (default): not used. Only Lattice and Jittered use it.
    */
   vtkSetMacro(SamplesPerCell, int);
   vtkGetMacro(SamplesPerCell, int);
@@ -130,10 +131,10 @@ public:
 
   ///@{
   /**
-   * On: instead of vertices, one polyline a particle from its seed to its position at FlowTime,
-   * with NumberOfSteps + 1 points at equal intervals of time, whatever the integrator's steps are.
-   * Point data: `SeedId`, `Time` and `Mass`, the mass of the particle at each point of its path
-   * (the masses of one point of each path sum to TotalMass). Off by default.
+   * On: instead of vertices, output one polyline a particle from its seed to its position at
+   * FlowTime, with NumberOfSteps + 1 points at equal intervals of time, independent of the
+   * integrator's steps. Point data: `SeedId`, `Time` and `Mass`, the mass of the particle at each
+   * point of its path (the masses of one point of each path sum to TotalMass). Off by default.
    */
   vtkSetMacro(OutputPaths, vtkTypeBool);
   vtkGetMacro(OutputPaths, vtkTypeBool);
@@ -142,10 +143,10 @@ public:
 
   ///@{
   /**
-   * Give each particle the values of the density's image where it is, as point arrays of their
-   * names: those of cell arrays are the cell's, those of point arrays linear between the points.
-   * Arrays whose names the particles or the seeds have already are left out, and so are ghost
-   * arrays, ids of points (vtkIdTypeArray) and global ids. Not with OutputPaths. On by default.
+   * Give each particle the values of the density's image at its position, as point arrays with the
+   * same names. Cell arrays give the cell's value; point arrays are interpolated linearly. Arrays
+   * whose names the particles or the seeds already have, ghost arrays, ids of points
+   * (vtkIdTypeArray) and global ids are left out. Not with OutputPaths. On by default.
    */
   vtkSetMacro(SampleArrays, vtkTypeBool);
   vtkGetMacro(SampleArrays, vtkTypeBool);
@@ -153,7 +154,7 @@ public:
   ///@}
 
   /**
-   * Set the seeds (input 1), as the output of another filter. nullptr: none.
+   * Set the seeds (input 1), as the output of another filter. nullptr: no seeds.
    */
   void SetSeedsConnection(vtkAlgorithmOutput* seeds);
 

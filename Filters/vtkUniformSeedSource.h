@@ -6,14 +6,14 @@
  * A source of seeds for vtkTransportSampler, and of uniform samples in general. The output is a
  * vtkPolyData with double points and one vertex a point. Cost: O(points); blue noise takes less
  * than 10 ms for 100,000 points, 0.05 s in a strip that is a few points thick. Memory: 40 bytes a
- * point, and while it runs 16 more in 2D, 50 more for blue noise in such a strip.
+ * point and, while it runs, 16 more in 2D, 50 more for blue noise in such a strip.
  *
- * A piece has its share of the points, by their numbers, so that the ranks of MPI have together
- * those of one rank, in the same order. Blue noise takes the time of all points for a piece, too;
- * memory is for the piece alone.
+ * Each piece has a range of the points by their numbers: all MPI ranks together have the points of
+ * one rank, in the same order. Blue noise takes the time of all points even for a piece. Memory is
+ * only for the piece.
  *
- * Bounds that are not finite or not in ascending order, a Dimension other than 2 and 3 and a
- * NumberOfPoints below 1 are errors; the output is then empty.
+ * Bounds that are not finite or not in ascending order, a Dimension other than 2 and 3, and a
+ * NumberOfPoints below 1 are errors. The output is then empty.
  *
  * \code{.cpp}
  * vtkNew<vtkUniformSeedSource> seeds;
@@ -59,8 +59,9 @@ public:
 
   ///@{
   /**
-   * The box (xmin, xmax, ymin, ymax, zmin, zmax) that the points fill: finite, each upper bound
-   * above its lower one; in two dimensions those of z may be equal. Default 0 1 0 1 0 1.
+   * The box (xmin, xmax, ymin, ymax, zmin, zmax) that the points fill. Bounds are finite, each
+   * upper bound is above its lower bound; in two dimensions those of z may be equal. Default 0 1 0
+   * 1 0 1.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -76,8 +77,8 @@ public:
 
   ///@{
   /**
-   * The number of points, at least 1. Default 8192. The output has exactly as many, except where
-   * Pattern is Lattice: then as near as a grid of the box's aspect ratio comes.
+   * The number of points, at least 1. Default 8192. It is exact unless Pattern is Lattice: then as
+   * near as a grid of the box's aspect ratio allows.
    */
   vtkSetMacro(NumberOfPoints, vtkIdType);
   vtkGetMacro(NumberOfPoints, vtkIdType);
@@ -86,8 +87,8 @@ public:
   ///@{
   /**
    * How the points are distributed. BlueNoise (default): even and irregular, without preferred
-   * directions. Lattice: the centres of a grid of equal boxes. Jittered: one at random in each of
-   * as many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
+   * directions. Lattice: the centres of a grid of equal boxes. Jittered: one random point in each
+   * of as many boxes of equal measure. LowDiscrepancy: an additive recurrence. Random: independent.
    */
   vtkSetMacro(Pattern, int);
   vtkGetMacro(Pattern, int);
@@ -101,8 +102,8 @@ public:
 
   ///@{
   /**
-   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer;
-   * the same one gives the same points on every machine. Default 1.
+   * The seed of the random numbers of BlueNoise, Jittered, LowDiscrepancy and Random: any integer.
+   * The same number gives the same points on every machine. Default 1.
    */
   vtkSetMacro(RandomSeed, int);
   vtkGetMacro(RandomSeed, int);
