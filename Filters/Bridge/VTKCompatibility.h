@@ -16,20 +16,20 @@
 #define VTK_ABI_NAMESPACE_END
 #endif
 
-// Later the faces of polyhedra are cell arrays.
+// From this version on, the faces of polyhedra are cell arrays.
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 4, 0)
 #define RECTIFIEDTRANSPORT_VTK_HAS_FACE_STREAMS
 #endif
 
-// Later the blocks of an AMR may be any Cartesian grids, types of cells any array, and what names
-// them before is deprecated.
+// From this version on, the blocks of an AMR may be any Cartesian grids, cell types may be any
+// array, and the earlier names are deprecated.
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
 #define RECTIFIEDTRANSPORT_VTK_HAS_AMR_OF_CARTESIAN_GRIDS
 #define RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY
 #endif
 
-// For tests: later an assertion of VTK's own ends the process where an image's extent is set to
-// what no image can have.
+// For tests: from this version on, an assertion of VTK ends the process if an image gets an
+// impossible extent.
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 3, 20240617)
 #define RECTIFIEDTRANSPORT_VTK_HAS_IMAGES_OF_ANY_EXTENT
 #endif

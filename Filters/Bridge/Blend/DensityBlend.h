@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interpolates densities by their maps from one pivot: the weighted means of the particles'
-// positions, as points and as a density (Sections 3.4, 5.2 and 5.3). Several ranks each map their
-// share of the particles, and keep it.
+// positions, as points and as a density (Sections 3.4, 5.2 and 5.3). Each rank maps its share of
+// the particles and keeps it.
 #ifndef RectifiedTransport_DensityBlend_h
 #define RectifiedTransport_DensityBlend_h
 
@@ -73,8 +73,8 @@ struct BlendOutput
 class DensityBlend
 {
 public:
-  // Keeps the maps of these inputs for the next call. Tables are built in `tables` and released.
-  // Each rank gets the part of the image that it wants, and the particles whose places it has.
+  // Keeps the maps of these inputs for the next call. Builds tables in `tables` and releases them.
+  // Each rank gets the part of the image that it wants and the particles at positions that it owns.
   // Collective. Throws Failure, which names the input, and Cancelled. Returns how many particles of
   // new maps, on all ranks, were moved out of empty cells of the densities.
   std::int64_t Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
@@ -99,8 +99,8 @@ private:
   std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
   double EndsCost = 0.0;
   vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same
-  // The arrays of the last output, reused where they have no other owner: new memory is cleared by
-  // the system, which takes as long as all other work after the maps.
+  // The arrays of the last output, reused if they have no other owner: the system clears new
+  // memory, and that takes as long as all other work after the maps.
   vtkSmartPointer<vtkDoubleArray> Means;
   vtkSmartPointer<vtkDoubleArray> Masses;
   vtkSmartPointer<vtkDoubleArray> Density;

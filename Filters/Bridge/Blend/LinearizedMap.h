@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The positions in one density of the particles of the pivot, a unit box with equally many in each
-// cell of a grid (Section 3.4), kept until the density, the grid or the integration changes. Each
-// of several ranks has its share of the particles.
+// The positions in one density of the particles of the pivot, a unit box with equally many
+// particles in each cell of a grid (Section 3.4). They are kept until the density, the grid or the
+// integration changes. Each rank has its share of the particles.
 #ifndef RectifiedTransport_LinearizedMap_h
 #define RectifiedTransport_LinearizedMap_h
 
@@ -41,20 +41,20 @@ struct LinearizedMapSettings
 class LinearizedMap
 {
 public:
-  // Whether it is the map of a density: by modification times alone, or by the density's content.
+  // Whether it is the map of a density: only by modification times, or by the density's content.
   bool IsOf(const InputDensity& density, const LinearizedMapSettings& settings) const;
   bool IsOf(
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
-  // Advects the particles to a density; progress then reaches `end`. The tables are built in
-  // `tables`. Collective on the ranks of the progress. Throws Failure and Cancelled. Returns how
-  // many particles ended in an empty cell of the density and were moved to the nearest mass.
+  // Advects the particles to a density; progress then reaches `end`. Builds the tables in `tables`.
+  // Collective on the ranks of the progress. Throws Failure and Cancelled. Returns how many
+  // particles ended in an empty cell of the density and were moved to the nearest mass.
   std::int64_t Make(InputDensity& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.
   void SetTimes(const InputDensity& density) { this->Content.SetTimes(density); }
 
-  // Physical, 3 components; tuples in the order of PivotLattice, those of the share. Read-only.
+  // The share's positions, physical, 3 components, in the order of PivotLattice. Read-only.
   vtkDoubleArray* Positions() const { return this->Kept; }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }

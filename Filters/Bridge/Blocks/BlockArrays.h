@@ -14,14 +14,16 @@ namespace RectifiedTransport
 
 struct BlockArrays
 {
-  // Finds the array of a data set, or else throws Failure; sets its association. What it throws
-  // for the first block of the highest dimension is thrown, where no block has it.
+  // Finds the array of a data set and sets its association, or throws Failure. If no block has the
+  // array, the Failure of the first block of the highest dimension is thrown.
   using Find = std::function<vtkDataArray*(const DensityBlock&, int& association)>;
-  // Whether another block may be asked where one has none: it has nothing to choose from.
+  // Whether a data set has no arrays to choose from. Find may then fail, and another block is
+  // asked.
   using MayLack = std::function<bool(vtkDataSet*)>;
 
-  // Sets the arrays of the blocks, and removes those that cannot carry mass: of fewer dimensions
-  // than the blocks with the array, or of more and without it. Throws Failure.
+  // Sets the arrays of the blocks and removes blocks that cannot carry mass: those of fewer
+  // dimensions than the blocks with the array, and those of more dimensions without it. Throws
+  // Failure.
   static BlockArrays Set(
     const Find& find, const MayLack& mayLack, std::vector<DensityBlock>& blocks);
 

@@ -25,19 +25,18 @@ public:
   vtkDataSet* Data() const;
   // Takes another data set of the same points and cells, which may have other arrays.
   void SetData(vtkDataSet* data);
-  // Whose cells the blocks are; nullptr where they are of none.
+  // The lattice that the blocks' cells form; nullptr if they form none.
   const CellLattice* Lattice() const { return this->CellsOf.get(); }
   void SetLattice(std::shared_ptr<const CellLattice> lattice);
   bool IsOnPoints() const { return this->OnPoints; }
-  // Of the points or the cells; 0 where no cell that counts needs them.
+  // Values of the points or the cells; 0 where no counted cell needs them.
   const double* Values() const { return this->Density.data(); }
   std::int64_t NumberOfValues() const { return this->Density.size(); }
   // What messages call the array.
   const std::string& Name() const { return this->ArrayName; }
-  // What is known of the values; white is that of this block.
+  // What is known of the values, with the white of this block.
   const UnusualValues& Unusual() const { return this->Known; }
-  // The same cells, with a density in those values alone that are `value`. Throws Failure where
-  // memory is short.
+  // The same cells with the density only where it is `value`. Throws Failure if memory is short.
   BlockValues Only(double value) const;
   bool IsCounted(vtkIdType cell) const
   {
@@ -50,13 +49,13 @@ public:
     return this->Counted[static_cast<std::size_t>(cell)] == 1;
   }
   void MarkAsRegion(vtkIdType cell) { this->Counted[static_cast<std::size_t>(cell)] = 2; }
-  // Regions of which it is known that their outline does not cross itself: learnt by the first that
-  // visits them, each on one thread.
+  // Regions whose outline is known not to cross itself. The first visit finds out, each region on
+  // one thread.
   bool IsSimple(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 3; }
   void MarkAsSimple(vtkIdType cell) const { this->Counted[static_cast<std::size_t>(cell)] = 3; }
   // Whether the cells are closed lines, which are around regions together.
   bool AreClosedLines() const { return this->Cells.AreClosedLines; }
-  // Lines that are not closed, where the others are around regions.
+  // The number of lines that are not closed, if the others are around regions.
   vtkIdType OpenLines() const { return this->Open; }
 
 private:
@@ -73,8 +72,8 @@ private:
   vtkIdType Open = 0;
 };
 
-// Cells count if they carry mass, and neither they nor their points are blanked. Throws
-// Failure for values of these that are no density, and Cancelled.
+// Cells count if they carry mass and neither they nor their points are blanked. Throws Failure for
+// values of counted cells that are no density, and Cancelled.
 std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, bool onPoints,
   const MassCells& cells, const DensityRules& rules, Progress& progress);
 

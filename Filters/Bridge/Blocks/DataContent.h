@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a result was computed from, to find whether it has to be computed again.
+// What a result was computed from, to decide whether it must be computed again.
 #ifndef RectifiedTransport_DataContent_h
 #define RectifiedTransport_DataContent_h
 
@@ -19,25 +19,25 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Numbers, arrays, and the modification times of what has them. Times that are the same mean the
-// same content. Other times do not mean another one: programs make new data sets around the same
-// arrays, and write into arrays without marking these. A hash of the values decides then.
+// Numbers, arrays, and the modification times of their owners. Equal times mean equal content. If
+// times differ, a hash of the values decides: programs make new data sets around the same arrays,
+// and write into arrays without marking them as modified.
 class DataContent
 {
 public:
   void AddNumber(std::uint64_t number);
   void AddNumbers(const double* numbers, int count);
   void AddTime(std::uint64_t time);
-  // Of an object whose own values are no array, such as a vtkCellArray; nullptr is allowed.
+  // For an object that is no array, such as a vtkCellArray; nullptr is allowed.
   void AddTimeOf(vtkObject* object);
   // Its name, type, sizes and values; nullptr is allowed. Call IsSameAs or Keep before the array is
   // gone.
   void AddArray(vtkAbstractArray* array);
 
-  // Whether this is the content `before`, which then has the times of this one. As the work of the
-  // current stage. Throws Cancelled.
+  // Whether this is the content `before`; if so, `before` gets the times of this one. The work of
+  // the current stage. Throws Cancelled.
   bool IsSameAs(DataContent& before, Progress& progress);
-  // To compare others with it later; as above.
+  // Prepares for later comparisons. The work of the current stage. Throws Cancelled.
   void Keep(Progress& progress);
 
 private:

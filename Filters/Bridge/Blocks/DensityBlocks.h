@@ -35,7 +35,7 @@ struct DensityBlock
   vtkDataArray* Array = nullptr; // the density; set by those who know its name, none: no mass
 };
 
-// The leaves of a composite data set that are no data sets of cells, such as tables.
+// The leaves of a composite data set that are not data sets with cells, such as tables.
 struct OtherLeaves
 {
   std::int64_t Count = 0;
@@ -43,17 +43,16 @@ struct OtherLeaves
   std::string First;         // the class and the name of the first one
 };
 
-// The data sets with points: the object itself, or the leaves of composite ones; the cells of hyper
-// tree grids. Cells of AMR grids that finer ones cover are marked as refined. Other leaves are left
-// out, and told to `others`. Collective. Throws Failure as
-// withRefinedMarked, and Cancelled.
+// The data sets with points: the object itself, or the leaves of a composite; the cells of hyper
+// tree grids. AMR cells covered by finer ones are marked as refined. Other leaves are left out and
+// recorded in `others`. Collective. Throws Failure as withRefinedMarked, and Cancelled.
 std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
   Progress* progress = nullptr, const Ranks& ranks = SoloRanks::Get());
 
-// Adds all that a block's points and cells are made of, its ghost flags too.
+// Adds everything that a block's points and cells are made of, with ghost flags.
 void addGeometry(const DensityBlock& block, DataContent& content);
 
-// The largest dimension of the cells of a data set, and that of the cells of a type.
+// The largest dimension of the cells of a data set; the dimension of a cell type.
 int largestCellDimension(vtkDataSet* data);
 int dimensionOfCellType(int type);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inputs that lie on several ranks: the blocks of a density on every rank, and all inputs of a
-// filter that runs on the first rank only.
+// Distributed inputs, gathered: the blocks of a density on every rank, and all inputs of a filter
+// that runs only on the first rank.
 #ifndef RectifiedTransport_GatheredInputs_h
 #define RectifiedTransport_GatheredInputs_h
 
@@ -24,12 +24,13 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Keeps the blocks of the last run: they are gathered again only if those of a rank change.
+// Keeps the blocks of the last run. They are gathered again only if the blocks of a rank change.
 class GatheredBlocks
 {
 public:
-  // By the numbers of the blocks, and the parts of one by rank; what is the same on several ranks
-  // once. Collective. Throws Failure, Cancelled and std::bad_alloc.
+  // All blocks in the order of their numbers, the parts of one block in the order of the ranks.
+  // Blocks that are the same on several ranks count once. Collective. Throws Failure, Cancelled and
+  // std::bad_alloc.
   const std::vector<DensityBlock>& Gather(
     const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress);
 
@@ -46,8 +47,8 @@ enum class GatheredKind
   Density  // an image, any other data set, or a composite one
 };
 
-// On the first rank, of the data of all ranks; nullptr on the others, and where none has data. What
-// is whole on every rank stays as it is. Collective. Throws Failure and std::bad_alloc.
+// The data of all ranks on the first rank; nullptr on the others and if no rank has data. Data that
+// are whole on every rank stay as they are. Collective. Throws Failure and std::bad_alloc.
 vtkSmartPointer<vtkDataObject> gatherOnFirst(
   vtkDataObject* own, GatheredKind kind, const Ranks& ranks);
 
@@ -58,7 +59,7 @@ public:
   GatheredInputs(
     vtkInformationVector** inputs, const std::map<int, GatheredKind>& kinds, const Ranks& ranks);
 
-  // As those of the executive, with the gathered data.
+  // The executive's input vectors with the gathered data.
   vtkInformationVector** Vectors() { return this->Pointers.data(); }
 
 private:

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 class Progress;
 
 // Voxels, pixels or lines, with the values of the cell arrays; leaves that the mask hides are left
-// out. Throws Failure where memory is short and, where there is a progress, Cancelled.
+// out. Throws Failure if memory is short and, with a progress, Cancelled.
 vtkSmartPointer<vtkUnstructuredGrid> cellsOfTrees(vtkHyperTreeGrid* grid, Progress* progress);
 
 } // namespace RectifiedTransport

@@ -16,10 +16,9 @@ namespace RectifiedTransport
 
 class Ranks;
 
-// The grids with cells that finer ones cover, on any rank, marked as such beside the flags that
-// they have; they share the arrays. Throws Failure where boxes or spacings are not set, and, where
-// no grid has flags, for grids that are not as their boxes say. Collective; nullptr for
-// nullptr.
+// The grids, with the cells that finer grids cover on any rank marked as refined in addition to
+// their flags. They share the arrays. Throws Failure if boxes or spacings are not set and, if no
+// grid has flags, for grids that do not match their boxes. Collective. nullptr for nullptr.
 vtkSmartPointer<vtkOverlappingAMR> withRefinedMarked(vtkOverlappingAMR* grids, const Ranks& ranks);
 
 } // namespace RectifiedTransport

@@ -12,7 +12,7 @@ class ContentHash
 {
 public:
   ContentHash() = default; // of no density
-  // Takes the content of a density, as the work of the current stage. Throws Cancelled.
+  // Takes the content of a density. The work of the current stage. Throws Cancelled.
   ContentHash(InputDensity& density, Progress& progress)
     : Known(true)
     , Times(density.GetTimes())
@@ -20,8 +20,8 @@ public:
   {
   }
 
-  // Whether it is of this density by modification times and reading parameters alone. Where false,
-  // contents have to be compared.
+  // Whether it is of this density, only by modification times and reading parameters. If false,
+  // contents must be compared.
   bool IsOf(const InputDensity& density) const
   {
     InputDensity::Content reading = this->Content;

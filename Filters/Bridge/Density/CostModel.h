@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimated times of parts of the work, by which progress is divided among the stages of a run.
+// Estimated times of parts of the work. They divide progress among the stages of a run.
 #ifndef RectifiedTransport_CostModel_h
 #define RectifiedTransport_CostModel_h
 
@@ -31,7 +31,7 @@ inline double tables(const FlowCache& cache, const InputDensity& density)
                                    : 0.0;
 }
 
-// Of moving one particle.
+// The cost of moving one particle.
 inline double flow(const FlowOptions& options, int dimension)
 {
   const double evaluation = dimension == 3 ? 60.0 : 15.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all kinds of data say of an array that is no density.
+// Errors for arrays that are no density, for all kinds of data.
 #ifndef RectifiedTransport_DensityFailure_h
 #define RectifiedTransport_DensityFailure_h
 
@@ -21,16 +21,16 @@ struct DensityRules;
 // "density array 'Mass'".
 std::string describeArray(vtkDataArray* array);
 
-// Throws Failure where an array has not one tuple for each point or cell of `what`, its data set.
+// Throws Failure unless an array has one tuple for each point or cell of its data set, `what`.
 void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const std::string& what);
 
-// Throws Failure for a Component that an array of `count` components has not.
+// Throws Failure if an array of `count` components does not have this Component.
 void requireComponent(const std::string& name, int component, int count);
 
 // Whether the largest displayed value is needed.
 bool needsWhite(const DensityRules& rules, int components);
 
-// Throws the Failure for values that are no density; `hasBlanks` as part of the reason.
+// Throws the Failure for values that are no density; `hasBlanks` is part of the reason.
 [[noreturn]] void throwInvalidDensity(
   const std::string& name, const DensitySummary& summary, bool hasBlanks = false);
 

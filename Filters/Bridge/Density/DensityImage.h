@@ -28,8 +28,9 @@ public:
   void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const override;
 
-  // For a part of a whole image, in place of Prepare: what is found of its values, by their numbers
-  // in the part, and the white of the whole, which values are read with from then on.
+  // For a part of a whole image, instead of Prepare: find the largest and the clamped values, by
+  // their numbers in the part; set the white of the whole image, with which values are read from
+  // then on.
   LargestValue FindWhite(Progress& progress);
   void SetWhite(double white, Progress& progress);
   LowestValue FindClamped(Progress& progress) const;
@@ -47,7 +48,7 @@ private:
   std::unique_ptr<DensityReader> Reader;
   std::array<vtkSmartPointer<vtkDataArray>, 3> Sources; // the array, the ghost arrays or null
 
-  // Ghost flags of the cells and of the points, where the density is cell data.
+  // If the density is cell data: ghost flags of the cells and of the points.
   const unsigned char* CellFlags = nullptr;
   const unsigned char* HiddenPoints = nullptr;
   std::vector<unsigned char> CombinedFlags; // of both, from BlankCellsOfHiddenPoints on

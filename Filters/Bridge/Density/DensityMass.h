@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mass of a density where no tables are built, which would find it.
+// The mass of a density for which no tables are built.
 #ifndef RectifiedTransport_DensityMass_h
 #define RectifiedTransport_DensityMass_h
 
@@ -9,9 +9,10 @@ namespace RectifiedTransport
 class InputDensity;
 class Progress;
 
-// Density times cell measure, summed: of a density that is prepared, as the work of the current
-// stage. Tells of values that are probably not meant. Throws Failure for a sum whose mass is no
-// double, and Cancelled; values that are wrong, which the core counts, make the result meaningless.
+// Density times cell measure, summed, for a prepared density. The work of the current stage.
+// Reports values that are probably not meant. Throws Failure if the mass is beyond the largest
+// double, and Cancelled. If there are wrong values, which the core counts, the result is
+// meaningless.
 double massOf(InputDensity& density, Progress& progress);
 
 } // namespace RectifiedTransport

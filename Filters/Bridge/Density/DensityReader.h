@@ -25,7 +25,7 @@ struct DensityRules
   bool ClampNegative = false;
 };
 
-// The largest of values that are finite, in how many tuples it is, and the next one below it.
+// The largest finite value, the number of tuples that have it, and the next value below it.
 struct LargestValue
 {
   double Value = -std::numeric_limits<double>::infinity(); // of none
@@ -52,7 +52,8 @@ public:
   }
   bool HasBlanks() const { return this->Flags != nullptr; }
 
-  // The largest value of the component, or of all (luminance), among the cells that are not blank.
+  // The largest value of the component, or of all components (luminance), in cells that are not
+  // blank.
   virtual LargestValue Largest(std::int64_t first, std::int64_t count) const = 0;
 
   // Reads the same, but leaves negative values as they are.

@@ -14,16 +14,16 @@ namespace RectifiedTransport
 class FlowCache
 {
 public:
-  // Whether Update has to compute the content hash, and probably builds tables.
+  // Whether Update must compute the content hash and probably builds tables.
   bool IsOutdated(const InputDensity& density) const
   {
     return !this->Kept || !this->Hash.IsOf(density);
   }
 
-  // The flow of a density, as the work of the stages up to the progress `end`. Tables are built if
-  // the content of the density differs from that of the last update and no other filter has them.
-  // With tiles it is to be used as long as the density lives. Throws Failure and Cancelled; the
-  // next update then builds.
+  // The flow of a density; progress then reaches `end`. Tables are built if the content of the
+  // density differs from that of the last update and no other filter has them. A flow with tiles is
+  // valid only as long as the density lives. Throws Failure and Cancelled; the next update then
+  // builds.
   const SharedFlow& Update(
     InputDensity& density, Progress& progress, double end, FlowTables tables = FlowTables::Whole);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The density of an input of a filter, wherever its values are: what the workers of filters take.
+// The density of a filter's input, local or distributed, as workers take it.
 #ifndef RectifiedTransport_InputDensity_h
 #define RectifiedTransport_InputDensity_h
 
@@ -31,7 +31,8 @@ namespace RectifiedTransport
 class ImagePieces;
 class Progress;
 
-// Prepare, GetContent and what is marked so are collective, where the values lie on several ranks.
+// If the values are distributed over ranks, Prepare, GetContent and methods marked so are
+// collective.
 class InputDensity
 {
 public:
@@ -46,18 +47,18 @@ public:
   InputDensity& operator=(const InputDensity&) = delete;
 
   const ImageGrid& Grid() const { return this->Geometry; }
-  // What messages call it.
+  // Its name in messages.
   const std::string& GetName() const { return this->Name; }
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }
-  // Computed once, as the work of the current stage. Throws Cancelled.
+  // Computed once. The work of the current stage. Throws Cancelled.
   const Content& GetContent(Progress& progress);
 
-  // Computes what reading for such tables needs of all values, such as the largest one. To be
-  // called before Values and Source. Throws Failure and Cancelled.
+  // Computes what reading for such tables needs from all values, such as the largest value. Call it
+  // before Values and Source. Throws Failure and Cancelled.
   virtual void Prepare(FlowTables tables, Progress& progress) = 0;
-  // The values of all cells; nullptr where they lie on several ranks.
+  // The values of all cells; nullptr if they are distributed over ranks.
   virtual const DensityValues* Values() const = 0;
   template <int D>
   DensitySource<D> Source() const
@@ -66,35 +67,35 @@ public:
     return this->Values() ? DensitySource<D>(size, *this->Values())
                           : DensitySource<D>(size, *std::get<D - 1>(this->Distributed()));
   }
-  // Gives up what Prepare gathered; Source needs it.
+  // Releases what Prepare gathered, which Source needs.
   virtual void ReleaseGathered() {}
 
-  // Which part of the image each rank has; nullptr where each has all.
+  // Which part of the image each rank has; nullptr if each rank has all of it.
   virtual const ImagePieces* Pieces() const { return nullptr; }
   // The image on the grid in an extent, with all arrays of the input. Collective.
   virtual vtkSmartPointer<vtkImageData> ImageIn(const Extent& extent) const = 0;
-  // Gives particles in the image in an extent the values of the arrays of the input, as the work of
-  // the stages up to the progress 1. Collective. Throws Failure and Cancelled.
+  // Gives particles in the image in an extent the values of the input's arrays; progress then
+  // reaches 1. Collective. Throws Failure and Cancelled.
   virtual void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const = 0;
 
-  // What Prepare found of the values: all but the summary of the densities.
+  // What Prepare found about the values, without the summary of the densities.
   const UnusualValues& Unusual() const { return this->Known; }
-  // What precedes a line where a filter has several inputs.
+  // Precedes each line if a filter has several inputs.
   void SetInputName(const std::string& name) { this->InputName = name; }
-  // Who hears of values that are probably not meant, in a line each, and of the content that they
-  // are in; without lines the content is not given.
+  // Receives one line for each finding of values that are probably not meant, and their content.
+  // Without lines, it gets no content.
   using Listener =
     std::function<void(const std::vector<std::string>& lines, const Content& content)>;
   void SetListener(const Listener& listener) { this->Tell = listener; }
-  // To be called once the values have been read, by this filter or another one. Collective.
+  // Call it when the values have been read, by this filter or another one. Collective.
   void TellUnusual(const UnusualValues& values, Progress& progress);
 
   // Throws the Failure for values that are no density.
   [[noreturn]] void ThrowInvalid(const DensitySummary& summary) const;
 
 protected:
-  // What differs between arrays of one name.
+  // What may differ between arrays of one name.
   struct ArrayForm
   {
     int Type;
@@ -111,9 +112,9 @@ protected:
   int Components() const { return static_cast<int>(this->Reading[2]); }
   bool NeedsWhite() const;
   bool Clamps() const { return this->Rules.ClampNegative && !this->Rules.Invert; }
-  // What is read as white, once Known has it.
+  // The value read as white, as soon as Known has it.
   double White() const;
-  // What there is to tell of values, in lines.
+  // The findings about values, one line each.
   virtual std::vector<std::string> Describe(const UnusualValues& values) const;
 
   ImageGrid Geometry;

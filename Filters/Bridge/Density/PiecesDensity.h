@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An array of an image that lies on several ranks as a density.
+// An array of a distributed image as a density.
 #ifndef RectifiedTransport_PiecesDensity_h
 #define RectifiedTransport_PiecesDensity_h
 
@@ -14,13 +14,13 @@ namespace RectifiedTransport
 class PiecesDensity final : public InputDensity
 {
 public:
-  // `name` is that of the array. Collective. Throws Failure for errors that do not depend on the
+  // `name` is the array's name. Collective. Throws Failure for errors that do not depend on the
   // values.
   PiecesDensity(std::unique_ptr<const ImagePieces> pieces, const std::string& name, bool onPoints,
     const DensityRules& rules);
   ~PiecesDensity() override;
 
-  // For whole tables it gathers the whole image on each rank; else no rank gets all of it.
+  // For whole tables it gathers the whole image on each rank; otherwise no rank gets all of it.
   void Prepare(FlowTables tables, Progress& progress) override;
   const DensityValues* Values() const override;
   void ReleaseGathered() override { this->Gathered.reset(); }

@@ -25,7 +25,7 @@ public:
   {
     return this->Flow<D>();
   }
-  // The same, and what its tables tell of the density.
+  // The same, with access to what its tables know about the density.
   template <int D>
   const RectifiedFlow<D>& Flow() const
   {
@@ -37,14 +37,14 @@ public:
   FlowTables Tables() const { return this->Kind; }
   vtkMTimeType BuildTime() const { return this->Built.GetMTime(); }
 
-  // Returns the flow of a density of this content that another filter owns, else builds one, to be
-  // shared in turn; progress then reaches `end`. Flows with tiles are not shared, as they read the
-  // density of one filter's run. Resets `previous` first, and reuses its memory
-  // where it has no other owner. Throws Failure and Cancelled.
+  // Returns the flow that another filter owns for a density of this content, else builds one and
+  // shares it; progress then reaches `end`. Flows with tiles are not shared because they read the
+  // density of one filter's run. Resets `previous` first and reuses its memory if it has no other
+  // owner. Throws Failure and Cancelled.
   static std::shared_ptr<SharedFlow> FindOrBuild(InputDensity& density, const ContentHash& content,
     FlowTables tables, std::shared_ptr<SharedFlow> previous, Progress& progress, double end);
 
-  // For a flow with tiles: the density of the run, of the same content.
+  // For a flow with tiles: sets the density of the run, which has the same content.
   void Attach(InputDensity& density, Progress& progress);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which tables the flow of a density has, by the property Tables and what it is for.
+// Which tables the flow of a density has, by the property Tables and by its use.
 #ifndef RectifiedTransport_TableChoice_h
 #define RectifiedTransport_TableChoice_h
 
@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// An advection, as far as the choice of its tables depends on it.
+// What the choice of tables depends on in an advection.
 struct TableUse
 {
   FlowOptions Options;
@@ -22,12 +22,13 @@ struct TableUse
   std::string WholeFor; // what only whole tables give; empty for nothing
 };
 
-// The tables of a density of this size, for a value in range: Auto means tiles above 2^26 grid
-// cells where they serve. Throws Failure where Tiled is set and they do not, or do not find memory.
+// The tables of a density of this size, for a value in range. Auto means tiles above 2^26 grid
+// cells if they support the use. Throws Failure if Tiled is set and tiles do not support the use or
+// do not fit in memory.
 template <int D>
 FlowTables chooseTables(TableSetting setting, const GridSize<D>& size, const TableUse& use);
 
-// The same for MeasuresOfShares of so many boxes.
+// The same for MeasuresOfShares of this number of boxes.
 template <int D>
 FlowTables chooseTablesForShares(
   TableSetting setting, const GridSize<D>& size, const Point<D>& aspect, double boxes);

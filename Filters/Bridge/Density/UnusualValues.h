@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of a density that are probably not meant: one that carries most of the mass, as numbers
-// do that mark missing data in files.
+// Values of a density that are probably not meant: a value that carries most of the mass, for
+// example a number that marks missing data in files.
 #ifndef RectifiedTransport_UnusualValues_h
 #define RectifiedTransport_UnusualValues_h
 
@@ -29,7 +29,7 @@ struct LowestValue
   double Largest = 0.0;
 };
 
-// What is known of the values of a density once they have been read.
+// What is known about the values of a density after reading them.
 struct UnusualValues
 {
   DensitySummary Found;
@@ -37,25 +37,26 @@ struct UnusualValues
   LowestValue Clamped; // where negative values are
 };
 
-// Adds what is known of the values behind those of `all`.
+// Adds what is known about the values that follow those of `all`.
 void merge(const LargestValue& part, LargestValue& all);
 void merge(const LowestValue& part, LowestValue& all);
 
-// Whether a number is one that files use for missing data: -999, 9999, 1e20, 9.96921e36 and so on.
+// Whether files use this number for missing data: -999, 9999, 1e20, 9.96921e36 and so on.
 bool isFillValue(double value);
 
-// Whether one value may carry most of the mass unmeant, by the values alone: in a single cell, or
-// in several and far above all others. `raw` is the value of the array for the largest density.
+// Whether one value may carry most of the mass by mistake, judged only by the values: it is in a
+// single cell, or in several cells and far above all others. `raw` is the array's value for the
+// largest density.
 bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t values);
 bool isUnusualWhite(const LargestValue& white);
 bool isUnusualLowest(const LowestValue& lowest);
 
-// The values that `rules` clamp, of `count` tuples that `reader` reads by these rules. As the work
-// of the current stage. Throws Cancelled.
+// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. The work of
+// the current stage. Throws Cancelled.
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
 
-// How a message calls the cells or points that have a value.
+// How a message names the cells or points that have a value.
 struct ValuePlaces
 {
   std::string Name; // of the array

@@ -27,8 +27,8 @@ struct DensityEqualizingWarp
   TableSetting Tables;
   double Blend;
 
-  // Sets the points and `Displacement` of an output that has the rest of the input already. Returns
-  // the number of points outside of the domain. Throws Failure and Cancelled.
+  // Sets the points and `Displacement` of an output that already has the rest of the input. Returns
+  // the number of points outside the domain. Throws Failure and Cancelled.
   std::int64_t Run(InputDensity& density, vtkPointSet* input, FlowCache& cache, Progress& progress,
     vtkPointSet* output) const;
 };

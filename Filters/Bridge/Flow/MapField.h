@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map sampled at the centres of a lattice, or on each rank at those of a part of it: from the
-// core's index space to the arrays of an image.
+// A map sampled at the centres of a lattice, or on each rank at those of its part: from the core's
+// index space to the arrays of an image.
 #ifndef RectifiedTransport_MapField_h
 #define RectifiedTransport_MapField_h
 
@@ -34,8 +34,8 @@ class MapField
 {
 public:
   // Allocates memory for the lattice of the samples, on the domain of `geometry`. Each rank
-  // computes one part of the lattice, gets the samples of the wanted box and has memory for these;
-  // a single rank computes all. Collective. Throws Failure before if there is not enough; `purpose`
+  // computes one part of the lattice, gets the samples of the wanted box and has memory for these.
+  // A single rank computes all. Collective. Throws Failure if there is not enough memory; `purpose`
   // completes "not enough memory for".
   MapField(const ImageGrid& geometry, const ImageGrid& samples, const TupleBox& wanted,
     const std::string& purpose, const Ranks& ranks);
@@ -49,8 +49,8 @@ public:
   PointSpan<D> Positions();
 
   // Computes Displacement, Divergence and JacobianDeterminant of the wanted samples; positions are
-  // undefined afterwards. Returns the mean squared displacement of all samples, weighted, if `flow`
-  // is given, with the mass of its density in their lattice cells. Progress reaches `end`. Throws
+  // undefined afterwards. Returns the mean squared displacement of all samples; if `flow` is given,
+  // weighted by the mass of its density in their lattice cells. Progress reaches `end`. Throws
   // Failure and Cancelled.
   double Write(
     const RectifiedFlow<D>* flow, Progress& progress, double end, vtkDataSetAttributes* output);

@@ -37,13 +37,13 @@ struct TransportMap
     std::int64_t MovedToMass; // from empty cells of the density
   };
 
-  // Of the samples, on the density's domain. Throws Failure.
+  // The grid of the samples on the density's domain. Throws Failure.
   ImageGrid SampleGrid(const InputDensity& density) const;
 
   // Writes the map's fields, sampled on a grid on the density's domain, into an image, which gets
-  // this grid; where it is that of the density, the image gets the arrays of the input, too. On
-  // each rank it is the part of the grid in the extent that this rank wants. Collective. Throws
-  // Failure and Cancelled.
+  // this grid. If it is the density's grid, the image also gets the arrays of the input. Each rank
+  // gets the part of the grid in the extent that it wants. Collective. Throws Failure and
+  // Cancelled.
   Report Run(InputDensity& density, const std::array<int, 6>& wanted, FlowCache& cache,
     Progress& progress, vtkImageData* output) const;
 };

@@ -52,8 +52,8 @@ struct TransportSampler
       (this->Pattern == SeedPattern::Lattice || this->Pattern == SeedPattern::Jittered);
   }
 
-  // Writes particles, or their paths, from the given seeds, or from those of the pattern where
-  // `seeds` is nullptr. Collective. Throws Failure and Cancelled.
+  // Writes particles or their paths from the given seeds; if `seeds` is nullptr, from those of the
+  // pattern. Collective. Throws Failure and Cancelled.
   Report Run(InputDensity& density, vtkPointSet* seeds, FlowCache& cache, Progress& progress,
     vtkPolyData* output) const;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The array of an image to use where none is named, as in a host that sets no array before the data
-// are read.
+// The array of an image to use if none is named, for example because a host sets no array before
+// the data are read.
 #ifndef RectifiedTransport_DefaultArray_h
 #define RectifiedTransport_DefaultArray_h
 
@@ -17,20 +17,20 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Whether an array numbers or marks points or cells, by its attribute or its name.
+// Whether an array holds ids or flags of points or cells, by its attribute or its name.
 bool isIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array);
 
-// The active scalars of the points, else of the cells, else the only numeric array; nullptr where
-// there are none or several. Ids and ghost flags do not count. Sets `association`, of
+// The active scalars of the points, else of the cells, else the only numeric array; nullptr if
+// there is none or more than one. Ids and ghost flags do not count. Sets `association`, one of
 // vtkDataObject::FieldAssociations.
 vtkDataArray* defaultArray(vtkDataSet* data, int& association);
 
-// Whether there are numeric arrays, ids and ghost flags aside; whether there are any of these.
+// Whether there are numeric arrays other than ids and ghost flags; whether there are ids or flags.
 bool hasArrays(vtkDataSet* data);
 bool hasIds(vtkDataSet* data);
 
-// Whether the default array is point data; where there is no default, whether there are numeric
-// point arrays.
+// Whether the default array is point data; without a default, whether there are numeric point
+// arrays.
 bool hasPointValues(vtkDataSet* data);
 
 // Whether the pipeline information has active scalars, of vtkDataObject::FieldAssociations.

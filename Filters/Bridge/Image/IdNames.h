@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays that number or mark points and cells, by their names: no densities, unless a user says so.
+// Names of arrays of ids and flags. Such arrays are no densities unless the user chooses them.
 #ifndef RectifiedTransport_IdNames_h
 #define RectifiedTransport_IdNames_h
 
@@ -8,8 +8,8 @@
 namespace RectifiedTransport
 {
 
-// Whether it is the name of ids ("ids", "GlobalNodeId", "cell_id", "ElementIDs"), or of flags and
-// ids that VTK and VisIt add themselves ("vtkGhostType", "avtGhostZones").
+// Whether this is a name of ids ("ids", "GlobalNodeId", "cell_id", "ElementIDs"), or of flags and
+// ids that VTK and VisIt add ("vtkGhostType", "avtGhostZones").
 inline bool isIdName(const std::string& name)
 {
   const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
@@ -29,7 +29,7 @@ inline bool isIdName(const std::string& name)
     {
       return true;
     }
-    // A word of its own: not the end of "Solid", nor of "FLUID".
+    // A separate word: not the end of "Solid" or "FLUID".
     const char before = name[name.size() - ending.size() - 1];
     const bool isWord = !isLetter(before) || (isUpper(ending[0]) && !isUpper(before));
     if (isWord)

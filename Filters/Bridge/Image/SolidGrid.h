@@ -10,11 +10,11 @@
 namespace RectifiedTransport
 {
 
-// Throws Failure for properties out of range, whatever the surface is.
+// Throws Failure for properties that are out of range for any surface.
 void requireSolidGrid(int resolution, double padding);
 
-// `resolution` cells along the longest side of the bounds grown by `padding` of the longest side on
-// each side; along the others as many as cover them, centred. Throws Failure, which names the
+// Grows the bounds by `padding` of their longest side on each side. The longest side gets
+// `resolution` cells, the others as many as cover them, centred. Throws Failure, which names the
 // property.
 ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double padding);
 

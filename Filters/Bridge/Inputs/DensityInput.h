@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the density of an input of a filter: an image, an image that lies on several ranks, or any
-// other data.
+// Reads the density of a filter's input: an image, a distributed image, or any other data.
 #ifndef RectifiedTransport_DensityInput_h
 #define RectifiedTransport_DensityInput_h
 
@@ -24,29 +23,29 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// How a filter reads a density: its properties, and which array is the density.
+// How a filter reads a density: its properties and the choice of the array.
 struct DensityChoice
 {
   DensityRules Rules;
-  int Resolution;        // of data that are no images
+  int Resolution;        // of data that are not images
   int Association;       // as the filter's choice of the array has it
   std::string ArrayName; // empty for the default array
   // The array of a data set; sets its association. nullptr for none.
   std::function<vtkAbstractArray*(vtkDataSet*, int& association)> FindArray;
-  // What is told of the data, and of values that are probably not meant.
+  // Receive warnings about the data, and about values that are probably not meant.
   std::function<void(const std::string&)> Warn;
   std::function<void(const std::string&)> WarnOfValues;
 };
 
-// Whether a density may be of such a field association.
+// Whether a density may have this field association.
 bool isDensityAssociation(int association);
 
-// Keeps what the last run made of the data: it is made again only if they or the choice change.
+// Keeps what the last run made of the data. It is made again only if the data or the choice change.
 class DensityInput
 {
 public:
-  // nullptr if the data have no points. Collective. The density is to be used before the next Read,
-  // while the choice lives. Throws Failure and Cancelled.
+  // nullptr if the data have no points. Collective. The density is valid until the next Read, while
+  // the choice lives. Throws Failure and Cancelled.
   std::unique_ptr<InputDensity> Read(
     const DensityChoice& choice, vtkDataObject* input, Progress& progress);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of an image that have become voxels, hexahedra, pixels, quadrilaterals or lines, as by
-// Threshold: the image that they are of.
+// Cells of an image that a filter such as Threshold turned into voxels, hexahedra, pixels,
+// quadrilaterals or lines: the image that they came from.
 #ifndef RectifiedTransport_CellLattice_h
 #define RectifiedTransport_CellLattice_h
 
@@ -27,32 +27,32 @@ namespace RectifiedTransport
 class CellLattice
 {
 public:
-  // Of the cells of the dimension. None where one of them is no box of the lattice of the first
-  // one, in any order of its corners and in any direction of its axes, and where far fewer cells
-  // than the lattice's box has are there. Corners may be off by what single precision rounds them,
-  // and by 1e-4 of a cell. Throws Failure and Cancelled.
+  // The lattice of the cells of the dimension. None if a cell is not a box of the lattice of the
+  // first one, for any order of corners and direction of axes, or if there are far fewer cells than
+  // the lattice's box has. Corners may be off by the rounding of single precision and by 1e-4 of a
+  // cell. Throws Failure and Cancelled.
   static std::optional<CellLattice> Find(
     const std::vector<DensityBlock>& blocks, int dimension, Progress& progress);
 
-  // Values on cells, on the box of the cells of all blocks. The axes are those of space, or nearest
-  // to them.
+  // The grid on the box of the cells of all blocks, with values on cells. Its axes are those of
+  // space, or nearest to them.
   const ImageGrid& Grid() const { return this->Box; }
 
-  // The grid with each of its cells divided so often along each axis that it has about `resolution`
-  // along its longest one, or as it is.
+  // The grid with its cells divided along each axis so that the longest axis has about `resolution`
+  // cells, or the grid as it is.
   ImageGrid DividedGrid(int resolution) const;
 
-  // Whether no two of the cells that count are in one place. The values are those of the blocks in
-  // Find that have an array, in their order.
+  // Whether no two counted cells are at the same place. The values are those of the blocks in Find
+  // that have an array, in their order.
   bool HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const;
-  // The grid with the cell values in their places, 0 where there is none. Throws Failure.
+  // The grid with the cell values in their places, 0 if there is none. Throws Failure.
   vtkSmartPointer<vtkImageData> MakeImage(
     const std::vector<BlockValues>& values, const char* name, Progress& progress) const;
-  // Sets to 0 what rounding put outside the cells, in an image of the divided grid.
+  // In an image of the divided grid, sets to 0 what rounding put outside the cells.
   void ClearAround(const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells,
     Progress& progress) const;
 
-  // Calls visit(place, block, cell) for the cells that count; a place is a number in the grid.
+  // Calls visit(place, block, cell) for the counted cells; a place is a number in the grid.
   template <class Visit>
   void VisitCounted(
     const std::vector<BlockValues>& values, Progress& progress, const Visit& visit) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where particles lie among the points and cells of data sets that are a lattice.
+// Where particles lie among the points and cells of data sets that form a lattice.
 #ifndef RectifiedTransport_PlacesInLattice_h
 #define RectifiedTransport_PlacesInLattice_h
 
@@ -15,7 +15,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Between the corners of a cell linearly along each axis. In no cell are places in holes, but for
+// Linear between the corners of a cell along each axis. Places in holes are in no cell, except
 // those that rounding put there.
 class PlacesInLattice : public SampledPlaces
 {
@@ -28,7 +28,7 @@ public:
   SampledPlace Find(std::int64_t place) const override;
 
 private:
-  // The number of a cell among those of all blocks, -1 for none.
+  // The number of a cell among the cells of all blocks; -1 for none.
   std::int64_t CellNear(const std::array<double, 3>& along) const;
 
   const CellLattice& Lattice;

@@ -16,9 +16,9 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The arrays that all images with mass have, at least one; what none of these covers is hidden.
-// nullptr where a block is no image, where they are not of one lattice, or most of its box is
-// empty, and where cells overlap or points that images share have two values: these are resampled.
+// One image with the arrays that all images with mass have, at least one. What no image covers is
+// hidden. nullptr if a block is no image, if the images do not lie on one lattice, if most of its
+// box is empty, if cells overlap, or if shared points have two values. Such blocks are resampled.
 vtkSmartPointer<vtkImageData> joinTiles(const std::vector<DensityBlock>& blocks, bool onPoints);
 
 } // namespace RectifiedTransport

@@ -30,8 +30,7 @@ public:
   CellPieces(const CellPieces&) = delete;
   CellPieces& operator=(const CellPieces&) = delete;
 
-  // Adds the integrals over a cell, whose dimension is D; those over simplices along lines or
-  // exactly.
+  // Adds the integrals over a cell of dimension D; over simplices along lines or exactly.
   void AddTo(const GridSlab<D>& slab, vtkIdType cell, bool alongLines);
 
   struct Size
@@ -45,11 +44,11 @@ public:
   };
   Size SizeOf(vtkIdType cell);
 
-  // Divides a cell, whose dimension is D, into simplices. Returns whether VTK could.
+  // Divides a cell of dimension D into simplices. Returns whether VTK could.
   bool Divide(vtkIdType cell);
-  // Of the last Divide.
+  // The number of simplices of the last Divide.
   vtkIdType NumberOfSimplices() const;
-  // The point of the data set that is a vertex of a simplex, and its place in index space.
+  // The data set's point at a vertex of a simplex, and its position in index space.
   vtkIdType VertexId(vtkIdType simplex, vtkIdType vertex) const;
   Point<D> Vertex(vtkIdType simplex, vtkIdType vertex) const;
 

@@ -15,8 +15,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Equal parts of the grid along its last axis, whatever the threads are: enough of them for many,
-// and thick enough for cells to be in few.
+// Equal parts of the grid along its last axis, for any number of threads: enough parts for many
+// threads, and so thick that a cell is in few of them.
 template <int D>
 struct MeshSlabs
 {
@@ -45,7 +45,7 @@ struct CellsOfSlabs
   std::vector<std::int64_t> Begin; // of each slab, and the end
 };
 
-// Those that are nearer than `margin` grid cells to a slab. Throws Cancelled.
+// The cells nearer than `margin` grid cells to a slab. Throws Cancelled.
 template <int D>
 CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
   const MeshSlabs<D>& slabs, double margin, Progress& progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which region has a place, and between which points of its outline the place lies.
+// Which region contains a place, and between which points of its outline the place lies.
 #ifndef RectifiedTransport_PlacesInRegions_h
 #define RectifiedTransport_PlacesInRegions_h
 
@@ -30,9 +30,9 @@ public:
     vtkIdType Points[4];
     double Weights[4];
   };
-  // A place in the region is between the outline to its left and to its right, else at the nearest
-  // point of the outline. Infinitely far where that is not within the diagonal of a grid
-  // cell.
+  // A place in the region is between the outline to its left and to its right. Any other place is
+  // at the nearest point of the outline; infinitely far if that is farther than the diagonal of a
+  // grid cell.
   Found Find(const Point<2>& x) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of a plane that are filled by the even-odd rule: polygons, whatever they look like, and
-// closed lines, those of a block together.
+// Cells of a plane that are filled by the even-odd rule: polygons of any shape, and the closed
+// lines of a block together.
 #ifndef RectifiedTransport_RegionShapes_h
 #define RectifiedTransport_RegionShapes_h
 
@@ -18,9 +18,9 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Marks the cells that are not divided but regions: polygons that are no triangles and no convex
-// quadrilaterals. Where values are on points, polygons stay divided that VTK divides into triangles
-// of their area. Throws Cancelled.
+// Marks the cells that are regions instead of being divided: polygons other than triangles and
+// convex quadrilaterals. With point values, polygons that VTK divides into triangles of the same
+// area stay divided. Throws Cancelled.
 void markRegions(std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress);
 
 // The regions of one polygon, or of the closed lines of a block; in index space. Read once.
@@ -34,7 +34,7 @@ struct RegionShape
   std::vector<OutlineEdge> Edges; // of regionOutlines
 };
 
-// Shapes that are worked on together.
+// Shapes that are processed together.
 struct RegionBatch
 {
   std::vector<RegionShape> Shapes;
@@ -52,7 +52,7 @@ struct RegionBatch
     return this->Shapes[static_cast<std::size_t>(edge.Shape)]
       .Edges[static_cast<std::size_t>(edge.Edge)];
   }
-  // Whether two are of the same region.
+  // Whether two edges are of the same region.
   bool IsSame(const Edge& a, const Edge& b) const
   {
     return a.Shape == b.Shape && this->At(a).Ring == this->At(b).Ring;
@@ -60,7 +60,7 @@ struct RegionBatch
 };
 
 // Calls use(batch) for all regions in their order. Edges reach slabs that are nearer than `margin`
-// grid cells. As the work of the current stage. Throws Cancelled.
+// grid cells. The work of the current stage. Throws Cancelled.
 void visitRegions(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
   const MeshSlabs<2>& slabs, double margin, Progress& progress,
   const std::function<void(const RegionBatch&)>& use);

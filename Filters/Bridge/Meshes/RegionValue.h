@@ -10,16 +10,16 @@
 namespace RectifiedTransport
 {
 
-// The plane of least squares through the values at the points of a ring, each of which weighs as
-// much as the edges beside it are long.
+// The least-squares plane through the values at the points of a ring. The weight of a point is the
+// length of the edges beside it.
 class RingValues
 {
 public:
-  // `points` are those of all rings, whose values are `values[point]`.
+  // `points` are the points of all rings. Their values are `values[point]`.
   RingValues(const Rings& rings, std::int64_t ring, const vtkIdType* points, const double* values);
 
   double Mean() const { return this->Value; }
-  // Not beyond the smallest and the largest value.
+  // Clamped to the smallest and the largest value.
   double At(const Point<2>& x) const;
 
 private:

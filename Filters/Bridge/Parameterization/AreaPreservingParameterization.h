@@ -27,9 +27,9 @@ struct ParameterizationReport
   std::int64_t Collapsed; // all points on one side of the square
   MapDistortion Distortion;
   bool Polish;
-  std::string Repair; // of the surface; empty where it needed none
+  std::string Repair; // of the surface; empty if it needed none
 
-  // What a user should know; mostly nothing.
+  // What a user should know; usually nothing.
   std::vector<std::string> Warnings() const;
 };
 
@@ -40,7 +40,7 @@ struct AreaPreservingParameterization
   int Resolution;
   bool Polish;
 
-  // Throws Failure for values that are out of range whatever the surface.
+  // Throws Failure for values that are out of range for any surface.
   void Check() const;
 
   // Makes the output the surface's triangles with the map's arrays. Throws Failure and Cancelled.

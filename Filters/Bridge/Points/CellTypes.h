@@ -11,7 +11,7 @@
 namespace RectifiedTransport
 {
 
-// The array of the cells' types, whether there is one for each or not; nullptr where there is none.
+// The array of the cells' types, whatever its length; nullptr if there is none.
 inline vtkDataArray* cellTypesOf(vtkUnstructuredGrid* grid)
 {
 #ifdef RECTIFIEDTRANSPORT_VTK_HAS_CELL_TYPES_OF_ANY_ARRAY

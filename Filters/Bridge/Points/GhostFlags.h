@@ -26,11 +26,11 @@ constexpr unsigned char ghostPoint =
 constexpr unsigned char ghostCell = vtkDataSetAttributes::DUPLICATECELL |
   vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
 
-// The values of the ghost array of the points or cells (vtkDataObject::POINT or CELL); nullptr
-// where there is none. Throws Failure for a ghost array of another length; `what` names the input.
+// The values of the ghost array of the points or cells (vtkDataObject::POINT or CELL); nullptr if
+// there is none. Throws Failure for a ghost array of another length; `what` names the input.
 const unsigned char* ghostFlags(vtkDataSet* data, int owner, const char* what);
 
-// The cells that ghost flags keep from having mass.
+// The cells that have no mass because of ghost flags.
 class BlankedCells
 {
 public:
@@ -38,7 +38,7 @@ public:
   BlankedCells(vtkDataSet* data, const char* what);
 
   bool Has(vtkIdType cell) const { return this->OfCells && (this->OfCells[cell] & ghostCell); }
-  // Whether points are hidden, with the cells that have them.
+  // Whether points may be hidden, and with them their cells.
   bool MayHavePoints() const { return this->OfPoints != nullptr; }
   bool HasPointOf(vtkIdList* points) const;
 
@@ -47,23 +47,23 @@ private:
   const unsigned char* OfPoints;
 };
 
-// Writes the flags of the cells of an image in some of its rows of cells along its first axis:
-// ghostCell where a point of the cell is hidden, else the cell's own, 0 where `cells` is nullptr.
-// `dimensions` are numbers of points, of which 1 is no axis.
+// Writes the flags of the cells in some rows of an image along its first axis: ghostCell if a point
+// of the cell is hidden, else the cell's own flags, 0 if `cells` is nullptr. `dimensions` are
+// numbers of points; 1 is no axis.
 void blankCellsOfHiddenPoints(const std::array<int, 3>& dimensions, const unsigned char* points,
   const unsigned char* cells, std::int64_t firstRow, std::int64_t lastRow, unsigned char* flags);
 
-// The points of a data set that are no ghosts, of these flags, numbered from 0 in their order.
+// The points of a data set without these ghost flags, numbered from 0 in their order.
 class CountedPoints
 {
 public:
-  // Throws Failure as above, and where memory is short.
+  // Throws Failure as above, and if memory is short.
   CountedPoints(vtkDataSet* points, const char* what, unsigned char ghosts = ghostPoint);
-  // Of `all` points, those with such a flag left out; `flags` may be nullptr.
+  // `all` points except those with such a flag; `flags` may be nullptr.
   CountedPoints(std::int64_t all, const unsigned char* flags, unsigned char ghosts);
 
   std::int64_t Count() const { return this->Number; }
-  // The index of the point of a number.
+  // The index of the point with this number.
   std::int64_t Point(std::int64_t number) const
   {
     return this->Indices.data() ? this->Indices.data()[number] : number;

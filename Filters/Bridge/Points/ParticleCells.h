@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vtkCells of particles: each has its own run of consecutive points.
+// The vtkCells of particles: each has its own range of consecutive points.
 #ifndef RectifiedTransport_ParticleCells_h
 #define RectifiedTransport_ParticleCells_h
 
@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// As the work of the current stage. Throws Failure and Cancelled.
+// The work of the current stage. Throws Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);
 

@@ -29,14 +29,14 @@ template <int D>
 class ParticleSet
 {
 public:
-  // Allocates memory for `count` particles at `times` times each. Throws Failure before if there is
-  // not enough, for every `count`; `purpose` completes "not enough memory for". `seedsGiven`: the
+  // Allocates memory for `count` particles at `times` times each. Throws Failure, for any `count`,
+  // if there is not enough memory; `purpose` completes "not enough memory for". `seedsGiven`: the
   // caller writes PhysicalSeeds.
   ParticleSet(const ImageGrid& geometry, const std::string& purpose, double count,
     std::int64_t times, bool seedsGiven);
 
   std::int64_t Count() const { return this->NumberOfParticles; }
-  // They are `Count` of `all` particles of several ranks: those from `first` on.
+  // The particles are `Count` of the `all` particles of several ranks, from number `first` on.
   void SetShare(std::int64_t first, std::int64_t all)
   {
     this->FirstId = first;
@@ -49,8 +49,8 @@ public:
   // In physical space.
   PointSpan<3> PhysicalSeeds();
 
-  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass, which are not kept
-  // here; seeds and positions are undefined afterwards. Returns the mean squared displacement of
+  // Writes points with vertices, SeedId, SeedPosition, Displacement and Mass and does not keep
+  // them; seeds and positions are undefined afterwards. Returns the mean squared displacement of
   // the particles of all ranks. Progress reaches `end`. Collective. Throws Failure and Cancelled.
   double WriteParticles(double totalMass, Progress& progress, double end, vtkPolyData* output);
 

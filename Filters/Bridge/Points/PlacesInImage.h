@@ -15,14 +15,14 @@
 namespace RectifiedTransport
 {
 
-// Between the image's points linearly, beyond them as at the nearest place between them: the domain
-// of a point array is half a spacing larger.
+// Linear between the image's points. The domain of a point array is half a spacing larger: places
+// beyond the points are clamped to the nearest place between them.
 template <int D>
 class PlacesInImage : public SampledPlaces
 {
 public:
-  // `places` are physical, in the image's domain. The numbers of points and cells are those in a
-  // part of the image: of the points of an extent.
+  // `places` are physical, in the image's domain. Points and cells are numbered within the part of
+  // the image that an extent of points gives.
   PlacesInImage(const ImageGrid& grid, const std::array<int, 6>& part, ConstPointSpan<3> places)
     : Points(grid.WithValuesOn(false))
     , Places(places)
@@ -98,7 +98,7 @@ private:
     found.Count = 1;
     for (int a = 0; a < D; ++a)
     {
-      // A weight of 0 would not keep out values that are not finite.
+      // A weight of 0 would not remove values that are not finite.
       const int before = parts[a] < 1.0 ? found.Count : 0;
       if (parts[a] > 0.0)
       {
@@ -108,8 +108,8 @@ private:
     }
   }
 
-  // Divides the weights of the first points between them and the next ones along an axis, which are
-  // written behind `before` of them.
+  // Divides the weights of the first points between them and the next points along an axis, which
+  // are appended.
   static void divide(int count, int before, double part, vtkIdType step, SampledPlace& found)
   {
     for (int i = 0; i < count; ++i)

@@ -29,15 +29,15 @@ namespace RectifiedTransport
 // which executives do not check.
 vtkPointSet* pointSetOf(vtkInformationVector* port);
 
-// The bounds of all points of a set that are finite, also of those that no vtkCell uses.
-// vtkPointSet::GetBounds caches its result, which is outdated where coordinates were changed
-// without Modified(), and vtkBoundingBox::ComputeBounds takes 100 ns a point. `points` may be
-// nullptr. Without points lower bounds are above the upper ones. Collective, for the points of all
-// ranks.
+// The bounds of all finite points of a set, also of points that no vtkCell uses.
+// vtkPointSet::GetBounds caches its result, which is outdated if coordinates were changed without
+// Modified(); vtkBoundingBox::ComputeBounds takes 100 ns a point. `points` may be nullptr. Without
+// points, lower bounds are above the upper ones. Collective, for the points of all ranks.
 void findBounds(vtkPointSet* points, const Ranks& ranks, double bounds[6]);
 // The same as the work of the current stage, on the ranks of the progress. Throws Cancelled.
 void findBounds(vtkPointSet* points, Progress& progress, double bounds[6]);
-// The union of the bounds of all ranks; lower bounds above the upper ones do not count. Collective.
+// The union of the bounds of all ranks, without those whose lower bounds are above the upper ones.
+// Collective.
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own);
 
 // Counts points whose coordinates are not finite; thread-safe.
@@ -45,7 +45,7 @@ class NotFinitePoints
 {
 public:
   void Add(std::int64_t count, std::int64_t first);
-  // Throws a Failure with their number if there are any; `what` names the input.
+  // Throws Failure with their number if there are any; `what` names the input.
   void RequireNone(const std::string& what) const;
 
 private:

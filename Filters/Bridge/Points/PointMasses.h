@@ -30,7 +30,7 @@ vtkDataArray* findMasses(vtkPointSet* points, int attribute);
 class PointMasses
 {
 public:
-  // The total is the sum of the sums of so many masses that follow one another.
+  // The total is the sum of the sums of this number of consecutive masses.
   static constexpr std::int64_t Chunk = std::int64_t{ 1 } << 13;
 
   PointMasses() = default;
@@ -39,7 +39,7 @@ public:
   // another length, and Cancelled.
   PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress);
 
-  // One a point; nullptr for 1 each.
+  // One mass a point; nullptr if each is 1.
   const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
   double Total() const { return this->Sum; }
   // The sum of the absolute values.

@@ -38,7 +38,8 @@ public:
   virtual std::int64_t Count() const = 0;
   // On any thread.
   virtual SampledPlace Find(std::int64_t place) const = 0;
-  // The same for `count` places from `first` on; of a place it writes only the points that it has.
+  // The same for `count` places from `first` on; for a place it writes only as many points as it
+  // has.
   virtual void FindBlock(std::int64_t first, std::int64_t count, SampledPlace* found) const
   {
     for (std::int64_t i = 0; i < count; ++i)
@@ -58,8 +59,8 @@ struct ArraySource
 // Of several data sets the arrays that all have, of one type and number of components.
 //
 // Adds the point arrays, interpolated, and the values of the cell arrays at the given places to the
-// data of points, but for names that there are already, ghost arrays, ids of points and global ids.
-// As stages up to the progress `end`. Throws Failure and Cancelled.
+// data of points, except names that exist already, ghost arrays, ids of points and global ids.
+// Progress reaches `end`. Throws Failure and Cancelled.
 void sampleArrays(const ArraySource& source, const SampledPlaces& places, Progress& progress,
   double end, vtkPointData* output);
 

@@ -16,16 +16,16 @@ namespace RectifiedTransport
 
 class CountedPoints;
 
-// Writes the points of a set in index space, clamped to the domain, and in physical space (points
-// inside keep their coordinates to the last bit). Returns how many were moved by more than a
-// millionth of the domain's size, the error of single precision. Throws Failure for coordinates
-// that are not finite, naming the input as `what`, and Cancelled.
+// Writes the points of a set in index space, clamped to the domain, and in physical space
+// (coordinates inside stay bitwise the same). Returns how many were moved by more than a millionth
+// of the domain's size, the error of single precision. Throws Failure for coordinates that are not
+// finite, naming the input as `what`, and Cancelled.
 template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
   Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);
 
-// The same for the points that are no ghosts: `indexSeeds` in the order of their numbers, and
-// `physicalSeeds` of all points. Ghosts keep their coordinates and are not counted.
+// The same for the points that are not ghosts: `indexSeeds` in the order of their numbers,
+// `physicalSeeds` for all points. Ghosts keep their coordinates and are not counted.
 template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);

@@ -16,7 +16,7 @@ struct SplatTarget
   SplatOptions Options;
   bool DivideByVolume; // densities, else masses
 
-  // Of the masses.
+  // The factor of the masses.
   double Scale() const { return this->DivideByVolume ? 1.0 / this->Geometry.CellMeasure() : 1.0; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An image that one rank has made, divided among all.
+// An image that one rank has made, distributed to all.
 #ifndef RectifiedTransport_DistributedImage_h
 #define RectifiedTransport_DistributedImage_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data sets that lie on several ranks, gathered on all of them or on the first one.
+// Distributed data sets, gathered on all ranks or on the first one.
 #ifndef RectifiedTransport_GatheredData_h
 #define RectifiedTransport_GatheredData_h
 
@@ -36,15 +36,15 @@ enum class Receivers
 
 struct GatheredParts
 {
-  // Those of all ranks by their numbers, and of one number by rank; none where this rank is no
-  // receiver.
+  // The parts of all ranks in the order of their numbers, then of the ranks; none if this rank is
+  // no receiver.
   std::vector<DataPart> Parts;
   // Whether every rank has all parts itself.
   bool AreWhole = false;
 };
 
-// If several ranks have the same data under one number, these count once, as those of the lowest
-// rank. `own` are sorted by number. Collective. Throws Failure for types that cannot be sent, and
+// If several ranks have the same data under one number, they count once, as those of the lowest
+// rank. `own` is sorted by number. Collective. Throws Failure for types that cannot be sent, and
 // std::bad_alloc.
 GatheredParts gatherDataParts(
   const std::vector<DataPart>& own, const Ranks& ranks, Receivers receivers);
@@ -57,12 +57,12 @@ enum class PointSetKind
   Polygons // a surface whose points the caller merges
 };
 
-// A point set that lies on several ranks, as one: the points and cells of rank 0 first, with the
-// arrays that all have. Data that are the same on several ranks count once, and duplicates that
-// ghost arrays mark do not count; of Points those that countedPoints gives. Points of a Surface
-// that several ranks have at one place become one, so that it is whole. nullptr where this rank is
-// no receiver, or no rank has points. Collective; `own` may be nullptr. Throws Failure for types
-// that differ, and std::bad_alloc.
+// A distributed point set as one: the points and cells of rank 0 first, with the arrays that all
+// ranks have. Data that are the same on several ranks count once. Duplicates that ghost arrays mark
+// do not count. Points: those that countedPoints gives. Surface: points of several ranks at the
+// same position become one, so that it is whole. nullptr if this rank is no receiver or no rank has
+// points. `own` may be nullptr. Collective. Throws Failure for types that differ, and
+// std::bad_alloc.
 vtkSmartPointer<vtkPointSet> gatherPoints(
   vtkPointSet* own, const Ranks& ranks, Receivers receivers, PointSetKind kind);
 

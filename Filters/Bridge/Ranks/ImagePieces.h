@@ -21,19 +21,20 @@ namespace RectifiedTransport
 {
 
 // Which part of one whole image each rank has. Points and cells that ghost arrays mark as
-// duplicates are those of another rank; what several have is that of the lowest one.
+// duplicates belong to another rank. If several ranks have the same points or cells, they belong to
+// the lowest rank.
 class ImagePieces
 {
 public:
-  // Collective; `own` may be nullptr or without points. Throws Failure for images that are
-  // no parts of one, or do not fill it.
+  // `own` may be nullptr or without points. Collective. Throws Failure for images that are not
+  // parts of one image, or do not fill it.
   ImagePieces(vtkImageData* own, const Ranks& ranks);
 
-  // Empty where no rank has points.
+  // Empty if no rank has points.
   const Extent& Whole() const { return this->WholeExtent; }
-  // Of the points of each rank, without duplicates.
+  // The extents of the points of each rank, without duplicates.
   const std::vector<Extent>& Points() const { return this->PointExtents; }
-  // Of the corners of each rank's cells, without duplicates.
+  // The extents of the corners of each rank's cells, without duplicates.
   const std::vector<Extent>& Cells() const { return this->CellExtents; }
   const Ranks& Group() const { return this->Processes; }
   vtkImageData* OwnImage() const;
@@ -42,9 +43,9 @@ public:
   // An image of the whole extent, without arrays.
   vtkSmartPointer<vtkImageData> MakeFrame() const;
 
-  // The part of the whole image in an extent, which may be empty, and each rank may want another
-  // one: of the arrays that all ranks with data have, those of these names, or all, and the ghost
-  // arrays. Collective. Throws std::bad_alloc.
+  // The part of the whole image in an extent. It may be empty and may differ between ranks. With
+  // the ghost arrays and, among the arrays that all ranks with data have, those of these names, or
+  // all. Collective. Throws std::bad_alloc.
   vtkSmartPointer<vtkImageData> Gather(
     const Extent& wanted, const std::vector<std::string>& names = {}) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles moved to the ranks that have their places.
+// Moves particles to the ranks that own their positions.
 #ifndef RectifiedTransport_ParticleExchange_h
 #define RectifiedTransport_ParticleExchange_h
 
@@ -18,9 +18,9 @@ class PlaceOwners;
 class Progress;
 class Ranks;
 
-// Each particle is a cell of `points` points in a row, whose last one is its place. Afterwards the
-// data set has the particles of this rank's places, those of rank 0 first, else in their order, as
-// the work of the progress's current stage. Collective. Throws Failure, Cancelled and
+// Each particle is a cell of `points` consecutive points; the last one is its position. Afterwards
+// the data set has the particles at the positions that this rank owns, those of rank 0 first, in
+// their order. The work of the current stage. Collective. Throws Failure, Cancelled and
 // std::bad_alloc.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank has the part of a domain that holds a place.
+// Which rank owns a position of a domain.
 #ifndef RectifiedTransport_PlaceOwners_h
 #define RectifiedTransport_PlaceOwners_h
 
@@ -16,18 +16,18 @@
 namespace RectifiedTransport
 {
 
-// By the grid cell that holds it: that of the lowest rank that has it. Where a rank has the whole
-// domain and others have parts of it, too, or there are no pieces, ranks have the pieces into which
-// VTK divides an image's extent.
+// The owner is the lowest rank that has the grid cell of the position. If a rank has the whole
+// domain and others also have parts of it, or if there are no pieces, ranks own the pieces into
+// which VTK divides an image's extent.
 class PlaceOwners
 {
 public:
   // `pieces` may be nullptr.
   PlaceOwners(const ImageGrid& grid, const ImagePieces* pieces, const Ranks& ranks);
 
-  // Of a physical place, or the nearest one of the domain.
+  // The owner of a physical position, or of the nearest position of the domain.
   int OwnerOf(const double* place) const;
-  // The points, or the corners of the cells, between which this rank has the places.
+  // The points, or the corners of the cells, between which this rank owns the positions.
   const Extent& OwnExtent() const { return this->Own; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must be the same on all ranks, and what follows for an output.
+// What must be the same on all ranks, and the part of an output that each rank gives.
 #ifndef RectifiedTransport_SameOnRanks_h
 #define RectifiedTransport_SameOnRanks_h
 
@@ -16,14 +16,14 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Throws Failure where a text is not the same on all ranks that have one; `what` begins the
-// message, and `rule` ends it. Returns the text; empty where no rank has one. Collective.
+// Throws Failure if a text is not the same on all ranks that have one; `what` begins the message,
+// and `rule` ends it. Returns the text; empty if no rank has one. Collective.
 std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what,
   const std::string& rule = "it must be of one type on all");
 
-// The part of an image that this rank outputs. A single rank outputs all of it. Otherwise it is the
-// requested part, with a layer of cells at least, if all ranks have announced the whole extent;
-// else its piece of the whole, because then requests refer to another extent. Collective.
+// The part of an image that this rank outputs. A single rank outputs all of it. Otherwise, if all
+// ranks have announced the whole extent, it is the requested part, with at least a layer of cells;
+// else its piece of the whole, because requests then refer to another extent. Collective.
 Extent extentToGive(const Extent& whole, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport

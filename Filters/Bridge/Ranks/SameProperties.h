@@ -13,8 +13,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Throws Failure where a property that PrintSelf prints after Threading is not the same on all
-// ranks. Collective.
+// Throws Failure if a property that PrintSelf prints after Threading is not the same on all ranks.
+// Collective.
 void requireSameProperties(vtkObject* filter, const Ranks& ranks);
 
 } // namespace RectifiedTransport

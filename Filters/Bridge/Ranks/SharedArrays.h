@@ -20,7 +20,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Of numbers; of points or cells.
+// A numeric array of points or cells.
 struct ArrayKind
 {
   int Owner = 0; // vtkDataObject::POINT or CELL
@@ -36,17 +36,18 @@ struct ArrayKind
       this->Components == other.Components && this->Name == other.Name;
   }
   bool IsGhosts() const;
-  // Of a data set; nullptr if it has none of this kind. Contiguous: a copy where the array is not.
+  // The array of this kind in a data set; nullptr if there is none. Contiguous: a copy if the array
+  // is not.
   vtkSmartPointer<vtkDataArray> Find(vtkDataSet* data) const;
-  // Adds an array of so many tuples to a data set.
+  // Adds an array of this number of tuples to a data set.
   vtkSmartPointer<vtkDataArray> Make(vtkDataSet* data, vtkIdType tuples) const;
 };
 
-// The arrays that the data sets of all ranks have that have points, in the order of the first of
-// these, and ghost arrays that any has. Collective; `data` may be nullptr.
+// The arrays that all ranks with points have, in the order of the first of these ranks, and the
+// ghost arrays of any rank. `data` may be nullptr. Collective.
 std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks);
 
-// Tuples that follow one another.
+// Consecutive tuples.
 struct TupleRun
 {
   vtkIdType First;
@@ -55,10 +56,10 @@ struct TupleRun
 
 // Appends the tuples of a contiguous array; zeros of one byte for nullptr.
 void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to);
-// Copies tuples to as many of another array of the kind; zeros for nullptr.
+// Copies tuples to as many tuples of another array of the kind; zeros for nullptr.
 void copyTuples(vtkDataArray* from, const std::vector<TupleRun>& runs,
   const std::vector<TupleRun>& runsThere, vtkDataArray* to);
-// Takes them from bytes on; returns where the next ones begin.
+// Reads tuples from bytes; returns where the next ones begin.
 const char* takeTuples(const char* from, const std::vector<TupleRun>& runs, vtkDataArray* to);
 
 } // namespace RectifiedTransport

@@ -25,14 +25,14 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The points of an image along its axes, as of vtkImageData; {0, -1, ...} for none.
+// The points of an image along its axes, as in vtkImageData; {0, -1, ...} for none.
 using Extent = std::array<int, 6>;
 
 inline bool isEmpty(const Extent& extent)
 {
   return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
 }
-// {0, -1, ...} where they have none in common.
+// {0, -1, ...} if they have none in common.
 Extent intersectionOf(const Extent& a, const Extent& b);
 // The pieces into which VTK divides an extent; points at their faces are in both.
 std::vector<Extent> dividedExtent(const Extent& whole, int ranks);
@@ -40,8 +40,8 @@ std::vector<Extent> dividedExtent(const Extent& whole, int ranks);
 // Tuples of an image along its axes, from those of index 0 on.
 using TupleBox = LatticePart<3>;
 
-// The tuples of the points or cells, by `owner`, of an extent in a whole one. Along an axis without
-// cells in the whole image there is one layer of them.
+// The tuples of the points or cells (`owner`) of an extent in a whole one. Along an axis without
+// cells in the whole image, there is one layer of cells.
 TupleBox tuplesOf(const Extent& extent, int owner, const Extent& whole);
 // The extent whose tuples these are.
 Extent extentOf(const TupleBox& box, int owner, const Extent& whole);
@@ -62,25 +62,25 @@ LatticePart<D> latticePartOf(const TupleBox& box, const ImageGrid& grid)
   }
   return part;
 }
-// Removes a box from those that boxes cover.
+// Removes a box from what boxes cover.
 void subtract(const TupleBox& box, std::vector<TupleBox>& from);
 // "[0, 4] x [2, 2] x [0, 9]".
 std::string describe(const TupleBox& box);
 
-// The tuples that each rank has, and those that each wants. What several have comes from the lowest
-// one; what none has is left as it is.
+// The tuples that each rank holds, and those that each wants. Tuples of several ranks come from the
+// lowest one; tuples of none are left as they are.
 class BoxExchange
 {
 public:
-  // `held` are those of all ranks, `wanted` those that this rank wants. Collective.
+  // `held`: the boxes that all ranks hold; `wanted`: the box that this rank wants. Collective.
   BoxExchange(std::vector<TupleBox> held, const TupleBox& wanted, const Ranks& ranks);
 
-  // Appends to the parts for the other ranks what they want of a contiguous array, whose tuples are
-  // those of the box `all`; nullptr for zeros of one byte.
+  // Appends to the parts for the other ranks what they want of a contiguous array with the tuples
+  // of the box `all`; nullptr for zeros of one byte.
   void Append(vtkDataArray* from, const TupleBox& all, std::vector<Bytes>& parts) const;
-  // Takes what another rank sent from bytes on, for an array whose tuples are those of the box
-  // `all`; returns where the next array begins. The ranks in descending order, and of this rank
-  // CopyOwn, to one of the wanted tuples.
+  // Reads what another rank sent, for an array with the tuples of the box `all`; returns where the
+  // next array begins. Call it for the ranks in descending order, with CopyOwn for this rank, to an
+  // array of the wanted tuples.
   const char* Take(const char* from, std::size_t rank, vtkDataArray* to, const TupleBox& all) const;
   void CopyOwn(vtkDataArray* from, const TupleBox& all, vtkDataArray* to) const;
   const TupleBox& OwnWanted() const { return this->Wanted[this->Own]; }
@@ -94,7 +94,7 @@ private:
   const std::size_t Own;
 };
 
-// An array whose tuples are those of the box `All`, and one for the wanted tuples of an exchange.
+// An array with the tuples of the box `All`, and one for the wanted tuples of an exchange.
 struct BoxArrays
 {
   const BoxExchange* Boxes;
@@ -102,13 +102,13 @@ struct BoxArrays
   TupleBox All;
   vtkSmartPointer<vtkDataArray> To;
 };
-// Of several arrays together. Collective, with as many and the same ones.
+// Exchanges several arrays together. Collective; every rank gives the same arrays.
 void exchangeArrays(const std::vector<BoxArrays>& arrays, const Ranks& ranks);
-// Of one array whose tuples are those that this rank holds.
+// Exchanges one array with the tuples that this rank holds.
 void exchangeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const Ranks& ranks,
   vtkDataArray* from, vtkDataArray* to);
-// Within one array, whose tuples are those of the box `all`: of these this rank has those that it
-// holds, and gets the wanted ones.
+// Within one array with the tuples of the box `all`: this rank has those that it holds and gets the
+// wanted ones.
 void completeBoxes(const std::vector<TupleBox>& held, const TupleBox& wanted, const TupleBox& all,
   const Ranks& ranks, vtkDataArray* array);
 

@@ -30,12 +30,12 @@ struct BlueNoiseRelaxation
   struct Report
   {
     std::int64_t PointsMoved = 0; // to the domain
-    std::vector<double> Energy;   // none where all points are ghosts
+    std::vector<double> Energy;   // none if all points are ghosts
   };
 
-  // Sets the points of an output that has the rest of the input already; those that are ghosts stay
-  // where they are. Tables are kept in the cache; relaxation by transport needs none. Throws
-  // Failure and Cancelled.
+  // Sets the points of an output that already has the rest of the input. Ghosts stay where they
+  // are. Tables are kept in the cache; relaxation by transport needs none. Throws Failure and
+  // Cancelled.
   Report Run(InputDensity& density, vtkPointSet* input, const CountedPoints& counted,
     FlowCache& cache, Progress& progress, vtkPointSet* output) const;
 };

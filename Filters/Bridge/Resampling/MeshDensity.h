@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The density of data sets that are no images as one on an image: of each grid cell the mean over
+// The density of other data sets, resampled to an image: the value of a grid cell is the mean over
 // it, 0 outside the data sets.
 #ifndef RectifiedTransport_MeshDensity_h
 #define RectifiedTransport_MeshDensity_h
@@ -27,8 +27,8 @@ struct MeshDensity
   vtkSmartPointer<vtkImageData> Image;
   std::vector<std::string> Warnings; // of what carries no mass
 
-  // Point values are linear on the simplices of a cell, and of a region one value. Throws Failure
-  // and Cancelled.
+  // Point values are linear on the simplices of a cell; a region has one value. Throws Failure and
+  // Cancelled.
   static MeshDensity Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     const char* name, Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data sets that were put on an image as a density.
+// Data sets that were resampled to an image, as a density.
 #ifndef RectifiedTransport_MeshInput_h
 #define RectifiedTransport_MeshInput_h
 
@@ -12,10 +12,10 @@ namespace RectifiedTransport
 class MeshInput final : public DensityImage
 {
 public:
-  // What was made must outlive this object. The rules are for images that tile a lattice.
+  // `made` must outlive this object. The rules apply to images that tile a lattice.
   MeshInput(const ResampledDensity& made, const DensityRules& rules);
 
-  // From the data sets, where they are no images that tile a lattice.
+  // From the data sets, unless they are images that tile a lattice.
   void SampleArrays(const Extent& extent, ConstPointSpan<3> particles, Progress& progress,
     vtkPointData* output) const override;
 

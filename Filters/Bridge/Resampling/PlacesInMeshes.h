@@ -16,13 +16,13 @@ namespace RectifiedTransport
 class ImageGrid;
 class Progress;
 
-// In the first cell that has the place, else in the one that is nearest of those within a grid
-// cell. Between points linearly on the simplices of the cell, in a region from the outline to the
-// left to that to the right.
+// A place is in the first cell that contains it, else in the nearest cell within a grid cell. It is
+// linear between points on the simplices of the cell; in a region, between the outline to the left
+// and to the right.
 class PlacesInMeshes : public SampledPlaces
 {
 public:
-  // `places` are physical, in grid cells that cells of the blocks reach. As the work of the current
+  // `places` are physical, in grid cells that cells of the blocks reach. The work of the current
   // stage. Throws Failure and Cancelled.
   PlacesInMeshes(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     ConstPointSpan<3> places, Progress& progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any data object with a density as an image with one.
+// Any data object with a density, as an image with a density.
 #ifndef RectifiedTransport_ResampledDensity_h
 #define RectifiedTransport_ResampledDensity_h
 
@@ -22,26 +22,26 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Keeps the last image: it is made again only where the data sets or the parameters change.
+// Keeps the last image. It is made again only if the data sets or the parameters change.
 class ResampledDensity
 {
 public:
-  // Of blocks whose arrays have one name and association; those without carry no mass, but are part
-  // of the domain. One has an array at least. Throws Failure and Cancelled.
+  // The arrays of the blocks have one name and association; at least one block has an array. Blocks
+  // without it carry no mass but are part of the domain. Throws Failure and Cancelled.
   void Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension, int resolution,
     const DensityRules& rules, Progress& progress);
 
   vtkImageData* Image() const;
   vtkDataArray* Array() const { return this->Density; }
   bool IsOnPoints() const { return this->OnPoints; }
-  // Whether the image's values are densities already, to which the rules were applied: the data
-  // sets are no images that tile a lattice.
+  // Whether the image's values are already densities, with the rules applied: the data sets are not
+  // images that tile a lattice.
   bool IsResampled() const { return this->Resampled; }
-  // The data sets, where the image was resampled.
+  // The data sets, if the image was resampled.
   const std::vector<BlockValues>& Meshes() const { return this->Blocks; }
-  // Of what carries no mass.
+  // Warnings about data that carry no mass.
   const std::vector<std::string>& Warnings() const { return this->Lost; }
-  // What is to be said of values that are probably not meant, where the image was resampled.
+  // Findings about values that are probably not meant, if the image was resampled.
   const std::vector<std::string>& Findings() const { return this->Unusual; }
 
 private:

@@ -15,7 +15,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// A line for each finding. Throws Failure where memory is short, and Cancelled.
+// A line for each finding. Throws Failure if memory is short, and Cancelled.
 std::vector<std::string> describeUnusual(const std::vector<BlockValues>& blocks,
   const ImageGrid& grid, bool isInverted, Progress& progress);
 

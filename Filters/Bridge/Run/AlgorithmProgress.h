@@ -17,12 +17,12 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// To be constructed on the thread that executes the algorithm.
+// Construct it on the thread that executes the algorithm.
 class AlgorithmProgress final : public Progress
 {
 public:
-  // `threading` is a value of vtkGuardedAlgorithm::ThreadingType. Throws Failure for another one.
-  // `group` are the ranks that run the algorithm together.
+  // `threading` is a value of vtkGuardedAlgorithm::ThreadingType; others throw Failure. `group`:
+  // the ranks that run the algorithm together.
   AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group = SoloRanks::Get());
 
 private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extents that filters downstream of an image output have been promised, taken back.
+// Corrects the extents that filters downstream of an image output expect.
 //
-// A filter should change its own information only. But in VTK 9.1 to 9.6 the executive computes the
-// extents of all filters downstream before any data are made, and keeps them: when an image turns
-// out empty, after an error or an abort, or smaller, as a piece after the first or with the time,
-// imaging filters downstream read all that was announced, past the end of the image
+// A filter should change only its own information. But in VTK 9.1 to 9.6 the executive computes the
+// extents of all filters downstream before any data are made, and keeps them. An image may turn out
+// empty, after an error or an abort, or smaller, for a piece after the first or at another time.
+// Imaging filters downstream then read everything that was announced, past the end of the image
 // (TestDownstream.py, TestAnnounced.py).
 #ifndef RectifiedTransport_ConsumerExtents_h
 #define RectifiedTransport_ConsumerExtents_h
@@ -20,8 +20,8 @@ namespace RectifiedTransport
 {
 
 // Sets empty whole and update extents on structured outputs, and on those of the filters
-// downstream. Returns false where not all of them can be reached: the request must then fail, so
-// that they do not execute.
+// downstream. Returns false if some of them cannot be reached. The request must then fail, so that
+// they do not execute.
 bool announceEmptyExtents(vtkInformationVector* outputs);
 
 // Empties the update extents downstream of structured outputs that hold less than the requested
@@ -29,7 +29,7 @@ bool announceEmptyExtents(vtkInformationVector* outputs);
 bool clearUnmetRequests(vtkInformationVector* outputs);
 
 // Calls UpdateInformation of all filters downstream of a structured output whose extent changed
-// within an update. Returns false where not all of them can be reached.
+// within an update. Returns false if some of them cannot be reached.
 bool updateConsumerInformation(vtkInformation* output);
 
 } // namespace RectifiedTransport

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Producers of inputs, updated in REQUEST_INFORMATION.
 //
-// A filter should look at data in REQUEST_DATA only. But where the extent of an image output
-// follows from points or cells, VTK 9.1 to 9.6 have no other request in which it could be
-// announced, and filters downstream that were told no extent, or a wrong one, get no data, or read
-// past the end of the image (TestAnnounced.py, TestUpstreamRequest.cxx).
+// A filter should look at data only in REQUEST_DATA. But if the extent of an image output depends
+// on points or cells, VTK 9.1 to 9.6 have no other request in which to announce it. Filters
+// downstream that know no extent, or a wrong one, get no data or read past the end of the image
+// (TestAnnounced.py, TestUpstreamRequest.cxx).
 #ifndef RectifiedTransport_EarlyUpdate_h
 #define RectifiedTransport_EarlyUpdate_h
 
@@ -25,13 +25,13 @@ namespace RectifiedTransport
 
 class Ranks;
 
-// Of one filter. Remembers what it updated, so that a producer runs once for each change.
+// For one filter. Remembers what it updated, so that a producer runs once for each change.
 class EarlyUpdate
 {
 public:
-  // Updates the producer of an input: the piece of this rank, or for one rank what was requested
-  // last. If the input changes with time, `output` gets TIME_DEPENDENT_INFORMATION: the executive
-  // then sends another request, for the time that is requested downstream.
+  // Updates the producer of an input: this rank's piece or, for one rank, what was requested last.
+  // If the input changes with time, `output` gets TIME_DEPENDENT_INFORMATION. The executive then
+  // sends another request, for the time that is requested downstream.
   void Run(vtkAlgorithm* filter, int port, int connection, vtkInformation* input,
     vtkInformation* output, const Ranks& ranks);
 

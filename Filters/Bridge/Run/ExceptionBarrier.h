@@ -15,9 +15,9 @@ namespace RectifiedTransport
 
 class RankRun;
 
-// To be called within catch (...) around the processing of a request: empties the outputs and
-// announces empty extents; any exception but Cancelled becomes one error of the algorithm, of all
-// ranks of its run, if there is one, together. Returns the return value of ProcessRequest.
+// Call it within catch (...) around the processing of a request. Empties the outputs and announces
+// empty extents. Any exception except Cancelled becomes one error of the algorithm, or one for all
+// ranks of `run`. Returns the return value of ProcessRequest.
 int handleException(vtkAlgorithm* algorithm, vtkInformationVector* outputs, RankRun* run = nullptr);
 
 } // namespace RectifiedTransport

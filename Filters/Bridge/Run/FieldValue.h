@@ -13,7 +13,7 @@
 namespace RectifiedTransport
 {
 
-// An array of several numbers, which replaces one of the same name.
+// Adds an array of several numbers. It replaces an array of the same name.
 inline void addFieldValues(
   vtkDataObject* output, const char* name, const std::vector<double>& values)
 {

@@ -15,15 +15,15 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Throws Failure for an image or a structured grid, also as a block, whose extent ends before it
-// begins, or is longer than VTK's numbers of points: VTK counts points and cells from it that are
-// not there.
+// Throws Failure if the extent of an image or a structured grid, or of such a block, ends before it
+// begins, or is longer than VTK can count points. VTK would count points and cells that do not
+// exist.
 void requireExtents(vtkAlgorithm* filter, vtkInformationVector** inputVector);
-// Of one input, which messages call by its name.
+// The same for one input; `name` is its name in messages.
 void requireExtents(vtkDataObject* data, const std::string& name);
 
 std::string textOfExtent(const int* extent);
-// Whether an extent is none of these; that of nothing is none.
+// Whether an extent is valid in this sense. The empty extent is valid.
 bool isReadable(const int* extent);
 
 } // namespace RectifiedTransport

@@ -23,10 +23,11 @@ std::string describeLack(const std::string& purpose, double bytes);
 [[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);
 
 // Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
-// refuse single blocks that exceed it, not sums of blocks.
+// refuse single blocks that exceed it, but not sums of blocks.
 void requireMemory(const std::string& purpose, double bytes);
 
-// Calls a function; its std::bad_alloc becomes a Failure, unless it names itself what it was for.
+// Calls a function; its std::bad_alloc becomes a Failure, unless the exception itself names its
+// purpose.
 template <class Function>
 auto withMemory(const std::string& purpose, double bytes, Function&& function)
 {

@@ -12,13 +12,12 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The global controller, where it is one of MPI; only where VTK has it.
+// The global controller if it is one of MPI. Only if VTK has MPI.
 vtkMPIController* mpiController();
 
 bool haveSeveralRanks();
 
-// Whether there are several ranks and the requested piece is this rank's, of as many pieces as
-// there are ranks.
+// Whether there are several ranks, as many pieces as ranks, and the requested piece is this rank's.
 bool sharesWithRanks(int piece, int pieces);
 
 } // namespace RectifiedTransport

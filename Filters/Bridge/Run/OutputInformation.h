@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the executive leaves wrong in the information and data of outputs.
+// Corrects what the executive leaves wrong in the information and data of outputs.
 #ifndef RectifiedTransport_OutputInformation_h
 #define RectifiedTransport_OutputInformation_h
 
@@ -12,11 +12,11 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The executive copies the times of the first input only; the outputs depend on those of all.
+// The executive copies only the times of the first input; the outputs depend on all inputs.
 void publishTimes(
   vtkInformationVector** inputVector, int numberOfPorts, vtkInformationVector* outputVector);
 
-// The executive copies the array information of the first input, which holds for no output.
+// The executive copies the array information of the first input, which is wrong for every output.
 void removeArrayInformation(vtkInformationVector* outputVector);
 
 // The executive leaves the extent of an image and the scalars of its points from the last run.

@@ -53,7 +53,7 @@ void requireThat(bool holds, const char* property, T value, const char* rule)
   message << property << " is ";
   if constexpr (std::is_floating_point_v<T>)
   {
-    // All digits where 6 round it to another number, possibly one in range.
+    // All digits if 6 digits round it to another number, possibly one in range.
     std::ostringstream text;
     text << value;
     constexpr int all = std::numeric_limits<T>::max_digits10;

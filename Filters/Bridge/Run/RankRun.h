@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One execution of a filter on all ranks of MPI together.
+// One execution of a filter on all MPI ranks together.
 #ifndef RectifiedTransport_RankRun_h
 #define RectifiedTransport_RankRun_h
 
@@ -15,21 +15,21 @@ namespace RectifiedTransport
 class RankRun : public Ranks
 {
 public:
-  // Waits until all ranks have come here for the same filter. nullptr where there is one rank only,
-  // or where the requested piece is not this rank's, of as many pieces as there are ranks. Throws
-  // Failure, or FailedElsewhere on the ranks that need not report it, where a rank does not come
-  // within a time (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds), and at once where it waits here for
+  // Waits until all ranks have arrived here for the same filter. nullptr if there is only one rank,
+  // or unless there are as many pieces as ranks and the requested piece is this rank's. Throws
+  // Failure, or FailedElsewhere on the ranks that need not report it, if a rank does not arrive
+  // within a time (RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds), and at once if it waits here for
   // another filter.
   static std::unique_ptr<RankRun> Begin(const std::string& filter, int piece, int pieces);
-  // The same before data are made. nullptr for ranks that do not meet in time, and at once for
-  // those that wait here while others are in Begin(). The time is that of Begin, or `longest`.
+  // The same before data are made. nullptr if the ranks do not meet in time, and at once if this
+  // rank waits here while others are in Begin(). The time is that of Begin, or `longest`.
   static std::unique_ptr<RankRun> TryBegin(const std::string& filter);
   static std::unique_ptr<RankRun> TryBegin(
     const std::string& filter, std::chrono::duration<double> longest);
 
-  // To be called in place of any further exchange. Ends the runs of the others, if they have not
-  // ended: by an exception of each. Returns what is to be reported here: the message of the first
-  // rank that failed, on the first rank; else nothing.
+  // Call it instead of any further exchange. The runs of the other ranks that have not ended end by
+  // an exception. Returns what to report here: on the first rank, the message of the first rank
+  // that failed; else nothing.
   virtual std::string Fail(const std::string& message) = 0;
   virtual void Cancel() = 0;
   // Called last by all ranks that do not fail. Throws FailedElsewhere and Cancelled.

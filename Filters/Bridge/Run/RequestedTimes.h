@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The algorithms upstream of one, and the times that are requested of them.
+// The algorithms upstream of an algorithm, and the times that are requested from them.
 #ifndef RectifiedTransport_RequestedTimes_h
 #define RectifiedTransport_RequestedTimes_h
 
@@ -39,8 +39,8 @@ std::optional<TimeRange> announcedTimes(vtkInformation* output);
 // The same of the first output that has times.
 std::optional<TimeRange> timesOf(vtkAlgorithm* algorithm);
 
-// The times that are requested of all outputs upstream of an algorithm, set again at the end.
-// Another consumer may have requested them, and not have got the data yet.
+// The times that are requested from all outputs upstream of an algorithm. They are restored at the
+// end: another consumer may have requested them and not have received the data yet.
 class RequestedTimes
 {
 public:

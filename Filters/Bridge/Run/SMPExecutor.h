@@ -20,7 +20,7 @@ public:
 // The values are those of vtkGuardedAlgorithm::ThreadingType.
 enum class Threading
 {
-  Auto, // OpenMP where VTK's backend is Sequential, else VTK
+  Auto, // OpenMP if VTK's backend is Sequential, else VTK
   VTK,
   OpenMP,
   Serial

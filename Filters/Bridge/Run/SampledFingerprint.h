@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hash by which ranks find whether they have the same data.
+// A hash that tells ranks whether they have the same data.
 #ifndef RectifiedTransport_SampledFingerprint_h
 #define RectifiedTransport_SampledFingerprint_h
 
@@ -15,8 +15,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Of the numbers of points and cells, the bounds, and samples of the coordinates and array values
-// of data sets and of the leaves of composite ones; 0 where none has points.
+// Hashes the numbers of points and cells, the bounds, and samples of the coordinates and array
+// values of data sets and of the leaves of composites; 0 if none has points.
 std::uint64_t sampledFingerprint(const std::vector<vtkDataObject*>& data);
 
 } // namespace RectifiedTransport

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Inputs that are several times of one source. The executive passes the requests of all inputs
-// upstream before any data are made: the source would make those of the last request alone, and all
-// inputs would get them. Filters that keep data, as vtkForceTime does, would keep the wrong ones.
+// upstream before any data are made. The source would make only the data of the last request, and
+// all inputs would get them. Filters that keep data, such as vtkForceTime, would keep the wrong
+// ones.
 #ifndef RectifiedTransport_SeparateInputs_h
 #define RectifiedTransport_SeparateInputs_h
 
@@ -27,26 +28,25 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Of one filter.
+// For one filter.
 class SeparateInputs
 {
 public:
   SeparateInputs();
   ~SeparateInputs();
 
-  // Of inputs that share a source, but not its times: requests of each the first of the source's
-  // times, or the nearest that the input has. Without a request the source would make those of the
-  // last one, for all of them.
+  // For inputs that share a source but not its times: requests from each input the first of the
+  // source's times, or the nearest time that the input has. Without a request, the source would
+  // make the data of the last request for all of them.
   static void RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
-  // From REQUEST_UPDATE_EXTENT, when the requests of the inputs are set: updates the inputs that
-  // share a source with times, one after the other. The executive then finds all of them up to
-  // date, and passes no request on. It depends on the pipeline alone, so that all ranks do the
-  // same.
+  // Called in REQUEST_UPDATE_EXTENT, when the requests of the inputs are set: updates the inputs
+  // that share a source with times, one after the other. The executive then finds them up to date
+  // and passes no request on. This depends only on the pipeline, so that all ranks do the same.
   void Update(vtkAlgorithm* filter, vtkInformationVector** inputVector);
 
-  // In REQUEST_DATA: the executive's inputs, with what Update made in place of data that the
-  // executive has made anew. Throws Failure where an input could not be made.
+  // In REQUEST_DATA: the executive's inputs, with the data from Update instead of data that the
+  // executive has made again. Throws Failure if an input could not be made.
   vtkInformationVector** Inputs(vtkAlgorithm* filter, vtkInformationVector** inputVector);
   // Releases what Update made.
   void End();
@@ -62,7 +62,7 @@ private:
     vtkMTimeType Time;                   // of its last update
     vtkSmartPointer<vtkDataObject> Copy;
   };
-  // The modification time of a filter, and the time of the data of an output that has one only.
+  // The modification time of a filter, and the time of the data if an output has only one.
   using State = std::pair<vtkMTimeType, std::optional<double>>;
 
   static std::vector<Branch> FindBranches(vtkAlgorithm* filter, vtkInformationVector** inputVector);
@@ -73,7 +73,7 @@ private:
   bool ForgetWrongTimes(const std::vector<Branch>& branches);
 
   std::vector<Made> Data;
-  std::string Failed;             // the error message; empty where all inputs were made
+  std::string Failed;             // the error message; empty if all inputs were made
   std::map<Output, State> Untold; // whose data have another time even if made alone
 
   std::map<vtkAlgorithm*, vtkMTimeType> Keepers; // of steps, and when their data were made last

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a filter requests of its inputs: all, or of data that are distributed over ranks the
-// rank's own piece. Rejects other inputs that are distributed: results would be wrong.
+// What a filter requests from its inputs: all data or, on a shared port, this rank's piece of
+// distributed data. Rejects other distributed inputs, for which results would be wrong.
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
 
@@ -31,51 +31,54 @@ namespace RectifiedTransport
 class RankRun;
 class Ranks;
 
-// Whether all ranks have the same data, or none has any, so that it is one data set and not parts
-// of one. Collective; `data` may be nullptr.
+// Whether all ranks have the same data, or none has any: one data set, not parts of one. `data` may
+// be nullptr. Collective.
 bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 
-// Of one filter. Remembers the last comparison with other ranks, so that it is made once for data
-// that do not change.
+// For one filter. Remembers the last comparison with other ranks, so that data that do not change
+// are compared once.
 class WholeInputs
 {
 public:
-  // Excepts a port; all others are needed whole.
+  // Exempts a port; all others are needed whole.
   void Except(int port) { this->Excepted.insert(port); }
   bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
   bool HasPieces() const { return !this->Excepted.empty(); }
-  // Takes pieces of the points on a port, or of any data, where the filter runs on all ranks.
+  // Takes pieces of the points on a port, or of any data, if the filter runs on all ranks.
   void Share(int port, bool takesPoints) { this->Shared[port] = takesPoints; }
 
-  // Records the requested piece and the composite inputs, in REQUEST_UPDATE_EXTENT: while the
-  // executive iterates over blocks it replaces the input by one block at a time, and requests piece
+  // Records the requested piece and the composite inputs in REQUEST_UPDATE_EXTENT. While the
+  // executive iterates over blocks, it replaces the input by one block at a time and requests piece
   // 0 of 1.
   void Record(vtkAlgorithm* filter, vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
   // Requests the rank's own piece of what is shared.
   void RequestShared(int port, vtkInformationVector* inputs) const;
-  // Requests of all outputs the piece that is requested of one: the executive makes an image whole
-  // where it is not asked itself, and afterwards has all outputs for the piece of that one.
+  // Requests from all outputs the piece that is requested from one. Otherwise the executive makes
+  // an image whole that is not requested itself, and then treats all outputs as made for the piece
+  // of the requested one.
   void RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const;
 
-  // As SeparateInputs, but while the executive iterates over blocks: the producer of a block must
-  // not run. Where no time is requested of the outputs, the first ones are requested of the inputs.
+  // As SeparateInputs, except while the executive iterates over blocks: the producer of a block
+  // must not run. If no time is requested from the outputs, the first times are requested from the
+  // inputs.
   void RequestFirstTimes(vtkAlgorithm* filter, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) const;
   void UpdateSeparately(
     vtkAlgorithm* filter, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
   SeparateInputs& Separate() { return this->Separated; }
 
-  // The execution of a filter that shares inputs, on all ranks; nullptr where it runs alone. As
-  // RankRun::Begin.
+  // The execution of a filter that shares inputs, on all ranks; nullptr if this process runs it
+  // alone. As RankRun::Begin.
   std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
   // The same in REQUEST_INFORMATION, for a port that is shared.
   std::unique_ptr<RankRun> BeginWithoutPieces(
     vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
 
-  // Throws Failure for an image whose extent is less than its WHOLE_EXTENT, and for data that are
-  // not the same on all ranks; warns where other ranks do not answer. Of the needed ports.
+  // On the ports that are needed whole: throws Failure for an image whose extent is smaller than
+  // its WHOLE_EXTENT, and for data that are not the same on all ranks; warns if other ranks do not
+  // answer.
   void Require(vtkAlgorithm* filter, vtkInformationVector** inputVector, const RankRun* run);
 
 private:
@@ -96,8 +99,8 @@ private:
 
   // The last comparison.
   vtkMTimeType ComparedTime = 0;   // the newest modification time of the inputs
-  std::vector<std::uint64_t> Same; // the fingerprints of the ports; empty where ranks differed
-  std::string Difference;          // the error message; empty where ranks agreed
+  std::vector<std::uint64_t> Same; // the fingerprints of the ports; empty if ranks differed
+  std::string Difference;          // the error message; empty if ranks agreed
 };
 
 } // namespace RectifiedTransport

@@ -27,8 +27,8 @@ struct UniformSeedSource
   std::int64_t NumberOfPoints;
   int RandomSeed;
 
-  // Makes the points of a piece, which follow those of the pieces before. Throws Failure and
-  // Cancelled.
+  // Makes the points of a piece; their numbers follow those of the pieces before. Throws Failure
+  // and Cancelled.
   void Run(int piece, int pieces, Progress& progress, vtkPolyData* output) const;
 };
 

@@ -25,16 +25,16 @@ struct CornerSettings
   std::vector<std::int64_t> Points; // empty: automatic
 
   int Number() const { return static_cast<int>(this->Points.size()); }
-  // -1 where there is none.
+  // -1 if there is none.
   std::int64_t At(int index) const;
-  // These return whether anything changed. They throw Failure for arguments out of range.
+  // Return whether anything changed. Throw Failure for arguments out of range.
   bool Resize(int count);
   bool Set(int index, std::int64_t point);
 
   // Throws Failure unless there are none or four.
   void Check() const;
-  // The corners of a disk, chosen where there are none; the values are given points of it. Throws
-  // Failure unless they are four different points of its boundary.
+  // The corners of a disk, from the given points of it; chosen automatically if there are none.
+  // Throws Failure unless they are four different points of its boundary.
   SquareCorners Of(const RepairedDisk& disk) const;
   void Print(std::ostream& os, vtkIndent indent) const;
 };

@@ -14,12 +14,12 @@
 namespace RectifiedTransport
 {
 
-// By the enumerations of vtkTransportAlgorithm.
+// Indexed by the enumerations of vtkTransportAlgorithm.
 constexpr const char* IntegratorTexts[] = { "Multistep", "RungeKutta4", "Euler", "Adaptive" };
 constexpr const char* TableLookupTexts[] = { "Interpolated", "Nearest" };
 constexpr const char* FlowMapsTexts[] = { "Auto", "On", "Off" };
 
-// Of a filter that has these properties. Throws Failure for values out of range.
+// The options of a filter that has these properties. Throws Failure for values out of range.
 template <class Filter>
 FlowOptions flowOptionsOf(Filter& filter)
 {

@@ -8,7 +8,7 @@
 namespace RectifiedTransport
 {
 
-// By vtkTransportAlgorithm::TablesType.
+// Indexed by vtkTransportAlgorithm::TablesType.
 constexpr const char* TablesTexts[] = { "Auto", "Whole", "Tiled" };
 
 enum class TableSetting

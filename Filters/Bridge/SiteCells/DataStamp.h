@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detection of unchanged data: by modification times, and by a hash of the values where those
-// differ.
+// Detects unchanged data: by modification times, and if those differ by a hash of the values.
 #ifndef RectifiedTransport_DataStamp_h
 #define RectifiedTransport_DataStamp_h
 
@@ -11,9 +10,9 @@ namespace RectifiedTransport
 {
 
 // Identifies data by a key, such as the modification times of arrays, by the modification time of
-// their data set, and by a fingerprint. Programs that write into an array often call Modified() of
-// the data set only; but hosts as ParaView also make a new data set of the same arrays at every
-// run.
+// their data set, and by a fingerprint. Programs that write into an array often call Modified()
+// only on the data set; but hosts such as ParaView also make a new data set of the same arrays at
+// every run.
 template <class Key>
 class DataStamp
 {
@@ -21,16 +20,15 @@ public:
   // Whether the key is equal: the data may be the same, in another data set.
   bool IsLike(const Key& key) const { return this->Known && this->Identity == key; }
 
-  // Whether key and time are equal: the data are the same. Where false, Update compares
-  // fingerprints.
+  // Whether key and time are equal: the data are the same. If false, Update compares fingerprints.
   bool IsOf(const Key& key, std::uint64_t time) const
   {
     return this->IsLike(key) && this->Time == time;
   }
 
   // Stores key, time and the fingerprint that print() returns. Returns whether the data are those
-  // of the previous call: by time, or by fingerprint where only the time differs. Where print()
-  // throws, nothing is stored.
+  // of the previous call: by time, or if only the time differs by fingerprint. If print() throws,
+  // nothing is stored.
   template <class Print>
   bool Update(const Key& key, std::uint64_t time, const Print& print)
   {

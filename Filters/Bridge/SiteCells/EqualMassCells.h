@@ -42,13 +42,13 @@ struct EqualMassCells
   // What warnings count.
   struct Report
   {
-    std::int64_t Outside = 0;     // sites outside of the domain
+    std::int64_t Outside = 0;     // sites outside the domain
     std::int64_t WithoutMass = 0; // sites whose cells have no mass
   };
 
-  // Assigns the pixels of a domain with points, or where it is nullptr around the sites, to at
-  // least one site, equally many or with equal masses of a density that is not nullptr; reuses the
-  // labels that are kept where they are valid. Throws Failure, std::invalid_argument,
+  // Assigns the pixels of a domain with points to at least one site; if the domain is nullptr, the
+  // pixels around the sites. Sites get equally many pixels or, if the density is not nullptr, equal
+  // masses of it. Reuses the kept labels if they are valid. Throws Failure, std::invalid_argument,
   // std::runtime_error, std::bad_alloc and Cancelled.
   Report Run(vtkPointSet* sites, vtkDataObject* domain, SiteLabels& kept, Progress& progress,
     const Outputs& outputs) const;

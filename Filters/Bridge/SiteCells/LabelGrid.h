@@ -15,15 +15,15 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Where the data lie on several ranks, all of them call a function together. Throw Failure.
+// If the data are distributed, the functions are collective. They throw Failure.
 struct LabelGrid
 {
   int Resolution;
 
-  // In the box of a domain: that of an image, as of a density, or the bounds of other data. A grid
-  // without points for a domain without points.
+  // In the box of a domain: the box of an image, as for a density, or the bounds of other data. A
+  // domain without points gives a grid without points.
   ImageGrid On(vtkDataObject* domain, const Ranks& ranks = SoloRanks::Get()) const;
-  // In that of a density.
+  // In the box of a density.
   ImageGrid On(const ImageGrid& density) const;
   // In the bounds of sites, 10 % longer along each axis; the sites of all ranks are two or more.
   ImageGrid Around(vtkPointSet* sites, const Ranks& ranks = SoloRanks::Get()) const;

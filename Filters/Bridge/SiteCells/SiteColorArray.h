@@ -16,8 +16,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Adds the cell array SiteColor to the image whose cell scalars are SiteId: bytes that differ
-// between neighbours. Throws Failure and Cancelled.
+// Adds the cell array SiteColor, bytes that differ between neighbours, to an image whose cell
+// scalars are SiteId. Throws Failure and Cancelled.
 void addSiteColors(vtkImageData* labels, vtkIdType sites, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The site of each pixel of a domain, and the polygons of the sites' cells where these are
-// polygons, kept between executions.
+// The site of each pixel of a domain and, with Shape Power, the polygons of the sites' cells, kept
+// between executions.
 #ifndef RectifiedTransport_SiteLabels_h
 #define RectifiedTransport_SiteLabels_h
 
@@ -33,7 +33,7 @@ namespace RectifiedTransport
 using SiteIdArray =
   std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLongArray, vtkLongLongArray>;
 
-// The division of the last execution, for the next one where only the cost's exponents change.
+// The division of the last execution. The next one reuses it if only the cost's exponents change.
 class SiteLabels
 {
 public:
@@ -59,14 +59,14 @@ public:
     }
   };
 
-  // Identifies a density; without reading its values where the division is of it by modification
-  // times. As the work of the current stage. Throws Cancelled.
+  // Identifies a density. Does not read its values if modification times show that the division is
+  // of it. The work of the current stage. Throws Cancelled.
   ContentHash HashOf(InputDensity& density, Progress& progress) const
   {
     return this->Of.Density.IsOf(density) ? this->Of.Density : ContentHash(density, progress);
   }
 
-  // Whether the division is of these sites and settings by modification times alone. Where false,
+  // Whether the division is of these sites and settings, only by modification times. If false,
   // Update compares the sites' coordinates.
   bool IsFor(vtkPointSet* sites, const Settings& settings) const;
 

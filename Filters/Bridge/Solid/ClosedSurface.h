@@ -29,21 +29,21 @@ std::array<double, 6> polygonBounds(vtkPolyData* surface);
 class ClosedSurface
 {
 public:
-  // Merges points of equal coordinates and cuts polygons and strips into triangles, as stages of
-  // the run up to the progress `end`; lines and vertices do not count. If edges are open then,
-  // merges points that differ by rounding: by less than 1e-9 of the longest side of the polygons'
-  // bounds, and if that leaves edges open and the coordinates are float, by less than 4 of their
-  // rounding errors. Throws Failure where the input has no polygons, coordinates that are not
-  // finite, or edges of an odd number of triangles, and Cancelled.
+  // Merges points with equal coordinates and cuts polygons and strips into triangles; progress then
+  // reaches `end`. Lines and vertices are ignored. If edges are then open, merges points that
+  // differ by rounding: by less than 1e-9 of the longest side of the polygons' bounds; if that
+  // leaves edges open and the coordinates are float, by less than 4 of their rounding errors.
+  // Throws Failure if the input has no polygons, coordinates that are not finite, or edges of an
+  // odd number of triangles, and Cancelled.
   ClosedSurface(vtkPolyData* input, Progress& progress, double end);
 
   // Those of polygonBounds.
   const std::array<double, 6>& Bounds() const { return this->Box; }
 
   // Returns the surface in the index coordinates of a grid, the triangles of each component with
-  // one orientation. Coordinates are rounded to four units in the last place of the largest one, so
-  // that what differs by less, as on several ranks, has the same bits. As stages up to the progress
-  // `end`. Throws Failure where a component is not orientable, and Cancelled.
+  // one orientation. Coordinates are rounded to four units in the last place of the largest one:
+  // smaller differences, as between ranks, give the same bits. Progress reaches `end`. Throws
+  // Failure if a component is not orientable, and Cancelled.
   SolidSurface InCells(const ImageGrid& grid, Progress& progress, double end);
 
 private:

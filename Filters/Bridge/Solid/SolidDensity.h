@@ -28,11 +28,11 @@ struct SolidDensity
   double Padding;
   bool OnPoints;
 
-  // The image around a surface, of which each rank has a part; without points around none.
-  // Collective. Throws Failure.
+  // The grid of the image around a surface that is distributed over ranks; without points if there
+  // is no surface. Collective. Throws Failure.
   ImageGrid GridAround(vtkPolyData* surface, const Ranks& ranks) const;
 
-  // Writes the fraction of each image cell that a closed surface encloses, of the cells of the
+  // Writes the fraction of each image cell that a closed surface encloses, for the cells of the
   // extent that is chosen for an image. Returns the whole image's grid. Throws Failure and
   // Cancelled.
   ImageGrid Run(vtkPolyData* surface,

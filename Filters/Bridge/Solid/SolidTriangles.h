@@ -17,13 +17,13 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The triangles of all polygons and strips, of the points that a mesh merges theirs into, as stages
-// up to the progress `end`. Consecutive corners that are one point are dropped, as at the poles of
-// a sphere of quads, and polygons that keep less than three. However thin, none is refused: a quad
-// is cut along its shorter diagonal, if that is within it, in the same way wherever its corners
-// begin; a polygon of more corners by vtkTriangleFilter, and where that fails into a fan. Of a
-// planar polygon a fan has the same winding number, whatever the polygon's shape. Throws Failure
-// where there is no memory, and Cancelled.
+// The triangles of all polygons and strips, on the merged points of a mesh. Progress reaches `end`.
+// Consecutive corners at the same point are dropped, as at the poles of a sphere of quads, and so
+// are polygons with fewer than three corners left. Thin polygons are never refused. A quad is cut
+// along its shorter diagonal, if that is within it, independently of its first corner. Larger
+// polygons are cut by vtkTriangleFilter; if that fails, into a fan. The fan of a planar polygon has
+// the same winding number, whatever the polygon's shape. Throws Failure if there is no memory, and
+// Cancelled.
 vtkSmartPointer<vtkCellArray> cutIntoTriangles(
   vtkPolyData* surface, const ClosedMesh& mesh, Progress& progress, double end);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Splats the masses of points that lie on several ranks.
+// Splats the masses of distributed points.
 #ifndef RectifiedTransport_DistributedSplat_h
 #define RectifiedTransport_DistributedSplat_h
 
@@ -18,15 +18,15 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// As splatPoints, of the points of all ranks, in the order of the ranks and on each in their own:
-// every rank gets the cells (or dual cells) of its box `wanted`, tuples of the target's whole
-// geometry as tuplesOf(extent, owner, whole) gives them. The box may be empty, and those of ranks
-// may overlap. `cells` has wanted.Count() tuples. `order` may be nullptr; else it has a key for
-// each point, and the terms of a cell are added in the order of the keys (of equal ones: by rank,
-// then by index), if all ranks that have points give keys. Collective on the ranks of the progress,
-// as the work of the current stage. Returns how many points of all ranks are outside of the domain.
-// Memory: about 100 bytes for each point that a rank sends, and as much for each that reaches its
-// box. Throws Failure where memory is short, and Cancelled.
+// As splatPoints, for the points of all ranks, in the order of the ranks and then of their points.
+// Each rank gets the cells (or dual cells) of its box `wanted`, tuples of the target's whole
+// geometry as tuplesOf(extent, owner, whole) gives them. Boxes may be empty and may overlap.
+// `cells` has wanted.Count() tuples. `order` may be nullptr; else it has a key for each point. If
+// all ranks that have points give keys, the terms of a cell are added in the order of the keys
+// (equal keys: by rank, then by index). Collective on the ranks of the progress. The work of the
+// current stage. Returns how many points of all ranks are outside the domain. Memory: about 100
+// bytes for each point that a rank sends, and as much for each that reaches its box. Throws Failure
+// if memory is short, and Cancelled.
 std::int64_t splatDistributed(vtkDataArray* points, const double* masses, double massEach,
   const std::int64_t* order, const SplatTarget& target, const TupleBox& wanted, Progress& progress,
   vtkDoubleArray* cells);

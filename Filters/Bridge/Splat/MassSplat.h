@@ -18,25 +18,25 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// Throws Failure where the density of a cell that holds all of `mass` would not be finite; `what`
-// is the subject of the message, `rule` completes "make the masses smaller, ...".
+// Throws Failure if the density of a cell that holds all of `mass` would not be finite; `what` is
+// the subject of the message, `rule` completes "make the masses smaller, ...".
 void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule);
 
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
-// component and a tuple for each, as the work of the current stage. Coordinates are finite. Returns
-// how many points are outside of the domain (see SplatReport). Throws Failure where memory is
-// short, and Cancelled.
+// component and a tuple for each. Coordinates are finite. The work of the current stage. Returns
+// how many points are outside the domain (see SplatReport). Throws Failure if memory is short, and
+// Cancelled.
 std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
   Progress& progress, vtkDoubleArray* cells);
 
-// The same for an array of points and one mass for each; `massEach` where `masses` is nullptr.
-// Points of a type other than double and float are copied.
+// The same for an array of points and one mass for each; `massEach` if `masses` is nullptr. Points
+// of a type other than double and float are copied.
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
-// The total mass of the cells that splatPoints wrote, as the work of the current stage: the sum of
-// the sums of `splatSumChunk` cells that follow one another. Throws Cancelled.
+// The total mass of the cells that splatPoints wrote: the sum of the sums of `splatSumChunk`
+// consecutive cells. The work of the current stage. Throws Cancelled.
 constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 

@@ -33,7 +33,7 @@ struct MassSplatter
 
   struct Report
   {
-    ImageGrid Grid; // of the whole image; empty where there is none
+    ImageGrid Grid; // of the whole image; empty if there is none
     std::int64_t Points = 0;
     std::int64_t Outside = 0; // of the grid
   };
@@ -48,9 +48,9 @@ struct MassSplatter
   // The grid of the output on the points' bounds, without a reference. Throws Failure.
   ImageGrid GridAround(const double (&bounds)[6]) const;
 
-  // Splats masses, 1 each where `masses` is nullptr, onto the grid of a reference, or of the
-  // points' bounds. Collective: each rank gives its part of points and reference, which may be
-  // nullptr, and gets the part of the image that extentToGive says. Throws Failure and Cancelled.
+  // Splats masses, 1 each if `masses` is nullptr, onto the grid of a reference or of the points'
+  // bounds. Collective: each rank gives its part of points and reference, which may be nullptr, and
+  // gets the part of the image that extentToGive returns. Throws Failure and Cancelled.
   Report Run(vtkPointSet* points, vtkDataArray* masses, const Target& target, Progress& progress,
     vtkImageData* output) const;
 

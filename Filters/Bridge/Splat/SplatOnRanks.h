@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The splat of points that lie on several ranks, and its total mass, with the bits of one rank.
+// The splat of distributed points and its total mass, bitwise as on one rank.
 #ifndef RectifiedTransport_SplatOnRanks_h
 #define RectifiedTransport_SplatOnRanks_h
 
@@ -41,8 +41,8 @@ struct RankSplat
   double TotalMass;     // that the whole image holds
 };
 
-// Writes the wanted cells, as the work of the current stage. Collective on the ranks of the
-// progress. Throws Failure and Cancelled.
+// Writes the wanted cells. The work of the current stage. Collective on the ranks of the progress.
+// Throws Failure and Cancelled.
 RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, Progress& progress,
   vtkDoubleArray* cells);
 

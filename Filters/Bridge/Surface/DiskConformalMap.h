@@ -16,7 +16,7 @@ class Progress;
 // As the work of the current stage. Throws Failure and Cancelled.
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
 
-// What is wrong with triangles that have no area in the map, as a warning.
+// A warning about triangles that have no area in the map.
 std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles);
 
 } // namespace RectifiedTransport

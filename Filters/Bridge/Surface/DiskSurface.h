@@ -27,36 +27,36 @@ namespace RectifiedTransport
 class DiskSurface
 {
 public:
-  // Of an input with points. Cuts polygons and strips into triangles and checks that they are a
-  // disk, as stages of the run up to the progress `end`. Where they are none, points and triangles
-  // of no area are left out, and points at one place merged (see RepairedDisk). Throws Failure
-  // where the input has no polygons, coordinates that are not finite, polygons that cannot be cut,
-  // or is no disk, and Cancelled.
+  // `input` has points. Cuts polygons and strips into triangles and checks that they are a disk;
+  // progress then reaches `end`. If they are no disk, unused points and triangles without area are
+  // left out, and points at the same position are merged (see RepairedDisk). Throws Failure if the
+  // input has no polygons, coordinates that are not finite or polygons that cannot be cut, or is no
+  // disk, and Cancelled.
   DiskSurface(vtkPolyData* input, Progress& progress, double end);
 
   const DiskMesh& Disk() const { return this->Mesh->Mesh(); }
 
-  // The input itself where all polygons are triangles and there are no strips, else its points,
+  // The input itself if all polygons are triangles and there are no strips. Else its points,
   // vertices, lines and triangles, with all point and field data, and the cell data of the cells
-  // that they are of (but for global ids, which would no longer be of one cell each).
+  // that they come from, except global ids, which would no longer be unique.
   vtkPolyData* Triangulated() const { return this->Surface; }
 
-  // The point of the disk that a point of the input is, -1 for one that no triangle with area has.
+  // The disk's point for a point of the input; -1 if no triangle with area uses it.
   std::int64_t PointOf(std::int64_t point) const { return this->Mesh->PointOf(point); }
   // The points of the input at the corners of a triangle of the disk.
   std::array<std::int64_t, 3> CornersOf(std::int64_t triangle) const
   {
     return this->Mesh->GivenCorners(triangle);
   }
-  // The cell of Triangulated() that a triangle of the disk is, or is part of: vtkPolyData numbers
+  // The cell of Triangulated() that a triangle of the disk is, or is part of. vtkPolyData numbers
   // vertices, lines, polygons, strips.
   vtkIdType CellOf(std::int64_t triangle) const
   {
     return this->FirstPolygon + static_cast<vtkIdType>(this->Mesh->GivenTriangle(triangle));
   }
-  // That of the first polygon.
+  // The number of the first polygon.
   vtkIdType FirstCell() const { return this->FirstPolygon; }
-  // The cell of the input that it was cut from.
+  // The cell of the input that a triangle was cut from.
   vtkIdType InputCellOf(std::int64_t triangle) const
   {
     return this->InputCell(this->Mesh->GivenTriangle(triangle));
@@ -95,7 +95,7 @@ private:
 
   vtkSmartPointer<vtkPolyData> Surface;
   vtkIdType FirstPolygon;
-  LargeBuffer<vtkIdType> InputCells; // of triangles; empty where they are the input's
+  LargeBuffer<vtkIdType> InputCells; // of triangles; empty if they are the input's
   std::optional<RepairedDisk> Mesh;
 };
 

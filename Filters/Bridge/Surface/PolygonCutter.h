@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts polygons into triangles, also those with corners at one place or on one line.
+// Cuts polygons into triangles, even with coincident or collinear corners.
 #ifndef RectifiedTransport_PolygonCutter_h
 #define RectifiedTransport_PolygonCutter_h
 
@@ -22,17 +22,17 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// vtkPolygon drops polygons that have corners at one place, as Clip and Slice make them where they
-// pass through a point. Here these corners are left out before, and come back as triangles without
-// area, so that every edge of the polygon is one of a triangle.
+// vtkPolygon drops polygons with coincident corners, which Clip and Slice make where they pass
+// through a point. Here these corners are removed first and come back as triangles without area, so
+// that every edge of the polygon is an edge of a triangle.
 class PolygonCutter
 {
 public:
-  // Coordinates of one place differ by at most `rounding` along each axis.
+  // Coordinates of coincident corners differ by at most `rounding` along each axis.
   PolygonCutter(vtkPoints* points, double rounding);
 
-  // Appends a triangle for each corner beyond the second. Returns whether that was possible: not
-  // where edges cross.
+  // Appends a triangle for each corner beyond the second. Returns whether that was possible; it is
+  // not if edges cross.
   bool Cut(vtkIdType count, const vtkIdType* corners, vtkCellArray* triangles);
 
 private:

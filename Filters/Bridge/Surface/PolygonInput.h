@@ -27,16 +27,16 @@ namespace RectifiedTransport
 // Units of a slice of work with random memory access, for Progress.
 constexpr std::int64_t RandomAccessUnits = std::int64_t{ 1 } << 16;
 
-// The coordinates of all points, three each, as the work of the current stage. Throws Failure where
+// The coordinates of all points, three each, as the work of the current stage. Throws Failure if
 // they are not finite, Cancelled and std::bad_alloc.
 LargeBuffer<double> readPoints(vtkPolyData* surface, Progress& progress);
 
-// By how much the coordinates of one place may differ, as far as rounding goes: that of float where
-// all of them are floats, also of points in double.
+// By how much the coordinates of one position may differ by rounding. It is that of float if all of
+// them are floats, even if the points are double.
 double roundingOf(vtkPoints* points);
 
-// Throws Failure where a surface has neither polygons nor strips, or these have points that it has
-// not; `need` completes "N points and no polygons; ".
+// Throws Failure if a surface has neither polygons nor strips, or these use points that do not
+// exist; `need` completes "N points and no polygons; ".
 void requirePolygons(vtkPolyData* surface, const std::string& need);
 
 // Whether all polygons are triangles, and there are no strips.
@@ -45,9 +45,9 @@ bool isAllTriangles(vtkPolyData* surface);
 // The number of triangles of a polygon or strip: one for each point beyond the second.
 std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
 
-// Polygons and strips as triangles, in their order, as the work of the current stage: as many as
-// trianglesOf() counts. Polygons may have corners at one place or on one line, whose triangles have
-// no area. Throws Failure where edges of a polygon cross, and Cancelled.
+// Polygons and strips as triangles, in their order, as many as trianglesOf() counts. Coincident or
+// collinear corners of polygons give triangles without area. The work of the current stage. Throws
+// Failure if edges of a polygon cross, and Cancelled.
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface that an input is, or that a grid has.
+// The surface of an input.
 #ifndef RectifiedTransport_SurfaceInput_h
 #define RectifiedTransport_SurfaceInput_h
 
@@ -24,18 +24,18 @@ class Progress;
 class SurfaceInput
 {
 public:
-  // A vtkPolyData as it is. A vtkUnstructuredGrid of cells of at most two dimensions, as Clip
-  // makes, with all its points and its cells in the order of vtkPolyData: vertices, lines,
-  // polygons, strips. Of other grids the outer surface. Polls for abort. Throws Failure for a block
-  // of another type and for points that there are not, and Cancelled.
+  // A vtkPolyData is used as it is. A vtkUnstructuredGrid with cells of at most two dimensions, as
+  // Clip makes, keeps all its points; its cells are in the order of vtkPolyData: vertices, lines,
+  // polygons, strips. Other grids give their outer surface. Polls for abort. Throws Failure for a
+  // block of another type and for cells with points that do not exist, and Cancelled.
   SurfaceInput(vtkDataObject* input, Progress& progress);
 
   // For FillInputPortInformation: what the constructor takes.
   static void Require(vtkInformation* info);
 
-  // nullptr where there is no input, or one without points.
+  // nullptr without an input or without points.
   vtkPolyData* Get() const { return this->Surface; }
-  // The cell of the input that a cell of the surface is.
+  // The cell of the input for a cell of the surface.
   vtkIdType InputCellOf(vtkIdType cell) const
   {
     return this->Cells.size() > 0 ? this->Cells.data()[cell] : cell;
@@ -43,7 +43,7 @@ public:
 
 private:
   vtkSmartPointer<vtkPolyData> Surface;
-  LargeBuffer<vtkIdType> Cells; // by cells of the surface; empty where these are the input's
+  LargeBuffer<vtkIdType> Cells; // by cells of the surface; empty if these are the input's
 };
 
 } // namespace RectifiedTransport

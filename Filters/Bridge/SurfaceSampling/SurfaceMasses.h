@@ -26,7 +26,7 @@ class SurfaceDensity
 public:
   SurfaceDensity() = default; // 1 everywhere
   // Throws Failure for an array that is missing (`found` is nullptr), not numeric, of several
-  // components or of another length; `name` is that of the request.
+  // components or of another length; `name` is the requested name.
   SurfaceDensity(
     vtkPolyData* surface, vtkAbstractArray* found, bool onPoints, const std::string& name);
 
@@ -42,16 +42,16 @@ private:
 class SurfaceMasses
 {
 public:
-  // Of a triangle the mass is its area times the mean of the density at its points, which is exact
-  // for linear interpolation, or times that of its cell; ghost cells have none. As the work of the
-  // current stage. Throws Failure for densities that are negative or not finite and for masses of
-  // no sum, and Cancelled.
+  // The mass of a triangle is its area times the mean of the density at its points, exact for
+  // linear interpolation, or times the density of its cell. Ghost cells have no mass. The work of
+  // the current stage. Throws Failure for densities that are negative or not finite and for a total
+  // mass that is zero or not finite, and Cancelled.
   SurfaceMasses(vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density,
     Progress& progress);
 
-  // By triangles, up to a factor.
+  // The masses of the triangles, up to a factor.
   const double* Values() const { return this->Masses.data(); }
-  // In units of the density and of the input.
+  // The total mass, in units of the density and of the input.
   double Total() const { return this->Sum; }
 
 private:

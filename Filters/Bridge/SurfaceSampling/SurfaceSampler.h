@@ -23,7 +23,7 @@ class Progress;
 class SurfaceDensity;
 class SurfaceInput;
 
-// Of one run, for warnings.
+// The numbers of one run, for warnings.
 struct SurfaceSamplingReport
 {
   std::int64_t Particles = 0;
@@ -32,7 +32,7 @@ struct SurfaceSamplingReport
   std::int64_t Collapsed = 0; // triangles without area in the map
   double PatchError = 0.0;
   bool IsAreaPreserving = false; // the map that the particles come from
-  std::string Repair;            // of the surface; empty where it needed none
+  std::string Repair;            // of the surface; empty if it needed none
 
   std::vector<std::string> Warnings() const;
 };
@@ -47,7 +47,7 @@ struct SurfaceSampler
   SeedPattern Pattern;
   int RandomSeed;
 
-  // Throws Failure for values that are out of range whatever the surface.
+  // Throws Failure for values that are out of range for any surface.
   void Check() const;
 
   // Writes particles. Throws Failure and Cancelled.

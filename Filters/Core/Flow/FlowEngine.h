@@ -32,7 +32,7 @@ public:
   FlowEngine(const FlowEngine&) = delete;
   FlowEngine& operator=(const FlowEngine&) = delete;
 
-  // Of the whole grid, without levels where there are none.
+  // Of the whole grid, without levels if there are none.
   virtual const TableView<Dimension>& View() const = 0;
   virtual const DensitySummary& Summary() const = 0;
   virtual std::int64_t MemorySize() = 0;

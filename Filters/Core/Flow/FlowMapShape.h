@@ -25,10 +25,10 @@ struct FlowMapShape
     double Cost;               // in velocity evaluations of particles
   };
 
-  // Empty where lattices do not serve: in 1D, for few steps, for so many that records of float
-  // precision are too coarse, and where there would be more than one node for four cells.
-  // With a refinement particles take 2^refinement times as many steps on lattices of the same
-  // accuracy. No lattice hands over later than `leastHandOver` steps before time 1.
+  // Empty if lattices do not serve: in 1D, for few steps, for so many that records of float
+  // precision are too coarse, and where there would be more than one node for four cells. With a
+  // refinement particles take 2^refinement times as many steps on lattices of the same accuracy. No
+  // lattice hands over later than `leastHandOver` steps before time 1.
   FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps, FlowDirection direction,
     int refinement = 0, int leastHandOver = 1);
 

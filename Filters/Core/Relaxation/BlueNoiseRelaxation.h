@@ -39,7 +39,7 @@ public:
 };
 
 // Points are in index space, where grid cell i is [i, i + 1], and `spacing` has the lengths of a
-// grid cell's sides. Points outside of the domain are moved to its border first, and of coincident
+// grid cell's sides. Points outside the domain are moved to its border first, and of coincident
 // points all but one by a small part of the mean spacing. The results have the same bits for any
 // number of threads. Throws InvalidDensity, std::invalid_argument (options, spacing),
 // std::bad_alloc and Cancelled; the points are then undefined.

@@ -26,8 +26,8 @@ template <int Dimension>
 class RelaxedPoints
 {
 public:
-  // Moves points outside of the domain to its border. Throws std::invalid_argument for points that
-  // are not finite.
+  // Moves points outside the domain to its border. Throws std::invalid_argument for points that are
+  // not finite.
   RelaxedPoints(ConstPointSpan<Dimension> points, const RelaxationFrame<Dimension>& frame);
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->X.size()) / Dimension; }

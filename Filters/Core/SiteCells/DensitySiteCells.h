@@ -45,8 +45,8 @@ class DensitySiteCells
 public:
   // `grid` has the domain of the density, and any number of cells, which are the pixels; `total` is
   // the sum of the density's values, which are valid (as those of a RectifiedFlow). There is at
-  // least one site; coordinates are finite. Sites outside of the domain count as the nearest points
-  // of its border. Takes 8 bytes a pixel. Throws TooFewPixels, std::bad_alloc and Cancelled.
+  // least one site; coordinates are finite. Sites outside the domain count as the nearest points of
+  // its border. Takes 8 bytes a pixel. Throws TooFewPixels, std::bad_alloc and Cancelled.
   DensitySiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
     const DensitySource<Dimension>& density, double total, const Context& context = Context());
 

@@ -29,8 +29,8 @@ class EqualMassPartition;
 class PowerSiteCells
 {
 public:
-  // There is at least one site; coordinates are finite. Sites outside of the domain count where
-  // they are. Of sites that are nearer to each other than 1e-5 of the mean spacing all but one move
+  // There is at least one site; coordinates are finite. Sites outside the domain count where they
+  // are. Of sites that are nearer to each other than 1e-5 of the mean spacing all but one move
   // apart by as much, for the cells alone. Throws std::invalid_argument where the grid's axes are
   // not at right angles, std::runtime_error where the areas do not become equal to 5e-7 (a site is
   // away from the others by many millions of the domain's lengths), std::bad_alloc and Cancelled.

@@ -27,7 +27,7 @@ struct SiteCellStatistics
 };
 
 // Measures the site cells of `labels`; sites in one pixel share their mass, to the last bit.
-// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, for sites outside of the
+// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, for sites outside the
 // domain at their given positions. Throws std::overflow_error for a cost or a domain past the
 // largest double, std::bad_alloc and Cancelled.
 template <int Dimension>

@@ -28,7 +28,7 @@ template <int Dimension>
 class SiteCells
 {
 public:
-  // There is at least one site; coordinates are finite. Sites outside of the domain count as the
+  // There is at least one site; coordinates are finite. Sites outside the domain count as the
   // nearest points of its border. Throws std::invalid_argument for more sites than pixels,
   // std::bad_alloc and Cancelled.
   SiteCells(ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context = Context());

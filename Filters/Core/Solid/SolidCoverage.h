@@ -38,7 +38,7 @@ struct CoverageReport
 // Writes the covered fraction of every grid cell, from 0 to 1, axis 0 fastest. The points are in
 // index space: cell (i, j, k) covers [i, i+1] x [j, j+1] x [k, k+1]. The solid is where the winding
 // number is not zero: overlapping parts are united, and a shell of opposite orientation inside
-// another is a cavity. Parts of the surface outside of the grid are ignored along axes 1 and 2 and
+// another is a cavity. Parts of the surface outside the grid are ignored along axes 1 and 2 and
 // projected onto its border along axis 0.
 //
 // Cells are exact but for rounding, however thin the parts of the solid in them, where bodies lie

@@ -51,7 +51,7 @@ public:
   CellBox<Dimension> Slab(std::int64_t slab) const;
 
 private:
-  // Planes [Low, High) across the last axis; none where no cell in memory is reached.
+  // Planes [Low, High) across the last axis; none if no cell in memory is reached.
   struct Chunk
   {
     std::int32_t Low;
