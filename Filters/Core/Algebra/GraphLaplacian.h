@@ -13,8 +13,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The matrix whose diagonal has the strengths of each node's edges, with minus the strengths beside
-// it. It is singular: constants are not determined.
+// The diagonal has the sum of the strengths of each node's edges, the other entries minus the
+// strengths. The matrix is singular: constants are not determined.
 class GraphLaplacian
 {
 public:
@@ -27,7 +27,7 @@ public:
 
   // Begins another graph of the nodes.
   void RemoveEdges();
-  // Each edge once, of its two nodes the smaller first.
+  // Call it once for each edge, the smaller node first.
   void AddEdge(std::int64_t first, std::int64_t second, double strength)
   {
     this->Diagonal[static_cast<std::size_t>(first)] += strength;
@@ -35,13 +35,13 @@ public:
     this->Edges.emplace_back(second, first, -strength);
   }
 
-  // With this part of the mean of the diagonal added to it. Returns false for a pivot of zero. A
-  // graph that differs little from the one before keeps its order of elimination. The search of an
-  // order is one piece, which cannot be cancelled: about a second for a million nodes. Throws
+  // Adds `damping` times the mean of the diagonal to the diagonal. Returns false for a pivot of
+  // zero. A graph that differs little from the previous one keeps its order of elimination. The
+  // search for an order cannot be cancelled: about a second for a million nodes. Throws
   // std::bad_alloc and Cancelled.
   bool Factorize(double damping, Progress& progress);
   // Replaces the right side by the solution for the matrix that was factorized last. Returns false
-  // where it is not finite.
+  // if it is not finite.
   bool Solve(std::vector<double>& values) const;
 
 private:

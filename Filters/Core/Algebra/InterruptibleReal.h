@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real numbers for Eigen whose divisions poll for cancellation: Eigen's factorizations, which may
-// take many seconds, cannot be interrupted otherwise.
+// Real numbers for Eigen whose divisions poll for cancellation. Eigen's factorizations may take
+// many seconds and cannot be interrupted otherwise.
 #ifndef RectifiedTransport_InterruptibleReal_h
 #define RectifiedTransport_InterruptibleReal_h
 
@@ -20,8 +20,8 @@ struct StagePart
   double End;
 };
 
-// While one exists, divisions on its thread throw Cancelled once the progress is cancelled, and
-// report the given part of its stage, of which there are `divisions`.
+// While one exists, divisions on its thread report the given part of the stage, expecting
+// `divisions` of them, and throw Cancelled as soon as the progress is cancelled.
 class DivisionPoll
 {
 public:
@@ -33,7 +33,7 @@ public:
   static void Count()
   {
     // A factor has a division for each of its values, and about a hundred other operations for each
-    // of these: a poll takes place after some milliseconds.
+    // division: a poll takes place every few milliseconds.
     if (++Divisions == interval)
     {
       Poll();

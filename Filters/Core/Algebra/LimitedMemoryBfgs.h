@@ -12,7 +12,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The inner product, with the same bits on any threads.
+// The inner product, bitwise the same for any number of threads.
 double innerProduct(const std::vector<double>& a, const std::vector<double>& b, Progress& progress);
 
 class LimitedMemoryBfgs
@@ -27,8 +27,8 @@ public:
   bool IsEmpty() const { return this->Pairs.empty(); }
   // Adds a step and the change of the gradient over it, if the curvature along it is positive.
   void Add(std::vector<double> step, std::vector<double> change, Progress& progress);
-  // Minus the inverse Hessian times the gradient. `diagonal` is about that of the inverse Hessian,
-  // up to a factor.
+  // Minus the inverse Hessian times the gradient. `diagonal` approximates the diagonal of the
+  // inverse Hessian, up to a factor.
   std::vector<double> Direction(const std::vector<double>& gradient,
     const std::vector<double>& diagonal, Progress& progress) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigen's sparse Cholesky factorization, made to be cancelled.
+// Eigen's sparse Cholesky factorization, with cancellation.
 #ifndef RectifiedTransport_SparseCholesky_h
 #define RectifiedTransport_SparseCholesky_h
 
@@ -16,21 +16,20 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Solves A x = b for symmetric matrices, of which the lower triangle is given.
+// Solves A x = b for symmetric matrices, given by their lower triangles.
 class SparseCholesky
 {
 public:
   using Matrix = Eigen::SparseMatrix<InterruptibleReal>;
   using Vector = Eigen::Matrix<InterruptibleReal, Eigen::Dynamic, 1>;
 
-  // The order of elimination of a pattern, which the matrices to come have, and the pattern of the
-  // factor.
+  // Finds the order of elimination and the pattern of the factor for the pattern of later matrices.
   void Analyze(const Matrix& lower);
   // With a poll between the two. Throws Cancelled.
   void Analyze(const Matrix& lower, Progress& progress);
   // The pattern of the factor of another pattern, in the order that was found last.
   void AnalyzeInOrder(const Matrix& lower);
-  // Of the factor, known from the analysis on.
+  // The number of non-zeros of the factor, known after the analysis.
   Eigen::Index NonZeros() const { return this->Factor->NonZeros(); }
   // Returns false for a matrix that has a pivot of zero. On any thread; reports a part of the
   // progress's stage. Throws Cancelled and std::bad_alloc.

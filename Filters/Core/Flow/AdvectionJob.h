@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all blocks of one advection share, from its options.
+// What all blocks of one advection share, derived from its options.
 #ifndef RectifiedTransport_AdvectionJob_h
 #define RectifiedTransport_AdvectionJob_h
 
@@ -41,7 +41,7 @@ enum class AdvectionKind
   ForwardToCells // of a density of isolated cells
 };
 
-// Relative to the domain's longest side. Below it the estimate of a step's error is rounding alone,
+// Relative to the domain's longest side. Below it, the estimate of a step's error is only rounding,
 // and smaller steps gain no accuracy.
 constexpr double finestTolerance = 0x1p-40;
 
@@ -60,8 +60,8 @@ double coarseRatio(const FlowOptions& options, AdvectionKind kind)
   return exact ? never : accurate ? 64.0 : usual;
 }
 
-// Where only isolated cells have mass, nearly all particles miss them with few steps: the first
-// pass takes the number of steps that they would be redone with, 2^(this) times as many.
+// If only isolated cells have mass, nearly all particles miss them with few steps. The first pass
+// then takes 2^(this) times as many steps, as they would be redone with.
 inline int firstRefinement(const FlowOptions& options, AdvectionKind kind)
 {
   if (kind != AdvectionKind::ForwardToCells)
@@ -109,7 +109,7 @@ public:
   AdvectionJob(const AdvectionJob&) = delete;
   AdvectionJob& operator=(const AdvectionJob&) = delete;
 
-  // Of the unresolved particles, each with twice the steps.
+  // The last pass of unresolved particles; each pass has twice the steps.
   int LastPass() const { return refinements - this->Refinement; }
 
   FlowJob<Dimension> Job;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One advection of many particles (paper, Section 3.3): ranges of blocks for the kernels,
-// unresolved particles again with smaller steps, the rest moved to the nearest mass.
+// One advection of many particles (paper, Section 3.3): ranges of blocks for the kernels.
+// Unresolved particles are advected again with smaller steps; the rest are moved to the nearest
+// mass.
 #ifndef RectifiedTransport_AdvectionRun_h
 #define RectifiedTransport_AdvectionRun_h
 
@@ -35,7 +36,7 @@ void forGrains(std::int64_t first, std::int64_t last, std::int64_t grain, const 
   }
 }
 
-// Counted over the ranges of one advection; sums of integers do not depend on their order.
+// Counted over the ranges of one advection. Sums of integers do not depend on their order.
 struct Counters
 {
   std::atomic<std::int64_t> Redone{ 0 };
@@ -85,7 +86,7 @@ public:
   template <class Source>
   void Fill(Source& source, std::int64_t first, int count)
   {
-    // Copies, as the output may be the array of the seeds.
+    // Copies, because the output may be the array of the seeds.
     source.Fill(first, count, this->Index, this->Seeds);
     this->Number = count;
   }
@@ -145,8 +146,8 @@ private:
   double Seeds[rangeBlocks * BlockSize * Dimension];
 };
 
-// Advects the unresolved particles of many ranges together: a block costs nearly the same with few
-// particles as with all, and most ranges leave few.
+// Advects the unresolved particles of many ranges together: a block with few particles costs nearly
+// as much as a full one, and most ranges leave few.
 template <int Dimension>
 class UnresolvedAdvection
 {
@@ -237,7 +238,7 @@ public:
     std::iota(index, index + count, std::int64_t{ 0 });
   }
 
-  // Writes the number of the grid cell with mass that each particle ends in, or that is nearest.
+  // Writes the number of the grid cell with mass in which each particle ends, or the nearest one.
   // Returns how many end in empty cells.
   std::int64_t Write(int count, std::int64_t* cells) const
   {
@@ -263,7 +264,7 @@ public:
   }
 
 private:
-  // The centre of the grid cell that holds a point; of a point on a face, of the upper cell.
+  // The centre of the grid cell that contains a point; on a face, of the upper cell.
   Point<Dimension> Middle(const Point<Dimension>& point) const
   {
     Point<Dimension> middle;
@@ -296,7 +297,7 @@ public:
       return static_cast<Progress*>(clientData)->ShouldStop();
     };
     this->Job.ClientData = &this->Work;
-    // Fewer particles a range where there are many steps: bounds the time between progress reports.
+    // With many steps, ranges have fewer particles. This bounds the time between progress reports.
     constexpr std::int64_t usualSteps = 64;
     const std::int64_t steps = std::max(this->Job.Steps, usualSteps);
     this->Grain = std::max<std::int64_t>(1, rangeBlocks * usualSteps / steps) * BlockSize;
@@ -314,8 +315,8 @@ public:
     return this->Work.Stage();
   }
 
-  // Particles start from a flow map, or end on it: one of the same tables, steps and direction.
-  // If it was made for this run, its evaluations are the run's.
+  // Particles start from a flow map, or end on it. The map is of the same tables, steps and
+  // direction. If it was made for this run, its evaluations count for the run.
   void UseMap(std::shared_ptr<const FlowMap<Dimension>> map, bool isNew)
   {
     this->Count.Evaluations += isNew ? map->Evaluations() : 0;
@@ -326,7 +327,7 @@ public:
   }
 
   // Advects the particles of a source chunk by chunk. Writes the positions at the ascending times,
-  // all of a particle together, or without times at the end. Throws Cancelled.
+  // all times of a particle together; without times, at the end. Throws Cancelled.
   FlowReport Advect(ParticleSource<Dimension>& source, PointSpan<Dimension> positions,
     const std::vector<double>& times = {})
   {
@@ -376,7 +377,8 @@ public:
     return this->Report();
   }
 
-  // Advects the particles of a source and writes the grid cell that each ends in. Throws Cancelled.
+  // Advects the particles of a source and writes the grid cell in which each ends. Throws
+  // Cancelled.
   FlowReport AdvectToCells(ParticleSource<Dimension>& source, std::int64_t* cells)
   {
     const auto all = static_cast<double>(source.Count());

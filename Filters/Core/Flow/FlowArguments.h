@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What callers give a flow, checked.
+// Checks the arguments of a flow.
 #ifndef RectifiedTransport_FlowArguments_h
 #define RectifiedTransport_FlowArguments_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a RectifiedFlow runs on: the tables of its density, and how particles go through them.
+// What a RectifiedFlow runs on: the tables of its density, and the advection of particles in them.
 #ifndef RectifiedTransport_FlowEngine_h
 #define RectifiedTransport_FlowEngine_h
 
@@ -21,8 +21,8 @@
 namespace RectifiedTransport
 {
 
-// Arguments are as those of RectifiedFlow. An engine serves what it overrides; for the rest it
-// throws std::invalid_argument. Advections may run concurrently.
+// Arguments are those of RectifiedFlow. An engine supports what it overrides; otherwise it throws
+// std::invalid_argument. Advections may run concurrently.
 template <int Dimension>
 class FlowEngine
 {
@@ -32,13 +32,13 @@ public:
   FlowEngine(const FlowEngine&) = delete;
   FlowEngine& operator=(const FlowEngine&) = delete;
 
-  // Of the whole grid, without levels if there are none.
+  // The view of the whole grid; without levels if there are none.
   virtual const TableView<Dimension>& View() const = 0;
   virtual const DensitySummary& Summary() const = 0;
   virtual std::int64_t MemorySize() = 0;
-  // Whether there are levels of the whole grid, which paths, runs to cells and MeasureOfShare need.
+  // Whether there are levels of the whole grid. Paths, runs to cells and MeasureOfShare need them.
   virtual bool HasWholeTables() const = 0;
-  // For tables of the same size; the engine is not used any more.
+  // For reuse by tables of the same size; the engine must not be used afterwards.
   virtual TableMemory ReleaseMemory() { return {}; }
 
   // Forward or Backward.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flow map: lattices of seeds, advected while boxes are wide and the flow is smooth. Particles
-// take over by interpolation for the last few steps; backwards they end by it. It depends on the
-// density, the number of steps and the direction alone.
+// A flow map: lattices of seeds, advected while boxes are wide and the flow is smooth. Forward,
+// particles are interpolated from it and take the last few steps; backward, they end by
+// interpolation. It depends only on the density, the number of steps and the direction.
 #ifndef RectifiedTransport_FlowMap_h
 #define RectifiedTransport_FlowMap_h
 
@@ -20,10 +20,10 @@ template <int Dimension>
 class FlowMap
 {
 public:
-  // Makes all levels of a shape, but forwards none from the first on of which more cells are bad
-  // than the share of the steps that it saves. The job gives the tables, the direction, the steps
-  // and their weights. The ranks of the context, if it has any, make it together. Throws
-  // std::bad_alloc and Cancelled.
+  // Makes all levels of a shape. Forward, it stops at the first level whose share of bad cells is
+  // larger than the share of the steps that it saves. The job gives the tables, the direction, the
+  // steps and their weights. Collective on the ranks of the context. Throws std::bad_alloc and
+  // Cancelled.
   FlowMap(
     const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context);
   FlowMap(const FlowMap&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of an advection, and what it reports.
+// The options and the report of an advection.
 #ifndef RectifiedTransport_FlowOptions_h
 #define RectifiedTransport_FlowOptions_h
 
@@ -22,12 +22,12 @@ enum class TableLookup
   Nearest // the box is rounded to whole grid cells (the paper's ablation, Figure 4)
 };
 
-// Lattices of seeds that carry the smooth part of the flow (FlowMap.h): of Multistep with
-// Interpolated, in 2D and 3D, where the density has cells enough for the steps (FlowMapShape.h).
+// Lattices of seeds that carry the smooth part of the flow (FlowMap.h): for Multistep with
+// Interpolated, in 2D and 3D, if the density has enough cells for the steps (FlowMapShape.h).
 enum class FlowMaps
 {
-  Auto, // where they take less time for so many particles, that of making them included
-  On,   // where there are any
+  Auto, // if they take less time for the number of particles, including the time to make them
+  On,   // if there are any
   Off
 };
 
@@ -59,11 +59,11 @@ struct FlowOptions
 
 struct FlowReport
 {
-  // Particles that, on their way from the seed itself, met an empty box or ended in an empty cell.
+  // Particles that met an empty box or ended in an empty cell on their way from the seed itself.
   std::int64_t Redone = 0;
   std::int64_t MovedToMass = 0; // those still in an empty cell: put on the nearest mass
-  // Velocity evaluations, also of flow maps made for this run: the cost. Particles that are taken
-  // up again together share some, so that it may differ a little from run to run.
+  // The cost: velocity evaluations, including those of flow maps made for this run. Particles that
+  // are redone together share some, so that it may differ a little from run to run.
   std::int64_t Evaluations = 0;
 };
 

@@ -16,7 +16,7 @@ namespace RectifiedTransport
 {
 
 // Points of an array, which are not copied, or one point in each cell of a lattice that fills the
-// box, axis 0 fastest: this needs neither an array nor a sort.
+// box, axis 0 fastest. A lattice needs neither an array nor a sort.
 template <int Dimension>
 class FlowSeeds
 {
@@ -30,7 +30,7 @@ public:
     : Given(coordinates, count)
   {
   }
-  // What becomes a span of points, such as a std::vector of them.
+  // Anything that converts to a span of points, such as a std::vector of them.
   template <class Container,
     class = std::enable_if_t<std::is_convertible_v<const Container&, ConstPointSpan<Dimension>>>>
   FlowSeeds(const Container& points)
@@ -49,7 +49,8 @@ public:
     seeds.IsWhole = true;
     return seeds;
   }
-  // Parts of such a lattice, which tell the places of the results: each as if for all of it.
+  // Parts of such a lattice, which give the places of the results; results are as for the whole
+  // lattice.
   static FlowSeeds Lattice(const GridSize<Dimension>& cells, LatticeParts<Dimension> parts,
     const Point<Dimension>& place = cellCentre<Dimension>())
   {
@@ -59,7 +60,7 @@ public:
     return seeds;
   }
 
-  // Of the whole lattice.
+  // The number of points of the whole lattice.
   double Count() const
   {
     return this->IsLattice() ? numberOfCells<Dimension>(this->CellsOfLattice)

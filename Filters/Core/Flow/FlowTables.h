@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a flow keeps of its density: whole tables or tiles.
+// The tables of a flow: whole tables or tiles.
 #ifndef RectifiedTransport_FlowTables_h
 #define RectifiedTransport_FlowTables_h
 
@@ -17,7 +17,7 @@ enum class FlowTables
   Tiled  // few nodes; those of tiles are made in each advection, one tile after another
 };
 
-// How large what tiles need may be. Results depend on it.
+// Limits of the memory of tiles. Results depend on them.
 struct TileLimits
 {
   std::int64_t GradedNodes = std::int64_t{ 1 } << 23; // most of the graded tables
@@ -25,12 +25,11 @@ struct TileLimits
   std::int64_t Width = 0; // about that of a tile, in grid cells; 0: chosen by the boxes
 };
 
-// Whether tiles serve the options, which must be valid: Multistep with Interpolated and enough
-// steps, in 2D and 3D.
+// Whether tiles support valid options: Multistep with Interpolated and enough steps, in 2D and 3D.
 template <int Dimension>
 bool servesTiles(const GridSize<Dimension>& size, const FlowOptions& options,
   FlowDirection direction, const TileLimits& limits = {});
-// Throws std::invalid_argument where they do not.
+// Throws std::invalid_argument if they do not.
 template <int Dimension>
 void requireTiles(const GridSize<Dimension>& size, const FlowOptions& options,
   FlowDirection direction, const TileLimits& limits = {});

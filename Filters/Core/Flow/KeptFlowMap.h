@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow map of the last steps in one direction, for the runs that follow.
+// The flow map of the last number of steps in one direction, kept for later runs.
 #ifndef RectifiedTransport_KeptFlowMap_h
 #define RectifiedTransport_KeptFlowMap_h
 
@@ -20,9 +20,9 @@ template <int Dimension>
 class KeptFlowMap
 {
 public:
-  // Returns the map of a shape if it is kept, on all ranks; else makes it, which begin() gives a
-  // context for, and keeps it. Called by several runs at once. Throws NoMemoryForFlowMap and
-  // Cancelled.
+  // Returns the map of a shape if all ranks have kept it; else makes it, with the context that
+  // begin() returns, and keeps it. Several runs may call it concurrently. Throws NoMemoryForFlowMap
+  // and Cancelled.
   template <class Begin>
   std::shared_ptr<const FlowMap<Dimension>> FindOrMake(const FlowMapShape<Dimension>& shape,
     int refinement, const FlowJob<Dimension>& job, const Ranks& ranks, const Begin& begin,
@@ -33,7 +33,7 @@ public:
     isNew = !onAllRanks(ranks, map != nullptr);
     if (isNew)
     {
-      // Not locked: other runs make their own meanwhile, of the same bits.
+      // Not locked: other runs make their own map meanwhile, with the same bits.
       map.reset();
       this->Set(steps, nullptr); // old and new maps side by side would double the peak
       const Context context = begin();

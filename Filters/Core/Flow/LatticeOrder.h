@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One point in each cell of a lattice that fills a box, in an order in which neighbours in memory
-// are neighbours in space. ParticleOrder sorts points for that; here the order follows from the
-// lattice alone: nothing is stored, and any range is computed independently.
+// are neighbours in space. ParticleOrder sorts points for that. Here the order depends only on the
+// lattice: nothing is stored, and any range is computed independently.
 #ifndef RectifiedTransport_LatticeOrder_h
 #define RectifiedTransport_LatticeOrder_h
 
@@ -26,7 +26,7 @@ public:
     : LatticeOrder(lattice, LatticeParts<Dimension>::WholeOf(lattice), size, place)
   {
   }
-  // Of parts of the lattice, one after another.
+  // The points of parts of the lattice, one part after another.
   LatticeOrder(const GridSize<Dimension>& lattice, LatticeParts<Dimension> parts,
     const GridSize<Dimension>& size, const Point<Dimension>& place = cellCentre<Dimension>())
     : Lattice(lattice)
@@ -47,10 +47,11 @@ public:
     return numberOfCells<Dimension>(this->Lattice);
   }
 
-  // The number of samples from `first` on: needs no preparation.
+  // The number of samples from `first` on. No preparation is needed.
   std::int64_t Prepare(std::int64_t first) const { return this->Count() - first; }
 
-  // Samples [first, first + count) of this order: where their results are, and their coordinates.
+  // Samples [first, first + count) in this order: the indices of their results, and their
+  // coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const;
 
 private:

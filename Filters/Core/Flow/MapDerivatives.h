@@ -12,10 +12,10 @@
 namespace RectifiedTransport
 {
 
-// The trace of the displacement's gradient and the determinant of the map's Jacobian matrix are
-// invariant under an affine change of the coordinates of both points and values, so that those of
-// index space hold for every spacing and direction. Along an axis of one cell the displacement is
-// taken to be constant.
+// The trace of the displacement's gradient and the determinant of the map's Jacobian matrix do not
+// change under an affine change of the coordinates of both points and values: those of index space
+// hold for every spacing and direction. Along an axis of one cell, the displacement is taken as
+// constant.
 template <int Dimension>
 class MapDerivatives
 {
@@ -28,7 +28,7 @@ public:
         LatticePart<Dimension>::WholeOf(lattice), step, positions)
   {
   }
-  // Of a part of the lattice: `positions` are those of another part, `within`, which contains the
+  // For a part of the lattice: `positions` are those of a larger part, `within`, which contains the
   // first with the cells around it.
   MapDerivatives(const GridSize<Dimension>& lattice, const LatticePart<Dimension>& part,
     const LatticePart<Dimension>& within, const Point<Dimension>& step,

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 template <int Dimension>
 class RectifiedFlow;
 
-// Weighted squares of displacements, summed exactly: over parts of a lattice in any order.
+// Weighted squares of displacements, summed exactly, over parts of a lattice in any order.
 struct DisplacementSums
 {
   ExactSum Cost{};
@@ -36,23 +36,23 @@ template <int Dimension>
 class MapDisplacement
 {
 public:
-  // Of a part of the lattice: `positions` are the images, in index space, of another part,
-  // `within`, which contains it, axis 0 fastest. For a map backwards, which begins at the density,
-  // cells weigh with the share of the mass of `density` that is in them; else equally.
+  // For a part of the lattice: `positions` are the images, in index space, of a larger part,
+  // `within`, axis 0 fastest. A backward map begins at the density: the weight of a cell is its
+  // share of the mass of `density`. Otherwise cells have equal weights.
   MapDisplacement(const ImageGrid& grid, const GridSize<Dimension>& lattice,
     const LatticePart<Dimension>& part, const LatticePart<Dimension>& within,
     ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density);
 
-  // Writes those of the part's cells [first, last), which may be where no other positions are that
-  // are still needed, and adds those that `counted` has to the sums. As the work of the current
+  // Writes the displacements of the part's cells [first, last), and adds those in `counted` to the
+  // sums. The output may overwrite positions that are not needed any more. The work of the current
   // stage. Throws Cancelled.
   void Write(std::int64_t first, std::int64_t last, const LatticePart<Dimension>& counted,
     PointSpan<3> displacements, DisplacementSums& sums, Progress& progress) const;
-  // Adds all cells of the part to the sums, as the work of the current stage. Throws Cancelled.
+  // Adds all cells of the part to the sums. The work of the current stage. Throws Cancelled.
   void Count(DisplacementSums& sums, Progress& progress) const;
 
-  // The mean squared displacement, in squared physical units. Throws std::overflow_error where it
-  // is past the largest double.
+  // The mean squared displacement, in squared physical units. Throws std::overflow_error if it is
+  // beyond the largest double.
   double MeanSquare(const DisplacementSums& sums) const;
 
 private:
@@ -71,8 +71,8 @@ private:
   const RectifiedFlow<Dimension>* const Density;
 };
 
-// Of the whole lattice; returns the mean square. In 3D positions and displacements may share
-// memory. Throws std::bad_alloc, std::overflow_error and Cancelled.
+// Writes the displacements of the whole lattice; returns the mean square. In 3D, positions and
+// displacements may share memory. Throws std::bad_alloc, std::overflow_error and Cancelled.
 template <int Dimension>
 double writeDisplacements(const ImageGrid& grid, const GridSize<Dimension>& lattice,
   ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thrown where there is memory for the tables and none for a flow map, without which
-// (FlowMaps::Off) a run may do.
+// Thrown if there is memory for the tables but not for a flow map. The run is possible without one
+// (FlowMaps::Off).
 #ifndef RectifiedTransport_NoMemoryForFlowMap_h
 #define RectifiedTransport_NoMemoryForFlowMap_h
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes taken from their places to the time of a level of a flow map: those of its lattice, and
-// particles that no lattice serves.
+// Takes nodes from their places to the time of a level of a flow map: those of its lattice, and
+// particles that no lattice covers.
 #ifndef RectifiedTransport_NodeAdvance_h
 #define RectifiedTransport_NodeAdvance_h
 
@@ -31,11 +31,11 @@ public:
   {
   }
 
-  // Makes the records of the nodes [first, first + count), each from the finest of the first
+  // Makes the records of the nodes [first, first + count). Each starts from the finest of the first
   // `parents` levels of the job's map that may be interpolated there, else from scratch.
-  // fill(numbers, count, places) gives the places of at most BlockSize nodes. Sets the marks of the
-  // nodes that met an empty box to 1, those of the others to 0. Returns the number of velocity
-  // evaluations. Throws Cancelled.
+  // fill(numbers, count, places) gives the places of at most BlockSize nodes. Sets the marks of
+  // nodes that met an empty box to 1, others to 0. Returns the number of velocity evaluations.
+  // Throws Cancelled.
   template <class Fill>
   std::int64_t Run(
     std::int64_t first, std::int64_t count, int parents, unsigned char* marks, const Fill& fill)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in an order in which neighbours in memory are neighbours in space: their boxes then
-// read the same parts of the tables. The order changes the speed alone, never a result.
+// read the same parts of the tables. The order changes only the speed, never a result.
 #ifndef RectifiedTransport_ParticleOrder_h
 #define RectifiedTransport_ParticleOrder_h
 
@@ -16,7 +16,7 @@ template <int Dimension>
 class ParticleOrder
 {
 public:
-  // Orders particles [first, first + count) by tiles along a Morton curve, about
+  // Orders particles [first, first + count) along a Morton curve of tiles with about
   // `particlesPerTile` in each. Returns the index of the first particle whose coordinates are not
   // finite, -1 if there is none.
   std::int64_t Sort(

@@ -22,7 +22,7 @@ class ParticleSource
 {
 public:
   // On a box of `size`, in chunks of at most `chunk` points of an array. Throws
-  // std::invalid_argument, also where there is not memory for so many positions.
+  // std::invalid_argument, also if there is not enough memory for the positions.
   ParticleSource(const FlowSeeds<Dimension>& seeds, const GridSize<Dimension>& size,
     std::int64_t positions, std::int64_t chunk = SortedPoints<Dimension>::UsualChunk)
     : Order(SortedPoints<Dimension>(seeds.Points(), chunk))
@@ -49,8 +49,8 @@ public:
   {
     return std::visit([&](auto& order) { return order.Prepare(first); }, this->Order);
   }
-  // Reads `count` particles of the chunk from its number `first` on: where their results are, and
-  // their coordinates.
+  // Reads `count` particles of the chunk from its number `first` on: the indices of their results,
+  // and their coordinates.
   void Fill(std::int64_t first, int count, std::int64_t* index, double* points) const
   {
     if (const auto* lattice = std::get_if<LatticeOrder<Dimension>>(&this->Order))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles of the pivot, the uniform measure that is transported to each density (paper, Section
-// 3.4): equally many in each cell of a grid.
+// The particles of the pivot, the uniform measure that is transported to each density (paper,
+// Section 3.4): equally many in each cell of a grid.
 #ifndef RectifiedTransport_PivotLattice_h
 #define RectifiedTransport_PivotLattice_h
 
@@ -19,7 +19,7 @@ template <int Dimension>
 class PointTransport;
 
 // One particle at each place, in [0, 1], in each cell of a lattice. They are numbered place by
-// place, within one over the cells with axis 0 fastest.
+// place; for one place over the cells, axis 0 fastest.
 template <int Dimension>
 struct PivotLattice
 {
@@ -33,8 +33,8 @@ struct PivotLattice
   }
 };
 
-// `perCell` particles, at least 1, in each cell of a grid. Where that is a Dimension-th power they
-// are the centres of a finer grid, else the same points of low discrepancy in all cells, with their
+// `perCell` particles, at least 1, in each cell of a grid. If that is a Dimension-th power, they
+// are the centres of a finer grid, else the same low-discrepancy points in all cells, with their
 // mean at the centre.
 template <int Dimension>
 PivotLattice<Dimension> pivotLattice(const GridSize<Dimension>& grid, std::int64_t perCell);
@@ -45,8 +45,8 @@ template <int Dimension>
 FlowReport transportPivot(const PointTransport<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, PointSpan<Dimension> positions,
   const FlowOptions& options = {}, const Context& context = Context());
-// Only those from number `first` on, as many as there are positions: each as if with all others.
-// Collective, each rank for its own.
+// Only those from number `first` on, as many as there are positions, with the results of a run of
+// all. Collective, each rank for its own.
 template <int Dimension>
 FlowReport transportPivot(const PointTransport<Dimension>& flow,
   const PivotLattice<Dimension>& pivot, std::int64_t first, PointSpan<Dimension> positions,

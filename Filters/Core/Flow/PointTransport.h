@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map between the uniform measure on a box and a density that moves points: the interface to it.
+// The interface of a map between the uniform measure on a box and a density that moves points.
 #ifndef RectifiedTransport_PointTransport_h
 #define RectifiedTransport_PointTransport_h
 
@@ -15,16 +15,16 @@
 namespace RectifiedTransport
 {
 
-// What not every transport can do.
+// What some transports do not support.
 enum class TransportUse
 {
   Times, // positions between the times 0 and 1
-  Cells  // the density's cells that points end in
+  Cells  // the density's cells in which points end
 };
 
-// Points are in the index space of the density, whose cell i covers [i, i+1]. There are as many
-// positions as seeds, and both may be in the same memory. Points outside the box are clamped to its
-// border. All throw std::invalid_argument, std::bad_alloc and Cancelled.
+// Points are in the index space of the density; cell i covers [i, i+1]. There are as many positions
+// as seeds, and both may be in the same memory. Points outside the box are clamped to its border.
+// All methods throw std::invalid_argument, std::bad_alloc and Cancelled.
 template <int Dimension>
 class PointTransport
 {
@@ -45,8 +45,8 @@ public:
   virtual FlowReport ForwardAt(const FlowSeeds<Dimension>& seeds, const std::vector<double>& times,
     PointSpan<Dimension> positions, const FlowOptions& options = {},
     const Context& context = Context()) const = 0;
-  // Forwards, but writes of each point only the number, axis 0 fastest, of the density's cell with
-  // mass that it ends in. For densities of isolated cells, which most particles miss at first:
+  // Forward, but writes for each point only the number, axis 0 fastest, of the density's cell with
+  // mass in which it ends. For densities of isolated cells, which most particles miss at first:
   // fewer than 128 steps become up to 32 times as many in the first pass.
   virtual FlowReport ForwardToCells(const FlowSeeds<Dimension>& seeds, std::int64_t* cells,
     const FlowOptions& options = {}, const Context& context = Context()) const = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The position of a particle between densities that one pivot is transported to (paper, Section
-// 3.4): the weighted mean of its positions. Between two densities it moves on a straight line.
+// The position of a particle between densities that share a pivot (paper, Section 3.4): the
+// weighted mean of its positions. Between two densities it moves on a straight line.
 #ifndef RectifiedTransport_WeightedMean_h
 #define RectifiedTransport_WeightedMean_h
 
@@ -19,7 +19,7 @@ struct WeightedPositions
 };
 
 // Writes points [first, last) of the sum of weight * positions. Parts of weight 0 are not read; a
-// single one of weight 1 is copied to the bit. At least one weight is not 0.
+// single part of weight 1 is copied bitwise. At least one weight is not 0.
 void writeWeightedMean(const std::vector<WeightedPositions>& parts, std::int64_t first,
   std::int64_t last, PointSpan<3> mean);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grid of an image in physical space: its points, the cells that its values belong to, and the
-// affine map between these and space.
+// The grid of an image in physical space: its points, the cells of its values, and the affine map
+// between these and space.
 #ifndef RectifiedTransport_ImageGrid_h
 #define RectifiedTransport_ImageGrid_h
 
@@ -17,10 +17,10 @@
 namespace RectifiedTransport
 {
 
-// Values are constant on grid cells. Those of a cell array are the image's vtkCells; those of a
-// point array are dual cells, centred on the points, which extend half a spacing beyond the bounds.
-// An axis of one point is no axis. Index space has the other axes, in their order: grid cell i is
-// [i, i + 1].
+// Values are constant on grid cells. The grid cells of a cell array are the image's vtkCells; those
+// of a point array are dual cells, centred on the points, which extend half a spacing beyond the
+// bounds. An axis of one point is no axis. Index space has the other axes, in their order: grid
+// cell i is [i, i + 1].
 class ImageGrid
 {
 public:
@@ -32,7 +32,7 @@ public:
 
   bool operator==(const ImageGrid& other) const;
 
-  // As of vtkImageData.
+  // As in vtkImageData.
   const std::array<int, 6>& Extent() const { return this->PointExtent; }
   const Eigen::Vector3d& Origin() const { return this->PointOrigin; }
   const Eigen::Vector3d& Spacing() const { return this->PointSpacing; }
@@ -51,17 +51,17 @@ public:
   // The same image with values on points, or else on cells.
   ImageGrid WithValuesOn(bool points) const;
   // Another image on the domain that the grid cells cover, with other numbers of values along its
-  // axes; 0 for the number that it has. One value along an axis is for cells only.
+  // axes; 0 keeps the number. Only cells may have one value along an axis.
   ImageGrid WithValues(const std::array<int, 3>& values) const;
-  // The image that has its points at the centres of this one's cells, and values on points.
+  // The image with its points at the centres of this one's cells, and values on points.
   ImageGrid AtCellCentres() const;
   // The image whose cells are the dual cells of this one's points.
   ImageGrid WithDualCells() const;
 
   // The number of axes.
   int Dimension() const { return this->AxisCount; }
-  // False if there is no axis, or if the grid cells have no measure or are not at finite places.
-  // The members below require true.
+  // False if there is no axis, or if the grid cells have no measure or positions that are not
+  // finite. The members below require true.
   bool HasCells() const { return this->Valid; }
   std::int64_t NumberOfCells() const;
   // The length, area or volume of a grid cell.
@@ -96,8 +96,8 @@ public:
   }
 
   // Summed in the order of vtkImageData, so that rounding puts no point of the domain outside its
-  // bounds. Written out, as are the other maps of points and vectors: Eigen's expressions of the
-  // same order take up to five times the time.
+  // bounds. Like the other maps of points and vectors, written out: Eigen's expressions of the same
+  // order take up to five times as long.
   template <int D>
   void ToPhysical(const double* index, double* x) const
   {
@@ -172,8 +172,8 @@ public:
     return inside;
   }
 
-  // The index of the nearest point of the domain, as above. Returns whether x is within the
-  // border's tolerance of it.
+  // The index of the nearest point of the domain, axis by axis. Returns whether x is within
+  // BorderTolerance() of it.
   template <int D>
   bool NearestIndex(const double* x, double* index) const
   {
@@ -186,7 +186,7 @@ public:
   }
 
 private:
-  // Gives an axis `points` points, the first of them at an index that need not be an integer.
+  // Gives an axis `points` points. The first is at an index that need not be an integer.
   void SetAxis(std::size_t axis, double first, int points);
   void FindCells();
 
@@ -196,7 +196,7 @@ private:
   Matrix AxisDirection = Matrix::Identity();
   bool OnPoints = true;
 
-  // Of index space.
+  // The dimension of index space.
   int AxisCount = 0;
   bool Valid = false;
   std::array<int, 3> Axis{ 0, 1, 2 }; // of the image

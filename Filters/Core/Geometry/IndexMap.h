@@ -6,14 +6,14 @@
 namespace RectifiedTransport
 {
 
-// Coordinate a of index space of a physical point x is Matrix[a] . (x - Origin). In 1D and 2D the
-// further rows give the distances from the line or plane of the grid, in any unit.
+// Coordinate a in index space of a physical point x is Matrix[a] . (x - Origin). In 1D and 2D the
+// other rows give the distances from the line or plane of the grid, in any unit.
 template <int Dimension>
 struct IndexMap
 {
   double Origin[3];
   double Matrix[3][3];
-  // A point farther than this from [0, size], or for the further rows from 0, is outside.
+  // A point farther than this from [0, size], or for the other rows from 0, is outside.
   double Tolerance[3];
 };
 

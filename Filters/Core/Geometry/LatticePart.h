@@ -101,7 +101,7 @@ struct LatticePart
     }
     return both;
   }
-  // The part with one more layer of cells on each side, where the lattice has them.
+  // The part with one more layer of cells on each side, if the lattice has them.
   LatticePart Around(const GridSize<Dimension>& lattice) const
   {
     if (this->IsEmpty())
@@ -118,8 +118,8 @@ struct LatticePart
   }
 };
 
-// The cells of `count` numbers of a lattice, axis 0 fastest, from `first` on: boxes whose cells
-// follow one another in this order.
+// The `count` cells of a lattice from number `first` on, axis 0 fastest, as boxes of consecutive
+// cells.
 template <int Dimension>
 std::vector<LatticePart<Dimension>> partsOf(
   const GridSize<Dimension>& lattice, std::int64_t first, std::int64_t count)
@@ -127,7 +127,7 @@ std::vector<LatticePart<Dimension>> partsOf(
   std::vector<LatticePart<Dimension>> parts;
   while (count > 0)
   {
-    // As many whole layers as there are, of the most axes.
+    // As many whole layers as possible, of as many axes as possible.
     LatticePart<Dimension> part{ LatticePart<Dimension>::WholeOf(lattice).CellOf(first), {} };
     part.Cells.fill(1);
     int axis = 0;
@@ -147,11 +147,11 @@ std::vector<LatticePart<Dimension>> partsOf(
 }
 
 // Parts of a lattice, and where results for their cells are: at the number of the cell in a part
-// that contains them, axis 0 fastest, less `First`.
+// that contains them, axis 0 fastest, minus `First`.
 template <int Dimension>
 struct LatticeParts
 {
-  // One part, with the numbers of another one.
+  // One part, numbered as in another one.
   LatticeParts(const LatticePart<Dimension>& part, const LatticePart<Dimension>& within)
     : Parts{ part }
     , Within(within)

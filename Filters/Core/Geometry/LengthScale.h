@@ -39,7 +39,7 @@ public:
     return this->SquareInUnits(way);
   }
 
-  // A mean of such squares in physical units. Throws std::overflow_error past the largest double.
+  // A mean of such squares in physical units. Throws std::overflow_error beyond the largest double.
   double CostFromUnits(double squares) const
   {
     const double cost = std::ldexp(squares, 2 * this->Exponent);

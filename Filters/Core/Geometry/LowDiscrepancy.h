@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The additive recurrence of Roberts (2018): the fractions of i / phi^k, phi the root of
-// phi^(Dimension + 1) = phi + 1, in 64-bit fixed point, so that i may be large without loss.
+// The additive recurrence of Roberts (2018): the fractions of i / phi^k, where phi is the root of
+// phi^(Dimension + 1) = phi + 1, in 64-bit fixed point, so that large i lose no digits.
 #ifndef RectifiedTransport_LowDiscrepancy_h
 #define RectifiedTransport_LowDiscrepancy_h
 

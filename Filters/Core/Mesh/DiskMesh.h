@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle surfaces that are disks: whether a mesh is one, its boundary, and one orientation.
+// Triangle surfaces that are disks: whether a mesh is one, its boundary, and a consistent
+// orientation.
 //
 //   DiskMesh disk(surface); // throws NotADisk
 //   std::vector<std::int64_t> boundary = disk.Boundary();
@@ -21,17 +22,17 @@ namespace RectifiedTransport
 
 class Progress;
 
-// What keeps a surface from being a disk, in the order in which it is looked for.
+// Why a surface is no disk, in the order of the checks.
 enum class DiskDefect
 {
   PointsNotFinite,
   NoTriangles,
-  TrianglesWithoutArea, // also those that have a point twice
+  TrianglesWithoutArea, // or with a point twice
   UnusedPoints,
   NonManifoldEdges, // of more than two triangles
   Components,
   NotOrientable,
-  NonManifoldPoints, // where triangles meet that no edges join
+  NonManifoldPoints, // where triangles meet that share no edge
   Closed,
   BoundaryLoops,
   Handles,
@@ -44,9 +45,9 @@ public:
   NotADisk(DiskDefect defect, std::int64_t count, std::int64_t first = -1);
 
   DiskDefect Defect() const { return this->Kind; }
-  // How many points, triangles, edges, components ... the defect is of.
+  // How many points, triangles, edges, components ... have the defect.
   std::int64_t Count() const { return this->Number; }
-  // The first such point or triangle; -1 for what has no number.
+  // The first such point or triangle; -1 if it has no number.
   std::int64_t First() const { return this->FirstId; }
 
 private:
@@ -56,22 +57,21 @@ private:
 };
 
 // A surface that is homeomorphic to a disk: one component, every edge in one or two triangles, one
-// boundary loop, no handles. Points stay apart even where their coordinates are equal, as along a
-// cut.
+// boundary loop, no handles. Points with equal coordinates stay separate, as along a cut.
 class DiskMesh
 {
 public:
   // Copies a surface and checks it, in O(triangles log triangles) for any number of triangles about
-  // a point. Memory: 32 bytes a point, 56 a triangle, and 24 a triangle and 8 a point meanwhile.
-  // Throws NotADisk, std::invalid_argument for triangles of points that there are not,
+  // a point. Memory: 32 bytes a point, 56 a triangle, and temporarily 24 a triangle and 8 a point.
+  // Throws NotADisk, std::invalid_argument for triangles with points that do not exist,
   // std::bad_alloc and Cancelled.
   explicit DiskMesh(const TriangleSurface& surface, const Context& context = Context());
   ~DiskMesh();
   DiskMesh(DiskMesh&&) noexcept;
   DiskMesh& operator=(DiskMesh&&) noexcept;
 
-  // The triangles in their order, all with the orientation that most of the area has; the points in
-  // units of Unit(), from the centre of their bounds.
+  // The triangles in their order, all with the orientation that most of the area has. The points
+  // are in units of Unit(), from the centre of their bounds.
   TriangleSurface Surface() const;
   std::int64_t NumberOfPoints() const { return this->Coordinates.size() / 3; }
   std::int64_t NumberOfTriangles() const { return this->Triangles.size() / 3; }
@@ -90,7 +90,7 @@ public:
   // The surface's area in units of Unit()^2.
   double Area() const { return this->TotalArea; }
 
-  // The points of the boundary in order, the surface on the left where its triangles turn left.
+  // The points of the boundary in order, with the surface on the left if its triangles turn left.
   const std::vector<std::int64_t>& Boundary() const { return this->Loop; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes triangles without area out of a surface, and keeps it connected as it was.
+// Removes triangles without area from a surface, and keeps its connectivity.
 #ifndef RectifiedTransport_FlatTriangles_h
 #define RectifiedTransport_FlatTriangles_h
 
@@ -12,7 +12,7 @@ namespace RectifiedTransport
 {
 
 // Triangles that are changed in place. Each has three different points, three corners, which are
-// names that go with them, and the origin that it is part of.
+// labels of the points, and the origin that it is part of.
 struct EditedTriangles
 {
   ConstPointSpan<3> Positions;
@@ -22,15 +22,16 @@ struct EditedTriangles
   std::int64_t Count;
 };
 
-// Removes the triangles whose height is at most `height`. Their longest side has the third point
-// between its ends: on the boundary the triangle is left out, as the other two sides are the same
-// line. Elsewhere the side is flipped: the triangle beyond it is cut in two at that point, and both
-// parts have its origin. Triangles that cannot be removed without joining edges stay.
+// Removes the triangles whose height is at most `height`. The third point of such a triangle is
+// between the ends of its longest side. On the boundary the triangle is left out, because the other
+// two sides are the same line. Elsewhere the side is flipped: the triangle beyond it is cut in two
+// at that point, and both parts have its origin. Triangles that cannot be removed without joining
+// edges stay.
 //
-// Writes the points of removed triangles as -1, and for each point of one that was left out the
-// nearest other point of it to `nearest`, which is indexed by points. The triangles must be
-// oriented; those of another orientation than their neighbour stay. O(triangles), and for each flip
-// the triangles about a point. Memory: 40 bytes a triangle, and that of SurfaceEdges. Throws
+// Writes -1 for the points of removed triangles. For each point of a triangle that was left out,
+// writes the nearest other point of it to `nearest`, which is indexed by points. The triangles must
+// be oriented; those that disagree with their neighbour stay. O(triangles), and for each flip the
+// triangles about a point. Memory: 40 bytes a triangle, and that of SurfaceEdges. Throws
 // std::bad_alloc and Cancelled.
 void removeFlatTriangles(const EditedTriangles& triangles, double height, std::int64_t* nearest,
   const Context& context = Context());

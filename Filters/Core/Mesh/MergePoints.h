@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds points with the same coordinates, or nearly so.
+// Finds points with the same, or nearly the same, coordinates.
 #ifndef RectifiedTransport_MergePoints_h
 #define RectifiedTransport_MergePoints_h
 
@@ -12,19 +12,18 @@ namespace RectifiedTransport
 {
 
 // Writes for each point the index of the first one with the same, finite, coordinates. Uses a hash
-// table of the coordinates' bits: linear time for any distribution of the points, where the bins of
-// a point locator take quadratic time if most points are in one bin. Memory: up to 32 bytes a
-// point. On one thread. Throws std::bad_alloc and Cancelled.
+// table of the coordinates' bits, in linear time for any distribution of the points; the bins of a
+// point locator take quadratic time if most points are in one bin. Memory: up to 32 bytes a point.
+// On one thread. Throws std::bad_alloc and Cancelled.
 void mergePoints(
   ConstPointSpan<3> points, std::int64_t* firsts, const Context& context = Context());
 
-// Writes for each point the index of one that it is taken for, the same for all of a cluster: that
-// of the lowest coordinates, by x, then y, then z, whatever the order of the points. Points that
-// differ by less than `distance` along every axis are of one cluster; those that differ by three
-// times as much along one are not, unless others lie between them. By a hash table of boxes, in
-// linear time for any distribution, too. `distance` is above 0. Returns whether points of different
-// coordinates are merged. Memory: up to 72 bytes a point. On one thread. Throws std::bad_alloc and
-// Cancelled.
+// Writes for each point the index of the point that represents its cluster: the one with the lowest
+// coordinates, by x, then y, then z, for any order of the points. Points that differ by less than
+// `distance`, above 0, along every axis are in one cluster. Points that differ by three times as
+// much along an axis are not, unless others lie between them. Uses a hash table of boxes, in linear
+// time for any distribution, too. Returns whether points of different coordinates are merged.
+// Memory: up to 72 bytes a point. On one thread. Throws std::bad_alloc and Cancelled.
 bool mergeNearPoints(ConstPointSpan<3> points, double distance, std::int64_t* firsts,
   const Context& context = Context());
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disk of a surface that may have points and triangles of no area.
+// A disk from a surface that may have unused points and triangles without area.
 #ifndef RectifiedTransport_RepairedDisk_h
 #define RectifiedTransport_RepairedDisk_h
 
@@ -15,17 +15,16 @@
 namespace RectifiedTransport
 {
 
-// The surface as it is where that is a disk. Else it is repaired as little as makes it one: first
-// without points at one place being merged that no edge joins, then with; also where triangles had
-// no area and it is a disk without the cracks that these leave. "Given" are the points and
-// triangles of the surface.
+// The surface as it is, if it is a disk. Otherwise it is repaired as little as possible: first
+// without merging coincident points that no edge joins, then with. If triangles without area were
+// removed and merging gives a disk, too, the merged one is used: removed triangles may leave
+// cracks. "Given" are the points and triangles of the surface.
 class RepairedDisk
 {
 public:
-  // `rounding` is by how much coordinates of one place may differ (see SurfaceRepairOptions). The
-  // error of what is no disk names points and triangles that were given. Cost and memory: those of
-  // DiskMesh and repairSurface. Throws NotADisk, std::invalid_argument, std::bad_alloc and
-  // Cancelled.
+  // `rounding` is the tolerance of coincident coordinates (see SurfaceRepairOptions). NotADisk
+  // names given points and triangles. Cost and memory: those of DiskMesh and repairSurface. Throws
+  // NotADisk, std::invalid_argument, std::bad_alloc and Cancelled.
   RepairedDisk(const TriangleSurface& surface, double rounding, const Context& context = Context());
 
   const DiskMesh& Mesh() const { return *this->Disk; }
@@ -34,7 +33,7 @@ public:
     return this->Repaired ? this->Repaired->Repairs() : SurfaceRepairs();
   }
 
-  // The point of the disk that a given one is; -1 for those that no triangle with area has.
+  // The disk's point for a given point; -1 if no triangle with area uses it.
   std::int64_t PointOf(std::int64_t given) const
   {
     return this->Repaired ? this->Repaired->NewPoint(given) : given;
@@ -58,11 +57,11 @@ private:
   std::optional<NotADisk> Defect; // of the last attempt
 };
 
-// The given triangles that have area, oriented as the disk's.
+// The given triangles that have area, oriented as in the disk.
 class GivenTriangles
 {
 public:
-  // `given` are the triangles that the disk was made of. Throws std::bad_alloc.
+  // `given` are the triangles that the disk was made from. Throws std::bad_alloc.
   GivenTriangles(const RepairedDisk& disk, const std::int64_t* given);
 
   // Their points are the disk's.
@@ -71,7 +70,7 @@ public:
   {
     return this->Numbers[static_cast<std::size_t>(triangle)];
   }
-  // Of the disk's area.
+  // Shares of the disk's area.
   const double* AreaShares() const { return this->Shares.data(); }
 
 private:

@@ -28,18 +28,19 @@ class SurfaceEdges
 {
 public:
   // The corners of a triangle are three different points. The sides are sorted by their ends, in
-  // O(sides log sides) for any valence of the points. Memory: 8 bytes a side, and as much again and
-  // 8 bytes a point meanwhile. Throws std::bad_alloc and Cancelled.
+  // O(sides log sides) for any valence of the points. Memory: 8 bytes a side, and temporarily as
+  // much again and 8 bytes a point. Throws std::bad_alloc and Cancelled.
   explicit SurfaceEdges(const TriangleSurface& surface, const Context& context = Context());
 
-  // Edges of one side, edges of more than two, and edges of two with the same direction.
+  // The numbers of edges of one side, of more than two sides, and of two sides with the same
+  // direction.
   std::int64_t Open() const { return this->NumberOpen; }
   std::int64_t NonManifold() const { return this->NumberNonManifold; }
-  // Of the edges of more than two sides, those of an odd number.
+  // The number of edges of an odd number of sides above two.
   std::int64_t Odd() const { return this->NumberOdd; }
   std::int64_t Reversed() const { return this->NumberReversed; }
 
-  // The other side of a side's edge; -1 where that is open or non-manifold.
+  // The other side of a side's edge; -1 if the edge is open or non-manifold.
   std::int64_t Other(std::int64_t side) const { return this->Others.data()[side]; }
 
 private:

@@ -25,20 +25,20 @@ struct SurfacePatch
 {
   const std::int64_t* Triangles;
   std::int64_t Count;
-  double Area; // of those that agree, as the patch is oriented, less that of the others
+  double Area; // of the triangles that agree with the patch's orientation minus that of the others
 };
 
-// Orients each patch as most of its area is, and calls visit(patch), in the order of their first
-// triangles. By then `signs` has of each of its triangles whether it stays (1) or is turned (-1).
-// As the work of the current stage, of which each triangle is a unit. Returns whether all patches
-// can be oriented. Memory: 8 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
+// Orients each patch like most of its area and calls visit(patch), in the order of their first
+// triangles. By then `signs` has 1 for each of its triangles that stays and -1 for each that is
+// turned. The work of the current stage; each triangle is a unit. Returns whether all patches can
+// be oriented. Memory: 8 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
 bool visitPatches(const TriangleSurface& surface, const SurfaceEdges& edges, signed char* signs,
   Progress& progress, const std::function<void(const SurfacePatch&)>& visit);
 
-// Writes the triangles of a surface to `oriented`, which may be their own memory: each with its
-// corners as given or in the opposite order. A component, that is triangles joined by edges of two
-// sides, gets the orientation of most of its area. If that of a closed one is inside out, it is by
-// the winding number the same solid, and within another one a cavity.
+// Writes the triangles of a surface to `oriented`, which may be their own memory, each with its
+// corners as given or in the opposite order. A component (triangles joined by edges of two sides)
+// gets the orientation of most of its area. A closed component that is inside out is the same solid
+// by the winding number; inside another component it is a cavity.
 //
 // Memory: 9 bytes a triangle. On one thread. Throws std::bad_alloc and Cancelled.
 SurfaceOrientation orientSurface(const TriangleSurface& surface, const SurfaceEdges& edges,

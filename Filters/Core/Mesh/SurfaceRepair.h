@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces as files and filters leave them, without what has no area: points that no triangle uses,
-// points at one place, triangles that are lines.
+// Repairs surfaces as files and filters leave them: removes points that no triangle uses,
+// coincident points and triangles that are lines.
 //
 //   const RepairedSurface repaired = repairSurface(surface, { rounding, false });
 //   DiskMesh disk(repaired.Surface());
@@ -18,10 +18,10 @@ namespace RectifiedTransport
 
 struct SurfaceRepairOptions
 {
-  // By how much coordinates of one place may differ, along each axis: what rounds them. Also the
+  // By how much coincident coordinates may differ along each axis because of rounding. Also the
   // height of triangles without area.
   double Rounding = 0.0;
-  // Whether points of equal coordinates become one even where no edge joins them.
+  // Whether points with equal coordinates become one even if no edge joins them.
   bool MergesEqualPoints = false;
 };
 
@@ -42,7 +42,7 @@ public:
   TriangleSurface Surface() const;
   const SurfaceRepairs& Repairs() const { return this->Counts; }
 
-  // The point that a given one has become; -1 for those that no triangle with area has.
+  // The new point for a given point; -1 if no triangle with area uses it.
   std::int64_t NewPoint(std::int64_t given) const { return this->NewPoints.data()[given]; }
   const std::int64_t* AllNewPoints() const { return this->NewPoints.data(); }
   std::int64_t NumberOfGivenPoints() const { return this->NewPoints.size(); }
@@ -69,12 +69,12 @@ private:
 };
 
 // Whether a surface has points that no triangle uses, edges of no length or triangles without area,
-// that is of no more than `rounding`. O(triangles). Throws std::bad_alloc and Cancelled.
+// up to `rounding`. O(triangles). Throws std::bad_alloc and Cancelled.
 bool needsRepair(
   const TriangleSurface& surface, double rounding, const Context& context = Context());
 
 // Merges the ends of edges of no length, and leaves out points that no triangle uses and triangles
-// without area. Points at one place that no edge joins stay apart, as along a cut, unless the
+// without area. Coincident points that no edge joins stay separate, as along a cut, unless the
 // options merge them. All coordinates must be finite. O(triangles log triangles). Memory: 70 bytes
 // a point and 180 a triangle. On one thread. Throws std::bad_alloc and Cancelled.
 RepairedSurface repairSurface(const TriangleSurface& surface, const SurfaceRepairOptions& options,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disjoint sets of numbers: each number has another one of its set for its parent, or itself.
+// Disjoint sets of numbers: the parent of each number is another number of its set, or itself.
 #ifndef RectifiedTransport_Trees_h
 #define RectifiedTransport_Trees_h
 
@@ -20,7 +20,7 @@ inline std::int64_t rootOf(std::int64_t* parents, std::int64_t number)
   return number;
 }
 
-// Makes the sets of two numbers one, whose root is the lower one of both.
+// Joins the sets of two numbers; the lower root becomes the root.
 inline void joinTrees(std::int64_t* parents, std::int64_t a, std::int64_t b)
 {
   a = rootOf(parents, a);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On which side of a line a point is, exactly and never on the line: points are moved by symbolic
-// infinitesimals (simulation of simplicity), so that no three are on one line, no two at one place
-// or of one height. What touches, overlaps or is there twice then needs no special case.
+// On which side of a line a point is, exactly and never on the line. Points are moved by symbolic
+// infinitesimals (simulation of simplicity), so that no three are collinear and no two coincide or
+// have the same height. Touching, overlapping and duplicate parts then need no special case.
 #ifndef RectifiedTransport_ExactOrientation_h
 #define RectifiedTransport_ExactOrientation_h
 
@@ -14,17 +14,17 @@
 namespace RectifiedTransport
 {
 
-// A point and its number, which must be of this point alone: it says how the point is moved.
+// A point and its unique number, which determines how the point is moved.
 struct NumberedPoint
 {
   Point<2> X;
   std::int64_t Number;
 };
 
-// Whether a, b and c turn to the left, where floating point cannot tell.
+// Whether a, b and c turn left, if floating point cannot tell.
 bool turnsLeftExactly(const NumberedPoint& a, const NumberedPoint& b, const NumberedPoint& c);
 
-// Twice the area of the triangle, and what it may be off by.
+// Twice the area of the triangle, and a bound of its error.
 inline double doubleArea(const Point<2>& a, const Point<2>& b, const Point<2>& c, double& error)
 {
   const double left = (a[0] - c[0]) * (b[1] - c[1]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The integrals of linear functions on simplices, and of multilinear ones on boxes, over the cells
-// of a grid: the conservative way of meshes to grids.
+// of a grid: conservative resampling of meshes to grids.
 #ifndef RectifiedTransport_Overlap_h
 #define RectifiedTransport_Overlap_h
 
@@ -45,12 +45,12 @@ struct GridSlab
 template <int Dimension>
 double measureOf(const LinearSimplex<Dimension>& simplex);
 
-// Adds to each grid cell of the slab the integral over what the cell and the simplex share. It is
-// exact but for rounding, and so is the sum of all of it.
+// Adds to each grid cell of the slab the integral over the intersection of the cell and the
+// simplex. It and the sum over all cells are exact to rounding.
 template <int Dimension>
 void addOverlaps(const LinearSimplex<Dimension>& simplex, const GridSlab<Dimension>& slab);
 
-// The same of a box.
+// The same for a box.
 template <int Dimension>
 void addOverlaps(const MultilinearBox<Dimension>& box, const GridSlab<Dimension>& slab);
 

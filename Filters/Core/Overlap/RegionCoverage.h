@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What regions between straight edges cover of each cell of a plane grid, exactly but for rounding.
+// What regions between straight edges cover of each cell of a plane grid, exact to rounding.
 #ifndef RectifiedTransport_RegionCoverage_h
 #define RectifiedTransport_RegionCoverage_h
 
@@ -11,17 +11,16 @@
 namespace RectifiedTransport
 {
 
-// For one thread. Each edge adds the area to its right, with a sign, in the cells that it crosses,
-// and its height to all that are farther right: O(cells that edges cross + cells between them).
+// For one thread. Each edge adds the signed area to its right in the cells that it crosses, and its
+// height to all cells farther right: O(cells that edges cross + cells between them).
 class RegionCoverage
 {
 public:
   explicit RegionCoverage(const GridSlab<2>& slab);
 
-  // In index space, the region on the left. Edges may be beyond the grid.
+  // In index space, with the region on the left. Edges may be beyond the grid.
   void Add(const Point<2>& from, const Point<2>& to);
-  // Adds to the slab's sums the value times the area that the edges since the last call are around
-  // once.
+  // Adds to the slab's sums the value times the area that the edges since the last call enclose.
   void Finish(double value);
 
 private:

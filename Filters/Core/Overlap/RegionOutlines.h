@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions of a plane whose outlines are closed rings: what the even-odd rule makes of rings that
-// are concave, touch or cross themselves and others, go to a hole and back, or lie in each other.
+// Regions of a plane from closed rings by the even-odd rule. Rings may be concave, touch or cross
+// themselves and others, go to a hole and back, or lie in each other.
 #ifndef RectifiedTransport_RegionOutlines_h
 #define RectifiedTransport_RegionOutlines_h
 
@@ -23,20 +23,20 @@ struct OutlineEdge
   std::int32_t Ring; // the region's
 };
 
-// What is inside of an odd number of the rings. A place belongs to the region of one of the rings
-// around it: the smallest of those whose value is there on an odd number of them. So rings in a
-// ring are holes, and rings in these are islands with a value of their own; and two rings that are
-// the same, the hole of a region and the region in it, leave it to the latter.
+// What is inside an odd number of the rings. A place belongs to the region of one of the rings
+// around it: the smallest of those whose value occurs an odd number of times among them. Thus rings
+// in a ring are holes, and rings in holes are islands with their own value. If a hole of a region
+// and a region in it have the same ring, the place belongs to the latter.
 //
-// The edges are in the order of the regions; each region is to the left of its own once. The time
-// is that of findCrossings. Incomplete where `progress` says to stop.
+// The edges are in the order of the regions; each region is on the left of its edges once. The time
+// is that of findCrossings. Incomplete if `progress` is cancelled.
 //
-// `areSimple` says whether it is known that no edges cross, and becomes whether it is now; that is
-// not looked into for few edges.
+// `areSimple`: whether it is known that no edges cross, before and after the call; it is not
+// checked for few edges.
 std::vector<OutlineEdge> regionOutlines(const Rings& rings, const std::vector<double>& values,
   Progress& progress, bool* areSimple = nullptr);
 
-// Of edges that bound a region: its area, and its centroid where that is not 0.
+// The area of a region given by its edges, and its centroid if the area is not 0.
 struct RegionSize
 {
   double Area = 0.0;

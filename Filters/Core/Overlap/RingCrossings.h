@@ -25,7 +25,7 @@ public:
 
   std::int64_t Count() const { return static_cast<std::int64_t>(this->Begins.size()) - 1; }
   std::int64_t Edges() const { return static_cast<std::int64_t>(this->Points.size()); }
-  // Of a ring, and the end of the last.
+  // The first edge of a ring, and the end of the last ring.
   std::int64_t Begin(std::int64_t ring) const { return this->Begins[Index(ring)]; }
   std::int64_t Next(std::int64_t point) const { return this->Nexts[Index(point)]; }
   std::int64_t RingOf(std::int64_t point) const { return this->Owners[Index(point)]; }
@@ -47,9 +47,9 @@ struct EdgePair
   std::int64_t Second;
 };
 
-// The pairs of edges that cross, each once, in order; edges that touch or lie on each other cross
-// or do not as the points' infinitesimals say. In a time linear in the edges, where these do not
-// lie close together over lengths that differ much. Incomplete where `progress` says to stop.
+// The pairs of edges that cross, each once, in order. The points' infinitesimals decide for edges
+// that touch or lie on each other. The time is linear in the edges unless edges of very different
+// lengths lie close together. Incomplete if `progress` is cancelled.
 std::vector<EdgePair> findCrossings(const Rings& rings, Progress& progress);
 
 } // namespace RectifiedTransport

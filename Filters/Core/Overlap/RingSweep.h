@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether edges of rings cross at all, which those of most do not.
+// Whether edges of rings cross at all; mostly they do not.
 #ifndef RectifiedTransport_RingSweep_h
 #define RectifiedTransport_RingSweep_h
 
@@ -10,8 +10,8 @@ namespace RectifiedTransport
 
 class Progress;
 
-// In O(n log n) whatever the rings are, by a line that sweeps the plane upwards (Shamos and Hoey
-// 1976). Touching edges are as in findCrossings. Undefined where `progress` says to stop.
+// In O(n log n) for any rings, by a line that sweeps the plane upwards (Shamos and Hoey 1976).
+// Touching edges are treated as in findCrossings. Undefined if `progress` is cancelled.
 bool haveCrossings(const Rings& rings, Progress& progress);
 
 } // namespace RectifiedTransport

@@ -19,7 +19,7 @@ class Cancelled
 {
 };
 
-// An executor, which has to outlive its use, and two functions, which may be empty and may not
+// An executor, which must outlive its use, and two functions, which may be empty and must not
 // throw. By default OpenMP's threads and no functions.
 struct Context
 {
@@ -28,11 +28,11 @@ struct Context
     std::function<void(double)> report = {}, std::function<bool()> isCancelled = {});
 
   const Executor* Threads;
-  // The ranks that run the computation together, never null. By default this process only.
+  // The ranks that run the computation together, never null. By default only this process.
   const Ranks* Group;
-  // Called with the progress, in [0,1], on the thread that called the library only.
+  // Called with the progress, in [0,1], only on the thread that called the library.
   std::function<void(double)> Report;
-  // Returns whether to stop. Called on any thread, by one at a time.
+  // Returns whether to stop. Called on any thread, one at a time.
   std::function<bool()> IsCancelled;
 };
 

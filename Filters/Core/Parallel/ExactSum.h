@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of doubles that do not depend on the order of the terms: the same bits for all threads,
-// parts and processes that terms are divided among.
+// Sums of doubles that do not depend on the order of the terms: the same bits however terms are
+// divided among threads, parts and processes.
 #ifndef RectifiedTransport_ExactSum_h
 #define RectifiedTransport_ExactSum_h
 
@@ -21,7 +21,7 @@ public:
   // Up to 2^30 terms and sums, in all, between two merges.
   void Add(double term);
   void Add(const ExactSum& other);
-  // The sum, rounded once; infinite or NaN as that of the terms.
+  // The sum, rounded once; infinite or NaN if the sum of the terms is.
   double Value() const;
 
 private:
@@ -34,8 +34,8 @@ private:
   std::int64_t Terms = 0; // since the last carry
 };
 
-// The sum over [0, count) of what kernel(first, last, sum) adds to sums of its ranges, on the
-// progress's threads as the work of its current stage. Sum has Add(const Sum&).
+// The sum over [0, count) of what kernel(first, last, sum) adds for its ranges, on the progress's
+// threads. The work of the current stage. Sum has Add(const Sum&).
 template <class Sum, class Kernel>
 Sum sumExactly(Progress& progress, std::int64_t count, std::int64_t grain, const Kernel& kernel)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface by which a host application runs range kernels on its threads, and two executors.
+// The interface through which a host application runs range kernels on its threads, and two
+// executors.
 #ifndef RectifiedTransport_Executor_h
 #define RectifiedTransport_Executor_h
 
@@ -34,8 +35,8 @@ private:
   void (*Call)(void*, std::int64_t, std::int64_t);
 };
 
-// For executors: an exception that leaves a thread of the executor terminates the program. Keeps
-// the first one; ranges after it need not run.
+// For executors: keeps the first exception, because an exception that leaves a thread of the
+// executor terminates the program. Ranges after it need not run.
 class KernelFailure
 {
 public:
@@ -48,7 +49,7 @@ public:
       this->First = std::current_exception();
     }
   }
-  // Call once all threads are done: throws the exception kept.
+  // Call it when all threads are done: throws the kept exception.
   void Rethrow() const
   {
     if (this->First)
@@ -62,9 +63,9 @@ private:
   std::exception_ptr First;
 };
 
-// Runs a kernel over [0, count) in ranges whose ends are multiples of `grain`, or count, so that
-// what a range computes cannot depend on the number of threads. An exception of a kernel leaves For
-// once no thread runs the kernel any more; some ranges may then not have run.
+// Runs a kernel over [0, count) in ranges that end at multiples of `grain`, or at count, so that
+// the results of a range cannot depend on the number of threads. An exception of a kernel leaves
+// For when no thread runs the kernel any more; some ranges may then not have run.
 class Executor
 {
 public:
@@ -81,7 +82,7 @@ public:
   int Concurrency() const override { return 1; }
 };
 
-// Serial where the library was built without OpenMP.
+// Serial if the library was built without OpenMP.
 class OpenMPExecutor final : public Executor
 {
 public:

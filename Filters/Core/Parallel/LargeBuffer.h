@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for tables and results: aligned to cache lines, not initialised, on huge pages where the
-// system has them (tables are read with large strides, and page faults of small pages cost as much
-// as filling the memory).
+// Memory for tables and results: aligned to cache lines, not initialised, on huge pages if the
+// system has them. Tables are read with large strides, and page faults of small pages cost as much
+// as filling the memory.
 #ifndef RectifiedTransport_LargeBuffer_h
 #define RectifiedTransport_LargeBuffer_h
 
@@ -22,7 +22,7 @@
 namespace RectifiedTransport
 {
 
-// To be freed with freeLarge; null if there is no memory.
+// Free it with freeLarge; null if there is no memory.
 inline void* allocateLarge(std::size_t bytes)
 {
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
@@ -31,7 +31,7 @@ inline void* allocateLarge(std::size_t bytes)
   {
     return nullptr;
   }
-  // The part of a huge page from which on it is cleared sooner than as many small ones.
+  // From this part of a huge page on, clearing it is faster than clearing the small pages.
   constexpr std::size_t worthwhile = hugePage / 8;
   const std::size_t alignment = bytes >= hugePage / 2 ? hugePage : line;
 #ifdef _WIN32
@@ -42,8 +42,8 @@ inline void* allocateLarge(std::size_t bytes)
 #ifdef __linux__
   if (memory && alignment == hugePage)
   {
-    // A hint: without huge pages all is slower. A small rest stays on small ones, as the system
-    // would clear the unused part of a huge one.
+    // A hint: without huge pages everything is slower. A small rest stays on small pages, because
+    // the system would clear the unused part of a huge page.
     (void)madvise(memory, (bytes + hugePage - worthwhile) / hugePage * hugePage, MADV_HUGEPAGE);
   }
 #endif

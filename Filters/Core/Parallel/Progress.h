@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long work in stages, and in slices of about 30 ms, after each of which progress is reported and
-// cancellation is polled. Results do not depend on how work is sliced.
+// Long work in stages, and in slices of about 30 ms. After each slice, progress is reported and
+// cancellation is polled. Results do not depend on the slices.
 #ifndef RectifiedTransport_Progress_h
 #define RectifiedTransport_Progress_h
 
@@ -14,7 +14,7 @@
 namespace RectifiedTransport
 {
 
-// Used on the thread that called the library, but for ShouldStop, IsCancelled and ReportFrom.
+// Use it on the thread that called the library, except ShouldStop, IsCancelled and ReportFrom.
 class Progress
 {
 public:
@@ -28,13 +28,13 @@ public:
   // Begins a stage: its `units` of work take the progress from the end of the last stage to `end`.
   void BeginStage(double end, std::int64_t units = 1);
   double StageEnd() const { return this->End; }
-  // The context of a computation that is the work of the current stage and reports in [0,1] by
-  // itself. Must not outlive this object.
+  // The context of a computation that is the work of the current stage and reports its own progress
+  // in [0,1]. Must not outlive this object.
   Context Stage();
 
   // Runs a kernel over [0, count), in ranges of `grain`, as the work of the current stage. The
-  // first slice has `units`, which should take a few milliseconds (the default is for work that is
-  // bound by memory), and a range for every thread. Throws Cancelled, and what the kernel throws.
+  // first slice has `units`, which should take a few milliseconds (the default is for memory-bound
+  // work), and a range for every thread. Throws Cancelled, and what the kernel throws.
   void For(
     std::int64_t count, std::int64_t grain, RangeKernel kernel, std::int64_t units = usualUnits);
   // The same on this thread, in order.
@@ -51,12 +51,12 @@ public:
   // Polls for cancellation. Throws Cancelled.
   void Check();
 
-  // For range kernels, on any thread: polls for cancellation, one thread at a time. EndSlice
+  // For range kernels, on any thread: polls for cancellation, one thread at a time. EndSlice then
   // throws.
   bool ShouldStop();
   bool IsCancelled() const { return this->Stop.load(std::memory_order_relaxed); }
-  // For long work within a range, on any thread: reports a part of the current stage as done, but
-  // only where that is the thread that constructed this object.
+  // For long work within a range, on any thread: reports a part of the current stage as done. Only
+  // the thread that constructed this object reports.
   void ReportFrom(double fractionOfStage);
 
 private:

@@ -46,7 +46,7 @@ std::vector<T> fromBytes(const Bytes& bytes)
   return values;
 }
 
-// One value of each rank, in their order.
+// One value from each rank, in their order.
 template <class T>
 std::vector<T> gatherValues(const Ranks& ranks, const T& own)
 {
@@ -58,7 +58,7 @@ std::vector<T> gatherValues(const Ranks& ranks, const T& own)
   return values;
 }
 
-// Sends values to each rank, this one included, and returns those that each sent here.
+// Sends values to each rank, including this one, and returns those that each sent here.
 template <class T>
 std::vector<std::vector<T>> exchangeValues(const Ranks& ranks, std::vector<std::vector<T>> given)
 {
@@ -86,7 +86,7 @@ std::int64_t valuesAtOnce(const Ranks& ranks)
 }
 
 // Sends the values valueOf(i) of [0, count) to the ranks rankOf(i), in messages of bounded size,
-// and calls take(rank, value) for those that come here: those of a rank in its order.
+// and calls take(rank, value) for those that arrive here, in the order of each sender.
 template <class RankOf, class ValueOf, class Take>
 void exchangeInRounds(const Ranks& ranks, std::int64_t count, const RankOf& rankOf,
   const ValueOf& valueOf, const Take& take)
@@ -139,7 +139,7 @@ inline bool onAllRanks(const Ranks& ranks, bool condition)
   return sumOverRanks<std::int64_t>(ranks, condition ? 0 : 1) == 0;
 }
 
-// Of one array, whose part [starts[r], starts[r + 1]) rank r has: all of it on all ranks, in
+// Gathers on all ranks one array of which rank r has the part [starts[r], starts[r + 1]), in
 // messages of bounded size.
 template <class T>
 void gatherParts(const Ranks& ranks, const std::vector<std::int64_t>& starts, T* all)

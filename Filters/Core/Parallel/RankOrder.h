@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An order of elements that lie on several processes, and sums in that order: with the bits that
-// one process has of all of them.
+// An order of distributed elements, and sums in that order, bitwise as in one process.
 #ifndef RectifiedTransport_RankOrder_h
 #define RectifiedTransport_RankOrder_h
 
@@ -16,21 +15,22 @@
 namespace RectifiedTransport
 {
 
-// The order is that of keys (of equal ones, and without keys: by rank, then by index). Every rank
-// has a share of it, of elements that follow one another; shares ascend with the ranks. The members
-// are collective. Memory: 16 bytes for each element that a rank gives or gets, and while
-// it is made 40 more, if keys are spread about evenly between the least and the largest one.
+// The order is that of keys; equal keys, and elements without keys, are ordered by rank, then by
+// index. Every rank has a share of consecutive elements; shares ascend with the ranks. The members
+// are collective. Memory: 16 bytes for each element that a rank gives or gets, and during
+// construction 40 more, if keys are spread about evenly between the smallest and the largest one.
 class RankOrder
 {
 public:
-  // Of this rank's elements. Keys may be null, on all ranks that have elements. Shares are of whole
-  // chunks of `grain` elements, but for the last chunk of all. Throws std::bad_alloc and Cancelled.
+  // For this rank's `count` elements. Keys may be null, on all ranks that have elements. Shares are
+  // whole chunks of `grain` elements, except the last chunk of all. Throws std::bad_alloc and
+  // Cancelled.
   RankOrder(std::int64_t count, const std::int64_t* keys, std::int64_t grain, const Ranks& ranks,
     Progress& progress);
 
   // The elements of this rank's share.
   std::int64_t Count() const { return this->ShareCount; }
-  // The values of this rank's share in order, given those valueOf(i) of this rank's elements.
+  // The values of this rank's share in order, from the values valueOf(i) of this rank's elements.
   template <class ValueOf>
   auto Bring(const ValueOf& valueOf) const
   {
@@ -54,8 +54,8 @@ private:
   std::int64_t ShareCount = 0;
 };
 
-// Sums whose terms are added one after another, those of rank 0 first: add(sums) adds the terms of
-// this rank. Collective.
+// Sums whose terms are added one after another, rank 0 first: add(sums) adds the terms of this
+// rank. Collective.
 template <class Sums, class Add>
 Sums sumInTurn(const Ranks& ranks, Sums sums, const Add& add)
 {
@@ -70,8 +70,8 @@ Sums sumInTurn(const Ranks& ranks, Sums sums, const Add& add)
   return sums;
 }
 
-// As reduceChunks: the sum of the sums of chunks of `grain` values. Each rank gives whole chunks,
-// the last one that has values perhaps a shorter one at the end. Collective.
+// As reduceChunks: the sum of the sums of chunks of `grain` values. Each rank gives whole chunks;
+// only the last chunk of the last rank with values may be shorter. Collective.
 inline double sumChunks(
   const double* values, std::int64_t count, std::int64_t grain, const Ranks& ranks)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The share that each rank has of items.
+// Each rank's share of items.
 #ifndef RectifiedTransport_RankShare_h
 #define RectifiedTransport_RankShare_h
 
@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// [0, count) divided among the ranks as evenly as may be.
+// [0, count) divided among the ranks as evenly as possible.
 struct RankShare
 {
   RankShare(std::int64_t count, int ranks, int rank)
@@ -38,7 +38,7 @@ struct RankShare
   std::int64_t Count;
 };
 
-// Where the shares of all ranks begin, and the end, of what has `each` values.
+// The beginnings of the shares of all ranks and the end, for items of `each` values.
 inline std::vector<std::int64_t> shareStarts(
   std::int64_t count, std::int64_t each, const Ranks& ranks)
 {

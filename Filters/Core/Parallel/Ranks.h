@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ranks (processes) that run one computation together, each on its part of the data: the
-// interface by which a host application lets them exchange bytes.
+// interface through which a host application lets them exchange bytes.
 #ifndef RectifiedTransport_Ranks_h
 #define RectifiedTransport_Ranks_h
 
@@ -26,9 +26,9 @@ public:
 
   virtual int Count() const = 0;
   virtual int Own() const = 0; // from 0
-  // Returns what each rank gives, on all of them.
+  // Returns what each rank gives, on all ranks.
   virtual std::vector<Bytes> Gather(const Bytes& own) const = 0;
-  // Sends a part to each rank, this one included, and returns what each sent here.
+  // Sends a part to each rank, including this one, and returns what each sent here.
   virtual std::vector<Bytes> Exchange(std::vector<Bytes> parts) const = 0;
 
   bool AreSeveral() const { return this->Count() > 1; }

@@ -18,8 +18,8 @@ namespace RectifiedTransport
 struct SquareMap
 {
   std::vector<Point<2>> Positions; // by points, in [0,1]^2
-  // By points: bit 0 where x is that of the left or right side, bit 1 where y is that of the lower
-  // or upper side; both at corners.
+  // By points: bit 0 if the point is on the left or right side, bit 1 if on the lower or upper
+  // side; both at corners.
   std::vector<unsigned char> OnSides;
   SquareCorners Corners;
 };
@@ -27,15 +27,15 @@ struct SquareMap
 struct ConformalMap
 {
   SquareMap Square;
-  // Width by height of the rectangle that the surface is mapped to conformally, before it is scaled
-  // to the unit square.
+  // Width / height of the rectangle that the surface is mapped to conformally, before scaling to
+  // the unit square.
   double AspectRatio;
 };
 
 // Both coordinates are harmonic: 0 and 1 on two opposite sides, with no normal derivative on the
-// others; their conjugate sides make them a conformal map to a rectangle. Finite elements on the
-// surface's intrinsic Delaunay triangulation (Bobenko and Springborn 2007), whose weights are not
-// negative up to rounding; its edges, not always the surface's, stay straight, so that few of the
+// others; their conjugate sides make them a conformal map to a rectangle. Uses finite elements on
+// the surface's intrinsic Delaunay triangulation (Bobenko and Springborn 2007); its weights are not
+// negative up to rounding. Its edges stay straight, the surface's not always, so that a few of the
 // surface's triangles may be flipped.
 //
 // Corners are those of chooseCorners or orderCorners. Cost: two sparse Cholesky factorizations,

@@ -13,7 +13,8 @@
 namespace RectifiedTransport
 {
 
-// Triangles whose sides are straight in the surface, not in space: given by their lengths.
+// Triangles whose sides are straight in the surface, not in space, given by the lengths of the
+// sides.
 struct IntrinsicTriangles
 {
   LargeBuffer<std::array<std::int64_t, 3>> Points;
@@ -23,11 +24,11 @@ struct IntrinsicTriangles
   std::array<double, 3> Cotangents(std::int64_t triangle) const;
 };
 
-// Flips edges until the angles opposite to each sum to at most pi (Bobenko and Springborn 2007,
-// doi:10.1007/s00454-006-9006-1), so that the weights of the Laplacian are not negative. Where
-// triangles are so thin that their lengths are of none, all lengths grow by the same little amount
-// first (Sharp and Crane 2020, doi:10.1111/cgf.14069). On one thread. Memory: 72 bytes a triangle.
-// Throws std::bad_alloc and Cancelled.
+// Flips edges until the two angles opposite to each edge sum to at most pi (Bobenko and Springborn
+// 2007, doi:10.1007/s00454-006-9006-1), so that the weights of the Laplacian are not negative. If
+// triangles are so thin that their lengths violate the triangle inequality, all lengths first grow
+// by the same small amount (Sharp and Crane 2020, doi:10.1111/cgf.14069). On one thread. Memory: 72
+// bytes a triangle. Throws std::bad_alloc and Cancelled.
 IntrinsicTriangles triangulateDelaunay(const DiskMesh& disk, const Context& context = Context());
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a map of a disk to the unit square, whose points may move while all others stay.
+// A part of a map of a disk to the unit square. Its points may move while all others stay.
 #ifndef RectifiedTransport_LocalMap_h
 #define RectifiedTransport_LocalMap_h
 
@@ -58,13 +58,13 @@ struct CollapsedTriangles
 
 CollapsedTriangles findCollapsed(const DiskMesh& disk, const SquareMap& square);
 
-// Twice the area of a triangle, positive where it turns left.
+// Twice the area of a triangle, positive if it turns left.
 inline double crossProduct(const Point<2>& a, const Point<2>& b, const Point<2>& c)
 {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// The triangles about some points, with numbers of their own for their corners.
+// The triangles about some points, with local numbers for their corners.
 class LocalMap
 {
 public:
@@ -96,7 +96,7 @@ public:
   TriangleVector AreaGradient(std::size_t triangle) const;
   // Positions moved by `step` times a solution, kept in the square.
   void Move(const std::vector<double>& solution, double step, std::vector<Point<2>>& moved) const;
-  // What a solution moves a corner by.
+  // The displacement of a corner by a solution.
   Point<2> MoveOf(int corner, const std::vector<double>& solution) const;
   void Accept(const std::vector<Point<2>>& positions) { this->Current = positions; }
   // Writes the positions of the points that may move.

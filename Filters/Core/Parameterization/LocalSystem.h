@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear systems of the positions of a few points of a map, with a term a triangle.
+// Linear systems for the positions of a few points of a map, with a term for each triangle.
 #ifndef RectifiedTransport_LocalSystem_h
 #define RectifiedTransport_LocalSystem_h
 
@@ -13,12 +13,12 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The unknowns of a triangle's corners, x and y of each; -1 where a coordinate is fixed.
+// The unknowns of a triangle's corners, x and y of each; -1 if a coordinate is fixed.
 using TriangleUnknowns = std::array<int, 6>;
 using TriangleVector = std::array<double, 6>;
 using TriangleMatrix = std::array<TriangleVector, 6>; // symmetric
 
-// A symmetric system, summed up over triangles. The pattern is analysed once.
+// A symmetric system, summed over triangles. The pattern is analysed once.
 class LocalSystem
 {
 public:

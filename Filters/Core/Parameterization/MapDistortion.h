@@ -17,8 +17,8 @@ constexpr double MaximumAngleDistortion = 1e3;
 
 struct TriangleDistortion
 {
-  // The share of the area in the square by that of the surface's area; negative where the triangle
-  // is turned over.
+  // The triangle's share of the square divided by its share of the surface; negative if the
+  // triangle is turned over.
   double Area;
   // The quotient of the singular values of the map, 1 to MaximumAngleDistortion.
   double Angle;
@@ -39,13 +39,13 @@ TriangleDistortion distortionOf(
 TriangleDistortion distortionOf(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t triangle);
 
-// Over the surface: means, quantiles and parts weigh triangles by the surface's area. The area
-// distortion's deviation from 1 is |q - 1|.
+// Over the surface: means, quantiles and parts weight triangles by the surface's area. The
+// deviation of an area distortion q is |q - 1|.
 struct MapDistortion
 {
   double AreaRootMeanSquare; // of the deviation
   double AreaMedian;         // of the deviation
-  double Area95;             // 95 % of the surface deviate by no more
+  double Area95;             // 95 % of the surface deviates by no more
   double AngleMean;
   std::int64_t Flipped; // number of triangles
 };

@@ -14,9 +14,9 @@ namespace RectifiedTransport
 
 using MapTile = std::vector<std::int64_t>; // ascending points
 
-// A k-d tree's leaves of at most `most` points each. `variant`, 0, 1 ..., selects where the first
-// cuts are and their axes, so that the borders of tiles lie elsewhere. In groups: no triangle has
-// points of two tiles of a group, so that these can move at one time.
+// The leaves of a k-d tree, at most `most` points each. `variant`, 0, 1 ..., selects the places and
+// axes of the first cuts, so that the borders of tiles differ. In groups: no triangle has points of
+// two tiles of a group, so that these can move at the same time.
 std::vector<std::vector<MapTile>> makeTiles(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t most, int variant);
 

@@ -22,7 +22,7 @@ struct PlaneTriangles
 };
 
 // Writes the mass of each cell of a grid on the unit square, axis 0 fastest. The mass of a triangle
-// is spread evenly over it, whichever way it turns, and cut at the cells exactly; that of a
+// of any orientation is spread evenly over it and divided among cells exactly. The mass of a
 // triangle without area, or too thin for areas of parts, goes into the cell of its centre. Throws
 // std::bad_alloc and Cancelled.
 void rasterizeMass(const PlaneTriangles& triangles, const GridSize<2>& size, double* masses,

@@ -17,15 +17,15 @@ namespace RectifiedTransport
 
 class Progress;
 
-// The weights of the diagram are the maximum of a concave function, whose gradient has the masses
-// that the cells lack. They are found by Newton's method with steps that leave no cell without mass
-// (Kitagawa, Merigot and Thibert, "Convergence of a Newton algorithm for semi-discrete optimal
-// transport", J. Eur. Math. Soc. 21(9), 2019), damped where the density falls apart. The few cells
-// that a longer step would leave without mass get larger weights, which the function rises by.
+// The weights of the diagram maximize a concave function; its gradient is the mass that each cell
+// lacks. Newton's method finds them with steps that leave no cell without mass (Kitagawa, Merigot
+// and Thibert, "Convergence of a Newton algorithm for semi-discrete optimal transport", J. Eur.
+// Math. Soc. 21(9), 2019), damped if the density has separate parts. The few cells that a longer
+// step would leave without mass get larger weights, which also raise the function.
 class EqualMassPartition
 {
 public:
-  // Over a cell.
+  // Integrals over a cell.
   struct CellIntegrals
   {
     double Mass;
@@ -33,12 +33,12 @@ public:
     double Spread; // of |x - centroid|^2
   };
 
-  // The mass of the density is the number of sites: each cell is to have 1.
+  // The mass of the density is the number of sites, so that each cell shall have mass 1.
   EqualMassPartition(RowMoments density, std::int64_t sites);
 
-  // Sets the sites, at least one and no two at one point, in the domain or not, and finds the
-  // weights, beginning from those of the last solution. Returns false if some mass is not 1 to
-  // `massTolerance`; the next call then begins from the solution before. As the work of the current
+  // Sets the sites, at least one and no two coincident, inside or outside the domain, and finds the
+  // weights, beginning with those of the last solution. Returns false if some mass is not 1 to
+  // `massTolerance`; the next call then begins with the previous solution. The work of the current
   // stage. Throws std::bad_alloc and Cancelled.
   bool Solve(ConstPointSpan<2> sites, Progress& progress);
   static constexpr double massTolerance = 5e-7;
@@ -79,7 +79,7 @@ private:
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
   void FindFirstWeights();
   Deviation Evaluate(const Vector& weights, Progress& progress);
-  // The same, after weights were raised until all cells have at least `least`, where few have less.
+  // The same after raising weights until all cells have at least `least`, if only few have less.
   Deviation EvaluateRevived(Vector& weights, double least, Progress& progress);
   double RevivingWeight(std::int64_t site, double weight, double least) const;
   // Calls visit(place) for the cells, in chunks.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The power diagram (Laguerre diagram) of weighted sites in a rectangle: the cell of a site has the
-// points x for which |x - site|^2 - weight is least.
+// The power diagram (Laguerre diagram) of weighted sites in a rectangle: the cell of a site is the
+// set of points x for which its |x - site|^2 - weight is smallest.
 #ifndef RectifiedTransport_PowerDiagram_h
 #define RectifiedTransport_PowerDiagram_h
 
@@ -17,10 +17,10 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Each cell is cut out of the rectangle by the bisectors of its site and the others, independently
-// of other cells, so that the cells are computed in parallel and no arrangement of the sites is
-// special. The neighbours of the last update come first. Where the cells that they leave fit
-// together they are the diagram already; for the others further neighbours are searched.
+// Bisectors of its site and others cut each cell out of the rectangle, independently of other
+// cells. Cells are therefore computed in parallel, and no arrangement of sites is special. The
+// neighbours of the last update come first. Cells that then fit together are final; for the others
+// more neighbours are searched.
 class PowerDiagram
 {
 public:
@@ -52,17 +52,18 @@ public:
   {
   }
 
-  // Sets the sites, at least one, as the work of the current stage. Sites need not lie in the
-  // rectangle, nor apart. Throws std::bad_alloc and Cancelled.
+  // Sets the sites, at least one. They may lie outside the rectangle, and may coincide. The work of
+  // the current stage. Throws std::bad_alloc and Cancelled.
   void SetSites(ConstPointSpan<2> sites, Progress& progress);
-  // Computes the cells, as above. After an exception there are some of them, for the next update.
+  // Computes the cells. The work of the current stage. After an exception, some of them are kept
+  // for the next update.
   void Update(const double* weights, Progress& progress);
 
   std::int64_t NumberOfCells() const { return this->Tree.Size(); }
   Cell operator[](std::int64_t site) const { return this->Now.At(site); }
 
   // Writes the corners of the cell that a site would have with another weight than in the last
-  // update, the others as they were there.
+  // update, with the other weights unchanged.
   void CutCell(std::int64_t site, double weight, std::vector<Corner>& corners) const;
 
   // Cells are computed in an order in which neighbours are near each other, and in chunks.
@@ -97,11 +98,11 @@ private:
     std::vector<Place> Places;
     std::vector<std::vector<Corner>> Chunks;
   };
-  // By which sites a cell was cut.
+  // The sites that cut a cell.
   enum class CutBy : char
   {
     Known,    // the neighbours of the last update
-    Doubtful, // the same, and it may be too large
+    Doubtful, // the same, and the cell may be too large
     All
   };
 
@@ -128,7 +129,7 @@ private:
   std::vector<Point<2>> Sites;
   std::vector<std::atomic<CutBy>> States;
   Cells Now;
-  Cells Last; // of the update before, for their neighbours
+  Cells Last; // of the previous update, for their neighbours
 };
 
 } // namespace RectifiedTransport

@@ -8,8 +8,9 @@
 namespace RectifiedTransport
 {
 
-// Sites scaled by Scale about Middle, which then is the centre of the rectangle [0, lengths], lie
-// in it with a margin along each border. The scale is infinite for sites at one point.
+// Sites scaled by Scale about Middle, which becomes the centre of the rectangle [0, lengths], lie
+// in the rectangle with a margin along each border. The scale is infinite if all sites are at one
+// point.
 struct RectangleFit
 {
   RectangleFit(ConstPointSpan<2> sites, const Point<2>& lengths);

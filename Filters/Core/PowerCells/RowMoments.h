@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrals of a piecewise-constant density over polygons, exact: by the divergence theorem they
-// are sums over the polygon's sides, of integrals of the moments along the rows of the grid.
+// Exact integrals of a piecewise-constant density over polygons. By the divergence theorem they are
+// sums over the polygon's sides of integrals of the moments along the rows of the grid.
 #ifndef RectifiedTransport_RowMoments_h
 #define RectifiedTransport_RowMoments_h
 
@@ -17,10 +17,11 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of a polygon, its sides counter-clockwise; a side contributes a part, which has no meaning alone.
+// The moments of a polygon with counter-clockwise sides. Each side contributes a part, which has no
+// meaning on its own.
 struct PolygonMoments
 {
-  // Those of the polygon after a motion.
+  // The moments of the polygon after a translation.
   PolygonMoments MovedBy(const Point<2>& offset) const
   {
     const Point<2>& x = this->First;
@@ -34,15 +35,14 @@ struct PolygonMoments
   double Second = 0.0; // of the squared distance from the origin
 };
 
-// The masses along each row of the grid, up to each of its cells. The grid lies in the plane with
-// its corner at the origin; the sides of its cells have the lengths `scale`, and the masses of all
-// cells add up to `total`.
+// The cumulative masses along each row of the grid. The grid lies in the plane with its corner at
+// the origin. The sides of its cells have the lengths `scale`, and the masses of all cells sum to
+// `total`.
 class RowMoments
 {
 public:
-  // As the work of the current stage of the progress. Takes 16 bytes a cell and
-  // 24 for 16 cells of a row. Throws InvalidDensity,
-  // std::bad_alloc and Cancelled.
+  // The work of the current stage. Takes 16 bytes a cell and 24 for 16 cells of a row. Throws
+  // InvalidDensity, std::bad_alloc and Cancelled.
   RowMoments(
     const DensitySource<2>& density, const Point<2>& scale, double total, Progress& progress);
 
@@ -53,27 +53,27 @@ public:
   bool HasMass(const Point<2>& point) const;
   // Whether a cell has no mass.
   bool HasEmptyCells() const { return this->Empty; }
-  // Spreads this share of the mass evenly over the domain, in place of as much of the density's:
-  // above 0 no part of the domain is empty.
+  // Spreads this share of the mass evenly over the domain and reduces the density by the same
+  // share. Above 0, no part of the domain is empty.
   void SetEvenShare(double share) { this->EvenShare = share; }
 
-  // Asks for the memory of the cells of a box ahead of their use, where it fits into the caches.
+  // Prefetches the memory of the cells of a box, if it fits into the caches.
   void Prefetch(const Point<2>& low, const Point<2>& high) const;
-  // The cell of the grid that holds a point, or one beside it.
+  // The cell of the grid that contains a point, or one next to it.
   GridSize<2> CellAt(const Point<2>& point) const;
-  // Its corner nearest to the origin.
+  // The corner of a cell nearest to the origin.
   Point<2> CornerOf(const GridSize<2>& cell) const;
-  // Adds the part of the side from `from` to `to` of a polygon in the domain. Its moments are
-  // relative to the corner of the cell `origin`, one for all sides: where it is near the polygon
-  // they keep their digits, however large the grid is.
+  // Adds the part of the side from `from` to `to` of a polygon in the domain. The moments are
+  // relative to the corner of the cell `origin`, the same for all sides. If it is near the polygon,
+  // they keep their digits on grids of any size.
   void AddSide(const Point<2>& from, const Point<2>& to, const GridSize<2>& origin,
     PolygonMoments& moments) const;
-  // Adds to the mass alone, with sums from the beginning of the rows: a part does not depend on the
+  // Adds only to the mass, with sums from the beginning of the rows: a part does not depend on the
   // polygon. Returns the integral of the density along the side.
   double AddSideMass(const Point<2>& from, const Point<2>& to, double& mass) const;
 
 private:
-  // Of a cell: its mass, and that of the cells of the row before it.
+  // The mass of a cell, and the mass of the cells before it in its row.
   struct Masses
   {
     double Before;
@@ -89,14 +89,14 @@ private:
       this->First += first;
       this->Second += x * first;
     }
-    // Those of `part`, whose x are from `offset` on.
+    // Adds the moments of `part`, whose x begin at `offset`.
     void Add(const Moments& part, double offset)
     {
       this->Second += part.Second + offset * (2.0 * part.First + offset * part.Mass);
       this->First += part.First + offset * part.Mass;
       this->Mass += part.Mass;
     }
-    // From masses at the beginnings of cells to those of even cells.
+    // Converts masses at the beginnings of cells to masses spread evenly over cells.
     Moments Spread() const
     {
       return { this->Mass, this->First + this->Mass / 2.0,
@@ -133,8 +133,8 @@ private:
   {
     return (1.0 - this->EvenShare) * mass + this->EvenShare * this->MeanMass * evenMasses;
   }
-  // Calls visit(column, row, from, to, part) for the part of a side in each cell, in their order,
-  // which is from `from` to `to` in cells and makes up `part` of the side.
+  // Calls visit(column, row, from, to, part), in order, for the piece of a side in each cell; it
+  // goes from `from` to `to` in cells and is the fraction `part` of the side.
   template <class Visit>
   void VisitCells(const Point<2>& from, const Point<2>& to, const Visit& visit) const;
 

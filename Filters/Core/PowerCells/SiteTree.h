@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of bounding boxes of weighted sites, which finds the sites that may cut a power cell.
+// A tree of bounding boxes of weighted sites. It finds the sites that may cut a power cell.
 #ifndef RectifiedTransport_SiteTree_h
 #define RectifiedTransport_SiteTree_h
 
@@ -20,10 +20,10 @@ class Progress;
 class SiteTree
 {
 public:
-  // The sites are divided about the median along the widest axis of their box: O(count log count),
-  // as the work of the current stage. Throws Cancelled.
+  // The sites are divided at the median along the widest axis of their box: O(count log count). The
+  // work of the current stage. Throws Cancelled.
   void Build(ConstPointSpan<2> sites, Progress& progress);
-  // To be called before a visit: a weight for each site. As the work of the current stage.
+  // Call it before a visit: a weight for each site. The work of the current stage.
   void SetWeights(const double* weights, Progress& progress);
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sites.size()); }
@@ -31,10 +31,9 @@ public:
   std::int64_t Site(std::int64_t place) const { return this->At(place).Id; }
 
   // Calls visit(id, offset of the site from the centre, weight), nearest boxes first, at least for
-  // the sites that have a smaller power at some corner of a cell than the site at `centre` of
-  // weight `weight`. The cell has Corners(), which have places X relative to the centre, and
-  // Radius(), the largest distance of these; it may shrink meanwhile, and ends the visit when it is
-  // empty.
+  // the sites with a smaller power at some corner of a cell than the site at `centre` with weight
+  // `weight`. The cell has Corners(), with places X relative to the centre, and Radius(), their
+  // largest distance. It may shrink during the visit, which ends when it is empty.
   template <class Cell, class Visit>
   void VisitRivals(
     const Point<2>& centre, double weight, const Cell& cell, const Visit& visit) const;
@@ -106,7 +105,7 @@ bool SiteTree::MayCut(const Box& box, const Point<2>& centre, double weight, con
   const Point<2>& g = box.Slope;
   const double atCentre = g[0] * centre[0] + g[1] * centre[1];
   const double square = (g[0] * g[0] + g[1] * g[1]) / 4.0;
-  // Sites near each other may have weights far from each other: steep slopes round.
+  // Sites near each other may have very different weights: steep slopes cause rounding.
   const double rounding =
     1e-15 * (std::abs(weight) + std::abs(box.Offset) + std::abs(atCentre) + 4.0 * square);
   const double constant = weight - (box.Offset + atCentre) - square - rounding;

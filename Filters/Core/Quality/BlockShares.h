@@ -13,9 +13,9 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Of `count` blocks from `first` on, as the work of stages up to the progress `end`. Collective on
-// the ranks of the progress, each for its own blocks; they hold a few million cells of the density
-// at a time. Throws std::bad_alloc and Cancelled.
+// The shares of `count` blocks from `first` on. Progress reaches `end`. Collective on the ranks of
+// the progress, each for its own blocks; a rank holds a few million cells of the density at a time.
+// Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 void findBlockShares(const RectifiedFlow<Dimension>& flow, const GridBlocks<Dimension>& blocks,
   std::int64_t first, std::int64_t count, double* shares, Progress& progress, double end);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks of grid cells, axis 0 fastest; the last along an axis may have fewer.
+// Blocks of grid cells, axis 0 fastest; the last block along an axis may have fewer.
 #ifndef RectifiedTransport_GridBlocks_h
 #define RectifiedTransport_GridBlocks_h
 
@@ -44,10 +44,10 @@ public:
     }
   }
 
-  // A double: there may be more than an integer holds.
+  // A double, because it may exceed every integer.
   double Count() const { return numberOfCells<Dimension>(this->Counts); }
 
-  // The block of a place in the grid.
+  // The block of a position in the grid.
   std::int64_t At(const Point<Dimension>& index) const
   {
     std::int64_t block = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of each point of a set from its nearest neighbour, by a tree of bounding boxes.
+// The distance of each point of a set to its nearest neighbour, by a tree of bounding boxes.
 #ifndef RectifiedTransport_NearestNeighbours_h
 #define RectifiedTransport_NearestNeighbours_h
 
@@ -11,11 +11,10 @@
 namespace RectifiedTransport
 {
 
-// Writes the distance of each point from the nearest other one: infinite if there is no other.
-// Collective: the points are those of all ranks of the context, each of which gives its own; points
-// that lie near those of few other ranks cost least. The boxes are divided
-// about the median along their widest axis, so that clusters cost no more than spread points;
-// O(count log count). Throws std::bad_alloc and Cancelled.
+// Writes the distance of each point to the nearest other one, infinite if there is no other.
+// Collective: each rank of the context gives its own points; it costs least if they lie near those
+// of few other ranks. The boxes are divided at the median along their widest axis, so that clusters
+// cost no more than spread points: O(count log count). Throws std::bad_alloc and Cancelled.
 void nearestDistances(
   ConstPointSpan<3> points, double* distances, const Context& context = Context());
 

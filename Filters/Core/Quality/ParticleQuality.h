@@ -17,10 +17,10 @@ namespace RectifiedTransport
 struct ParticleSample
 {
   ConstPointSpan<3> Points;
-  const double* Masses = nullptr;       // not negative; null: all the same
+  const double* Masses = nullptr;       // not negative; null: all equal
   ConstPointSpan<3> Displacements = {}; // one a particle, or none at all
-  // On ranks, the keys of the order in which the particles are summed up; null: those of rank 0
-  // first, on each in their order.
+  // On several ranks, keys of the order in which particles are summed; null: those of rank 0 first,
+  // on each rank in their order.
   const std::int64_t* Order = nullptr;
 };
 
@@ -30,18 +30,18 @@ struct ParticleQuality
   double TotalMass = 0.0;        // of the density: sum over grid cells of value times measure
   std::int64_t Outside = 0;      // of the domain
   std::int64_t InEmptyCells = 0; // of the others, in grid cells without mass
-  // The relative L2 distance of the particles' density from the given one, both averaged over
+  // The relative L2 distance between the particles' density and the given one, both averaged over
   // blocks of grid cells.
   double DensityError = 0.0;
   double TransportCost = 0.0; // mean squared displacement, by mass
-  // Over the particles inside that have mass: the distance from the nearest other particle,
-  // relative to the densest lattice packing at the density there. 0 if there are no such particles.
+  // Over the particles inside that have mass: the distance to the nearest other particle, relative
+  // to the densest lattice packing at the local density. 0 if there are no such particles.
   double SmallestSpacing = 0.0;
   double MeanSpacing = 0.0;
 };
 
-// The smallest size of blocks, in grid cells along each axis, that have `particles` of `all` on
-// average over the grid.
+// The smallest size of blocks, in grid cells along each axis, with which they hold `particles` of
+// `all` on average over the grid.
 template <int Dimension>
 std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, double particles)
 {
@@ -65,17 +65,17 @@ std::int64_t blockSizeFor(const GridSize<Dimension>& cells, std::int64_t all, do
   return large;
 }
 
-// The sides of boxes about a particle, of equal length in physical space, in grid cells; up to a
+// The sides, in grid cells, of boxes about a particle with equal sides in physical space, up to a
 // common factor.
 template <int Dimension>
 Point<Dimension> boxAspect(const ImageGrid& grid);
 
 // Compares particles with the density of a flow, which lies on `grid` in physical space.
-// Collective: the particles are those of all ranks of the context, each of which gives its own and,
-// if it has any, what the others give of them; all get the figures of all. Takes
-// about 88 bytes a particle and 16 a block meanwhile, and O(particles log particles). Throws
-// std::invalid_argument for a block without cells and masses whose sum is not a positive number,
-// std::overflow_error for a figure past the largest double, std::bad_alloc and Cancelled.
+// Collective: each rank of the context gives its own particles, with the same attributes as the
+// others if it has any; all ranks get the figures of all particles. Temporarily takes about 88
+// bytes a particle and 16 a block; O(particles log particles). Throws std::invalid_argument for a
+// block without cells and for masses whose sum is not a positive number, std::overflow_error for a
+// figure beyond the largest double, std::bad_alloc and Cancelled.
 template <int Dimension>
 ParticleQuality measureQuality(const ParticleSample& particles,
   const RectifiedFlow<Dimension>& flow, const ImageGrid& grid, std::int64_t blockSize,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tensor products of cubic Hermite polynomials on a box. The data at a corner are the function's
-// mixed derivatives, each of order 0 or 1 along each axis: entry b has those along the axes of the
-// bits of b. Boxes that share a face, and the data there, join with continuous derivatives.
+// mixed derivatives of order 0 or 1 along each axis: entry b is the derivative along the axes of
+// the bits of b. Boxes that share a face and the data there join with continuous derivatives.
 #ifndef RectifiedTransport_HermiteCell_h
 #define RectifiedTransport_HermiteCell_h
 
@@ -16,7 +16,7 @@ constexpr int hermiteCorners = 1 << Dimension;
 template <int Dimension>
 using HermiteData = std::array<double, hermiteCorners<Dimension>>;
 
-// The data at the place `at`, in [0, 1], of a box with such sides; corner c is at the upper end of
+// The data at the place `at`, in [0, 1], of a box with these sides. Corner c is at the upper end of
 // the axes of the bits of c.
 template <int Dimension>
 HermiteData<Dimension> interpolateHermite(
@@ -32,7 +32,8 @@ HermiteData<Dimension> interpolateHermite(
       data[corner][entry] = corners[corner][entry];
     }
   }
-  // Axis by axis, the last first: the corners below `half` then hold what is between both ends.
+  // Axis by axis, the last first: the corners below `half` then hold the interpolation between both
+  // ends.
   for (int axis = Dimension; axis-- > 0;)
   {
     const double t = at[axis];

@@ -33,7 +33,7 @@ public:
     this->Slots.assign(slots, -1);
   }
 
-  // Throws std::bad_alloc past 2^31 nodes.
+  // Throws std::bad_alloc beyond 2^31 nodes.
   std::int32_t operator[](const Node& node)
   {
     std::int32_t& slot = this->SlotOf(node);
@@ -62,7 +62,7 @@ public:
   std::vector<Node> Release() { return std::move(this->Nodes); }
 
 private:
-  // The slot of the node, or the free one for it.
+  // The slot of the node, or a free slot for it.
   std::int32_t& SlotOf(const Node& node)
   {
     std::uint64_t hash = 0;

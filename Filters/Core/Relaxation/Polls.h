@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polls for cancellation from where there is no loop of one's own, such as comparisons of a sort.
+// Polls for cancellation in code without an own loop, such as the comparisons of a sort.
 #ifndef RectifiedTransport_Polls_h
 #define RectifiedTransport_Polls_h
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of bounding boxes over points that reach as far as their spacings: finds those whose
-// kernels may overlap a box. Its leaves are tiles of `repulsionTile` points (the last may have
-// fewer), as the kernels take them.
+// A tree of bounding boxes over points that reach as far as their spacings. It finds the points
+// whose kernels may overlap a box. Its leaves are tiles of `repulsionTile` points (the last may
+// have fewer), as the kernels take them.
 #ifndef RectifiedTransport_ReachTree_h
 #define RectifiedTransport_ReachTree_h
 
@@ -32,23 +32,23 @@ template <int Dimension>
 class ReachTree
 {
 public:
-  // Reorders the points, in a way that depends on the set of them alone. Polls for cancellation.
+  // Reorders the points. The order depends only on the set of points. Polls for cancellation.
   void Build(std::vector<ScaledPoint<Dimension>> points, Progress& progress);
-  // Finds the boxes again, after points have changed.
+  // Updates the boxes after points have changed.
   void Update();
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sorted.size()); }
   std::int64_t Tiles() const { return (this->Size() + repulsionTile - 1) / repulsionTile; }
   ScaledPoint<Dimension>* Points() { return this->Sorted.data(); }
   const ScaledPoint<Dimension>* Points() const { return this->Sorted.data(); }
-  // The places that the points of Build had.
+  // The original indices of the points given to Build.
   const std::int64_t* Order() const { return this->Places.data(); }
 
-  // The points of a tile, the last of them repeated to fill it. Returns how many there are.
+  // The points of a tile, the last one repeated to fill it. Returns how many there are.
   int Fill(std::int64_t tile, RepulsionTile<Dimension>& into) const;
 
-  // Finds the points y to which places of a tile of `targets` may be closer than
-  // sqrt(reach * (the sum of both squared spacings)).
+  // Finds the points y to which points of a tile of `targets` may be closer than sqrt(reach * (the
+  // sum of both squared spacings)).
   void FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
     std::vector<ScaledPoint<Dimension>>& found) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Descent of a relaxation's energy, which never grows.
+// Descent of a relaxation's energy. The energy never grows.
 #ifndef RectifiedTransport_RelaxationDescent_h
 #define RectifiedTransport_RelaxationDescent_h
 
@@ -25,20 +25,20 @@ template <int Dimension>
 class RelaxationDescent
 {
 public:
-  // The coordinates `x` of the points, in `frame`, are changed by each step.
+  // Each step changes the coordinates `x` of the points, in `frame`.
   RelaxationDescent(RelaxationEnergy<Dimension>& energy, const RelaxationFrame<Dimension>& frame,
     const DescentSettings& settings, std::vector<double>& x, Progress& progress);
 
-  // Whether the energy of the points could be computed; there is no run else.
+  // Whether the energy of the points could be computed. Otherwise do not call Run.
   bool HasEnergy() const { return std::isfinite(this->Value); }
-  // Takes steps as the options say; each is a stage, the last of which ends at 1.
+  // Takes steps according to the options. Each is a stage; the last one ends at 1.
   RelaxationReport Run(const RelaxationOptions& options);
 
 private:
   using Vector = std::vector<double>;
 
-  // Moves all points at once. Returns false, with the points where they were, if that lowers the
-  // energy nowhere along the direction of descent.
+  // Moves all points at once. If that lowers the energy nowhere along the direction of descent,
+  // returns false and leaves the points unchanged.
   bool Step();
   double Evaluate(const Vector& x, Vector& gradient, Vector& spacings);
   double Side(std::size_t i) const { return this->Frame.Sides[i % Dimension]; }
@@ -46,7 +46,7 @@ private:
   bool IsHeld(std::size_t i) const;
   Vector Direction();
   void Shorten(Vector& direction) const;
-  // Without aims, points may stay where none shall be.
+  // Without aims, points may stay at forbidden places.
   bool Search(Vector direction, bool hasAims);
   // Moves by a part of the direction into Next. Returns the change of the energy to first order.
   double Move(const Vector& direction, double part);
@@ -64,7 +64,7 @@ private:
   Vector Next;
   Vector NextGradient;
   Vector NextSpacings;
-  std::vector<char> Aimed; // points whose whole step leads away from where none shall be, if any
+  std::vector<char> Aimed; // points whose whole step leads away from a forbidden place, if any
   int Steps = 0;
 };
 

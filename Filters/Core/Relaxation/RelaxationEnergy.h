@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A function of the places of points that a relaxation lowers.
+// A function of the positions of points that a relaxation lowers.
 #ifndef RectifiedTransport_RelaxationEnergy_h
 #define RectifiedTransport_RelaxationEnergy_h
 
@@ -18,21 +18,21 @@ class RelaxationEnergy
 {
 public:
   virtual ~RelaxationEnergy() = default;
-  // Returns the energy, infinite where it could not be computed, and writes its gradient by the
-  // coordinates of the points, and their spacings: the squares are about the diagonal of the
-  // inverse second derivatives, up to a factor.
+  // Returns the energy, infinite if it could not be computed, and writes its gradient with respect
+  // to the coordinates of the points, and their spacings. The squared spacings approximate the
+  // diagonal of the inverse second derivatives, up to a factor.
   virtual double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient,
     double* spacings, Progress& progress) = 0;
-  // Called now and then with the points that will be evaluated next, or some near them.
+  // Called from time to time with the points that will be evaluated next, or points near them.
   virtual void Sort(ConstPointSpan<Dimension>, Progress&) {}
-  // There may be places in the domain where no point shall be. Changes the steps of points that are
-  // there: whole steps lead away. Notes for which points, where there are any.
+  // Some places in the domain may be forbidden. Changes the steps of points at such places so that
+  // whole steps lead away, and marks these points, if there are any.
   virtual void Aim(
     ConstPointSpan<Dimension>, PointSpan<Dimension>, std::vector<char>&, Progress&) const
   {
   }
-  // Moves the ends of a part of the steps away from there, for points that were not there before.
-  // The points stay distinct.
+  // Moves the ends of partial steps away from forbidden places, for points that were not at one
+  // before. The points stay distinct.
   virtual void Constrain(ConstPointSpan<Dimension>, PointSpan<Dimension>, Progress&) const {}
 };
 

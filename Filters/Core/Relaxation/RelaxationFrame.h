@@ -17,9 +17,9 @@ struct RelaxationFrame
   RelaxationFrame(
     const GridSize<Dimension>& size, const Point<Dimension>& spacing, std::int64_t points);
 
-  // The side of a cube with a measure in the domain, whose thin axes it covers.
+  // The side of a cube that has a measure in the domain; it covers thin axes.
   double SideOf(double measure) const;
-  // Of a measure in grid cells.
+  // The same for a measure in grid cells.
   double SideOfCells(double cells) const;
 
   Point<Dimension> Sides;     // of the domain

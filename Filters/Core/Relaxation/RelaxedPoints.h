@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a relaxation in isotropic coordinates, apart from each other and in an order that
-// depends on the set of them alone, as do all sums over them then.
+// The points of a relaxation in isotropic coordinates, separate from each other. Their order, and
+// so all sums over them, depend only on the set of points.
 #ifndef RectifiedTransport_RelaxedPoints_h
 #define RectifiedTransport_RelaxedPoints_h
 
@@ -32,17 +32,17 @@ public:
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->X.size()) / Dimension; }
   ConstPointSpan<Dimension> Get() const { return { this->X.data(), this->Size() }; }
-  // To be changed, as points and as coordinates.
+  // The points and the coordinates, which may be changed.
   PointSpan<Dimension> Get() { return { this->X.data(), this->Size() }; }
   std::vector<double>& Coordinates() { return this->X; }
 
-  // Moves all but one of coincident points by a part of the spacing at a place, in directions that
-  // depend on how many there are alone. Throws Cancelled.
+  // Moves all except one of coincident points by a part of the local spacing, in directions that
+  // depend only on their number. Throws Cancelled.
   void Separate(const std::function<double(const Point<Dimension>&)>& spacing, Progress& progress);
   // Sorts the points. Throws Cancelled.
   void Arrange(Progress& progress);
 
-  // Writes the points in the order in which they came. Those that have not moved keep their bits.
+  // Writes the points in their original order. Points that have not moved stay bitwise the same.
   void Write(const GridSize<Dimension>& size, PointSpan<Dimension> points) const;
 
 private:
@@ -52,7 +52,7 @@ private:
   const RelaxationFrame<Dimension> Frame;
   std::vector<double> X;
   std::vector<double> Given;
-  std::vector<std::int64_t> Order; // empty: as they came
+  std::vector<std::int64_t> Order; // empty: the original order
 };
 
 } // namespace RectifiedTransport

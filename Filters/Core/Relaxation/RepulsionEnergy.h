@@ -18,15 +18,15 @@ struct RepulsionWidth
   double Deviation; // of the Gaussians, in spacings
   double Cut;       // exp(-Cut) is where the kernel ends
 
-  // The squared distance there, for each unit of the sum of two squared spacings.
+  // The squared distance at which the kernel ends, for each unit of the sum of two squared
+  // spacings.
   double Reach() const { return 2.0 * this->Cut * this->Deviation * this->Deviation; }
 };
 
-// The points x and the density n, whose mass is their number N, are blurred by Gaussians; the
-// energy is the squared norm of the difference,
-//   E = 1/N (sum over points of K(x, y) - 2 sum of A(x) + integral of n A),  A(x) = integral of n
-//   K,
-// with K of RepulsionShape: 1 on the average for independent random points, 0 at best. A does not
+// The points x and the density n, scaled to their number N, are blurred by Gaussians. The energy is
+// the squared norm of the difference,
+//   E = 1/N (sum over points of K(x, y) - 2 sum of A(x) + integral of n A), A(x) = integral of n K,
+// with K of RepulsionShape. It is 1 on average for independent random points, 0 at best. A does not
 // depend on the points and is interpolated in the tree. Coordinates are those of a RelaxationFrame.
 template <int Dimension>
 class RepulsionEnergy final : public RelaxationEnergy<Dimension>
@@ -36,7 +36,7 @@ public:
     const SpacingTree<Dimension>& tree, std::int64_t points, const RepulsionWidth& width,
     Progress& progress);
 
-  // For speed: again after large displacements.
+  // For speed: call it again after large displacements.
   void Sort(ConstPointSpan<Dimension> points, Progress& progress) override;
   double Evaluate(ConstPointSpan<Dimension> points, PointSpan<Dimension> gradient, double* spacings,
     Progress& progress) override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of boxes that divides the domain as finely as a density wants its points to be spaced, and
+// A tree of boxes that divides the domain as finely as the spacing of points for a density, and
 // smooth functions on it.
 #ifndef RectifiedTransport_SpacingTree_h
 #define RectifiedTransport_SpacingTree_h
@@ -20,9 +20,9 @@ class Progress;
 
 // All coordinates are those of a RelaxationFrame. The spacing at a place is the side of the
 // smallest cube about it that holds a point's share of the mass, or `largest`; it changes by at
-// most twice the distance (the largest along an axis). A leaf is at most `finest` times the spacing
-// at its centre wide, and boxes are not halved along an axis along which they are less than a
-// quarter as wide: there is a bounded number of leaves a point.
+// most twice the distance (the largest along an axis). The width of a leaf is at most `finest`
+// times the spacing at its centre, and boxes are not halved along an axis along which they are less
+// than a quarter as wide. The number of leaves a point is therefore bounded.
 template <int Dimension>
 class SpacingTree
 {
@@ -55,16 +55,16 @@ public:
   // A function at a place: its value and derivatives, see HermiteData.
   HermiteData<Dimension> Evaluate(const Field& field, const Place& place) const;
 
-  // Of nodes that are within a face of a larger leaf, replaces the data by its interpolation, so
-  // that the function has continuous derivatives.
+  // Replaces the data of nodes within a face of a larger leaf by its interpolation, so that the
+  // function has continuous derivatives.
   void Join(Field& field) const;
-  // Finds the derivatives of second order from differences of those of first order, or those of
-  // first order, too, from differences of values; then as Join.
+  // With `first`, finds first derivatives from differences of values. Otherwise finds mixed second
+  // derivatives from differences of first derivatives, then calls Join.
   void FindMixed(Field& field, bool first, Progress& progress) const;
 
   // The spacing.
   const Field& Spacing() const { return this->SpacingField; }
-  // Evaluates the definition.
+  // Evaluates the definition of the spacing.
   double ExactSpacing(const Point<Dimension>& x) const;
 
 private:
@@ -72,7 +72,7 @@ private:
   {
     Node Low;
     int Depth;
-    std::int64_t First; // of its children, which follow each other; -1 - leaf in a leaf
+    std::int64_t First; // of its consecutive children; -1 - leaf in a leaf
   };
 
   void Divide(double finest, Progress& progress);
@@ -105,7 +105,8 @@ private:
   const double Largest;
   Node Roots;
   Point<Dimension> RootSides;
-  std::array<int, Dimension> FirstHalved; // the least depth of boxes that are halved along an axis
+  std::array<int, Dimension> FirstHalved; // the smallest depth of boxes that are halved along an
+                                          // axis
   Point<Dimension> Aspect;
   std::vector<Box> Boxes;
   std::vector<std::int64_t> LeafBoxes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cost of the optimal transport from a density to equal masses at points, as a function of
-// their places.
+// their positions.
 #ifndef RectifiedTransport_TransportEnergy_h
 #define RectifiedTransport_TransportEnergy_h
 
@@ -10,7 +10,7 @@
 namespace RectifiedTransport
 {
 
-// Half the cost: its gradient is the way from the centroids of the cells to the points, of which a
+// Half the cost. Its gradient is the displacement from the centroids of the cells to the points; a
 // whole step is that of de Goes et al. 2012 (Section 4.2).
 class TransportEnergy final : public RelaxationEnergy<2>
 {
@@ -20,16 +20,16 @@ public:
   {
   }
 
-  // All spacings are 1, the unit. Infinite where the masses cannot be made equal.
+  // All spacings are 1, the unit. Infinite if the masses cannot be made equal.
   double Evaluate(
     ConstPointSpan<2> points, PointSpan<2> gradient, double* spacings, Progress& progress) override;
   // Points go to the nearest place where the density has mass, which lowers the cost most, and stay
-  // apart there. Those that begin where it has none take the whole way only with a whole step: the
-  // cost may rise over long ways.
+  // distinct. Points that begin where it has none go the whole way only with a whole step, because
+  // the cost may rise over long ways.
   void Aim(ConstPointSpan<2> points, PointSpan<2> steps, std::vector<char>& aimed,
     Progress& progress) const override;
   void Constrain(ConstPointSpan<2> from, PointSpan<2> points, Progress& progress) const override;
-  // Moves points that the diagram cannot tell apart, in the domain.
+  // Moves points that the diagram cannot tell apart, within the domain.
   void Separate(PointSpan<2> points, Progress& progress) const;
 
 private:

@@ -28,8 +28,8 @@ WindowMatrix<Dimension> windowAxes();
 template <>
 inline WindowMatrix<2> windowAxes<2>()
 {
-  // The slope is the golden ratio, the number that is worst approximable by rationals: lines of
-  // this direction come close to closing on the torus latest.
+  // The slope is the golden ratio, the number that rationals approximate worst: lines of this
+  // direction come close to closing on the torus latest.
   constexpr double cosine = 0.85065080835203993;
   constexpr double sine = 0.52573111211913361;
   return (WindowMatrix<2>() << cosine, sine, -sine, cosine).finished();
@@ -38,8 +38,8 @@ inline WindowMatrix<2> windowAxes<2>()
 template <>
 inline WindowMatrix<3> windowAxes<3>()
 {
-  // The rotation of an integer quaternion; of 20,000 random ones, the one whose three axes and
-  // three planes are farthest from those that close on the torus after a few periods.
+  // The rotation of an integer quaternion. It was selected from 20,000 random ones: its three axes
+  // and three planes are farthest from those that close on the torus after a few periods.
   constexpr double a = 69.0;
   constexpr double b = 60.0;
   constexpr double c = 128.0;
@@ -69,8 +69,8 @@ WindowMatrix<Dimension> withWindowSymmetry(WindowMatrix<Dimension> axes, std::ui
 }
 
 // A window on the periodic repetition of the tile. Its coordinates v are the distances from its
-// corner along its axes, relative to the sides of the window that holds `count` points on average:
-// a point lies in the window of size s if every v is in [0, s], and s is close to 1 when the window
+// corner along its axes, relative to the sides of the window that holds `count` points on average.
+// A point lies in the window of size s if every v is in [0, s]; s is close to 1 when the window
 // holds `count`.
 template <int Dimension>
 class BlueNoiseWindow
@@ -210,7 +210,7 @@ private:
     return sum;
   }
 
-  // The cube of tiles, a power of two on a side, that holds the window of size `outer`.
+  // The cube of tiles, a power of two on a side, that contains the window of size `outer`.
   void PlaceRoot(double outer)
   {
     double extent = 0.0;
@@ -234,7 +234,7 @@ private:
     }
     for (int a = 0; a < Dimension; ++a)
     {
-      // Above rounding: a bin counts as inside or outside only if each of its points does.
+      // Larger than rounding: a bin counts as inside or outside only if each of its points does.
       this->Slack[a] = 1e-12 * (1.0 + (this->Above[a] - this->Below[a]) * extent);
     }
   }
@@ -272,14 +272,14 @@ private:
     std::nth_element(band.begin(), last, band.end());
     this->LastSize = *last;
     this->Ties = missing - std::count_if(band.begin(), last, [&](double s) { return s < *last; });
-    // The middle between the last point inside and the first outside, so that the distances of
-    // points from the upper faces are like those from the lower ones.
+    // The middle between the last point inside and the first outside, so that points have similar
+    // distances from the upper and the lower faces.
     const double next = *std::min_element(last + 1, band.end());
     this->Size = *last + 0.5 * (next - *last);
     return true;
   }
 
-  // The size of the smallest window that holds a point of a tile.
+  // The size of the smallest window that contains a point of a tile.
   double SizeThatHolds(const Point<Dimension>& origin, int i) const
   {
     double lowest = std::numeric_limits<double>::infinity();
@@ -381,7 +381,7 @@ private:
   int BinStart[BinsPerTile + 1];
   Cell Root;
   int RootLevel;
-  double LastSize = 0.0; // the least size that holds the last point
+  double LastSize = 0.0; // the smallest size that contains the last point
   std::int64_t Ties = 0; // points of exactly that size to take
   double Size = 0.0;     // of the window that becomes the unit box
 };

@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// A convex polygon with the seed in it, which is the origin.
+// A convex polygon that contains the seed, which is the origin.
 class SeedCell
 {
 public:

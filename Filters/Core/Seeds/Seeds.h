@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform points, the particles at time 0 (paper, Sections 3.3 and 5.1). All patterns are
-// reproducible from their arguments alone, to the last bit on every machine. Counts and grid sizes
-// that are negative, and sides that are not positive and finite, throw std::invalid_argument. The
-// generators run on the thread that calls them, whatever the executor, and may throw Cancelled.
+// Uniform points, the particles at time 0 (paper, Sections 3.3 and 5.1). All patterns depend only
+// on their arguments, to the last bit on every machine. Negative counts and grid sizes, and sides
+// that are not positive and finite, throw std::invalid_argument. The generators run on the calling
+// thread, whatever the executor, and may throw Cancelled.
 #ifndef RectifiedTransport_Seeds_h
 #define RectifiedTransport_Seeds_h
 
@@ -23,8 +23,8 @@ enum class SeedPattern
   Random          // independent uniform points
 };
 
-// A grid of about `count` cells, as near to cubes as that permits, on a box with sides `lengths`:
-// at least 1 an axis (no cells for a count of 0).
+// A grid of about `count` cells, as near to cubes as possible, on a box with sides `lengths`: at
+// least 1 an axis (no cells for a count of 0).
 template <int Dimension>
 GridSize<Dimension> latticeSize(const Point<Dimension>& lengths, std::int64_t count);
 
@@ -34,8 +34,8 @@ template <int Dimension>
 void generateSeeds(SeedPattern pattern, const Point<Dimension>& lengths, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context = Context());
 
-// Of `count` points that generateSeeds makes, those from number `first` on, with the same bits.
-// Only blue noise takes time for the others, too; memory is for the part.
+// Those of the `count` points of generateSeeds from number `first` on, with the same bits. Only
+// blue noise also takes time for the others; memory is only for the part.
 template <int Dimension>
 void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std::int64_t count,
   std::uint64_t randomSeed, std::int64_t first, PointSpan<Dimension> unitPoints,
@@ -45,7 +45,7 @@ void generateSeedsFrom(SeedPattern pattern, const Point<Dimension>& lengths, std
 template <int Dimension>
 void generateLattice(const GridSize<Dimension>& size, PointSpan<Dimension> unitPoints,
   const Context& context = Context());
-// Those of the cells from number `first` on.
+// The same for the cells from number `first` on.
 template <int Dimension>
 void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
   PointSpan<Dimension> unitPoints, const Context& context = Context());
@@ -54,7 +54,7 @@ void generateLatticeFrom(const GridSize<Dimension>& size, std::int64_t first,
 template <int Dimension>
 void generateJitteredLattice(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   PointSpan<Dimension> unitPoints, const Context& context = Context());
-// Those of the cells from number `first` on.
+// The same for the cells from number `first` on.
 template <int Dimension>
 void generateJitteredLatticeFrom(const GridSize<Dimension>& size, std::uint64_t randomSeed,
   std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context = Context());

@@ -21,12 +21,12 @@ public:
   // A seed in each cell of a grid, for Lattice and Jittered.
   UnitSeeds(SeedPattern pattern, const GridSize<Dimension>& grid, std::uint64_t randomSeed);
 
-  // How many there are. Not an integer, because it may exceed every integer.
+  // The number of seeds. A double, because it may exceed every integer.
   double Count() const { return this->Number; }
   // Makes Count() points. Throws std::bad_alloc and Cancelled.
   void Generate(PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
-  // Makes those from number `first` on, with the same bits. Throws std::invalid_argument where
-  // there are not as many.
+  // Makes those from number `first` on, with the same bits. Throws std::invalid_argument if there
+  // are not as many.
   void GenerateFrom(
     std::int64_t first, PointSpan<Dimension> unitPoints, const Context& context = Context()) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The border of a rectangle that was cut out of an even pattern of the plane: the pattern does not
-// know of the cut, which leaves seeds close to a face or too far from it.
+// The border of a rectangle that was cut out of an even pattern of the plane. The cut leaves seeds
+// too close to a face or too far from it.
 #ifndef RectifiedTransport_WindowBorder_h
 #define RectifiedTransport_WindowBorder_h
 
@@ -14,20 +14,20 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Moves the seeds within a mean spacing of the faces of a rectangle of sides `lengths` towards
-// the centroids of their Voronoi cells (Lloyd's method, over-relaxed); the others stay, and so does
-// the order. The mean squared distance of the rectangle from the nearest seed falls, and no two
-// seeds come nearer to each other than 0.86 of the spacing of the hexagonal lattice, or than they
-// are if that is less. Seeds are moved one after the other on the thread that calls.
+// Moves the seeds within a mean spacing of the faces of a rectangle of sides `lengths` towards the
+// centroids of their Voronoi cells (Lloyd's method, over-relaxed). The other seeds and the order
+// stay. This lowers the mean squared distance of the rectangle to the nearest seed. No two seeds
+// come nearer to each other than 0.86 of the spacing of the hexagonal lattice, or than they were if
+// that is less. Seeds are moved one after the other on the calling thread.
 //
-// There is at least one seed, and no two are in one place. Seeds that move should have their
-// neighbours within two mean spacings, as in any even pattern: those that are farther inside are
-// not regarded. Takes O(sqrt(count)) memory, and as much time after a pass over all seeds; O(count)
-// in strips, where all are at the border. Adds to the progress the number of seeds, and that of
-// those that move. Throws Cancelled.
+// There is at least one seed, and no two coincide. Seeds that move should have their neighbours
+// within two mean spacings, as in any even pattern: seeds farther inside are ignored. Takes
+// O(sqrt(count)) memory, and as much time after a pass over all seeds; O(count) in strips, where
+// all are at the border. Adds the number of seeds and of moved seeds to the progress. Throws
+// Cancelled.
 void relaxBorder(const Point<2>& lengths, PointSpan<2> unitPoints, Progress& progress);
 
-// Where the seeds are that move or bound the cells of those that do, of `count` seeds.
+// The band of the seeds that move or bound the cells of those that move, for `count` seeds.
 class BorderBand
 {
 public:
@@ -50,7 +50,7 @@ struct BorderSeed
   Point<2> UnitPoint;
 };
 
-// Of `count` seeds, moves those from number `first` on that unitPoints has, with the same bits;
+// The same for the part unitPoints of `count` seeds, from number `first` on, with the same bits;
 // `border` are all seeds of the band, by their numbers.
 void relaxBorder(const Point<2>& lengths, std::int64_t count, const std::vector<BorderSeed>& border,
   std::int64_t first, PointSpan<2> unitPoints, Progress& progress);

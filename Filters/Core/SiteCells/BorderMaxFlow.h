@@ -18,7 +18,8 @@ struct SiteCellBorder
 {
   std::int64_t Low; // numbers of site cells, Low < High
   std::int64_t High;
-  // Twice the most that moves over it: the faces between pixels of both, or the masses at these.
+  // Twice the most that may move over it: the number of faces between pixels of both, or the masses
+  // at these faces.
   std::int64_t Extent = 0;
   std::int64_t Flow = 0; // pixels, or mass, to move from Low to High
 };
@@ -39,12 +40,12 @@ public:
   std::size_t Size() const { return this->Borders.size(); }
   SiteCellBorder& operator[](std::size_t number) { return this->Borders[number]; }
 
-  // Computes the flow from site cells with too many pixels to those with too few (`excess`,
-  // negative for these) along paths of neighbours, the shortest first: all paths of one length,
-  // then the rest along longer ones (Dinic's algorithm for a maximum flow). The capacity of a
-  // border is half of its extent, so that it is not displaced far, and the outflow of a cell at
-  // most the pixels that it has (`count`). With masses the same in units of mass. Excess without a
-  // path remains. Throws Cancelled.
+  // Computes the flow from site cells with too many pixels to those with too few (negative
+  // `excess`) along paths of neighbours, the shortest first: all paths of one length, then the rest
+  // along longer ones (Dinic's algorithm for a maximum flow). The capacity of a border is half of
+  // its extent, so that the border does not move far. The outflow of a cell is at most its number
+  // of pixels (`count`). For masses, all numbers are in units of mass. Excess without a path
+  // remains. Throws Cancelled.
   void Plan(const std::vector<std::int64_t>& excess, const std::vector<std::int64_t>& count,
     Progress& progress);
 

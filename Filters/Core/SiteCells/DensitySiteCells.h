@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Site cells of equal mass of a density: as SiteCells, but every site gets an equal share of the
-// mass, not of the pixels. The flow of the density takes pixels and sites to the uniform measure,
-// in which the pixels flow to the sites.
+// mass, not of the pixels. The flow of the density takes pixels and sites to the uniform measure.
+// There the pixels flow to the sites.
 //
 //   const RectifiedFlow<2> flow(density);                         // density: a DensitySource<2>
 //   const DensitySiteCells<2> cells(sites, grid, density, flow.Total()); // grid: on its domain
@@ -28,7 +28,7 @@ namespace RectifiedTransport
 template <int Dimension>
 class PointTransport;
 
-// Thrown where there are more sites than pixels with mass.
+// Thrown if there are more sites than pixels with mass.
 class TooFewPixels : public std::invalid_argument
 {
 public:
@@ -43,8 +43,8 @@ template <int Dimension>
 class DensitySiteCells
 {
 public:
-  // `grid` has the domain of the density, and any number of cells, which are the pixels; `total` is
-  // the sum of the density's values, which are valid (as those of a RectifiedFlow). There is at
+  // `grid` has the domain of the density and any number of cells, which are the pixels. `total` is
+  // the sum of the density's values, which must be valid, as those of a RectifiedFlow. There is at
   // least one site; coordinates are finite. Sites outside the domain count as the nearest points of
   // its border. Takes 8 bytes a pixel. Throws TooFewPixels, std::bad_alloc and Cancelled.
   DensitySiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
@@ -59,9 +59,9 @@ public:
   std::int64_t NumberOutside() const { return this->Outside; }
 
   // Writes the number of the site of each pixel, axis 0 fastest; `flow` is that of the density.
-  // Masses are equal to about that of the heaviest pixel. In 1D cells are intervals in the order of
-  // the sites, and the flow does not count. Takes about 50 and 57 bytes a pixel in 2D and 3D
-  // meanwhile. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
+  // Masses are equal to about that of the heaviest pixel. In 1D, cells are intervals in the order
+  // of the sites, and the flow is not used. Temporarily takes about 50 and 57 bytes a pixel in 2D
+  // and 3D. Throws std::invalid_argument for options, std::bad_alloc and Cancelled.
   void Label(const PointTransport<Dimension>& flow, std::int64_t* labels,
     const FlowOptions& options = {}, const Context& context = Context()) const;
 

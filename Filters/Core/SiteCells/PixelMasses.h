@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The masses of a density in the pixels of a grid on its domain, as integers: sums of them are
-// exact, in whatever order they are added.
+// The masses of a density in the pixels of a grid on its domain, as integers: their sums are exact
+// in any order.
 #ifndef RectifiedTransport_PixelMasses_h
 #define RectifiedTransport_PixelMasses_h
 
@@ -14,13 +14,13 @@ namespace RectifiedTransport
 
 class Progress;
 
-// Pixels need not be cells of the density: a pixel has the integral of the density over it. Masses
-// are in units of 2^-58 of the whole mass, rounded to the nearest.
+// Pixels need not be cells of the density: the mass of a pixel is the integral of the density over
+// it. Masses are in units of 2^-58 of the whole mass, rounded to the nearest.
 template <int Dimension>
 class PixelMasses
 {
 public:
-  // `total` is the sum of the density's values, which are valid. As the work of the current stage:
+  // `total` is the sum of the density's values, which must be valid. The work of the current stage:
   // O(pixels + cells). Takes 8 bytes a pixel. Throws std::bad_alloc and Cancelled.
   PixelMasses(const DensitySource<Dimension>& density, double total,
     const GridSize<Dimension>& pixels, Progress& progress);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Site cells of least cost in a plane: the power diagram whose cells have equal areas, or equal
-// masses of a density, which is the optimal transport, for the squared distance, from the uniform
-// measure, or the density, to equal masses at the sites.
+// masses of a density. It is the optimal transport, for the squared distance, from the uniform
+// measure or the density to equal masses at the sites.
 //
 //   const PowerSiteCells cells(sites, grid);                // of two dimensions
 //   const PowerSiteCells cells(sites, grid, density, mass); // the same for a density
@@ -29,28 +29,28 @@ class EqualMassPartition;
 class PowerSiteCells
 {
 public:
-  // There is at least one site; coordinates are finite. Sites outside the domain count where they
-  // are. Of sites that are nearer to each other than 1e-5 of the mean spacing all but one move
-  // apart by as much, for the cells alone. Throws std::invalid_argument where the grid's axes are
-  // not at right angles, std::runtime_error where the areas do not become equal to 5e-7 (a site is
+  // There is at least one site; coordinates are finite. Sites outside the domain are used at their
+  // positions. If sites are nearer to each other than 1e-5 of the mean spacing, all except one move
+  // apart by that distance, only for the cells. Throws std::invalid_argument if the grid's axes are
+  // not at right angles, std::runtime_error if the areas do not become equal to 5e-7 (a site is
   // away from the others by many millions of the domain's lengths), std::bad_alloc and Cancelled.
   PowerSiteCells(
     ConstPointSpan<3> sites, const ImageGrid& grid, const Context& context = Context());
-  // The same for a density on the domain of the grid, of any number of cells, whose mass is `mass`.
-  // Throws also InvalidDensity, and std::runtime_error where sites are too far from distributed
-  // like the density.
+  // The same for a density of mass `mass` on the domain of the grid, with any number of cells. Also
+  // throws InvalidDensity, and std::runtime_error if the sites are distributed too differently from
+  // the density.
   PowerSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid, const DensitySource<2>& density,
     double mass, const Context& context = Context());
 
   std::int64_t NumberOfSites() const { return static_cast<std::int64_t>(this->Costs.size()); }
   std::int64_t NumberOutside() const { return this->Outside; }
 
-  // Writes the number of the site of each pixel, axis 0 fastest: the one whose cell has the pixel's
-  // centre. Throws std::bad_alloc and Cancelled.
+  // Writes the number of the site of each pixel, axis 0 fastest: the site whose cell contains the
+  // pixel's centre. Throws std::bad_alloc and Cancelled.
   void Label(std::int64_t* labels, const Context& context = Context()) const;
-  // Writes the areas, or masses, centroids and costs of the cells, integrals over the polygons.
+  // Writes the areas (or masses), centroids and costs of the cells: integrals over the polygons.
   // Returns the cost: the mean of |x - site|^2 over all points x of the domain, or over the mass.
-  // Throws std::overflow_error for a cost or an area past the largest double.
+  // Throws std::overflow_error for a cost or an area beyond the largest double.
   double Measure(const SiteCellStatistics& statistics) const;
   // The sides of the polygons; each cell has its own points. Throws std::bad_alloc.
   SiteCellOutlines<2> Outlines() const;

@@ -12,7 +12,7 @@
 namespace RectifiedTransport
 {
 
-// Faces that share points: points themselves in 1D, lines in 2D, quads in 3D.
+// Faces that share points: points in 1D, lines in 2D, quads in 3D.
 template <int Dimension>
 struct SiteCellOutlines
 {
@@ -23,9 +23,9 @@ struct SiteCellOutlines
   std::vector<std::int64_t> SiteIds;   // of each face, the label of its site cell
 };
 
-// Each site cell has a closed border; a face between two is listed once for each. Quads are
-// counterclockwise seen from outside; lines run around their site cell in the direction of rotation
-// from the first of the image's axes to the second. Throws std::bad_alloc and Cancelled.
+// Each site cell has a closed border; a face between two cells is listed once for each. Quads are
+// counterclockwise seen from outside. Lines run around their site cell in the direction of rotation
+// from the image's first axis to the second. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 SiteCellOutlines<Dimension> outlineSiteCells(
   const ImageGrid& grid, const std::int64_t* labels, const Context& context = Context());

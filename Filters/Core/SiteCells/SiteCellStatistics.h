@@ -26,17 +26,16 @@ struct SiteCellStatistics
   double* Cost;          // the site cell's part of the cost
 };
 
-// Measures the site cells of `labels`; sites in one pixel share their mass, to the last bit.
-// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, for sites outside the
-// domain at their given positions. Throws std::overflow_error for a cost or a domain past the
-// largest double, std::bad_alloc and Cancelled.
+// Measures the site cells of `labels`. Sites in the same pixel share their mass, to the last bit.
+// Returns the cost: the mean of |x - site|_p^q over the pixels' centres x, with the given positions
+// of sites outside the domain. Throws std::overflow_error for a cost or a domain beyond the largest
+// double, std::bad_alloc and Cancelled.
 template <int Dimension>
 double measureSiteCells(const SiteCells<Dimension>& cells, const std::int64_t* labels,
   const CostNorm& norm, const SiteCellStatistics& statistics, const Context& context = Context());
 
-// The same by the mass of the density, of which there is `totalMass`: masses are those of the
-// pixels, centroids and the cost weigh pixels by them. The centroid of a site cell without mass is
-// its site.
+// The same for a density of mass `totalMass`: masses are those of the pixels, and centroids and the
+// cost weight pixels by them. The centroid of a site cell without mass is its site.
 template <int Dimension>
 double measureSiteCells(const DensitySiteCells<Dimension>& cells, const std::int64_t* labels,
   double totalMass, const CostNorm& norm, const SiteCellStatistics& statistics,

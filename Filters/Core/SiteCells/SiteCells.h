@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Site cells of equal mass: every pixel of a domain is assigned to one of the given sites, equally
 // many to each. The rectified flow transports the pixels to the sites (paper, Section 4.2, Figure
-// 5); then the site cells are made equal to the pixel, and sites in one pixel divide its cell.
+// 5). Then the site cells are made equal to one pixel, and sites in the same pixel divide its cell.
 //
 //   const ImageGrid grid = ...;                            // its cells are the pixels
 //   const std::vector<Point<3>> sites = ...;               // in physical space
@@ -40,8 +40,8 @@ public:
   std::int64_t NumberOfSites() const { return this->Pixels().NumberOfSites(); }
   std::int64_t NumberOutside() const { return this->Outside; }
 
-  // Writes the number of the site of each pixel, axis 0 fastest. Takes about 21, 34 and 33 bytes a
-  // pixel in 1D, 2D and 3D meanwhile. Throws std::invalid_argument for options, std::bad_alloc and
+  // Writes the number of the site of each pixel, axis 0 fastest. Temporarily takes about 21, 34 and
+  // 33 bytes a pixel in 1D, 2D and 3D. Throws std::invalid_argument for options, std::bad_alloc and
   // Cancelled.
   void Label(std::int64_t* labels, const FlowOptions& options = {},
     const Context& context = Context()) const;
@@ -54,7 +54,7 @@ private:
   std::int64_t Outside = 0;
 };
 
-// One-off: the labels alone. Throws what the constructor and Label throw.
+// One-off: only the labels. Throws what the constructor and Label throw.
 template <int Dimension>
 std::vector<std::int64_t> labelSiteCells(ConstPointSpan<3> sites, const ImageGrid& grid,
   const FlowOptions& options = {}, const Context& context = Context());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few numbers for the site cells of a labelled image, such that neighbours differ: to colour by.
+// Few numbers for the site cells of a labelled image that differ between neighbours, to colour by.
 #ifndef RectifiedTransport_SiteColors_h
 #define RectifiedTransport_SiteColors_h
 
@@ -12,9 +12,9 @@
 namespace RectifiedTransport
 {
 
-// Returns a number for each of `sites` sites: the least that no site of a lower id has whose cell
-// shares a face of a pixel with its own; 0 for sites without a pixel. Cells with more than 254
-// neighbours of lower ids may have the number 255 in common. Throws std::bad_alloc and Cancelled.
+// Returns a number for each of `sites` sites: the smallest number that no neighbour of a lower id
+// has; 0 for sites without a pixel. Neighbours share a face of a pixel. Cells with more than 254
+// neighbours of lower ids may share the number 255. Throws std::bad_alloc and Cancelled.
 template <int Dimension>
 std::vector<std::uint8_t> colourSiteCells(const GridSize<Dimension>& size,
   const std::int64_t* labels, std::int64_t sites, const Context& context = Context());

@@ -25,7 +25,7 @@ public:
   const GridSize<Dimension>& Size() const { return this->Grid; }
   void Read(std::int64_t first, std::int64_t count, double* values) const override;
 
-  // Of each pixel that holds sites; the sites of a group ascend.
+  // The sites of each pixel that holds sites, ascending.
   const SiteGroups& Groups() const { return this->Grouped; }
   std::int64_t NumberOfSites() const { return this->Grouped.NumberOfSites(); }
   std::int64_t NumberOfPixels() const { return static_cast<std::int64_t>(this->Pixels.size()); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sites in groups: those that the labelling of pixels does not tell apart, and that divide what
-// their group gets.
+// Groups of sites that the labelling of pixels does not tell apart. They divide what their group
+// gets.
 #ifndef RectifiedTransport_SiteGroups_h
 #define RectifiedTransport_SiteGroups_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Divides the site cell of a pixel that holds several sites among these.
+// Divides the site cell of a pixel that holds several sites among them.
 #ifndef RectifiedTransport_SplitSharedPixels_h
 #define RectifiedTransport_SplitSharedPixels_h
 
@@ -14,15 +14,15 @@ namespace RectifiedTransport
 {
 
 // Replaces `owners`, the numbers of the pixels' site cells, by the numbers of sites. A site cell of
-// several sites is bisected recursively into parts that are equal to the pixel: across the axis
-// along which the sites have the largest extent, or if they coincide the site cell's longest one.
-// `coordinates` are the sites', `spacing` the lengths of a pixel's sides. Throws Cancelled.
+// several sites is bisected recursively into parts that are equal to one pixel: across the axis of
+// the largest extent of the sites or, if they coincide, of the site cell. `coordinates` are those
+// of the sites, `spacing` the lengths of a pixel's sides. Throws Cancelled.
 template <int Dimension>
 void splitSharedPixels(const SiteDensity<Dimension>& sites, ConstPointSpan<Dimension> coordinates,
   const Point<Dimension>& spacing, std::int64_t* owners, const Context& context = Context());
 
-// The same for any groups of sites on pixels that have masses: parts are equal to the mass of the
-// pixel. Each has a pixel with mass, where the group has one for each of its sites.
+// The same for any groups of sites on pixels that have masses: parts are equal to the mass of one
+// pixel. If a group has a pixel with mass for each of its sites, each part has one.
 template <int Dimension>
 void splitGroupsByMass(const SiteGroups& groups, const PixelMasses<Dimension>& masses,
   ConstPointSpan<Dimension> coordinates, const Point<Dimension>& spacing, std::int64_t* owners,

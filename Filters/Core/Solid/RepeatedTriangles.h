@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles that a surface has more than once.
+// Duplicate triangles of a surface.
 #ifndef RectifiedTransport_RepeatedTriangles_h
 #define RectifiedTransport_RepeatedTriangles_h
 
@@ -13,16 +13,16 @@
 namespace RectifiedTransport
 {
 
-// Triangles of the same three points; each has three edges of more than two triangles. Which to
-// drop, in three ways, in ascending order.
+// Triangles of the same three points; each has three edges of more than two triangles. The
+// triangles to drop, for three rules, in ascending order.
 struct RepeatedTriangles
 {
-  // Those of one direction count once, and those of opposite directions cancel each other: faces
-  // that two solids share.
+  // Triangles of one direction count once, and those of opposite directions cancel each other:
+  // faces that two solids share.
   std::vector<std::int64_t> ByDirection;
-  // One stays of an odd number of them, and none of an even number: the same, turned at random.
+  // One of an odd number stays, none of an even number: the same with random directions.
   std::vector<std::int64_t> ByNumber;
-  // One stays: polygons that are there twice.
+  // One stays: duplicate polygons.
   std::vector<std::int64_t> AllButOne;
 
   std::array<std::vector<std::int64_t>, 3> Ways() const
@@ -31,7 +31,7 @@ struct RepeatedTriangles
   }
 };
 
-// O(n log n) of the triangles with such edges only.
+// O(n log n) for n triangles with such edges.
 RepeatedTriangles findRepeated(const TriangleSurface& surface, const SurfaceEdges& edges);
 
 // Writes the triangles that stay, which may be to their own memory; returns their number.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a closed surface encloses of the cells of a grid, each place as often as its winding number
-// says, exactly.
+// The volumes that a closed surface encloses in the cells of a grid, exactly, each place multiplied
+// by its winding number.
 #ifndef RectifiedTransport_SignedVolumes_h
 #define RectifiedTransport_SignedVolumes_h
 
@@ -15,9 +15,8 @@
 namespace RectifiedTransport
 {
 
-// A sum of doubles up to about 1, that does not depend on their order: each is rounded to a
-// multiple of 2^-72, and these are added as integers. Good for 2^27 of them and more.
-// OrderlessSum{} is 0.
+// A sum of doubles up to about 1 that does not depend on their order: each is rounded to a multiple
+// of 2^-72, and these are added as integers. Valid for at least 2^27 of them. OrderlessSum{} is 0.
 class OrderlessSum
 {
 public:
@@ -44,27 +43,29 @@ private:
   std::int64_t Low;
 };
 
-// The volumes in a layer of cells, by the divergence theorem: over a piece of a triangle within one
+// The volumes in a layer of cells, by the divergence theorem. Over a piece of a triangle within one
 // cell stands a prism along axis 0, up to the end of the row. Its volume in the piece's own cell is
 // the piece's area, projected along axis 0, times its mean distance from the cell's end; in each
-// later cell of the row it is the area. With the sign of the piece's side these add up to what
-// is enclosed. The error is that of rounding, about 1e-15 of a cell, and no part is too thin.
+// later cell of the row it is the area. With the sign of the piece's side, these sum to the
+// enclosed volume. The error is that of rounding, about 1e-15 of a cell, for parts of any
+// thickness.
 class SignedVolumes
 {
 public:
-  // Of the rows of a part; each row has all cells along axis 0.
+  // For the rows of a part; each row has all cells along axis 0.
   SignedVolumes(const GridSize<3>& cells, const LatticePart<3>& part);
 
-  // Forgets all; then the layer is `layer`.
+  // Clears everything; then the layer is `layer`.
   void Begin(std::int64_t layer);
-  // Adds `weight` times what is before a triangle of an outward side. Triangles beyond the grid
-  // along axis 0 count as on its border; their parts beyond it along the other axes do not count.
+  // Adds `weight` times the volume in front of the outward side of a triangle. Triangles beyond the
+  // grid along axis 0 count as on its border; their parts beyond it along the other axes are
+  // ignored.
   void Add(const std::array<Corner, 3>& triangle, int weight);
 
-  // Whether a triangle has a part in a row, counted from the part's first.
+  // Whether a triangle has a part in a row, counted from the part's first row.
   bool HasRow(std::int64_t row) const { return this->Used[static_cast<std::size_t>(row)] != 0; }
-  // Writes the volumes of all cells of such a row; those that `rounding` times the areas before a
-  // cell's end may have made of 0 or 1 are that.
+  // Writes the volumes of all cells of such a row. Values that differ from 0 or 1 by at most
+  // `rounding` times the areas before a cell's end become 0 or 1.
   void WriteRow(std::int64_t row, double rounding, double* volumes) const;
 
 private:

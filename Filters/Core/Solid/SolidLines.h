@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines along axis 0 through a layer of cells: where the winding number is not what a sum of signed
-// volumes takes it for.
+// Lines along axis 0 through a layer of cells. They find where the winding number differs from what
+// a sum of signed volumes assumes.
 #ifndef RectifiedTransport_SolidLines_h
 #define RectifiedTransport_SolidLines_h
 
@@ -38,14 +38,14 @@ private:
   std::int64_t Count = 0;
 };
 
-// What lines count and cover of the cells of a row.
+// The lengths that lines count and cover in the cells of a row.
 class RowLengths
 {
 public:
   explicit RowLengths(std::int64_t columns);
 
   void Clear();
-  // An interval of a line that is counted so many times, and covered or not.
+  // Adds an interval of a line that is counted `counted` times, and covered or not.
   void Add(double begin, double end, std::int64_t counted, bool isCovered);
   // As SolidLines::CorrectRow.
   void Correct(std::int64_t lines, double* values) const;
@@ -68,11 +68,11 @@ private:
 
 // Each cell is crossed by squares^2 lines, through the centres of as many equal squares.
 //
-// A surface that passes exactly through lines and rows of lines is no special case: the plane of a
-// row intersects the surface in closed polygons, whose corners are on the triangles' edges, at
-// places that both triangles of an edge compute from the same numbers in the same order. Such a
-// polygon crosses every line of the row equally often in both directions, if a corner on the line
-// counts as below it, whatever the rounding of the corners.
+// A surface that passes exactly through lines and rows of lines is no special case. The plane of a
+// row intersects the surface in closed polygons. Their corners are on the triangles' edges; both
+// triangles of an edge compute them from the same numbers in the same order. If a corner on a line
+// counts as below it, such a polygon crosses every line of the row equally often in both
+// directions, whatever the rounding of the corners.
 class SolidLines
 {
 public:
@@ -82,15 +82,15 @@ public:
     const signed char* weights, const GridSize<3>& cells, const LatticePart<3>& part,
     int supersampling);
 
-  // Finds the crossings of all lines of a layer. Does so in part where the run is cancelled.
+  // Finds the crossings of all lines of a layer; incomplete if the run is cancelled.
   void FindCrossings(std::int64_t layer, Progress& progress);
-  // Whether lines of a row, counted from the part's first, cross the surface.
+  // Whether lines of a row, counted from the part's first row, cross the surface.
   bool HasRow(std::int64_t row) const;
   // Corrects the values of all cells of a row, which count each place as often as the weighted
-  // windings do: nothing changes where these are 1 within the solid and 0 without. Where lines
-  // count too much, a value is multiplied by the share of it that they cover, so that no part of a
-  // solid is lost between lines. What they cover beyond what they count is added. Returns how many
-  // lines leave the solid another number of times than they enter it.
+  // windings. Nothing changes if these are 1 within the solid and 0 outside. If lines count too
+  // much, a value is multiplied by the share of it that they cover, so that no part of a solid is
+  // lost between lines. What they cover beyond what they count is added. Returns how many lines do
+  // not leave the solid as often as they enter it.
   std::int64_t CorrectRow(std::int64_t row, double* values);
 
 private:

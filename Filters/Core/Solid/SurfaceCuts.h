@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts of triangles by planes and lines along the axes. Both triangles of an edge compute a cut of
-// it from the same numbers in the same order, so that they agree to the last bit.
+// it from the same numbers in the same order: they agree to the last bit.
 #ifndef RectifiedTransport_SurfaceCuts_h
 #define RectifiedTransport_SurfaceCuts_h
 
@@ -27,7 +27,7 @@ inline std::array<Corner, 3> cornersOf(const TriangleSurface& surface, std::int6
   return corners;
 }
 
-// A convex polygon: a triangle, or what planes along the axes leave of one.
+// A convex polygon: a triangle, or what planes along the axes leave of it.
 struct CutPolygon
 {
   static constexpr int Most = 9; // of a triangle, one more for each side of a box
@@ -186,7 +186,7 @@ public:
   }
   // The change of the winding number along axis 0.
   int Side() const { return this->Up ? 1 : -1; }
-  // Of a line from Low.Y to below High.Y.
+  // The place on the line of y, from Low.Y to below High.Y.
   double At(double y) const
   {
     const double x = this->Low.X + this->Slope * (y - this->Low.Y);

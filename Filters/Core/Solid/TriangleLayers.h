@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a surface by the layers of grid cells that they have a part in.
+// The triangles of a surface by the layers of grid cells that they cross.
 #ifndef RectifiedTransport_TriangleLayers_h
 #define RectifiedTransport_TriangleLayers_h
 
@@ -19,9 +19,9 @@ class Progress;
 class TriangleLayers
 {
 public:
-  // Of `layers`, lists for those of [firstLayer, endLayer). Works in two stages, up to the
-  // progresses given. Memory: 8 bytes for each layer that a triangle has a part in. Throws
-  // std::bad_alloc and Cancelled.
+  // Lists for the layers [firstLayer, endLayer) of `layers`. Works in two stages, up to the given
+  // progresses. Memory: 8 bytes for each layer that a triangle crosses. Throws std::bad_alloc and
+  // Cancelled.
   TriangleLayers(const TriangleSurface& surface, std::int64_t layers, std::int64_t firstLayer,
     std::int64_t endLayer, double counted, double listed, Progress& progress);
 

@@ -12,8 +12,8 @@
 namespace RectifiedTransport
 {
 
-// Particles. A chunk of a lattice that is splat in its own order is a few cells high: chunks that
-// reach two slabs, whose weights are computed twice, are few.
+// Particles. A chunk of a lattice that is splat in its own order is a few cells high: few chunks
+// reach two slabs, and only their weights are computed twice.
 constexpr std::int64_t splatChunk = 512;
 
 template <int Dimension, class Real>
@@ -38,10 +38,10 @@ public:
   // Finds the planes that chunks of the particles [first, first + count), count > 0, may reach.
   void FindChunks(std::int64_t first, std::int64_t count, const Executor& executor);
 
-  // Whether most chunks reach over more cells than caches hold, after FindChunks.
+  // After FindChunks: whether most chunks reach more cells than caches hold.
   bool IsScattered() const { return this->Scattered; }
 
-  // Cuts the cells in memory into at most `wanted` slabs, after FindChunks. Returns the mean number
+  // After FindChunks: cuts the cells in memory into at most `wanted` slabs. Returns the mean number
   // of slabs that a chunk reaches.
   double CutSlabs(std::int64_t wanted);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mass of particles on a grid: every particle distributes its mass over the grid cells around
-// it by a kernel that is a product of one-dimensional ones.
+// The mass of particles on a grid: each particle distributes its mass over the grid cells around it
+// by a kernel that is a product of one-dimensional kernels.
 #ifndef RectifiedTransport_Splat_h
 #define RectifiedTransport_Splat_h
 
@@ -15,13 +15,13 @@ namespace RectifiedTransport
 {
 
 // Hockney and Eastwood, "Computer Simulation Using Particles", 1988, Section 5-3: constant, linear
-// and quadratic B-splines, over 1, 2 and 3 cells an axis. All but NearestCell keep the centroid.
+// and quadratic B-splines, over 1, 2 and 3 cells an axis. All except NearestCell keep the centroid.
 enum class SplatKernel
 {
   CloudInCell,
   NearestCell, // of a point on a face, the upper cell
   TriangularShapedCloud,
-  // Truncated at three standard deviations, and its values at the cells' centres multiplied by the
+  // Truncated at three standard deviations. Its values at the cells' centres are multiplied by the
   // linear function that makes their sum 1 and keeps the centroid.
   Gaussian
 };
@@ -36,7 +36,7 @@ struct SplatOptions
 {
   SplatKernel Kernel = SplatKernel::CloudInCell;
   // The Gaussian's standard deviation in grid cells, above 0 and at most LargestRadius. Up to a
-  // third of a cell its support has at most two cells an axis, and it is the CloudInCell.
+  // third of a cell, its support has at most two cells an axis, and it is CloudInCell.
   double Radius = 1.0;
   SplatBoundary Boundary = SplatBoundary::Renormalize;
 
@@ -59,16 +59,16 @@ struct SplatReport
   std::int64_t Outside = 0;
 };
 
-// Writes `scale` times the mass of every grid cell, axis 0 fastest, of at most 2^30 cells an axis.
-// The terms of a cell are added in the order of the particles, so that the result is that of a
-// serial loop, to the last bit, for every executor. Throws std::bad_alloc and Cancelled.
+// Writes `scale` times the mass of every grid cell, axis 0 fastest, at most 2^30 cells an axis. The
+// terms of a cell are added in the order of the particles: for every executor, the result is
+// bitwise that of a serial loop. Throws std::bad_alloc and Cancelled.
 template <int Dimension, class Real>
 SplatReport splatMass(const SplatParticles<Dimension, Real>& particles,
   const GridSize<Dimension>& size, const SplatOptions& options, double scale, double* cells,
   const Context& context = Context());
 
-// The same for the cells of a part of the grid: each has the bits that it has in the whole.
-// Particles that reach none of them may be left out.
+// The same for the cells of a part of the grid, bitwise as in the whole grid. Particles that reach
+// none of them may be left out.
 template <int Dimension, class Real>
 void splatMass(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
   const LatticePart<Dimension>& part, const SplatOptions& options, double scale, double* cells,

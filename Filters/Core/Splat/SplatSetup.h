@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a splat of particles to a grid is to do, and the kernels that do it.
+// The job of a splat of particles to a grid, and its kernels.
 #ifndef RectifiedTransport_SplatSetup_h
 #define RectifiedTransport_SplatSetup_h
 
@@ -15,7 +15,7 @@ template <int Dimension, class Real>
 class SplatSetup
 {
 public:
-  // Of the cells in memory, the Job's Box, and the scale nothing is set. Throws std::bad_alloc.
+  // Does not set the cells in memory, the Job's Box and the scale. Throws std::bad_alloc.
   SplatSetup(const SplatParticles<Dimension, Real>& particles, const GridSize<Dimension>& size,
     const SplatOptions& options);
   SplatSetup(const SplatSetup&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts particles by the tiles of the grid that they reach, those of a tile in their order: tasks
-// for the tiles then add particles of no spatial order, and compute the weights of no others.
+// Sorts particles by the tiles of the grid that they reach, keeping their order within a tile.
+// Tasks for the tiles then add spatially unordered particles and compute no other weights.
 #ifndef RectifiedTransport_SplatTiles_h
 #define RectifiedTransport_SplatTiles_h
 
@@ -23,7 +23,7 @@ public:
   {
   }
 
-  // Divides the cells in memory into tiles, once the job has them.
+  // Divides the cells in memory into tiles. The job must have the cells.
   void Divide();
 
   // Sorts `count` < 2^32 particles from `first` on. Returns how many are outside; results are
@@ -38,8 +38,8 @@ public:
   std::int64_t CountOf(std::int64_t tile) const;
 
 private:
-  // Calls visit(tile) for the tiles of the cells that a particle reaches, of which `cells` are the
-  // first along each axis.
+  // Calls visit(tile) for the tiles of the cells that a particle reaches; `cells` are the first
+  // cells along each axis.
   template <class Visit>
   void VisitTiles(const std::int32_t* cells, const Visit& visit) const;
 

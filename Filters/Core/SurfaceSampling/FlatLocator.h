@@ -15,8 +15,8 @@
 namespace RectifiedTransport
 {
 
-// A mesh in the unit square. `Masses`, if not null, has a value for each triangle: those of mass 0
-// are not found.
+// A mesh in the unit square. `Masses`, if not null, has a value for each triangle: triangles of
+// mass 0 are not found.
 struct FlatMesh
 {
   ConstPointSpan<2> Positions;
@@ -26,27 +26,26 @@ struct FlatMesh
   Point<2> Lengths{ 1.0, 1.0 }; // of the square's sides, for distances; each > 0
 };
 
-// A point of a triangle: the barycentric coordinates of the triangle's points, not negative, with
-// the sum 1.
+// A point of a triangle, by its barycentric coordinates: not negative, with the sum 1.
 struct PlaceOnTriangle
 {
   std::int64_t Triangle;
   std::array<double, 3> Weights;
 };
 
-// A tree of bounding boxes, divided about the median along their longer axis: triangles of very
-// uneven sizes cost no more than equal ones. The mesh must outlive it.
+// A tree of bounding boxes, divided at the median along their longer axis: triangles of very uneven
+// sizes cost no more than equal ones. The mesh must outlive it.
 class FlatLocator
 {
 public:
-  // O(triangles log triangles). Memory: about 80 bytes a triangle. Throws std::invalid_argument
-  // where no triangle has mass, std::bad_alloc and Cancelled.
+  // O(triangles log triangles). Memory: about 80 bytes a triangle. Throws std::invalid_argument if
+  // no triangle has mass, std::bad_alloc and Cancelled.
   explicit FlatLocator(const FlatMesh& mesh, const Context& context = Context());
 
-  // The place of a point: in the triangle that contains it and turns left, the first of several (on
-  // an edge, or where the map folds), decided without rounding. Where a map covers the square there
-  // is always one, and those that turn right lie below others. Of a point in none it is the nearest
-  // place on an edge.
+  // The place of a point: in the triangle that contains it and turns left, the first if there are
+  // several (on an edge, or where the map folds), decided without rounding. If a map covers the
+  // square, there is always one; triangles that turn right lie below others. A point in no triangle
+  // gets the nearest place on an edge.
   PlaceOnTriangle Locate(const Point<2>& point) const;
 
 private:

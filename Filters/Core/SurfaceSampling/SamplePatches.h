@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether samples of a surface are as many everywhere as their share of the mass.
+// Whether the numbers of samples of a surface match the shares of the mass everywhere.
 #ifndef RectifiedTransport_SamplePatches_h
 #define RectifiedTransport_SamplePatches_h
 
@@ -11,9 +11,9 @@
 namespace RectifiedTransport
 {
 
-// The relative L2 error of the numbers of samples in patches of triangles, each with the mass of at
-// most 64 samples unless it is one triangle. Patches are the leaves of a k-d tree of the triangles'
-// centres in space. O(triangles log triangles). Throws std::bad_alloc and Cancelled.
+// The relative L2 error of the numbers of samples in patches of triangles. A patch has the mass of
+// at most 64 samples unless it is one triangle. Patches are the leaves of a k-d tree of the
+// triangles' centres in space. O(triangles log triangles). Throws std::bad_alloc and Cancelled.
 double patchError(const DiskMesh& disk, const double* masses,
   const LargeBuffer<PlaceOnTriangle>& places, const Context& context = Context());
 

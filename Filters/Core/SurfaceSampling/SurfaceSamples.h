@@ -32,8 +32,8 @@ struct SurfaceSamplingOptions
 
 struct SurfaceSamples
 {
-  // Of the numbers of samples in patches of the surface, that the conformal map may have (see
-  // patchError): evenly spread samples have about 0.03 to 0.05, independent ones 0.13.
+  // The largest patchError with which the conformal map is used: evenly spread samples have about
+  // 0.03 to 0.05, independent ones 0.13.
   static constexpr double AcceptableError = 0.25;
 
   LargeBuffer<PlaceOnTriangle> Places; // in the order of the seeds
@@ -49,14 +49,14 @@ GridSize<2> flatGrid(double aspectRatio, std::int64_t resolution);
 // The seeds in the rectangle of a map.
 UnitSeeds<2> flatSeeds(double aspectRatio, const SurfaceSamplingOptions& options);
 
-// Moves uniform points of the rectangle that a disk is mapped to conformally, which keeps their
-// pattern, by the flow of the triangles' masses, and puts them on the triangles. A place is never
-// on a triangle without mass: points that land there, in a cell of the grid that other triangles
-// give mass to, go to the nearest place that has.
+// Moves uniform points of the rectangle that a disk is mapped to conformally by the flow of the
+// triangles' masses, and puts them on the triangles. The conformal map keeps their pattern. A place
+// is never on a triangle without mass: points that land there, in a grid cell that has mass from
+// other triangles, go to the nearest place with mass.
 //
-// Where the conformal map squeezes much of the surface into few cells of the grid, as the far end
-// of a long tube, the numbers of samples would be wrong: beyond AcceptableError the samples are
-// made by the area-preserving map in the unit square, which shears their pattern.
+// If the conformal map squeezes much of the surface into few cells of the grid, for example the far
+// end of a long tube, the numbers of samples would be wrong. Beyond AcceptableError the
+// area-preserving map in the unit square is used instead, which shears their pattern.
 //
 // Cost: O(Resolution^2 + triangles log triangles + samples (log triangles + steps)). Memory: 45
 // bytes a cell, 80 a triangle and 48 a sample. The samples have the same bits on any number of

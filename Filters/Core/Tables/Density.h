@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A piecewise-constant density on a grid of unit cells (paper, Section 3.2): the interface to its
-// values, and the error for one that has no transport.
+// values, and the error for a density without transport.
 #ifndef RectifiedTransport_Density_h
 #define RectifiedTransport_Density_h
 
@@ -24,7 +24,7 @@ public:
   virtual void Read(std::int64_t first, std::int64_t count, double* values) const = 0;
 };
 
-// A grid and its values, which are in this process or on several ranks; it owns neither. Cell
+// A grid and its values, which are in this process or distributed over ranks; it owns neither. Cell
 // (i0, i1, i2) covers [i0, i0+1] x ... of index space.
 template <int Dimension>
 class DensitySource
@@ -47,7 +47,7 @@ public:
   std::shared_ptr<const DensityValues> Part(
     const GridSize<Dimension>& low, const GridSize<Dimension>& high) const
   {
-    // Without an owner where the values are here.
+    // Without an owner if the values are in this process.
     return this->OnRanks
       ? this->OnRanks->Gather(low, high)
       : std::shared_ptr<const DensityValues>(std::shared_ptr<void>(), this->Here);
@@ -95,17 +95,17 @@ struct DensitySummary
   std::int64_t Negative = 0;
   std::int64_t FirstNegative = -1;
   double Maximum = 0.0;
-  // Of positive values: in how many cells the largest one is, the first of them, and the largest
-  // value below it, 0 if there is none.
+  // Among positive values: the number of cells with the largest one, the first of them, and the
+  // largest value below it, 0 if there is none.
   std::int64_t Maxima = 0;
   std::int64_t FirstMaximum = -1;
   double BelowMaximum = 0.0;
   double Minimum = std::numeric_limits<double>::max();
-  double Total = 0.0; // sum of the cells' values; infinite if it passes the largest double
+  double Total = 0.0; // sum of the cells' values; infinite if it is beyond the largest double
 };
 
-// A density that has no transport: values that are not finite or negative, or a total that is zero
-// or infinite.
+// A density without transport: values that are negative or not finite, or a total that is zero or
+// infinite.
 class InvalidDensity : public std::runtime_error
 {
 public:

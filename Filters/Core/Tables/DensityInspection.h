@@ -11,20 +11,20 @@
 namespace RectifiedTransport
 {
 
-// Inspects part of a row of grid cells, of which the first has the index `index`, and sets one bit
-// of `words` for each that has mass. Adds to all of `found` but the total.
+// Inspects part of a row of grid cells, beginning at the index `index`, and sets one bit of `words`
+// for each cell that has mass. Adds to all members of `found` except the total.
 RowInspection inspectCells(const double* values, std::int64_t count, std::int64_t index,
   std::uint64_t* words, DensitySummary& found);
 
-// Adds to the least, the largest and the second largest value of `found` those of part of a row, of
-// which the first has the index `index` and which has this least and largest value.
+// Updates the smallest, the largest and the second largest value of `found` by part of a row, which
+// begins at the index `index` and has this smallest and largest value.
 void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
   double largest, DensitySummary& found);
 
 // Adds the summary of a part to that of the whole.
 void merge(const DensitySummary& part, DensitySummary& whole);
 
-// Throws InvalidDensity for the summary of values that have no transport.
+// Throws InvalidDensity if the summarized density has no transport.
 void requireDensity(const DensitySummary& found);
 
 } // namespace RectifiedTransport

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over boxes from a density itself, where there are no tables of it.
+// Sums over boxes directly from a density without tables.
 #ifndef RectifiedTransport_DensityShare_h
 #define RectifiedTransport_DensityShare_h
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A density whose grid cells lie on several ranks: the interface to its values.
+// The interface to the values of a density that is distributed over ranks.
 #ifndef RectifiedTransport_DistributedDensity_h
 #define RectifiedTransport_DistributedDensity_h
 

@@ -17,26 +17,26 @@ class Progress;
 class Ranks;
 
 // The nodes along one axis of `size` grid cells. They are `stride` cells apart, a power of two, but
-// denser towards both faces, as boxes that are cut there are narrow: a cell between nodes is one
-// grid cell wide, or at most 1/ratio of its distance from the nearer face.
+// denser towards both faces, because boxes that are cut there are narrow: a cell between nodes is
+// one grid cell wide, or at most 1/ratio of its distance from the nearer face.
 std::vector<std::int64_t> gradedNodes(std::int64_t size, std::int64_t stride, double ratio);
 
 // In 2D and 3D. One record of doubles a node; see TableView.h for its entries. The sums at the
-// nodes are those of whole tables; boxes at least `ratio` strides wide, or cut at a face, are
+// nodes are those of whole tables. Boxes at least `ratio` strides wide, or cut at a face, are
 // interpolated between them. Built in O(cells), in one pass over the density that also inspects it;
 // the same bits for every executor.
 template <int Dimension>
 class GradedTables
 {
 public:
-  // Of a distributed density every rank sums some layers of the grid, and gets the tables of all;
+  // For a distributed density, every rank sums some layers of the grid and gets the tables of all;
   // collective. Throws InvalidDensity, Cancelled and std::bad_alloc.
   GradedTables(const DensitySource<Dimension>& density, const GridSize<Dimension>& strides,
     double ratio, Progress& progress);
 
   const TableView<Dimension>& View() const { return this->Tables; }
   const DensitySummary& Summary() const { return this->Found; }
-  // The exponent of two that the values are scaled by in the tables.
+  // The exponent of the power of two that scales the values in the tables.
   int Scaling() const { return this->Exponent; }
   std::int64_t MemorySize() const;
 

@@ -9,17 +9,17 @@
 namespace RectifiedTransport
 {
 
-// Whether the grid cell that holds a point has mass; of a point on a face, any of its cells.
+// Whether the grid cell that contains a point has mass; on a face, whether any of its cells has.
 template <int Dimension>
 bool hasMass(const TableView<Dimension>& tables, const Point<Dimension>& point);
 
-// The point of a grid cell with mass that is nearest to `point`, at least 2^-20 inside that cell,
-// where a cell's sides have the lengths `sides`.
+// The point nearest to `point` in a grid cell with mass, at least 2^-20 inside that cell. A cell's
+// sides have the lengths `sides`.
 template <int Dimension>
 Point<Dimension> nearestMass(
   const TableView<Dimension>& tables, const Point<Dimension>& point, const Point<Dimension>& sides);
 
-// The same for cells whose sides are equal.
+// The same for cells with equal sides.
 template <int Dimension>
 Point<Dimension> nearestMass(const TableView<Dimension>& tables, const Point<Dimension>& point)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes in memory that may be new, which the system clears page by page when it is first written
-// to. Threads that write to one new huge page at a time each clear a page, and all but one of these
-// are thrown away: hence every page is touched by one thread before several write to it.
+// Nodes in memory that may be new. The system clears new memory page by page at the first write. If
+// several threads write to the same new huge page at once, each clears a page, and all except one
+// are thrown away. Hence one thread touches every page before several write to it.
 #ifndef RectifiedTransport_NewNodes_h
 #define RectifiedTransport_NewNodes_h
 
@@ -15,24 +15,24 @@ namespace RectifiedTransport
 class NewNodes
 {
 public:
-  // From a node on, in the order of their addresses.
+  // Begins at a node; nodes are in the order of their addresses.
   explicit NewNodes(double* nodes)
     : Next(nodes)
   {
   }
 
-  // The number of pages that begin in the nodes up to an end; none are to be touched by one thread.
+  // The number of pages to touch that begin in the nodes up to an end; 0 for one thread.
   std::int64_t PagesUpTo(const double* end, const Executor& threads) const
   {
     return threads.Concurrency() > 1 ? pageFrom(end) - pageFrom(this->Next) : 0;
   }
-  // Writes to one of these pages. Before anything else is written to these nodes.
+  // Writes to one of these pages. Call it before anything else is written to these nodes.
   void Touch(std::int64_t page) const
   {
     const std::int64_t address = (pageFrom(this->Next) + page) * pageBytes;
     this->Next[(address - addressOf(this->Next)) / doubleBytes] = 0.0;
   }
-  // Goes on to the nodes from there on.
+  // Continues with the nodes from there on.
   void Pass(double* end) { this->Next = end; }
 
 private:

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 // A box with at most this share of the mass counts as empty: the rounding of the sums.
 constexpr double voidShare = 2e-15;
 
-// Sets the strides, in doubles, of so many nodes an axis. Returns the number of doubles.
+// Sets the strides, in doubles, for this number of nodes an axis. Returns the number of doubles.
 template <int Dimension>
 std::int64_t layOutNodes(const GridSize<Dimension>& nodes, std::int64_t (&stride)[Dimension]);
 

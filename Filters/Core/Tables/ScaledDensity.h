@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moments of very large values overflow, those of very small ones lose bits: scaling by a power of
-// two prevents both and does not round.
+// Moments of very large values overflow, those of very small values lose bits. Scaling by a power
+// of two prevents both and does not round.
 #ifndef RectifiedTransport_ScaledDensity_h
 #define RectifiedTransport_ScaledDensity_h
 
@@ -13,7 +13,7 @@
 namespace RectifiedTransport
 {
 
-// The exponent of two to scale a density of this maximum by; 0 for usual ones.
+// The exponent of the power of two to scale a density of this maximum by; 0 for usual maxima.
 inline int scalingOf(double maximum)
 {
   constexpr double extreme = 1e200;

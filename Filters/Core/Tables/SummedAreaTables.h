@@ -24,8 +24,8 @@ struct TableMemory
 
 // One record of doubles a node; see TableView.h for its entries. Built in O(cells), in one pass
 // over the density that also inspects it, slab by slab: first the sums of the slab's strips, then
-// the tables of all strips in parallel. The strips are fixed, so that the tables are the same to
-// the last bit for every executor. Integer-valued densities give exact sums below 2^53.
+// the tables of all strips in parallel. The strips are fixed: the tables are bitwise the same for
+// every executor. Integer-valued densities give exact sums below 2^53.
 template <int Dimension>
 class SummedAreaTables
 {

@@ -16,7 +16,7 @@
 namespace RectifiedTransport
 {
 
-// Lengths are in units of the mean spacing, so that each cell is to have the area 1. Sites near the
+// Lengths are in units of the mean spacing, so that each cell shall have area 1. Sites near the
 // border are repeated beyond it, so that the cells of the square are those of the torus.
 class TorusPartition
 {
@@ -36,8 +36,8 @@ public:
     this->Work.BeginStage(1.0);
   }
 
-  // Finds the weights by Newton's method, beginning from the last ones: as in EqualMassPartition,
-  // without what uneven densities need.
+  // Finds the weights by Newton's method, beginning with the last ones, as in EqualMassPartition
+  // but only for uniform densities.
   void Solve(const std::vector<Point<2>>& sites)
   {
     this->SetSites(sites);
@@ -68,7 +68,7 @@ public:
     }
   }
 
-  // Of each site's cell, after Solve.
+  // The moments of each site's cell, after Solve.
   const std::vector<Moments>& CellMoments() const { return this->Found; }
   // The mean of |x - site|^2 over the torus.
   double MeanSquare() const
@@ -133,7 +133,7 @@ private:
     }
   }
 
-  // Of a site and a side of its cell.
+  // Adds the triangle of a site and a side of its cell.
   static void AddTriangle(
     const Point<2>& site, const Point<2>& from, const Point<2>& to, Moments& moments)
   {
