@@ -32,7 +32,7 @@ namespace RectifiedTransport
 
 struct SplatTarget;
 
-// Of vtkTransportBlend.
+// As in vtkTransportBlend.
 enum class MassMode
 {
   Linear,
@@ -60,7 +60,7 @@ struct BlendSettings
   bool AddCost = false; // of two inputs: TransportCost
 };
 
-// Of vtkTransportBlend: the density on port 0, the particles on port 1.
+// The outputs of vtkTransportBlend: the density on port 0, the particles on port 1.
 struct BlendOutput
 {
   explicit BlendOutput(vtkInformationVector* outputs);
@@ -95,7 +95,7 @@ private:
     vtkImageData* output);
 
   std::vector<LinearizedMap> Maps;
-  // Of the last CostBetweenEnds.
+  // The arrays of the last CostBetweenEnds.
   std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
   double EndsCost = 0.0;
   vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same

@@ -34,10 +34,10 @@ public:
   // gone.
   void AddArray(vtkAbstractArray* array);
 
-  // Whether this is the content `before`; if so, `before` gets the times of this one. The work of
-  // the current stage. Throws Cancelled.
+  // Whether this is the content `before`; if so, `before` gets the times of this one. Runs as the
+  // current stage. Throws Cancelled.
   bool IsSameAs(DataContent& before, Progress& progress);
-  // Prepares for later comparisons. The work of the current stage. Throws Cancelled.
+  // Prepares for later comparisons. Runs as the current stage. Throws Cancelled.
   void Keep(Progress& progress);
 
 private:

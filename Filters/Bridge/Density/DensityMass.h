@@ -9,10 +9,9 @@ namespace RectifiedTransport
 class InputDensity;
 class Progress;
 
-// Density times cell measure, summed, for a prepared density. The work of the current stage.
-// Reports values that are probably not meant. Throws Failure if the mass is beyond the largest
-// double, and Cancelled. If there are wrong values, which the core counts, the result is
-// meaningless.
+// Density times cell measure, summed, for a prepared density. Runs as the current stage. Reports
+// values that are probably not meant. Throws Failure if the mass is beyond the largest double, and
+// Cancelled. If there are wrong values, which the core counts, the result is meaningless.
 double massOf(InputDensity& density, Progress& progress);
 
 } // namespace RectifiedTransport

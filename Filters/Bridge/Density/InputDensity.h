@@ -52,7 +52,7 @@ public:
   const Times& GetTimes() const { return this->Changed; }
   // The content without the hash.
   const Content& GetReading() const { return this->Reading; }
-  // Computed once. The work of the current stage. Throws Cancelled.
+  // Computed once. Runs as the current stage. Throws Cancelled.
   const Content& GetContent(Progress& progress);
 
   // Computes what reading for such tables needs from all values, such as the largest value. Call it

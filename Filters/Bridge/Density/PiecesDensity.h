@@ -58,7 +58,7 @@ private:
 
   const std::unique_ptr<const ImagePieces> Distribution;
   const std::string ArrayName;
-  std::unique_ptr<DensityImage> Gathered; // all of it, where it is needed
+  std::unique_ptr<DensityImage> Gathered; // all of it, if needed
   const Boxes<1> Line{ *this };
   const Boxes<2> Plane{ *this };
   const Boxes<3> Space{ *this };

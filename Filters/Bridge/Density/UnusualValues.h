@@ -51,8 +51,8 @@ bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t valu
 bool isUnusualWhite(const LargestValue& white);
 bool isUnusualLowest(const LowestValue& lowest);
 
-// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. The work of
-// the current stage. Throws Cancelled.
+// The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. Runs as the
+// current stage. Throws Cancelled.
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
 

@@ -27,7 +27,8 @@ struct MeshSlabs
   }
   std::int64_t At(double plane) const
   {
-    const double end = static_cast<double>(this->Planes * this->Count); // far ones are no integers
+    const double end = static_cast<double>(this->Planes * this->Count); // far ones may exceed every
+                                                                        // integer
     return std::min(
       static_cast<std::int64_t>(std::clamp(plane, 0.0, end)) / this->Planes, this->Count - 1);
   }

@@ -16,7 +16,7 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The work of the current stage. Throws Failure and Cancelled.
+// Runs as the current stage. Throws Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);
 

@@ -20,8 +20,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// The point array of masses of that name; nullptr for an empty name, and for "None" where there is
-// no such array. Throws Failure if it is missing, not numeric or has several components.
+// The point array of masses of that name; nullptr for an empty name, and for "None" if there is no
+// such array. Throws Failure if it is missing, not numeric or has several components.
 vtkDataArray* findMasses(vtkPointSet* points, const std::string& name);
 
 // The active attribute of the points, of vtkDataSetAttributes::AttributeTypes.

@@ -26,7 +26,7 @@ struct SampledPlace
   vtkIdType Points[8];
   double Weights[8];
   int Count;      // of points
-  vtkIdType Cell; // -1 for a place in none: values are NaN, or 0 where there is no NaN
+  vtkIdType Cell; // -1 for a place in none: values are NaN, or 0 for types without NaN
   int Set = 0;    // which of the data sets
 };
 
@@ -53,10 +53,10 @@ struct ArraySource
 {
   std::vector<vtkDataSet*> Sets;
   const char* Name; // in messages
-  bool KeepActive;  // whether active attributes of points stay active, where there are no others
+  bool KeepActive;  // whether active attributes of points stay active, if there are no others
 };
 
-// Of several data sets the arrays that all have, of one type and number of components.
+// For several data sets, samples the arrays that all have with one type and number of components.
 //
 // Adds the point arrays, interpolated, and the values of the cell arrays at the given places to the
 // data of points, except names that exist already, ghost arrays, ids of points and global ids.

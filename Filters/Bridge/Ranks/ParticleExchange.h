@@ -20,8 +20,7 @@ class Ranks;
 
 // Each particle is a cell of `points` consecutive points; the last one is its position. Afterwards
 // the data set has the particles at the positions that this rank owns, those of rank 0 first, in
-// their order. The work of the current stage. Collective. Throws Failure, Cancelled and
-// std::bad_alloc.
+// their order. Runs as the current stage. Collective. Throws Failure, Cancelled and std::bad_alloc.
 void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners& owners,
   const Ranks& ranks, Progress& progress);
 

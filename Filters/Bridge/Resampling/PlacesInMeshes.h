@@ -22,8 +22,8 @@ class Progress;
 class PlacesInMeshes : public SampledPlaces
 {
 public:
-  // `places` are physical, in grid cells that cells of the blocks reach. The work of the current
-  // stage. Throws Failure and Cancelled.
+  // `places` are physical, in grid cells that cells of the blocks reach. Runs as the current stage.
+  // Throws Failure and Cancelled.
   PlacesInMeshes(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
     ConstPointSpan<3> places, Progress& progress);
 

@@ -18,7 +18,7 @@ namespace RectifiedTransport
 class Progress;
 
 // A hash of the bits of the arrays' values; 0 if one is not contiguous in memory. Arrays may be
-// null. The work of the current stage. Throws Cancelled.
+// null. Runs as the current stage. Throws Cancelled.
 std::uint64_t fingerprint(const std::vector<vtkDataArray*>& arrays, Progress& progress);
 
 } // namespace RectifiedTransport

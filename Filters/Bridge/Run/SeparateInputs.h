@@ -74,7 +74,7 @@ private:
 
   std::vector<Made> Data;
   std::string Failed;             // the error message; empty if all inputs were made
-  std::map<Output, State> Untold; // whose data have another time even if made alone
+  std::map<Output, State> Untold; // whose data have another time even if made separately
 
   std::map<vtkAlgorithm*, vtkMTimeType> Keepers; // of steps, and when their data were made last
 

@@ -90,8 +90,8 @@ private:
   bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
 
   std::set<int> Excepted;
-  std::map<int, bool> Shared; // whether points alone
-  bool Iterates = false;      // the executive over blocks, for each of which a rank runs alone
+  std::map<int, bool> Shared; // whether only points
+  bool Iterates = false;      // the executive, over blocks; each rank runs alone for each block
   SeparateInputs Separated;
   int Piece = 0;
   int NumberOfPieces = 1;

@@ -60,7 +60,7 @@ public:
   };
 
   // Identifies a density. Does not read its values if modification times show that the division is
-  // of it. The work of the current stage. Throws Cancelled.
+  // of it. Runs as the current stage. Throws Cancelled.
   ContentHash HashOf(InputDensity& density, Progress& progress) const
   {
     return this->Of.Density.IsOf(density) ? this->Of.Density : ContentHash(density, progress);

@@ -24,8 +24,8 @@ void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule);
 
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
-// component and a tuple for each. Coordinates are finite. The work of the current stage. Returns
-// how many points are outside the domain (see SplatReport). Throws Failure if memory is short, and
+// component and a tuple for each. Coordinates are finite. Runs as the current stage. Returns how
+// many points are outside the domain (see SplatReport). Throws Failure if memory is short, and
 // Cancelled.
 std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
   Progress& progress, vtkDoubleArray* cells);
@@ -36,7 +36,7 @@ std::int64_t splatPoints(vtkDataArray* points, const double* masses, double mass
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 
 // The total mass of the cells that splatPoints wrote: the sum of the sums of `splatSumChunk`
-// consecutive cells. The work of the current stage. Throws Cancelled.
+// consecutive cells. Runs as the current stage. Throws Cancelled.
 constexpr std::int64_t splatSumChunk = std::int64_t{ 1 } << 13;
 double splatMassIn(vtkDoubleArray* cells, const SplatTarget& target, Progress& progress);
 

@@ -41,7 +41,7 @@ struct RankSplat
   double TotalMass;     // that the whole image holds
 };
 
-// Writes the wanted cells. The work of the current stage. Collective on the ranks of the progress.
+// Writes the wanted cells. Runs as the current stage. Collective on the ranks of the progress.
 // Throws Failure and Cancelled.
 RankSplat splatOnRanks(const RankSplatInput& input, const RankSplatBoxes& boxes, Progress& progress,
   vtkDoubleArray* cells);

@@ -13,7 +13,7 @@ namespace RectifiedTransport
 
 class Progress;
 
-// As the work of the current stage. Throws Failure and Cancelled.
+// Runs as the current stage. Throws Failure and Cancelled.
 ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
 
 // A warning about triangles that have no area in the map.

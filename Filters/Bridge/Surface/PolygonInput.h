@@ -46,7 +46,7 @@ bool isAllTriangles(vtkPolyData* surface);
 std::int64_t trianglesOf(vtkCellArray* cells, vtkIdType cell);
 
 // Polygons and strips as triangles, in their order, as many as trianglesOf() counts. Coincident or
-// collinear corners of polygons give triangles without area. The work of the current stage. Throws
+// collinear corners of polygons give triangles without area. Runs as the current stage. Throws
 // Failure if edges of a polygon cross, and Cancelled.
 vtkSmartPointer<vtkCellArray> triangulate(
   vtkPoints* points, vtkCellArray* polygons, vtkCellArray* strips, Progress& progress);

@@ -43,8 +43,8 @@ class SurfaceMasses
 {
 public:
   // The mass of a triangle is its area times the mean of the density at its points, exact for
-  // linear interpolation, or times the density of its cell. Ghost cells have no mass. The work of
-  // the current stage. Throws Failure for densities that are negative or not finite and for a total
+  // linear interpolation, or times the density of its cell. Ghost cells have no mass. Runs as the
+  // current stage. Throws Failure for densities that are negative or not finite and for a total
   // mass that is zero or not finite, and Cancelled.
   SurfaceMasses(vtkPolyData* input, const DiskSurface& surface, const SurfaceDensity& density,
     Progress& progress);

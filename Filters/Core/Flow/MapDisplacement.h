@@ -44,11 +44,11 @@ public:
     ConstPointSpan<Dimension> positions, const RectifiedFlow<Dimension>* density);
 
   // Writes the displacements of the part's cells [first, last), and adds those in `counted` to the
-  // sums. The output may overwrite positions that are not needed any more. The work of the current
+  // sums. The output may overwrite positions that are not needed any more. Runs as the current
   // stage. Throws Cancelled.
   void Write(std::int64_t first, std::int64_t last, const LatticePart<Dimension>& counted,
     PointSpan<3> displacements, DisplacementSums& sums, Progress& progress) const;
-  // Adds all cells of the part to the sums. The work of the current stage. Throws Cancelled.
+  // Adds all cells of the part to the sums. Runs as the current stage. Throws Cancelled.
   void Count(DisplacementSums& sums, Progress& progress) const;
 
   // The mean squared displacement, in squared physical units. Throws std::overflow_error if it is

@@ -20,7 +20,7 @@ template <int Dimension>
 class PixelMasses
 {
 public:
-  // `total` is the sum of the density's values, which must be valid. The work of the current stage:
+  // `total` is the sum of the density's values, which must be valid. Runs as the current stage:
   // O(pixels + cells). Takes 8 bytes a pixel. Throws std::bad_alloc and Cancelled.
   PixelMasses(const DensitySource<Dimension>& density, double total,
     const GridSize<Dimension>& pixels, Progress& progress);

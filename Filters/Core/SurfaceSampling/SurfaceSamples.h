@@ -39,7 +39,7 @@ struct SurfaceSamples
   LargeBuffer<PlaceOnTriangle> Places; // in the order of the seeds
   FlowReport Flow;
   double PatchError = 0.0;
-  bool IsAreaPreserving = false; // by that map, in place of the conformal one
+  bool IsAreaPreserving = false; // by that map instead of the conformal one
 };
 
 // The grid of the rectangle of a conformal map: `resolution` cells along its longer side, as near
