@@ -25,7 +25,7 @@ std::string refusal(const GridSize<D>& size, const TableUse& use)
   }
   if (!takesFlowMaps(use.Options))
   {
-    return "takes Integrator Multistep with TableLookup Interpolated alone";
+    return "needs Integrator Multistep and TableLookup Interpolated";
   }
   if (!use.WholeFor.empty())
   {

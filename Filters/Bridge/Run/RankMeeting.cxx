@@ -120,7 +120,7 @@ private:
         hasSaid = true;
         vtkOutputWindow::GetInstance()->DisplayText(
           ("RectifiedTransport: waiting for rank " + std::to_string(rank()) +
-            " to run the same filter. All ranks must run it; where one of them alone runs it, it "
+            " to run the same filter. All ranks must run it; if only one of them runs it, it "
             "waits until RECTIFIEDTRANSPORT_RANK_TIMEOUT seconds (120) are over\n")
             .c_str());
       }
