@@ -58,7 +58,7 @@
 #ifndef vtkAreaPreservingParameterization_h
 #define vtkAreaPreservingParameterization_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -70,11 +70,11 @@ struct CornerSettings;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkAreaPreservingParameterization : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkAreaPreservingParameterization : public vtkCollectiveAlgorithm
 {
 public:
   static vtkAreaPreservingParameterization* New();
-  vtkTypeMacro(vtkAreaPreservingParameterization, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkAreaPreservingParameterization, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

@@ -92,7 +92,7 @@ int vtkBlueNoiseRelaxation::FillOutputPortInformation(int, vtkInformation* info)
 int vtkBlueNoiseRelaxation::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
+  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
   return 1;
 }
 

@@ -49,7 +49,7 @@
 #ifndef vtkDensityAlgorithm_h
 #define vtkDensityAlgorithm_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -69,10 +69,10 @@ class vtkDataObject;
 class vtkDataSet;
 class vtkImageData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkDensityAlgorithm : public vtkCollectiveAlgorithm
 {
 public:
-  vtkTypeMacro(vtkDensityAlgorithm, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkDensityAlgorithm, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

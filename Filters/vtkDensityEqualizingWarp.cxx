@@ -32,7 +32,7 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetPortPolicy(0, PORT_PIECES); // each point is moved independently of the others
-  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
 
 //------------------------------------------------------------------------------
@@ -79,7 +79,7 @@ int vtkDensityEqualizingWarp::FillOutputPortInformation(int, vtkInformation* inf
 int vtkDensityEqualizingWarp::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
+  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 0);
   return 1;
 }
 

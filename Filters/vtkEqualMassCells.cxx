@@ -128,7 +128,7 @@ int vtkEqualMassCells::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkEqualMassCells::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkGuardedAlgorithm::MakeOutputLike(inputVector[0], outputVector, 1);
+  vtkCollectiveAlgorithm::MakeOutputLike(inputVector[0], outputVector, 1);
   return 1;
 }
 

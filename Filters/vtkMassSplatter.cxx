@@ -53,8 +53,8 @@ vtkMassSplatter::vtkMassSplatter()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "");
-  this->SetPortPolicy(0, PORT_SHARED_POINTS);
-  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

@@ -62,7 +62,7 @@
 #ifndef vtkMassSplatter_h
 #define vtkMassSplatter_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 namespace RectifiedTransport
 {
@@ -75,11 +75,11 @@ class vtkDataArray;
 class vtkImageData;
 class vtkPointSet;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkMassSplatter : public vtkCollectiveAlgorithm
 {
 public:
   static vtkMassSplatter* New();
-  vtkTypeMacro(vtkMassSplatter, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkMassSplatter, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

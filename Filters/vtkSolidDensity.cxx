@@ -36,7 +36,7 @@ vtkSolidDensity::vtkSolidDensity()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_SHARED_POINTS);
+  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
 }
 
 //------------------------------------------------------------------------------

@@ -53,7 +53,7 @@
 #ifndef vtkSolidDensity_h
 #define vtkSolidDensity_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 namespace RectifiedTransport
 {
@@ -63,11 +63,11 @@ struct SolidDensity;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkSolidDensity : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkSolidDensity : public vtkCollectiveAlgorithm
 {
 public:
   static vtkSolidDensity* New();
-  vtkTypeMacro(vtkSolidDensity, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkSolidDensity, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

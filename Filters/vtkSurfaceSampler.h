@@ -64,7 +64,7 @@
 #ifndef vtkSurfaceSampler_h
 #define vtkSurfaceSampler_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
 
@@ -77,11 +77,11 @@ class SurfaceDensity;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkSurfaceSampler : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkSurfaceSampler : public vtkCollectiveAlgorithm
 {
 public:
   static vtkSurfaceSampler* New();
-  vtkTypeMacro(vtkSurfaceSampler, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkSurfaceSampler, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

@@ -35,7 +35,7 @@ vtkTransportBarycenter::vtkTransportBarycenter()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(1);
-  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

@@ -42,8 +42,8 @@ vtkTransportInterpolator::vtkTransportInterpolator()
   , Blend(new DensityBlend)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
-  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
   vtkTransportInterpolator::SetInputArrayToProcess(
     1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }

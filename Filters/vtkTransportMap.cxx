@@ -34,7 +34,7 @@ vtkTransportMap::vtkTransportMap()
 {
   this->SetNumberOfInputPorts(1);
   this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

@@ -46,8 +46,8 @@ vtkTransportQuality::vtkTransportQuality()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_SHARED_POINTS);
-  this->SetPortPolicy(1, PORT_SHARED_DENSITY);
+  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+  this->SetPortPolicy(1, PORT_PARTITIONED_DENSITY);
 }
 
 //------------------------------------------------------------------------------

@@ -36,8 +36,8 @@ vtkTransportSampler::vtkTransportSampler()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_SHARED_DENSITY);
-  this->SetPortPolicy(1, PORT_SHARED_POINTS);
+  this->SetPortPolicy(0, PORT_PARTITIONED_DENSITY);
+  this->SetPortPolicy(1, PORT_PARTITIONED_POINTS);
 }
 
 //------------------------------------------------------------------------------

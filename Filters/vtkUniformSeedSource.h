@@ -33,16 +33,16 @@
 #ifndef vtkUniformSeedSource_h
 #define vtkUniformSeedSource_h
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkGuardedAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkUniformSeedSource : public vtkCollectiveAlgorithm
 {
 public:
   static vtkUniformSeedSource* New();
-  vtkTypeMacro(vtkUniformSeedSource, vtkGuardedAlgorithm);
+  vtkTypeMacro(vtkUniformSeedSource, vtkCollectiveAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**

@@ -8,8 +8,8 @@
 #include <benchmark/benchmark.h>
 
 #include <vtkCellData.h>
+#include <vtkCollectiveAlgorithm.h>
 #include <vtkDoubleArray.h>
-#include <vtkGuardedAlgorithm.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
@@ -73,7 +73,7 @@ private:
 
 // On one thread, each after change().
 template <class Change>
-void timeUpdates(benchmark::State& state, vtkGuardedAlgorithm* filter, Change change)
+void timeUpdates(benchmark::State& state, vtkCollectiveAlgorithm* filter, Change change)
 {
   filter->SetThreadingToSerial();
   for (auto _ : state)

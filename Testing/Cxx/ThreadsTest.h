@@ -5,7 +5,7 @@
 
 #include "Checks.h"
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 #include "vtkSMPTools.h"
 
 #include <string>
@@ -15,7 +15,7 @@
 template <class Run>
 auto expectSameBits(Checks& checks, const Run& run, int line)
 {
-  const auto serial = run(vtkGuardedAlgorithm::THREADING_SERIAL);
+  const auto serial = run(vtkCollectiveAlgorithm::THREADING_SERIAL);
   for (const char* backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
   {
     if (!vtkSMPTools::SetBackend(backend))
@@ -25,8 +25,8 @@ auto expectSameBits(Checks& checks, const Run& run, int line)
     for (const int threads : { 1, 2, 3 })
     {
       vtkSMPTools::Initialize(threads);
-      for (const int threading : { vtkGuardedAlgorithm::THREADING_AUTO,
-             vtkGuardedAlgorithm::THREADING_VTK, vtkGuardedAlgorithm::THREADING_OPENMP })
+      for (const int threading : { vtkCollectiveAlgorithm::THREADING_AUTO,
+             vtkCollectiveAlgorithm::THREADING_VTK, vtkCollectiveAlgorithm::THREADING_OPENMP })
       {
         checks.That(run(threading) == serial, "same bits", line,
           std::string(backend) + ", Threading " + std::to_string(threading) + ", " +

@@ -95,7 +95,7 @@ ImagePieces::ImagePieces(vtkImageData* own, const Ranks& ranks)
     std::copy_n(own->GetDirectionMatrix()->GetData(), 9, piece.Geometry.begin() + 6);
   }
   this->TakePieces(gatherValues(ranks, piece));
-  this->Arrays = sharedArrays(own, ranks);
+  this->Arrays = commonArrays(own, ranks);
 }
 
 void ImagePieces::TakePieces(const std::vector<Piece>& pieces)

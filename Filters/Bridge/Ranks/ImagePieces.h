@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_ImagePieces_h
 #define RectifiedTransport_ImagePieces_h
 
-#include "Bridge/Ranks/SharedArrays.h"
+#include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/VTKCompatibility.h"
 

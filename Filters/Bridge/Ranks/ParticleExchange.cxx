@@ -2,8 +2,8 @@
 #include "Bridge/Ranks/ParticleExchange.h"
 
 #include "Bridge/Points/ParticleCells.h"
+#include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/PlaceOwners.h"
-#include "Bridge/Ranks/SharedArrays.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -122,7 +122,7 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   {
     return;
   }
-  const std::vector<ArrayKind> kinds = sharedArrays(particles, ranks);
+  const std::vector<ArrayKind> kinds = commonArrays(particles, ranks);
   vtkSmartPointer<vtkDataArray> places = particles->GetPoints()->GetData();
   const std::vector<int> owner = findOwners(places, points, owners, progress);
   const std::vector<std::int64_t> sent = countOfEach(owner, ranks);

@@ -3,7 +3,7 @@
 #ifndef RectifiedTransport_TupleBoxes_h
 #define RectifiedTransport_TupleBoxes_h
 
-#include "Bridge/Ranks/SharedArrays.h"
+#include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Geometry/LatticePart.h"

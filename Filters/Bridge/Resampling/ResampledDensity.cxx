@@ -2,7 +2,7 @@
 #include "Bridge/Resampling/ResampledDensity.h"
 
 #include "Bridge/Lattices/CellLattice.h"
-#include "Bridge/Lattices/TiledImages.h"
+#include "Bridge/Lattices/JoinedImages.h"
 #include "Bridge/Meshes/MeshGrid.h"
 #include "Bridge/Meshes/RegionShapes.h"
 #include "Bridge/Resampling/MeshDensity.h"
@@ -98,7 +98,7 @@ void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPo
 // Returns whether the blocks are images that tile a lattice.
 bool ResampledDensity::Join(const std::vector<DensityBlock>& blocks, bool onPoints)
 {
-  this->Made = joinTiles(blocks, onPoints);
+  this->Made = joinImages(blocks, onPoints);
   if (!this->Made)
   {
     return false;

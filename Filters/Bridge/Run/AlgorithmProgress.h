@@ -21,7 +21,7 @@ namespace RectifiedTransport
 class AlgorithmProgress final : public Progress
 {
 public:
-  // `threading` is a value of vtkGuardedAlgorithm::ThreadingType; others throw Failure. `group`:
+  // `threading` is a value of vtkCollectiveAlgorithm::ThreadingType; others throw Failure. `group`:
   // the ranks that run the algorithm together.
   AlgorithmProgress(vtkAlgorithm* algorithm, int threading, const Ranks& group = SoloRanks::Get());
 

@@ -21,7 +21,7 @@ bool haveSeveralRanks()
   return controller && controller->GetNumberOfProcesses() > 1;
 }
 
-bool sharesWithRanks(int piece, int pieces)
+bool isPieceOfRanks(int piece, int pieces)
 {
   return haveSeveralRanks() && pieces == mpiController()->GetNumberOfProcesses() &&
     piece == mpiController()->GetLocalProcessId();
@@ -34,7 +34,7 @@ bool haveSeveralRanks()
   return false;
 }
 
-bool sharesWithRanks(int, int)
+bool isPieceOfRanks(int, int)
 {
   return false;
 }

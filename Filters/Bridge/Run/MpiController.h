@@ -18,7 +18,7 @@ vtkMPIController* mpiController();
 bool haveSeveralRanks();
 
 // Whether there are several ranks, as many pieces as ranks, and the requested piece is this rank's.
-bool sharesWithRanks(int piece, int pieces);
+bool isPieceOfRanks(int piece, int pieces);
 
 } // namespace RectifiedTransport
 

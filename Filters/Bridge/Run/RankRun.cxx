@@ -286,7 +286,7 @@ std::unique_ptr<RankRun> meet(
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
 {
-  return sharesWithRanks(piece, pieces) ? meet(filter, true, rankTimeout()) : nullptr;
+  return isPieceOfRanks(piece, pieces) ? meet(filter, true, rankTimeout()) : nullptr;
 }
 
 std::unique_ptr<RankRun> RankRun::TryBegin(const std::string& filter)

@@ -17,7 +17,7 @@ public:
   int Concurrency() const override;
 };
 
-// The values are those of vtkGuardedAlgorithm::ThreadingType.
+// The values are those of vtkCollectiveAlgorithm::ThreadingType.
 enum class Threading
 {
   Auto, // OpenMP if VTK's backend is Sequential, else VTK

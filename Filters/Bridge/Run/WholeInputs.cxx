@@ -150,8 +150,8 @@ void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
     for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
     {
       this->Composites[port].emplace_back(vtkCompositeDataSet::GetData(inputVector[port], i));
-      const auto shared = this->Shared.find(static_cast<int>(port));
-      const bool takesAny = shared != this->Shared.end() && !shared->second;
+      const auto partitioned = this->Partitioned.find(static_cast<int>(port));
+      const bool takesAny = partitioned != this->Partitioned.end() && !partitioned->second;
       this->Iterates = this->Iterates || (this->Composites[port].back() && !takesAny);
     }
   }
@@ -186,26 +186,27 @@ bool WholeInputs::IsIteratingOverBlocks(
 }
 
 //------------------------------------------------------------------------------
-bool WholeInputs::IsShared(int port, vtkInformation* input) const
+bool WholeInputs::IsPartitioned(int port, vtkInformation* input) const
 {
-  const auto shared = this->Shared.find(port);
-  if (shared == this->Shared.end() || this->Iterates ||
-    !sharesWithRanks(this->Piece, this->NumberOfPieces))
+  const auto partitioned = this->Partitioned.find(port);
+  if (partitioned == this->Partitioned.end() || this->Iterates ||
+    !isPieceOfRanks(this->Piece, this->NumberOfPieces))
   {
     return false;
   }
   vtkDataObject* data = vtkDataObject::GetData(input);
-  return !shared->second || vtkImageData::SafeDownCast(data) || vtkPointSet::SafeDownCast(data);
+  return !partitioned->second || vtkImageData::SafeDownCast(data) ||
+    vtkPointSet::SafeDownCast(data);
 }
 
 //------------------------------------------------------------------------------
 // After a request of all: the executive divides the extent.
-void WholeInputs::RequestShared(int port, vtkInformationVector* inputs) const
+void WholeInputs::RequestPartitioned(int port, vtkInformationVector* inputs) const
 {
   for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
   {
     vtkInformation* input = inputs->GetInformationObject(i);
-    if (!this->IsShared(port, input))
+    if (!this->IsPartitioned(port, input))
     {
       continue;
     }
@@ -217,7 +218,7 @@ void WholeInputs::RequestShared(int port, vtkInformationVector* inputs) const
 //------------------------------------------------------------------------------
 void WholeInputs::RequestOutputs(vtkInformation* request, vtkInformationVector* outputs) const
 {
-  if (this->Shared.empty() || !sharesWithRanks(this->Piece, this->NumberOfPieces))
+  if (this->Partitioned.empty() || !isPieceOfRanks(this->Piece, this->NumberOfPieces))
   {
     return;
   }
@@ -259,7 +260,7 @@ void WholeInputs::UpdateSeparately(
 std::unique_ptr<RankRun> WholeInputs::BeginRun(
   vtkAlgorithm* filter, vtkInformationVector** inputVector) const
 {
-  if (this->Shared.empty() || this->IsIteratingOverBlocks(filter, inputVector))
+  if (this->Partitioned.empty() || this->IsIteratingOverBlocks(filter, inputVector))
   {
     return nullptr;
   }
@@ -270,11 +271,11 @@ std::unique_ptr<RankRun> WholeInputs::BeginRun(
 std::unique_ptr<RankRun> WholeInputs::BeginWithoutPieces(
   vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const
 {
-  const auto shared = this->Shared.find(port);
+  const auto partitioned = this->Partitioned.find(port);
   // A composite data set of points is executed by blocks, of which ranks may have different
   // numbers.
-  if (shared == this->Shared.end() || this->IsIteratingOverBlocks(filter, inputVector) ||
-    (shared->second && !vtkPointSet::GetData(inputVector[port])))
+  if (partitioned == this->Partitioned.end() || this->IsIteratingOverBlocks(filter, inputVector) ||
+    (partitioned->second && !vtkPointSet::GetData(inputVector[port])))
   {
     return nullptr;
   }
@@ -294,7 +295,7 @@ void WholeInputs::Require(
     for (int i = 0; i < connections; ++i)
     {
       vtkInformation* input = inputVector[port]->GetInformationObject(i);
-      if (run && this->IsShared(port, input))
+      if (run && this->IsPartitioned(port, input))
       {
         continue;
       }
@@ -330,7 +331,7 @@ void WholeInputs::Require(
 bool WholeInputs::Compare(vtkAlgorithm* filter, const Inputs& inputs)
 {
   this->Difference.clear();
-  if (!sharesWithRanks(this->Piece, this->NumberOfPieces))
+  if (!isPieceOfRanks(this->Piece, this->NumberOfPieces))
   {
     return true;
   }

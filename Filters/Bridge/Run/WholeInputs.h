@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a filter requests from its inputs: all data or, on a shared port, this rank's piece of
+// What a filter requests from its inputs: all data or, on a partitioned port, this rank's piece of
 // distributed data. Rejects other distributed inputs, for which results would be wrong.
 #ifndef RectifiedTransport_WholeInputs_h
 #define RectifiedTransport_WholeInputs_h
@@ -45,7 +45,7 @@ public:
   bool IsNeeded(int port) const { return this->Excepted.count(port) == 0; }
   bool HasPieces() const { return !this->Excepted.empty(); }
   // Takes pieces of the points on a port, or of any data, if the filter runs on all ranks.
-  void Share(int port, bool takesPoints) { this->Shared[port] = takesPoints; }
+  void Partition(int port, bool takesPoints) { this->Partitioned[port] = takesPoints; }
 
   // Records the requested piece and the composite inputs in REQUEST_UPDATE_EXTENT. While the
   // executive iterates over blocks, it replaces the input by one block at a time and requests piece
@@ -53,8 +53,8 @@ public:
   void Record(vtkAlgorithm* filter, vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
 
-  // Requests the rank's own piece of what is shared.
-  void RequestShared(int port, vtkInformationVector* inputs) const;
+  // Requests the rank's own piece of what is partitioned.
+  void RequestPartitioned(int port, vtkInformationVector* inputs) const;
   // Requests from all outputs the piece that is requested from one. Otherwise the executive makes
   // an image whole that is not requested itself, and then treats all outputs as made for the piece
   // of the requested one.
@@ -69,10 +69,10 @@ public:
     vtkAlgorithm* filter, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
   SeparateInputs& Separate() { return this->Separated; }
 
-  // The execution of a filter that shares inputs, on all ranks; nullptr if this process runs it
+  // The execution of a filter of partitioned inputs, on all ranks; nullptr if this process runs it
   // alone. As RankRun::Begin.
   std::unique_ptr<RankRun> BeginRun(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
-  // The same in REQUEST_INFORMATION, for a port that is shared.
+  // The same in REQUEST_INFORMATION, for a port that is partitioned.
   std::unique_ptr<RankRun> BeginWithoutPieces(
     vtkAlgorithm* filter, int port, vtkInformationVector** inputVector) const;
 
@@ -86,12 +86,12 @@ private:
 
   vtkCompositeDataSet* CompositeAt(int port, int connection) const; // nullptr for none
   bool IsIteratingOverBlocks(vtkAlgorithm* filter, vtkInformationVector** inputVector) const;
-  bool IsShared(int port, vtkInformation* input) const;
+  bool IsPartitioned(int port, vtkInformation* input) const;
   bool Compare(vtkAlgorithm* filter, const Inputs& inputs);
 
   std::set<int> Excepted;
-  std::map<int, bool> Shared; // whether only points
-  bool Iterates = false;      // the executive, over blocks; each rank runs alone for each block
+  std::map<int, bool> Partitioned; // whether only points
+  bool Iterates = false; // the executive, over blocks; each rank runs alone for each block
   SeparateInputs Separated;
   int Piece = 0;
   int NumberOfPieces = 1;

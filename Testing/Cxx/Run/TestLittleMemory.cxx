@@ -25,7 +25,7 @@ std::vector<vtkIdType> sizesOf(vtkAlgorithm* algorithm)
   return sizes;
 }
 
-void checkSweep(Checks& checks, vtkGuardedAlgorithm* algorithm, int line)
+void checkSweep(Checks& checks, vtkCollectiveAlgorithm* algorithm, int line)
 {
   algorithm->SetThreadingToSerial(); // new threads need memory of their own
   algorithm->Update();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images that tile one lattice, as one image.
-#ifndef RectifiedTransport_TiledImages_h
-#define RectifiedTransport_TiledImages_h
+#ifndef RectifiedTransport_JoinedImages_h
+#define RectifiedTransport_JoinedImages_h
 
 #include "Bridge/Blocks/DensityBlocks.h"
 
@@ -19,7 +19,7 @@ namespace RectifiedTransport
 // One image with the arrays that all images with mass have, at least one. What no image covers is
 // hidden. nullptr if a block is no image, if the images do not lie on one lattice, if most of its
 // box is empty, if cells overlap, or if shared points have two values. Such blocks are resampled.
-vtkSmartPointer<vtkImageData> joinTiles(const std::vector<DensityBlock>& blocks, bool onPoints);
+vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks, bool onPoints);
 
 } // namespace RectifiedTransport
 

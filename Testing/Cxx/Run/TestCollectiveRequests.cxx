@@ -3,7 +3,7 @@
 // executive.
 #include "TestData.h"
 
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 #include "vtkImageShiftScale.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -15,11 +15,11 @@
 namespace
 {
 
-class Exhausted : public vtkGuardedAlgorithm
+class Exhausted : public vtkCollectiveAlgorithm
 {
 public:
   static Exhausted* New();
-  vtkTypeMacro(Exhausted, vtkGuardedAlgorithm);
+  vtkTypeMacro(Exhausted, vtkCollectiveAlgorithm);
   int Throws = 0; // in which request
 
 protected:
@@ -65,7 +65,7 @@ vtkStandardNewMacro(Exhausted);
 
 } // namespace
 
-int TestGuardedRequests(int, char*[])
+int TestCollectiveRequests(int, char*[])
 {
   Checks checks;
   for (const int request : { 1, 2, 3, 4 })

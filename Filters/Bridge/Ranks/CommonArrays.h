@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The arrays that data sets on several ranks have in common, and their tuples as bytes.
-#ifndef RectifiedTransport_SharedArrays_h
-#define RectifiedTransport_SharedArrays_h
+#ifndef RectifiedTransport_CommonArrays_h
+#define RectifiedTransport_CommonArrays_h
 
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Parallel/Ranks.h"
@@ -45,7 +45,7 @@ struct ArrayKind
 
 // The arrays that all ranks with points have, in the order of the first of these ranks, and the
 // ghost arrays of any rank. `data` may be nullptr. Collective.
-std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks);
+std::vector<ArrayKind> commonArrays(vtkDataSet* data, const Ranks& ranks);
 
 // Consecutive tuples.
 struct TupleRun

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Ranks/SharedArrays.h"
+#include "Bridge/Ranks/CommonArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -154,7 +154,7 @@ vtkSmartPointer<vtkDataArray> ArrayKind::Make(vtkDataSet* data, vtkIdType tuples
   return array;
 }
 
-std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks)
+std::vector<ArrayKind> commonArrays(vtkDataSet* data, const Ranks& ranks)
 {
   const bool hasData = data && data->GetNumberOfPoints() > 0;
   // A first byte for whether there are data.
@@ -169,20 +169,20 @@ std::vector<ArrayKind> sharedArrays(vtkDataSet* data, const Ranks& ranks)
       all.push_back(kindsFrom(Bytes(bytes.begin() + 1, bytes.end())));
     }
   }
-  std::vector<ArrayKind> shared;
+  std::vector<ArrayKind> common;
   for (const std::vector<ArrayKind>& others : all)
   {
     for (const ArrayKind& kind : others)
     {
       const bool isInAll = std::all_of(all.begin(), all.end(),
         [&](const std::vector<ArrayKind>& kindsThere) { return has(kindsThere, kind); });
-      if ((isInAll || kind.IsGhosts()) && !has(shared, kind))
+      if ((isInAll || kind.IsGhosts()) && !has(common, kind))
       {
-        shared.push_back(kind);
+        common.push_back(kind);
       }
     }
   }
-  return shared;
+  return common;
 }
 
 void appendTuples(vtkDataArray* from, const std::vector<TupleRun>& runs, Bytes& to)

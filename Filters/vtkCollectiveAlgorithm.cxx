@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkGuardedAlgorithm.h"
+#include "vtkCollectiveAlgorithm.h"
 
 #include "Bridge/Blocks/GatheredInputs.h"
 #include "Bridge/Image/ImageGrids.h"
@@ -29,7 +29,7 @@
 VTK_ABI_NAMESPACE_BEGIN
 
 //------------------------------------------------------------------------------
-vtkGuardedAlgorithm::vtkGuardedAlgorithm()
+vtkCollectiveAlgorithm::vtkCollectiveAlgorithm()
   : Threading(THREADING_AUTO)
   , Whole(new RectifiedTransport::WholeInputs)
   , Early(new RectifiedTransport::EarlyUpdate)
@@ -37,22 +37,22 @@ vtkGuardedAlgorithm::vtkGuardedAlgorithm()
 }
 
 //------------------------------------------------------------------------------
-vtkGuardedAlgorithm::~vtkGuardedAlgorithm() = default;
+vtkCollectiveAlgorithm::~vtkCollectiveAlgorithm() = default;
 
 //------------------------------------------------------------------------------
-const char* vtkGuardedAlgorithm::GetThreadingAsString()
+const char* vtkCollectiveAlgorithm::GetThreadingAsString()
 {
   return RectifiedTransport::threadingText(this->Threading);
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::SetInputData(int port, vtkDataObject* input)
+void vtkCollectiveAlgorithm::SetInputData(int port, vtkDataObject* input)
 {
   this->SetInputDataInternal(port, input);
 }
 
 //------------------------------------------------------------------------------
-vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
+vtkTypeBool vtkCollectiveAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   try
@@ -98,7 +98,7 @@ vtkTypeBool vtkGuardedAlgorithm::ProcessRequest(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::ProcessInformation(
+int vtkCollectiveAlgorithm::ProcessInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   try
@@ -126,7 +126,7 @@ int vtkGuardedAlgorithm::ProcessInformation(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::ProcessData(
+int vtkCollectiveAlgorithm::ProcessData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   RectifiedTransport::clearImages(outputVector);
@@ -153,7 +153,7 @@ int vtkGuardedAlgorithm::ProcessData(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::GatherAndRun(
+int vtkCollectiveAlgorithm::GatherAndRun(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using RectifiedTransport::GatheredKind;
@@ -177,10 +177,12 @@ int vtkGuardedAlgorithm::GatherAndRun(
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::ShareOutputs(const RectifiedTransport::Ranks&, vtkInformationVector*) {}
+void vtkCollectiveAlgorithm::ShareOutputs(const RectifiedTransport::Ranks&, vtkInformationVector*)
+{
+}
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::EndRun()
+void vtkCollectiveAlgorithm::EndRun()
 {
   if (this->Run)
   {
@@ -191,7 +193,7 @@ void vtkGuardedAlgorithm::EndRun()
 
 //------------------------------------------------------------------------------
 // The inputs are now at the requested time, which they were not in RequestInformation.
-int vtkGuardedAlgorithm::ProcessTimeDependentInformation(
+int vtkCollectiveAlgorithm::ProcessTimeDependentInformation(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (!this->Early->HasAny())
@@ -211,14 +213,14 @@ int vtkGuardedAlgorithm::ProcessTimeDependentInformation(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::RequestDataObject(
+int vtkCollectiveAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   return 1; // the executive makes outputs of the ports' DATA_TYPE_NAME
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::MakeOutputLike(
+void vtkCollectiveAlgorithm::MakeOutputLike(
   vtkInformationVector* input, vtkInformationVector* outputVector, int port)
 {
   vtkPointSet* like = vtkPointSet::GetData(input);
@@ -237,14 +239,14 @@ void vtkGuardedAlgorithm::MakeOutputLike(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::RequestInformation(
+int vtkCollectiveAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::UpdateInputBeforeData(
+void vtkCollectiveAlgorithm::UpdateInputBeforeData(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector, int connection)
 {
   this->Early->Run(this, port, connection, inputVector[port]->GetInformationObject(connection),
@@ -252,7 +254,7 @@ void vtkGuardedAlgorithm::UpdateInputBeforeData(
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks& vtkGuardedAlgorithm::UpdateInputOnRanks(
+const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::UpdateInputOnRanks(
   int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   if (!this->Run)
@@ -265,14 +267,14 @@ const RectifiedTransport::Ranks& vtkGuardedAlgorithm::UpdateInputOnRanks(
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::RequestUpdateTime(
+int vtkCollectiveAlgorithm::RequestUpdateTime(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*)
 {
   return 1;
 }
 
 //------------------------------------------------------------------------------
-int vtkGuardedAlgorithm::RequestUpdateExtent(
+int vtkCollectiveAlgorithm::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->Whole->RequestOutputs(request, outputVector);
@@ -280,15 +282,15 @@ int vtkGuardedAlgorithm::RequestUpdateExtent(
   {
     if (this->Whole->IsNeeded(port))
     {
-      vtkGuardedAlgorithm::RequestWhole(inputVector[port]);
-      this->Whole->RequestShared(port, inputVector[port]);
+      vtkCollectiveAlgorithm::RequestWhole(inputVector[port]);
+      this->Whole->RequestPartitioned(port, inputVector[port]);
     }
   }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
+void vtkCollectiveAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
 {
   switch (policy)
   {
@@ -297,18 +299,18 @@ void vtkGuardedAlgorithm::SetPortPolicy(int port, PortPolicyType policy)
     case PORT_PIECES:
       this->Whole->Except(port);
       break;
-    case PORT_SHARED_POINTS:
-    case PORT_SHARED_DENSITY:
-      this->Whole->Share(port, policy == PORT_SHARED_POINTS);
+    case PORT_PARTITIONED_POINTS:
+    case PORT_PARTITIONED_DENSITY:
+      this->Whole->Partition(port, policy == PORT_PARTITIONED_POINTS);
       break;
     default:
-      this->Whole->Share(port, policy != PORT_GATHERED_DENSITY);
+      this->Whole->Partition(port, policy != PORT_GATHERED_DENSITY);
       this->Gathered[port] = policy;
   }
 }
 
 //------------------------------------------------------------------------------
-const RectifiedTransport::Ranks& vtkGuardedAlgorithm::GetRanks() const
+const RectifiedTransport::Ranks& vtkCollectiveAlgorithm::GetRanks() const
 {
   return this->IsAlone || !this->Run
     ? static_cast<const RectifiedTransport::Ranks&>(RectifiedTransport::SoloRanks::Get())
@@ -316,7 +318,7 @@ const RectifiedTransport::Ranks& vtkGuardedAlgorithm::GetRanks() const
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::WarnOnFirstRank(const std::string& text)
+void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 {
   if (this->GetRanks().IsFirst())
   {
@@ -325,7 +327,8 @@ void vtkGuardedAlgorithm::WarnOnFirstRank(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVector* outputVector)
+bool vtkCollectiveAlgorithm::IsLaterPiece(
+  vtkInformation* request, vtkInformationVector* outputVector)
 {
   if (this->Run || this->GetNumberOfInputPorts() == 0 || this->Whole->HasPieces())
   {
@@ -337,7 +340,7 @@ bool vtkGuardedAlgorithm::IsLaterPiece(vtkInformation* request, vtkInformationVe
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::RequestWhole(vtkInformationVector* port)
+void vtkCollectiveAlgorithm::RequestWhole(vtkInformationVector* port)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
@@ -356,7 +359,7 @@ void vtkGuardedAlgorithm::RequestWhole(vtkInformationVector* port)
 }
 
 //------------------------------------------------------------------------------
-void vtkGuardedAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+void vtkCollectiveAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Threading: " << this->GetThreadingAsString() << "\n";

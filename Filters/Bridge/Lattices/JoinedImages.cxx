@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Lattices/TiledImages.h"
+#include "Bridge/Lattices/JoinedImages.h"
 
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
@@ -275,7 +275,7 @@ void joinArray(const std::vector<Tile>& tiles, int owner, vtkDataArray* like, co
 
 } // namespace
 
-vtkSmartPointer<vtkImageData> joinTiles(const std::vector<DensityBlock>& blocks, bool onPoints)
+vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks, bool onPoints)
 {
   if (blocks.size() == 1)
   {

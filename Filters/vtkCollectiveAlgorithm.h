@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @class   vtkGuardedAlgorithm
+ * @class   vtkCollectiveAlgorithm
  * @brief   superclass of all filters of the module
  *
- * Holds the choice of threads for the parallel loops: results are the same to the last bit for
- * every number of threads and every value of Threading.
+ * Where there are several ranks, all of them run a filter together, on data that are whole, in
+ * pieces, or gathered, as its ports say. The parallel loops take the threads of Threading: results
+ * are the same to the last bit for every number of threads and of ranks.
  *
  * Passes the executive's requests to virtual methods. An exception that they throw becomes one
  * error of the filter; after an error or an abort all outputs are empty, and the whole extents of
@@ -12,8 +13,8 @@
  *
  * @sa vtkDensityAlgorithm vtkEqualMassCells
  */
-#ifndef vtkGuardedAlgorithm_h
-#define vtkGuardedAlgorithm_h
+#ifndef vtkCollectiveAlgorithm_h
+#define vtkCollectiveAlgorithm_h
 
 #include "Bridge/VTKCompatibility.h"
 #include "vtkAlgorithm.h"
@@ -34,10 +35,10 @@ class WholeInputs;
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataObject;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkGuardedAlgorithm : public vtkAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkCollectiveAlgorithm : public vtkAlgorithm
 {
 public:
-  vtkTypeMacro(vtkGuardedAlgorithm, vtkAlgorithm);
+  vtkTypeMacro(vtkCollectiveAlgorithm, vtkAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -81,8 +82,8 @@ public:
     vtkInformationVector* outputVector) override;
 
 protected:
-  vtkGuardedAlgorithm();
-  ~vtkGuardedAlgorithm() override;
+  vtkCollectiveAlgorithm();
+  ~vtkCollectiveAlgorithm() override;
 
   /**
    * Make the output data objects. By default the executive makes them, of the types of
@@ -115,10 +116,10 @@ protected:
     vtkInformationVector* outputVector, int connection = 0);
 
   /**
-   * The same on a port that is shared or gathered: where there are several ranks, all
-   * of them meet here, and each updates its own piece. Returns the ranks, so that all announce the
-   * same; GetRanks returns them, too, until RequestInformation returns. If ranks do not meet in
-   * time, or execute blocks, this process runs alone and updates all data.
+   * The same on a port that is partitioned or gathered: where there are several ranks, all of them
+   * meet here, and each updates its own piece. Returns the ranks, so that all announce the same;
+   * GetRanks returns them, too, until RequestInformation returns. If ranks do not meet in time, or
+   * execute blocks, this process runs alone and updates all data.
    */
   const RectifiedTransport::Ranks& UpdateInputOnRanks(
     int port, vtkInformationVector** inputVector, vtkInformationVector* outputVector);
@@ -126,18 +127,18 @@ protected:
   /**
    * What the filter needs of an input port. By default all data: whole images, because a transport
    * is global, and all points. With several ranks, all of them run the filter together if a port is
-   * shared or gathered.
+   * partitioned or gathered.
    */
   enum PortPolicyType
   {
-    PORT_WHOLE,            // all data, on each rank
-    PORT_PIECES,           // the requested piece, each by itself
-    PORT_SHARED_POINTS,    // of each rank its own piece of the points
-    PORT_SHARED_DENSITY,   // of each rank its own piece of a density of any type
-    PORT_GATHERED_POINTS,  // as shared ones; gathered on the first rank, which alone runs
-                           // RequestData
-    PORT_GATHERED_SURFACE, // the same
-    PORT_GATHERED_DENSITY  // the same
+    PORT_WHOLE,               // all data, on each rank
+    PORT_PIECES,              // the requested piece, each by itself
+    PORT_PARTITIONED_POINTS,  // of each rank its own piece of the points
+    PORT_PARTITIONED_DENSITY, // of each rank its own piece of a density of any type
+    PORT_GATHERED_POINTS,     // partitioned ones, gathered on the first rank, which alone runs
+                              // RequestData
+    PORT_GATHERED_SURFACE,    // the same
+    PORT_GATHERED_DENSITY     // the same
   };
 
   /**
@@ -214,8 +215,8 @@ private:
   std::map<int, PortPolicyType> Gathered;           // by port; none where ranks share the work
   bool IsAlone = false;                             // on the first rank, with gathered data
 
-  vtkGuardedAlgorithm(const vtkGuardedAlgorithm&) = delete;
-  void operator=(const vtkGuardedAlgorithm&) = delete;
+  vtkCollectiveAlgorithm(const vtkCollectiveAlgorithm&) = delete;
+  void operator=(const vtkCollectiveAlgorithm&) = delete;
 };
 VTK_ABI_NAMESPACE_END
 
