@@ -2,6 +2,14 @@
 // The one kernel source of an advection, compiled once per instruction set (FlowKernels*.cxx).
 // Everything has internal linkage and nothing of the standard library is called: the linker must
 // not pick code that is compiled for a wide instruction set for the rest of the program.
+//
+// Lengths are in grid cells and places in index space: the domain is [0, S_0] x ... x [0, S_d-1], S
+// the numbers of cells. Time t is in [0, 1]; velocities are in cells a unit of time. A block of
+// particles is kept as a structure of arrays: an array of [BlockSize] has a number of each particle
+// (a lane), one of [Dimension][BlockSize] a vector of each. What is called interleaved has the
+// coordinates of each particle together: [particle][Dimension]. All lanes are computed, whether
+// they hold a particle or not: loops of constant length vectorize best. No lane's result depends on
+// another lane, so that it does not matter how particles are put in blocks.
 #include "Core/Flow/Kernels/FlowKernels.h"
 
 #include <cstring>
@@ -12,6 +20,8 @@
 #include <emmintrin.h>
 #endif
 
+// Helpers become part of the kernel that calls them: a lane loop must see the constants of its
+// template, and calls between lane loops would cost more than the loops.
 #define RT_INLINE inline __attribute__((always_inline))
 
 namespace RectifiedTransport
@@ -32,6 +42,7 @@ namespace
 
 #include "Core/Flow/Kernels/FlowMapLanes.txx"
 #include "Core/Flow/Kernels/FlowMultistep.txx"
+#include "Core/Flow/Kernels/FlowMultistepBackward.txx"
 
 #include "Core/Flow/Kernels/FlowMapNodes.txx"
 
@@ -39,6 +50,7 @@ namespace
 
 #include "Core/Flow/Kernels/FlowAdaptive.txx"
 
+// The kernel AdvectBlock of FlowKernels.h: dispatches on the method and the direction.
 template <int Dimension>
 std::int64_t advectBlock(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int pass, bool* unresolved)
