@@ -3,7 +3,10 @@
 // anonymous namespace.
 
 // The times of the two velocities before the newest one, minus its time, over the step's length:
-// first and second, both negative.
+// first = alpha and second = beta, both negative, -1 and -2 for even steps. In units of the
+// step, which then is [0, 1], a weight is the integral over the step of the Lagrange polynomial of
+// its velocity: through the places 0, alpha, beta in the predictor (newest velocity first), and
+// through 1, 0, alpha in the corrector (that at the step's end first). Each three sum to 1.
 inline void adamsWeights(
   double first, double second, double (&predictor)[3], double (&corrector)[3])
 {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mass and first moments of a density over boxes, from interpolated summed-area tables (paper,
-// Section 3.3; Algorithm 1). Included by FlowKernels.txx.
+// Section 3.3; Algorithm 1): the two integrals of Eq. (11). Included by FlowKernels.txx.
 //
 // A table is interpolated along its own axis by a quadratic and linearly along the others, which is
-// exact for a piecewise-constant density: with r in [0, 1] the place in a cell of width h,
+// exact for a piecewise-constant density: with r in [0, 1] the place in a cell of width h, the part
+// r of a cell's mass lies (h/2) (1-r) below the cell's centre, which linear interpolation puts it
+// at:
 //   L[F] = F_i + r (F_i+1 - F_i),    Q[F] = b (F_i+1 - F_i),    b = -(h/2) r (1-r),
 //   E(x) = (L (x) L (x) L) E,        E_a(x) = (L (x) L (x) L) E_a + (Q_a (x) L (x) L) E.
 // On the finest level (h = 1) E_a rises by i + 1/2 times as much as E from node i to the next, so
@@ -34,14 +36,15 @@ struct BoxLanes
   alignas(64) double Place[Dimension][2][BlockSize];           // r
   alignas(64) double QuadraticWeight[Dimension][2][BlockSize]; // b
   alignas(64) double MomentWeight[Dimension][2][BlockSize];    // q, in 3D
-  alignas(64) std::int32_t Node[Dimension][2][BlockSize];
-  alignas(64) std::int64_t Faces[BlockSize];
-  alignas(64) std::int32_t Level[BlockSize];
+  alignas(64) std::int32_t Node[Dimension][2][BlockSize];      // i, of the lane's level
+  alignas(64) std::int64_t Faces[BlockSize];                   // bits at facesShift of each axis
+  alignas(64) std::int32_t Level[BlockSize];                   // of the tables
 
-  alignas(64) Lanes Mass;
-  alignas(64) double Moment[Dimension][BlockSize];
+  alignas(64) Lanes Mass;                          // integral of f, the density, over the box
+  alignas(64) double Moment[Dimension][BlockSize]; // of y_a f
 };
 
+// A number as a type, for lambdas: each value of the faces gets code of its own, without branches.
 template <int N>
 struct Number
 {
@@ -74,13 +77,13 @@ RT_INLINE void dispatchFaces(std::int64_t faces, const Function& function)
   }
 }
 
-// One axis of a box.
+// One axis of a box. [0] is the low side, [1] the high side.
 struct BoxAxis
 {
-  double Place[2];
-  double QuadraticWeight[2];
-  std::int64_t Offset[2]; // of the node below each side, in doubles
-  std::int64_t Stride;
+  double Place[2];           // r
+  double QuadraticWeight[2]; // b
+  std::int64_t Offset[2];    // of the node below each side, in doubles
+  std::int64_t Stride;       // from a node to the next, in doubles
 };
 
 template <int Dimension>
@@ -91,6 +94,8 @@ RT_INLINE BoxAxis boxAxis(const BoxLanes<Dimension>& boxes, int axis, int lane, 
     { boxes.Node[axis][0][lane] * stride, boxes.Node[axis][1][lane] * stride }, stride };
 }
 
+// L and Q of N table entries at once. Each is linear in the values of the nodes: they may be
+// applied axis by axis, in any order of axes, here from axis 0 (innermost) to the last.
 template <int N>
 struct AxisSums
 {
@@ -125,6 +130,8 @@ RT_INLINE AxisSums<N> sumAxis(const BoxAxis& axis, const Value& value)
   return sums;
 }
 
+// The sums in 1D, where a node has {E, E_0}: the node below a side is at [0] and [1], the one above
+// it at [2] and [3].
 RT_INLINE void sumBox(const TableView<1>& tables, BoxLanes<1>& boxes, int lane)
 {
   const double* nodes = tables.Levels[boxes.Level[lane]].Nodes;
@@ -174,6 +181,8 @@ RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, in
   const double* low = level.Nodes + axis0.Offset[0];
   const double* high = level.Nodes + axis0.Offset[1];
 
+  // Weights of the nodes {below, above} a side: {1 - r, r} of the entries E, E_0 and E_1, and {-b,
+  // b} of the repeated E, which gives Q_0[E] = b (E_i+1 - E_i) in the same product.
   alignas(32) static constexpr double ones[4] = { 1.0, 1.0, 1.0, 0.0 };
   const Vector4 one = loadVector<4>(ones);
   const auto weights = [&](int side) __attribute__((always_inline))
@@ -187,11 +196,13 @@ RT_INLINE void sumBox2D(const TableView<2>::Level& level, BoxLanes<2>& boxes, in
     axis1, [&](std::int64_t row) __attribute__((always_inline)) {
       return sumRow<FromLowFace>(low + row, high + row, lowWeights, highWeights);
     });
+  // m_0 = L_0 L_1 E_0 + Q_0 L_1 E and m_1 = L_0 L_1 E_1 + L_0 Q_1 E.
   boxes.Mass[lane] = sums.Linear[0];
   boxes.Moment[0][lane] = sums.Linear[1] + sums.Linear[3];
   boxes.Moment[1][lane] = sums.Linear[2] + sums.Quadratic[0];
 }
 
+// All levels alike: with the Q of both axes.
 RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];
@@ -201,7 +212,8 @@ RT_INLINE void sumBox(const TableView<2>& tables, BoxLanes<2>& boxes, int lane)
     });
 }
 
-// One axis other than 0 of a box on the finest level.
+// One axis other than 0 of a box on the finest level. There is no Q: each entry of a record has a
+// linear weight of its own, q for the moment along this axis and r for the others.
 struct FineAxis
 {
   Vector4 Weights[2]; // of the sides' second nodes
@@ -209,6 +221,7 @@ struct FineAxis
   std::int64_t Stride;
 };
 
+// Entry 1 + Axis of a record is the moment along the axis.
 template <int Axis>
 RT_INLINE FineAxis fineAxis(const BoxLanes<3>& boxes, int lane, std::int64_t stride)
 {
@@ -221,6 +234,7 @@ RT_INLINE FineAxis fineAxis(const BoxLanes<3>& boxes, int lane, std::int64_t str
     { boxes.Node[Axis][0][lane] * stride, boxes.Node[Axis][1][lane] * stride }, stride };
 }
 
+// The record at one side of a box.
 template <class Value>
 RT_INLINE Vector4 interpolate(const FineAxis& axis, int side, const Value& value)
 {
@@ -228,6 +242,7 @@ RT_INLINE Vector4 interpolate(const FineAxis& axis, int side, const Value& value
   return first + (value(axis.Offset[side] + axis.Stride) - first) * axis.Weights[side];
 }
 
+// The difference of both sides.
 template <class Value>
 RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, std::int64_t faces, const Value& value)
 {
@@ -236,6 +251,8 @@ RT_INLINE Vector4 sumFineAxis(const FineAxis& axis, std::int64_t faces, const Va
   return faces & onLowFace ? high : high - interpolate(axis, 0, value);
 }
 
+// The sums in 3D on the finest level. A box reads 4 rows of nodes for each side of axes 1 and 2,
+// and one or two pairs of each row.
 template <int Faces1, bool FromLowFace>
 RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
@@ -260,6 +277,7 @@ RT_INLINE void sumFineBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, 
             low + plane + row, high + plane + row, lowWeights, highWeights);
         });
     });
+  // Each entry has been summed with its own weights: E, E_0, E_1, E_2.
   boxes.Mass[lane] = sums[0];
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -276,6 +294,7 @@ struct PairSums
   Vector8 Quadratic2;
 };
 
+// The sums at one side of axis 2, from the two planes of nodes around it.
 template <int Faces1>
 RT_INLINE PairSums sumSide(
   const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, int side)
@@ -289,12 +308,14 @@ RT_INLINE PairSums sumSide(
   };
   const AxisSums<8> first = plane(axis2.Offset[side]);
   const AxisSums<8> second = plane(axis2.Offset[side] + axis2.Stride);
+  // L_2 of both sums, and Q_2 of the linear one.
   const Vector8 step = second.Linear - first.Linear;
   return { first.Linear + step * axis2.Place[side],
     first.Quadratic + (second.Quadratic - first.Quadratic) * axis2.Place[side],
     step * axis2.QuadraticWeight[side] };
 }
 
+// The sums over both sides of axes 1 and 2.
 template <int Faces1>
 RT_INLINE PairSums sumPair(
   const double* nodes, const BoxAxis& axis1, const BoxAxis& axis2, std::int64_t faces2)
@@ -321,6 +342,8 @@ RT_INLINE PairSums sumPair(
   return sums;
 }
 
+// The sums in 3D on a coarse level, where every axis has its Q. Axis 0 comes last, {1 - r, r} of a
+// pair: Q_0[E] needs E at both nodes of the pair, before they are added.
 template <int Faces1, bool FromLowFace>
 RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes, int lane)
 {
@@ -334,6 +357,7 @@ RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes
   Vector8 linear = sums.Linear * weights;
   Vector8 quadratic1 = sums.Quadratic1 * weights;
   Vector8 quadratic2 = sums.Quadratic2 * weights;
+  // Entries 0 and 4 are E at both nodes of the pair.
   double quadratic0 = axis0.QuadraticWeight[1] * (sums.Linear[4] - sums.Linear[0]);
   if constexpr (!FromLowFace)
   {
@@ -344,12 +368,14 @@ RT_INLINE void sumCoarseBox(const TableView<3>::Level& level, BoxLanes<3>& boxes
     quadratic2 = quadratic2 - sums.Quadratic2 * weights;
     quadratic0 -= axis0.QuadraticWeight[0] * (sums.Linear[4] - sums.Linear[0]);
   }
+  // m_a = (L L L) E_a + Q_a E, the halves of a vector being the nodes of the pair.
   boxes.Mass[lane] = linear[0] + linear[4];
   boxes.Moment[0][lane] = (linear[1] + linear[5]) + quadratic0;
   boxes.Moment[1][lane] = (linear[2] + linear[6]) + (quadratic1[0] + quadratic1[4]);
   boxes.Moment[2][lane] = (linear[3] + linear[7]) + (quadratic2[0] + quadratic2[4]);
 }
 
+// Boxes on the finest level are summed without Q, those on coarser ones with it.
 RT_INLINE void sumBox(const TableView<3>& tables, BoxLanes<3>& boxes, int lane)
 {
   const auto& level = tables.Levels[boxes.Level[lane]];

@@ -11,6 +11,9 @@ namespace
 
 } // namespace
 
+// G_k = sin^2(pi k / 2N): dense towards both ends of [0, 1], where the velocity changes fastest.
+// Steps beyond the middle are those of the other half, mirrored: sin^2 a = 1 - cos^2 a. So angles
+// stay within pi/4, and G_N is 1 exactly.
 double grading(std::int64_t step, std::int64_t steps)
 {
   if (2 * step > steps)
@@ -20,6 +23,8 @@ double grading(std::int64_t step, std::int64_t steps)
   constexpr double halfPi = 1.57079632679489661923;
   const double angle = halfPi * static_cast<double>(step) / static_cast<double>(steps);
   const double square = angle * angle;
+  // The Taylor series sin a = a (1 - a^2/(2 3) (1 - a^2/(4 5) (...))), by Horner from the term of
+  // a^21, which is below the rounding.
   double sum = 1.0;
   for (int factor = 20; factor > 1; factor -= 2)
   {
@@ -35,6 +40,9 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
   StepWeights weights;
   weights.Time = at(step + 1);
   weights.Length = weights.Time - at(step);
+  // Start-up: step 0 knows one velocity (Euler, then the trapezoidal rule), step 1 two
+  // (Adams-Bashforth 2, then the corrector of order 3). The velocities that are missing have the
+  // weight 0.
   double* p = weights.Predictor;
   double* c = weights.Corrector;
   if (step == 0)
@@ -45,11 +53,14 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
     c[2] = 0.0;
     return weights;
   }
+  // The times of the two velocities before, over the step's length (alpha and beta of
+  // adamsWeights).
   const double first = (at(step - 1) - at(step)) / weights.Length;
   const double second = step > 1 ? (at(step - 2) - at(step)) / weights.Length : 2.0 * first;
   adamsWeights(first, second, weights.Predictor, weights.Corrector);
   if (step == 1)
   {
+    // The integral over the step of the line through the two velocities.
     p[0] = 1.0 - 0.5 / first;
     p[1] = 0.5 / first;
     p[2] = 0.0;
@@ -57,6 +68,7 @@ StepWeights multistepWeights(std::int64_t step, std::int64_t steps)
   return weights;
 }
 
+// Adams weights depend on ratios of steps alone: only times and lengths are stretched.
 StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t steps)
 {
   const double end = grading(count, steps);
@@ -66,6 +78,8 @@ StepWeights stretchedWeights(std::int64_t step, std::int64_t count, std::int64_t
   return weights;
 }
 
+// AVX-512 and AVX2 exist on x86 alone; elsewhere the kernels of the base instruction set carry the
+// name SSE2.
 const FlowKernels& flowKernels([[maybe_unused]] InstructionSet set)
 {
 #ifdef RECTIFIEDTRANSPORT_X86

@@ -21,10 +21,10 @@ constexpr int BlockSize = 64;
 // Times are in units of the graded interval: t = start + (1 - start) * Time.
 struct StepWeights
 {
-  double Time;   // at the step's end
-  double Length; // of the step
-  double Predictor[3];
-  double Corrector[3];
+  double Time;         // at the step's end
+  double Length;       // of the step
+  double Predictor[3]; // of the velocities at the step's start and the two steps before
+  double Corrector[3]; // of the velocities at the step's end, its start and the step before
 };
 
 // sin^2(pi/2 * step / steps) from basic operations alone: the library's sine may differ in the
@@ -43,11 +43,11 @@ struct FlowJob
 {
   TableView<Dimension> Tables;
   RectifiedTransport::Integrator Integrator;
-  bool Backward;
-  bool Nearest;
-  bool Sparse = false; // neighbouring particles have few table nodes in common
-  double Tolerance;
-  std::int64_t Steps;
+  bool Backward;              // from time 1 to 0: from the density to the uniform measure
+  bool Nearest;               // boxes are rounded to whole cells (Section 4.3), not interpolated
+  bool Sparse = false;        // neighbouring particles have few table nodes in common
+  double Tolerance;           // of Adaptive: the error of a step, in cells
+  std::int64_t Steps;         // N, of pass 0
   const StepWeights* Weights; // of Multistep with `Steps` steps, else null
   double CoarseRatio;         // least width of a box in cells of the level that is used
   const FlowMapView<Dimension>* Map = nullptr; // of the same steps and direction; Multistep only
@@ -57,7 +57,7 @@ struct FlowJob
   // Backwards, particles stop at the finest level of the map: those that it gives no seed (none
   // does without records) are unresolved, and their output is where they are at the hand-over.
   bool StopsAtMap = false;
-  double* Output = nullptr;             // interleaved coordinates
+  double* Output = nullptr;             // [particle][TimeCount][Dimension], in cells
   const double* Times = nullptr;        // dense output, ascending; null for the end point alone
   std::int64_t TimeCount = 1;           // 1 with the end point alone
   bool (*ShouldStop)(void* clientData); // polled every few steps, on any thread; null: never
@@ -99,6 +99,7 @@ template <int Dimension>
 using ReadMap = void (*)(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
   const double* seeds, int count, double* positions, bool* deferred);
 
+// The kernels of one instruction set.
 struct FlowKernels
 {
   AdvectBlock<1> Advect1D;

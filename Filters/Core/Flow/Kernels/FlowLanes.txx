@@ -2,6 +2,7 @@
 // Steps common to all integrators: load a block, advance it along its exact straight start, write
 // positions at the requested times, check the end points. Included by FlowKernels.txx.
 
+// Away from the faces, where boxes have no volume.
 RT_INLINE double clampToDomain(double x, double size)
 {
   return smaller(larger(x, faceDistance), size - faceDistance);
@@ -30,8 +31,11 @@ RT_INLINE void loadPositions(
   }
 }
 
-// While a particle's box is the whole domain its path is the straight line to the centroid M. That
-// ends at `time`; the particle is moved there, and `velocity` is M - seed. Exact.
+// While a particle's box is the whole domain, the mean of Eq. (11) is the centroid M, and the path
+// is the straight line x0 + t (M - x0). That ends when a face of the box reaches one of the domain:
+// b = x/t comes down to S, or a = S - (S - x)/t up to 0, at
+//   t* = min over the axes of min(x0 / (S - M + x0), (S - x0) / (S - x0 + M)).
+// `time` is t*; the particle is moved there, and `velocity` is M - x0. Exact.
 template <int Dimension>
 RT_INLINE void startStraight(const FlowJob<Dimension>& job, LaneVectors<Dimension>& x,
   LaneVectors<Dimension>& velocity, Lanes& time)
@@ -94,6 +98,7 @@ struct PathWriter
   RT_INLINE void WriteUntil(int lane, double end, const PositionAt& place)
   {
     std::int64_t& next = this->Next[lane];
+    // Times ascend, as the calls of a lane do: each is written once.
     while (next < this->Job.TimeCount && this->Job.Times[next] <= end)
     {
       double* position = this->Place(lane, next);
@@ -117,7 +122,11 @@ struct PathWriter
     }
   }
 
-  // The cubic Hermite interpolant over one step of one lane.
+  // The cubic Hermite interpolant over one step of one lane: positions x0, x1 and velocities v0, v1
+  // at its ends. With r the place in the step and h its length, by the Bernstein form
+  //   (1-r)^2 (x0 + r h v0 + 2 r x0) + r^2 (x1 - (1-r) h v1 + 2 (1-r) x1).
+  // Its error is O(h^4), like that of a step: positions within a step are no worse than at its
+  // ends.
   RT_INLINE void WriteHermite(int lane, double begin, double end, const LaneVectors<Dimension>& x0,
     const LaneVectors<Dimension>& v0, const LaneVectors<Dimension>& x1,
     const LaneVectors<Dimension>& v1)
@@ -150,12 +159,13 @@ struct PathWriter
   }
 
   const FlowJob<Dimension>& Job;
-  const double* Seeds;
-  const std::int64_t* Index;
-  int Count;
-  std::int64_t Next[BlockSize];
+  const double* Seeds;          // interleaved, of the block
+  const std::int64_t* Index;    // of the block's particles in the output
+  int Count;                    // of particles
+  std::int64_t Next[BlockSize]; // the first time that is not written yet
 };
 
+// Whether the grid cell of a point has mass. Points on the high faces belong to the last cell.
 template <int Dimension>
 RT_INLINE bool isOccupied(const TableView<Dimension>& tables, const double (&point)[Dimension])
 {
@@ -166,6 +176,7 @@ RT_INLINE bool isOccupied(const TableView<Dimension>& tables, const double (&poi
   std::int64_t cell[Dimension];
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // Truncated: coordinates are not negative.
     const std::int64_t last = tables.Cells[axis] - 1;
     cell[axis] = static_cast<std::int64_t>(point[axis]);
     cell[axis] = cell[axis] < last ? cell[axis] : last;
@@ -175,6 +186,7 @@ RT_INLINE bool isOccupied(const TableView<Dimension>& tables, const double (&poi
   {
     row = row * tables.Cells[axis] + cell[axis];
   }
+  // One bit a cell; a row of cells along axis 0 starts with a new word.
   const std::uint64_t word = tables.Occupied[row * tables.WordsPerRow + (cell[0] >> 6)];
   return (word >> (cell[0] & 63)) & 1;
 }
@@ -193,6 +205,8 @@ RT_INLINE void finishPositions(
       x[axis][i] = smaller(larger(x[axis][i], 0.0), size);
     }
   }
+  // Backward the ends are uniform in the domain, whatever the density; and without bits every cell
+  // has mass.
   if (job.Backward || !job.Tables.Occupied)
   {
     return;

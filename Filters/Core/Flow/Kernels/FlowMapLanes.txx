@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interpolation of a flow map by cubics through four nodes an axis. Included by FlowKernels.txx.
+// Interpolation of a flow map by cubics through four nodes an axis: Lagrange polynomials of the
+// place of a particle in the lattice, tensor products of those of the axes. Weights and records are
+// floats: a map's error is far above their rounding, and half of the memory is read. Included by
+// FlowKernels.txx.
 
 // Where the particles of a block lie in a lattice.
 template <int Dimension>
 struct StencilLanes
 {
-  alignas(64) float Weights[Dimension][4][BlockSize];
+  alignas(64) float Weights[Dimension][4][BlockSize];   // of the four nodes of each axis
   alignas(64) std::int32_t First[Dimension][BlockSize]; // of the four nodes
-  alignas(64) std::int32_t Cell[Dimension][BlockSize];
+  alignas(64) std::int32_t Cell[Dimension][BlockSize];  // of the lattice, that the particle is in
 };
 
 // The four nodes around each particle; next to the ends of an axis, its first or last four.
@@ -26,14 +29,18 @@ RT_INLINE void findStencils(const FlowMapLevel<Dimension>& level,
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
+      // u(x) of LatticeAxis, in which the nodes are evenly spaced.
       const double fromEnd = nodes.Size - position[i];
       const double inLayer = 2.0 * __builtin_sqrt(nodes.Layer * smaller(position[i], fromEnd));
       const double inside = position[i] + nodes.Layer;
       const double belowEnd = fromEnd < nodes.Layer ? nodes.Length - inLayer : inside;
       const double u = position[i] < nodes.Layer ? inLayer : belowEnd;
+      // The particle lies between the second and the third of its nodes, if its cell is not at an
+      // end.
       const double place = u * nodes.InverseSpacing;
       const double cell = smaller(truncated(place), last);
       const double first = smaller(larger(cell - 1.0, 0.0), last - 2.0);
+      // The Lagrange weights of the nodes 0, 1, 2, 3 at the place a.
       const double a = place - first;
       const double b = a - 1.0;
       const double c = a - 2.0;
@@ -48,6 +55,7 @@ RT_INLINE void findStencils(const FlowMapLevel<Dimension>& level,
   }
 }
 
+// Whether the cell of a lane may be interpolated.
 template <int Dimension>
 RT_INLINE bool isGood(
   const FlowMapLevel<Dimension>& level, const StencilLanes<Dimension>& stencils, int lane)
@@ -60,6 +68,7 @@ RT_INLINE bool isGood(
   return level.Bad[cell] == 0;
 }
 
+// The interpolant along one axis, where record(k) is that of node k.
 template <int N, class RecordAt>
 RT_INLINE Vector<N, float> sumNodes(
   const float (&weights)[4][BlockSize], int lane, const RecordAt& record)
@@ -80,12 +89,15 @@ public:
     : Level(level)
     , Stencils(stencils)
   {
+    // The strides of nodes along each axis.
     std::int64_t stride = record;
     for (int axis = 0; axis < Dimension; ++axis)
     {
       this->Strides[axis] = stride;
       stride *= level.Axes[axis].Cells + 1;
     }
+    // Equal places along all axes but 0 have equal weights and nodes there. Comparing positions for
+    // equality is right: lanes of a lattice have the same bits.
     this->SharesRow[0] = false;
     for (int i = 1; i < BlockSize; ++i)
     {
@@ -97,8 +109,11 @@ public:
     }
   }
 
+  // The record at the place of a lane; fastest in ascending order of lanes.
   RT_INLINE Vector<N, float> operator()(int lane)
   {
+    // A column is the record at one node of axis 0, interpolated along all other axes. Of the lane
+    // before, those are taken over that both have.
     const std::int32_t first = this->Stencils.First[0][lane];
     const std::int32_t shift = first - this->First;
     int kept = 0;
@@ -110,6 +125,7 @@ public:
         this->Columns[k] = this->Columns[k + shift];
       }
     }
+    // The first of the 4^d nodes.
     std::int64_t start = first * this->Strides[0];
     for (int axis = 1; axis < Dimension; ++axis)
     {
@@ -168,6 +184,7 @@ void loadFromMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& l
   RecordInterpolation<record, Dimension> interpolate(level, lanes.Position, stencils);
   for (int i = 0; i < BlockSize; ++i)
   {
+    // Deferred lanes keep their seed; they are computed with the others, but not used.
     deferred[i] = i >= count || !isGood<Dimension>(level, stencils, i);
     if (deferred[i])
     {
@@ -185,6 +202,7 @@ void loadFromMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& l
   }
 }
 
+// The kernel ReadMap of FlowKernels.h: positions alone, the first entries of the records.
 template <int Dimension>
 void readMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
   const double* seeds, int count, double* positions, bool* deferred)
@@ -209,7 +227,8 @@ void readMap(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level
   }
 }
 
-// The states of particles that are given in place of their seeds.
+// The states of particles that are given in place of their seeds: position and three velocities of
+// Dimension doubles each. Lanes from `count` on repeat the last one.
 template <int Dimension>
 void loadStates(
   const FlowJob<Dimension>& job, const double* states, int count, MultistepLanes<Dimension>& lanes)

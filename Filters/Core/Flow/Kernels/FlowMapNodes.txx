@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes of a flow map's lattices. Included by FlowKernels.txx.
+// The nodes of a flow map's lattices: their seeds, forward, are taken to a hand-over in the steps
+// of FlowMultistep.txx; backward the particles that are at the nodes at the hand-over are taken to
+// their seeds. Included by FlowKernels.txx.
 
 // Marks the lanes whose box was empty at the last velocity.
 template <int Dimension>
@@ -12,6 +14,7 @@ RT_INLINE void markEmpty(MultistepLanes<Dimension>& lanes)
   }
 }
 
+// The corrector of a step after predictStep.
 template <int Dimension>
 RT_INLINE void correctStep(
   const FlowJob<Dimension>& job, const StepWeights& weights, MultistepLanes<Dimension>& lanes)
@@ -49,6 +52,7 @@ template <int Dimension>
 std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepWeights* graded,
   int count, MultistepLanes<Dimension>& lanes)
 {
+  // The common times of particles that hand over, by the number of steps that are left.
   const auto timeAt = [&](std::int64_t stepsLeft) {
     return commonStart + (1.0 - commonStart) * grading(job.Map->Steps - stepsLeft, job.Map->Steps);
   };
@@ -61,6 +65,7 @@ std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepW
     lanes.Span[i] = end - start[i];
     lanes.Time[i] = start[i];
   }
+  // Graded steps on [t*, end], each lane from its own t*: `graded` ends at 1 in units of Span.
   const std::int64_t steps = startSteps(job.Map->Steps, handOver);
   for (std::int64_t step = 0; step < steps; ++step)
   {
@@ -72,6 +77,8 @@ std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepW
     correctStep<Dimension>(job, graded[step], lanes);
   }
 
+  // Two steps of the common times. The velocities behind lie at times of each lane's own, and so
+  // weights are its own, too.
   const double last = graded[steps - 1].Length; // in units of Span
   const double before = graded[steps - 2].Length;
   alignas(64) Lanes first; // times since the last but one velocity and the one before it
@@ -79,6 +86,7 @@ std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepW
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
+    // The lengths of steps in units of time.
     first[i] = last * lanes.Span[i];
     second[i] = first[i] + before * lanes.Span[i];
   }
@@ -86,12 +94,14 @@ std::int64_t startNodes(const FlowJob<Dimension>& job, int handOver, const StepW
   {
     const double time = timeAt(left - 1);
     const double length = time - timeAt(left);
-    alignas(64) double predictor[3][BlockSize];
+    alignas(64) double predictor[3][BlockSize]; // weights of each lane
     alignas(64) double corrector[3][BlockSize];
     for (int i = 0; i < BlockSize; ++i)
     {
       double p[3];
       double c[3];
+      // The step's length is the unit of the weights; after the step both velocities are further
+      // back.
       adamsWeights(-first[i] / length, -second[i] / length, p, c);
       for (int k = 0; k < 3; ++k)
       {
@@ -132,6 +142,7 @@ std::int64_t continueNodes(const FlowJob<Dimension>& job, int from, int handOver
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
+    // The graded interval of particles that hand over, [commonStart, 1].
     start[i] = commonStart;
     lanes.Span[i] = 1.0 - commonStart;
   }
@@ -149,6 +160,8 @@ std::int64_t continueNodes(const FlowJob<Dimension>& job, int from, int handOver
   return static_cast<std::int64_t>(from - handOver) * left;
 }
 
+// Forward records: position and the last three velocities at the level's hand-over, of the
+// particles whose seeds are the nodes. From the seeds on, or from a coarser level on.
 template <int Dimension>
 std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
   const FlowMapLevel<Dimension>& level, int parent, const NodeBlock& block)
@@ -157,6 +170,7 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
   MultistepLanes<Dimension> lanes;
   loadPositions<Dimension>(job, block.Places, block.Count, lanes.Position);
   bool deferred[BlockSize] = {};
+  // The coarsest level, and nodes that no lattice serves, take all steps.
   std::int64_t evaluations = 0;
   if (parent < 0)
   {
@@ -176,6 +190,7 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
     {
       continue;
     }
+    // A node that met an empty box has a record, but the cells around it will be bad.
     block.Troubled[block.Index[i]] = lanes.Unresolved[i] > 0.0 ? 1 : 0;
     float* state = level.Records + block.Index[i] * record;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -186,6 +201,7 @@ std::int64_t advanceForwardNodes(const FlowJob<Dimension>& job,
         state[(k + 1) * Dimension + axis] = static_cast<float>((*lanes.V[k])[axis][i]);
       }
     }
+    // Whole registers are read.
     for (int k = 4 * Dimension; k < record; ++k)
     {
       state[k] = 0.0f;
@@ -204,6 +220,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   const auto timeAt = [&](std::int64_t step) {
     return step < job.Map->Steps ? 1.0 - grading(step, job.Map->Steps) : 0.0;
   };
+  // A record is the seed, and zeros up to a whole register.
   const auto write = [&](int lane, const auto& coordinate) {
     float* seed = level.Records + block.Index[lane] * record;
     for (int axis = 0; axis < record; ++axis)
@@ -218,6 +235,8 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   {
     active[i] = i < block.Count;
   }
+  // Lanes that met an empty box before they are done. Finished ones are not computed: their Void is
+  // of an earlier step.
   const auto markActive = [&]() {
     for (int i = 0; i < block.Count; ++i)
     {
@@ -227,11 +246,15 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
       }
     }
   };
+  // The steps lead from the level's time down to that of the parent, or to 0, in graded steps of
+  // [begin, end].
   const std::int64_t to = parent < 0 ? job.Map->Steps : job.Map->Levels[parent].HandOver;
   const std::int64_t steps = nodeSteps(level.HandOver, to);
+  // Steps lead from begin down to end: Span is negative.
   const double begin = timeAt(level.HandOver);
   const double end = timeAt(to);
   int left = block.Count;
+  // Boxes may be whole at the level's time already.
   finishWhole<Dimension>(job, block.Count, lanes.Position, begin, active, left, write);
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
@@ -259,6 +282,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
     }
     finishWhole<Dimension>(job, block.Count, lanes.Position, time, active, left, write);
   }
+  // Nodes to which the parent gives no seed are deferred, to the next coarser level.
   if (parent >= 0)
   {
     finishFromMap<Dimension>(
@@ -272,6 +296,7 @@ std::int64_t advanceBackwardNodes(const FlowJob<Dimension>& job,
   return evaluations;
 }
 
+// The kernel AdvanceNodes of FlowKernels.h.
 template <int Dimension>
 std::int64_t advanceNodes(const FlowJob<Dimension>& job, const FlowMapLevel<Dimension>& level,
   int parent, const NodeBlock& block)

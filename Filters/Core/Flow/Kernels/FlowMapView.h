@@ -56,7 +56,7 @@ struct FlowMapLevel
   int HandOver;   // steps of particles between it and time 1
   float TimeLeft; // until time 1
   LatticeAxis Axes[Dimension];
-  float* Records;           // axis 0 fastest
+  float* Records;           // [node][record], axis 0 fastest; in cells, and cells a unit of time
   const unsigned char* Bad; // cells of the lattice that may not be interpolated: not 0
 };
 

@@ -30,8 +30,11 @@ RT_INLINE void velocityAt(const FlowJob<Dimension>& job, VelocityLanes<Dimension
   }
 }
 
-// The published scheme, with the correct limit at time 1: uniform steps of RungeKutta4 (paper,
-// Algorithm 2) or Euler, in either direction.
+// The published scheme, with the correct limit at time 1: T uniform steps of RungeKutta4 (paper,
+// Algorithm 2),
+//   x += (V_1 + 2 (V_2 + V_3) + V_4) / 6T,
+// or Euler (Section 3.3), x += V_1 / T, in either direction. Neither the straight start nor a
+// closed finish: it is there to be compared with.
 template <int Dimension>
 std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* seeds,
   const std::int64_t* index, int count, int refinement, bool* unresolved)
@@ -39,12 +42,13 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   MultistepLanes<Dimension> lanes;
   PathWriter<Dimension> writer(job, seeds, index, count);
   loadPositions<Dimension>(job, seeds, count, lanes.Position);
-  alignas(64) LaneVectors<Dimension> previous;
-  alignas(64) LaneVectors<Dimension> slope; // at the step's start
-  alignas(64) LaneVectors<Dimension> sum;
+  alignas(64) LaneVectors<Dimension> previous; // positions at the step's start
+  alignas(64) LaneVectors<Dimension> slope;    // velocities there, V_1
+  alignas(64) LaneVectors<Dimension> sum;      // V_1 + 2 V_2 + 2 V_3 + V_4 so far
   const bool fourStages = job.Integrator == Integrator::RungeKutta4;
   const std::int64_t steps = job.Steps << refinement;
   const double length = (job.Backward ? -1.0 : 1.0) / static_cast<double>(steps);
+  // Times are counted in half steps: the inner stages of RungeKutta4 lie in the middle of a step.
   const auto timeAt = [&](std::int64_t halfSteps) {
     const double fraction = static_cast<double>(halfSteps) / static_cast<double>(2 * steps);
     return job.Backward ? 1.0 - fraction : fraction;
@@ -57,12 +61,14 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
   // A lane whose box is empty keeps its velocity, at first that of the straight line to the
   // centroid.
   initialVelocity<Dimension>(job, lanes.Position, *lanes.V[0]);
+  // Time 0 itself is the seed, not its place away from the faces.
   if (writer.IsDense())
   {
     const Lanes start = {};
     writer.WriteStraight(*lanes.V[0], start);
   }
 
+  // Advance takes three weighted velocities: here one.
   const double one[3] = { 1.0, 0.0, 0.0 };
   for (std::int64_t step = 0; step <= steps; ++step)
   {
@@ -92,6 +98,8 @@ std::int64_t advectUniformSteps(const FlowJob<Dimension>& job, const double* see
     lanes.Rotate();
     if (fourStages)
     {
+      // V_2 and V_3 in the middle of the step, from V_1 and V_2; V_4 at its end, from V_3. V[0] is
+      // the velocity of the stage before, which is also what lanes with an empty box keep.
       for (int stage = 1; stage < 4; ++stage)
       {
         const double part = stage < 3 ? 0.5 : 1.0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The velocity of the rectified flow (paper, Equations 11 and 12) in a form without cancellation.
-// Included by FlowKernels.txx.
+// The velocity of the rectified flow (paper, Eqs. (11) and (12)) in a form without cancellation:
+// boxes, then their nodes in the tables, then their sums (BoxMoments.txx), then v. Each of these
+// steps loops over the lanes of a block, axis by axis. Included by FlowKernels.txx.
 
 // Least distance of positions from the domain's faces, in grid cells: the box of a particle on a
 // face has no volume; close to it the velocity is that of the limit.
 constexpr double faceDistance = 1.0 / (1 << 20);
 
+// A vector of each lane.
 template <int Dimension>
 using LaneVectors = double[Dimension][BlockSize];
 
@@ -14,13 +16,13 @@ template <int Dimension>
 struct VelocityLanes
 {
   BoxLanes<Dimension> Boxes;
-  alignas(64) LaneVectors<Dimension> From; // the clipped box
-  alignas(64) LaneVectors<Dimension> To;
-  alignas(64) LaneVectors<Dimension> Centre; // of the box before clipping
-  alignas(64) Lanes InverseTime;
-  alignas(64) Lanes InverseRest; // 1 / (1 - t)
-  alignas(64) Lanes Narrowest;
-  alignas(64) Lanes Void;    // 1 where the box has no mass, else 0
+  alignas(64) LaneVectors<Dimension> From;   // a, the low corner of the clipped box
+  alignas(64) LaneVectors<Dimension> To;     // b, the high corner
+  alignas(64) LaneVectors<Dimension> Centre; // c, of the box before clipping
+  alignas(64) Lanes InverseTime;             // 1 / t
+  alignas(64) Lanes InverseRest;             // 1 / (1 - t)
+  alignas(64) Lanes Narrowest;               // width of the clipped box along its narrowest axis
+  alignas(64) Lanes Void;                    // 1 where the box has no mass, else 0
   alignas(64) Lanes Outside; // 1 where the box leaves the part of the domain with nodes, else 0
 };
 
@@ -58,7 +60,10 @@ RT_INLINE double fromBits(std::uint64_t bits)
   return value;
 }
 
-// B' of every lane, clipped to the domain (paper, Equation 10 and "Integration bounds").
+// B' = [a, b] of every lane, clipped to the domain (paper, Eq. (10) and "Integration bounds"):
+//   a = max(0, S - (S - x) / t),   b = min(S, x / t),
+// and the centre c of the box before clipping, whose sides are S (1 - t) / t. Nearest rounds both
+// corners to nodes (Section 4.3): its boxes may have no volume.
 template <int Dimension>
 RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes,
   const LaneVectors<Dimension>& x, const Lanes& t)
@@ -66,7 +71,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
-    // One division for both.
+    // One division for both: 1 / t and 1 / (1 - t) from 1 / (t (1 - t)).
     const double rest = 1.0 - t[i];
     const double inverse = 1.0 / (t[i] * rest);
     lanes.InverseTime[i] = rest * inverse;
@@ -91,6 +96,7 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
         centre[i] = 0.5 * (a + b);
         from[i] = truncated(smaller(larger(a, 0.0), size) + 0.5);
         to[i] = truncated(smaller(larger(b, 0.0), size) + 0.5);
+        // Whole cells need nodes of the finest level.
         lanes.Narrowest[i] = 0.0;
       }
     }
@@ -111,7 +117,8 @@ RT_INLINE void findBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   }
 }
 
-// Where the tables cover a part of the domain, boxes are cut to it.
+// Where the tables cover a part of the domain, boxes are cut to it. A box that was not inside has
+// lost mass: Outside tells, and the particle is computed anew elsewhere. Axis 0 begins with 0.
 template <int Dimension>
 RT_INLINE void cutBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
 {
@@ -132,7 +139,9 @@ RT_INLINE void cutBoxes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>&
   }
 }
 
-// Nodes and weights along one axis of tables of uneven nodes.
+// Nodes and weights along one axis of tables of uneven nodes (GradedTables.h): the node below is
+// looked up by the grid cell, as all nodes lie between cells, and the width is that to the next
+// node.
 template <int Dimension>
 RT_INLINE void findUnevenNodes(
   const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes, int axis)
@@ -177,11 +186,14 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
+    // Sides on the faces of what the tables cover need fewer nodes (BoxMoments.txx). The high face
+    // of axis 0 has no case of its own in 2D and 3D.
     const std::int64_t low = from[i] <= lowest ? onLowFace : insideBoth;
     const std::int64_t high =
       (Dimension == 1 || axis > 0) && to[i] >= size ? onHighFace : insideBoth;
     const std::int64_t faces = (low | high) << facesShift(axis);
     boxes.Faces[i] = axis > 0 ? boxes.Faces[i] | faces : faces;
+    // The number and the width of the last cell of the lane's level.
     const double last = truncated((size - 1.0) * inverseWidth[i]);
     const double lastWidth = Even ? width[i] : size - last * width[i];
     const double inverseLastWidth = Even ? inverseWidth[i] : 1.0 / lastWidth;
@@ -195,6 +207,7 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
       const double inverse = node == last ? inverseLastWidth : inverseWidth[i];
       const double cell = node == last ? lastWidth : width[i];
       const double inCell = (plane - node * width[i]) * inverse;
+      // The reciprocal of a width that is no power of 2 is rounded: r might exceed 1.
       const double place = Even ? inCell : smaller(inCell, 1.0);
       boxes.Place[axis][side][i] = place;
       boxes.QuadraticWeight[axis][side][i] = (-0.5 * cell) * (place * (1.0 - place));
@@ -202,6 +215,7 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
       nodes[side] = node;
       places[side] = place;
     }
+    // q = r (i + r/2) / (i + 1/2) of BoxMoments.txx. On coarse levels it is computed, but not used.
     if constexpr (Dimension == 3)
     {
       // One division for both sides.
@@ -216,7 +230,8 @@ RT_INLINE void findAxisNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimens
 }
 
 // Level, nodes and weights of every lane's box. Each lane has its own level: the coarsest whose
-// cells are no wider than the box's narrowest side over CoarseRatio.
+// cells are no wider than the box's narrowest side over CoarseRatio. So the result of a lane does
+// not depend on its block.
 template <int Dimension>
 RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>& lanes)
 {
@@ -243,7 +258,8 @@ RT_INLINE void findNodes(const FlowJob<Dimension>& job, VelocityLanes<Dimension>
   for (int i = 0; i < BlockSize; ++i)
   {
     const double ratio = smaller(larger(lanes.Narrowest[i] * inverseRatio, 1.0), widest);
-    // The biased exponent is odd where the exponent is even.
+    // The greatest power of 4 that is not above the ratio, by its exponent of 2 alone. The biased
+    // exponent is odd where the exponent is even.
     const std::uint64_t exponent = ((bitsOf(ratio) >> 52) - 1) | 1;
     width[i] = fromBits(exponent << 52);
     inverseWidth[i] = fromBits((2046 - exponent) << 52);
@@ -287,11 +303,12 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
     sumBoxes<Dimension, true>(job.Tables, boxes, count, nullptr, job.Sparse);
   }
   const double voidMass = job.Tables.VoidMass;
-  const double hold = job.Backward ? 2.0 : 0.0;
+  const double hold = job.Backward ? 2.0 : 0.0; // Void is never above 2: nothing is held
 #pragma omp simd
   for (int i = 0; i < BlockSize; ++i)
   {
     lanes.Void[i] = boxes.Mass[i] > voidMass ? 0.0 : 1.0;
+    // From here on Mass is 1 / mass. That of empty boxes is not used.
     boxes.Mass[i] = 1.0 / boxes.Mass[i];
   }
   for (int axis = 0; axis < Dimension; ++axis)
@@ -300,11 +317,15 @@ __attribute__((noinline)) void evaluateVelocity(const FlowJob<Dimension>& job,
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
+      // The mean of Eq. (11). In exact arithmetic it lies in the box. A nearly empty box magnifies
+      // the rounding of the sums: the clamp bounds that, and with it the velocity.
       const double mean = boxes.Moment[axis][i] * boxes.Mass[i];
       const double clamped = smaller(larger(mean, lanes.From[axis][i]), lanes.To[axis][i]);
       const double rest = lanes.InverseRest[i];
       const double c = lanes.Centre[axis][i];
       const double m = lanes.Void[i] > 0.0 ? c : clamped;
+      // Eq. (12), and the same with x = t c + (1 - t) S/2 put in. The late form tends to x - S/2 at
+      // t = 1, where the early one is 0/0.
       const double early = (m - x[axis][i]) * rest;
       const double late = (c - half) + (m - c) * rest;
       const double value = t[i] < 0.5 ? early : late;

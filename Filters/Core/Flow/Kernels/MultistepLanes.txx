@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a block of particles in a multistep method. Included by FlowKernels.txx.
 
-// The state of a multistep method: positions and the velocities of the last steps.
+// The state of a multistep method: positions and the velocities of the last steps. A step is
+//   x_k+1 = x_k + Span * Length * (weighted sum of three velocities),
+// where Span is that of each lane, and Length and weights are those of all (StepWeights).
 template <int Dimension>
 struct MultistepLanes
 {
-  alignas(64) LaneVectors<Dimension> Position;
-  alignas(64) LaneVectors<Dimension> Trial;
-  alignas(64) LaneVectors<Dimension> Velocities[4];
-  LaneVectors<Dimension>* V[4]; // newest, second, third, output
-  alignas(64) Lanes Time;
-  alignas(64) Lanes Span;       // length of the graded interval
-  alignas(64) Lanes Unresolved; // 1 once a box was empty
+  alignas(64) LaneVectors<Dimension> Position;      // x_k
+  alignas(64) LaneVectors<Dimension> Trial;         // the prediction of x_k+1
+  alignas(64) LaneVectors<Dimension> Velocities[4]; // memory of V
+  LaneVectors<Dimension>* V[4];                     // v_k, v_k-1, v_k-2, and output
+  alignas(64) Lanes Time;                           // of Trial; after the step that of Position
+  alignas(64) Lanes Span;                           // length of the graded interval
+  alignas(64) Lanes Unresolved;                     // 1 once a box was empty
   VelocityLanes<Dimension> Field;
 
   MultistepLanes()
@@ -20,6 +22,8 @@ struct MultistepLanes
     {
       this->V[k] = &this->Velocities[k];
     }
+    // Velocities that are not known yet have the weight 0, and lanes that are not summed have no
+    // mass: their products must not be NaN of what was in memory.
     std::memset(this->Velocities, 0, sizeof(this->Velocities));
     std::memset(this->Unresolved, 0, sizeof(this->Unresolved));
     std::memset(this->Field.Outside, 0, sizeof(this->Field.Outside));
@@ -27,6 +31,8 @@ struct MultistepLanes
     std::memset(this->Field.Boxes.Moment, 0, sizeof(this->Field.Boxes.Moment));
   }
 
+  // After a step: the output becomes the newest velocity, and the oldest one's memory takes the
+  // next output. Moves pointers alone.
   void Rotate()
   {
     LaneVectors<Dimension>* oldest = this->V[2];
@@ -55,9 +61,10 @@ struct MultistepLanes
   }
 };
 
-// Where the density has its maximum in all of a particle's box, and the box is not clipped, its
-// mean is the box's centre c. The box then shrinks about c, so that x(1) = c: exact. Densities with
-// empty cells are most often shapes of one value, where nearly all boxes become such.
+// Where the density has its maximum in all of a particle's box, and the box is not clipped, the
+// mean of Eq. (11) is the box's centre c. The box then shrinks about c, so that x(1) = c: exact.
+// Densities with empty cells are most often shapes of one value, where nearly all boxes become
+// such.
 template <int Dimension>
 struct PlateauLanes
 {
@@ -90,7 +97,7 @@ struct PlateauLanes
     const LaneVectors<Dimension>& x, Lanes& found)
   {
     constexpr double rounding = 1e-9;
-    alignas(64) Lanes mass; // the largest that the box could hold
+    alignas(64) Lanes mass; // the largest that the box could hold: maximum times volume
 #pragma omp simd
     for (int i = 0; i < BlockSize; ++i)
     {
@@ -107,6 +114,8 @@ struct PlateauLanes
         mass[i] = from > 0.0 && to < size ? mass[i] * (to - from) : 1e300;
       }
     }
+    // The box is full if that is its mass, up to rounding. A sum of 0s and 1s is exact in any
+    // order.
     double sum = 0.0;
 #pragma omp simd reduction(+ : sum)
     for (int i = 0; i < BlockSize; ++i)
@@ -126,6 +135,7 @@ struct PlateauLanes
     }
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // c = (x - (1 - t) S/2) / t, after the corrector has moved x.
       const double half = 0.5 * job.Tables.Size[axis];
 #pragma omp simd
       for (int i = 0; i < BlockSize; ++i)

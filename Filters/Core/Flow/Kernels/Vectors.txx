@@ -11,6 +11,7 @@ constexpr int widestRegister = 32;
 constexpr int widestRegister = 16;
 #endif
 
+// A register of so many bytes of Values.
 template <class Value, int Bytes>
 struct RegisterOf;
 template <>
@@ -44,6 +45,8 @@ struct RegisterOf<float, 64>
   using Type = float __attribute__((vector_size(64)));
 };
 
+// N Values in as few registers as hold them. Arithmetic is element by element, so that how they are
+// cut in registers changes no bits.
 template <int N, class Value = double>
 struct Vector
 {
@@ -58,6 +61,7 @@ struct Vector
   RT_INLINE Value operator[](int lane) const { return this->Part[lane / Lanes][lane % Lanes]; }
 };
 
+// A record of a table in 2D and 3D, and the two records of a pair of neighbouring nodes.
 using Vector4 = Vector<4>;
 using Vector8 = Vector<8>;
 
@@ -109,6 +113,7 @@ RT_INLINE Vector<N, Value> operator*(const Vector<N, Value>& a, Value b)
   return product;
 }
 
+// Loads from memory of any alignment.
 template <int N, class Value>
 RT_INLINE Vector<N, Value> loadVector(const Value* from)
 {
@@ -147,6 +152,7 @@ RT_INLINE Vector4 fillVector(double value, double other)
 #endif
 }
 
+// The records of a pair of nodes, `first` in the low half.
 RT_INLINE Vector8 joinVectors(const Vector4& first, const Vector4& second)
 {
 #if defined(__AVX512F__)
