@@ -10,6 +10,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// The first cell of a tile along an axis: `size` cells in `count` tiles, the first of which get the
+// cells that are left over.
 std::int64_t tileStart(std::int64_t tile, std::int64_t count, std::int64_t size)
 {
   return tile * (size / count) + std::min(tile, size % count);
@@ -23,6 +25,9 @@ GridTiles<Dimension>::GridTiles(
   : Size(size)
   , HaloCells(halo)
 {
+  // The tables of a tile have (width + 2 halo)^d cells to be built for width^d cells of use: tiles
+  // are wide enough that this is not many times as much, and else narrow, as their tables are what
+  // memory holds.
   constexpr std::int64_t usualWidth = Dimension == 3 ? 64 : 1024;
   constexpr double usualHalos = 2.5; // a tile, of both sides
   for (int axis = 0; axis < Dimension; ++axis)
@@ -33,6 +38,8 @@ GridTiles<Dimension>::GridTiles(
           static_cast<std::int64_t>(usualHalos * 2.0 * static_cast<double>(halo[axis])));
     this->Counts[axis] = std::max<std::int64_t>(1, (size[axis] + width / 2) / width);
   }
+  // Too large tables are made smaller along the axis of the widest tiles, but not below the halos
+  // on both sides, from where on more tiles would hardly make smaller tables.
   for (;;)
   {
     double cells = 1.0;
@@ -52,6 +59,7 @@ GridTiles<Dimension>::GridTiles(
   }
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // A table instead of a division for each particle.
     const std::int64_t count = this->Counts[axis];
     for (std::int64_t tile = 0; tile < count; ++tile)
     {
@@ -61,6 +69,7 @@ GridTiles<Dimension>::GridTiles(
   }
 }
 
+// The widest tile with its halo, which the grid bounds.
 template <int Dimension>
 std::int64_t GridTiles<Dimension>::MostCellsAlong(int axis) const
 {
@@ -79,6 +88,7 @@ std::int64_t GridTiles<Dimension>::Count() const
   return count;
 }
 
+// Axis 0 fastest. Places outside of the grid are moved to its border.
 template <int Dimension>
 std::int64_t GridTiles<Dimension>::TileOf(const Point<Dimension>& place) const
 {
@@ -92,6 +102,7 @@ std::int64_t GridTiles<Dimension>::TileOf(const Point<Dimension>& place) const
   return tile;
 }
 
+// The tile and its halo, as far as the grid reaches: cells [low, high).
 template <int Dimension>
 void GridTiles<Dimension>::FindCells(
   std::int64_t tile, GridSize<Dimension>& low, GridSize<Dimension>& high) const

@@ -13,6 +13,8 @@
 namespace RectifiedTransport
 {
 
+// Tiles are numbered with axis 0 fastest, and cover the grid without overlap; their widths along an
+// axis differ by one cell at most. Tables with their halos overlap.
 template <int Dimension>
 class GridTiles
 {
@@ -35,9 +37,9 @@ public:
 private:
   std::int64_t MostCellsAlong(int axis) const;
 
-  GridSize<Dimension> Size{};
-  GridSize<Dimension> HaloCells{};
-  GridSize<Dimension> Counts{};
+  GridSize<Dimension> Size{};                     // of the grid, in cells
+  GridSize<Dimension> HaloCells{};                // on either side of a tile
+  GridSize<Dimension> Counts{};                   // of tiles along each axis
   std::vector<std::int32_t> TileBelow[Dimension]; // of each grid cell
 };
 

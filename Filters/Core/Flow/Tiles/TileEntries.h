@@ -13,7 +13,8 @@
 namespace RectifiedTransport
 {
 
-// Which of a row of particles, by blocks of 64.
+// Which of a row of particles, by blocks of 64: one bit each. Bits are set in any order on any
+// thread; they are only read once all are set, so that the order of memory need not be kept.
 class ParticleMask
 {
 public:
@@ -55,7 +56,8 @@ private:
   std::vector<std::atomic<std::uint64_t>> Words;
 };
 
-// Items sorted by their tile, in their order within each.
+// Items sorted by their tile, in their order within each: a counting sort, in O(items + tiles). As
+// the order of items does not depend on threads, neither does that of the work.
 template <class Item>
 class ByTile
 {
@@ -65,6 +67,8 @@ public:
   ByTile(const std::vector<std::vector<Item>>& items, std::int64_t tiles, const TileOf& tileOf)
     : Starts(static_cast<std::size_t>(tiles) + 1)
   {
+    // First the number of items of each tile, at the place of the next tile; their running sum,
+    // where each tile starts; then each item goes to the end of what its tile has.
     std::vector<std::int64_t> ends(static_cast<std::size_t>(tiles) + 1);
     const auto forAll = [&](const auto& function) {
       for (const std::vector<Item>& part : items)
@@ -101,7 +105,7 @@ public:
   }
 
 private:
-  std::vector<std::int64_t> Starts;
+  std::vector<std::int64_t> Starts; // of each tile in Items, and one for the end
   std::vector<Item> Items;
 };
 

@@ -15,11 +15,14 @@
 namespace RectifiedTransport
 {
 
+// A block of the kernels has few particles of a tile: it would be mostly idle lanes. Which
+// particles are gathered depends on the ranges of the work, but no lane's result depends on the
+// others.
 template <int Dimension>
 class TileLanes
 {
 public:
-  static constexpr int StateSize = 4 * Dimension;
+  static constexpr int StateSize = 4 * Dimension; // position and three velocities
 
   // Of the resolved particles, or of all if these are kept, the positions are written; the others
   // are added to those that are left. The job is on the tile's tables.
@@ -62,6 +65,8 @@ public:
     {
       return;
     }
+    // The kernel writes to Ends: the ends of unresolved particles must not overwrite where they
+    // were, unless they are kept.
     bool unresolved[BlockSize] = {};
     this->Evaluations +=
       this->Advect(this->Job, this->Seeds, this->Numbers, this->Count, this->Pass, unresolved);
@@ -87,13 +92,13 @@ private:
   ParticleMask& Left;
   std::atomic<std::int64_t>& Evaluations;
   const AdvectBlock<Dimension> Advect;
-  const int Size; // doubles a particle
-  int Count = 0;
-  double Seeds[BlockSize * StateSize];
-  double Ends[BlockSize * Dimension];
-  std::int64_t Index[BlockSize];
-  std::int64_t Particle[BlockSize];
-  std::int64_t Numbers[BlockSize];
+  const int Size;                      // doubles a particle
+  int Count = 0;                       // of gathered particles
+  double Seeds[BlockSize * StateSize]; // [particle][Size]: seeds or states
+  double Ends[BlockSize * Dimension];  // [particle][Dimension], the kernel's output
+  std::int64_t Index[BlockSize];       // in the positions
+  std::int64_t Particle[BlockSize];    // in the row of particles, for those that are left
+  std::int64_t Numbers[BlockSize];     // 0, 1, ...: places in Ends
 };
 
 } // namespace RectifiedTransport

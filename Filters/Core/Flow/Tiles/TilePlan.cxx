@@ -20,7 +20,7 @@ namespace
 // The power of two that is nearest in ratio, at least 1.
 std::int64_t nearestPowerOfTwo(double value)
 {
-  constexpr double half = 1.4142135623730951;
+  constexpr double half = 1.4142135623730951; // sqrt(2): half of a factor of two
   std::int64_t power = 1;
   while (half * static_cast<double>(power) < value)
   {
@@ -34,11 +34,15 @@ std::int64_t nearestPowerOfTwo(double value)
 template <int Dimension>
 GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLimits& limits)
 {
+  // Strides grow together, by a factor of two, until the nodes are few enough. They are in
+  // proportion to the sizes: boxes are, too, so that all axes reach the least width of a box at the
+  // same time.
   const std::int64_t longest = *std::max_element(size.begin(), size.end());
   GridSize<Dimension> strides;
   for (std::int64_t stride = 1;; stride *= 2)
   {
     double nodes = 1.0;
+    // Whether larger strides would still make fewer nodes along any axis.
     bool isCoarser = false;
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -54,6 +58,7 @@ GridSize<Dimension> gradedStrides(const GridSize<Dimension>& size, const TileLim
   }
 }
 
+// The records of the nodes, and a bit for each grid cell.
 template <int Dimension>
 double gradedMemory(const GridSize<Dimension>& size, const GridSize<Dimension>& strides)
 {
@@ -67,6 +72,7 @@ double gradedMemory(const GridSize<Dimension>& size, const GridSize<Dimension>& 
     bits * numberOfCells<Dimension>(size);
 }
 
+// Not in 1D, where whole tables are small.
 template <int Dimension>
 bool servesTiles(const GridSize<Dimension>& size, const FlowOptions& options,
   FlowDirection direction, const TileLimits& limits)
@@ -98,6 +104,8 @@ void requireTiles(const GridSize<Dimension>& size, const FlowOptions& options,
   }
 }
 
+// The hand-over is at the latest time at which boxes are wide enough for the graded tables. There
+// is none where steps are so few that particles cannot hand over then.
 template <int Dimension>
 TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps,
   FlowDirection direction, bool hasMaps, const TileLimits& limits)
@@ -105,6 +113,9 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   , Shape(size, numberOfSteps, direction)
   , Strides(gradedStrides<Dimension>(size, limits))
 {
+  // Boxes of the width W_a = S_a (1 - t) / t must be gradedRatio strides wide along every axis:
+  // with s = 1 - t at the hand-over, s >= gradedRatio * (stride_a / S_a) * (1 - s). An axis without
+  // strides is exact.
   const GridSize<Dimension>& strides = this->Strides;
   double coarsest = 0.0; // stride over the axis
   for (int axis = 0; axis < Dimension; ++axis)
@@ -115,6 +126,8 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
         std::max(coarsest, static_cast<double>(strides[axis]) / static_cast<double>(size[axis]));
     }
   }
+  // The last hand-over at which that holds: the fewer steps are left, the narrower the tiles'
+  // halos.
   const double least = gradedRatio * coarsest;
   const int steps = this->Shape.Steps;
   int handOver = 1;
@@ -126,6 +139,8 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   {
     ++handOver;
   }
+  // Forwards straight starts must be over two steps before, as those steps' velocities are taken
+  // along.
   // Backwards nodes that no lattice serves may go any way.
   constexpr double half = 0.5;
   const bool isUsual = isAfterStart(direction, handOver, steps);
@@ -136,6 +151,8 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
     this->Shape.Levels.clear();
     return;
   }
+  // The map's lattices are made on the graded tables, too, and so none may hand over later. If it
+  // has any, its finest one sets the hand-over.
   this->Shape = FlowMapShape<Dimension>(size, numberOfSteps, direction, 0, handOver);
   if (!hasMaps)
   {
@@ -147,9 +164,13 @@ TilePlan<Dimension>::TilePlan(const GridSize<Dimension>& size, int numberOfSteps
   this->Tiles = this->ChooseTiles(limits);
 }
 
+// Halos that hold all boxes from the hand-over on.
 template <int Dimension>
 GridTiles<Dimension> TilePlan<Dimension>::ChooseTiles(const TileLimits& limits) const
 {
+  // Forwards a particle is in the tile of its box's centre c, and its box reaches W/2 from there.
+  // Backwards it is in the tile of its place x at time 1, and all its boxes up to the hand-over
+  // contain x: they reach W.
   const bool isForward = this->Shape.Direction == FlowDirection::Forward;
   GridSize<Dimension> halo;
   for (int axis = 0; axis < Dimension; ++axis)
@@ -168,6 +189,7 @@ std::int64_t TilePlan<Dimension>::TileOf(const double* position) const
   Point<Dimension> centre;
   for (int axis = 0; axis < Dimension; ++axis)
   {
+    // c = S/2 + (x - S/2) / t at the hand-over.
     const double middle = 0.5 * static_cast<double>(this->Size[axis]);
     centre[axis] = middle + (position[axis] - middle) * this->InverseTime;
   }
@@ -177,6 +199,8 @@ std::int64_t TilePlan<Dimension>::TileOf(const double* position) const
 template <int Dimension>
 std::int64_t TilePlan<Dimension>::ExtraParticles() const
 {
+  // Few beside the grid's cells, as the memory should be, but enough to be worth the tables of all
+  // tiles.
   constexpr double share = 1.0 / 64.0;
   return std::max(std::int64_t{ 1 } << 18,
     static_cast<std::int64_t>(share * numberOfCells<Dimension>(this->Size)));
@@ -185,6 +209,9 @@ std::int64_t TilePlan<Dimension>::ExtraParticles() const
 template <int Dimension>
 double TilePlan<Dimension>::MemorySize(double particles, bool isLattice) const
 {
+  // All sizes are in bytes: graded tables, maps and the memory for making them, the tables of one
+  // tile, two masks, and the larger of the two lists of particles, with and without a map, as one
+  // is released before the other is made.
   constexpr double bits = 1.0 / 8.0;
   constexpr double sorted = 20.0;      // bytes a particle of an array
   constexpr double entries = 2 * 48.0; // a block: most are in one or two tiles, listed twice

@@ -3,6 +3,11 @@
 // graded tables (GradedTables.h), and from there on, forwards, by the tables of the tile that holds
 // the centre of their box: boxes shrink, and each lies in the one before. Backwards the tiles come
 // first. All follows from the grid, the number of steps, the direction and the maps.
+//
+// That boxes are nested: with tau = log(t / (1 - t)), the corners of B' (Eq. (10)) move with
+//   da/dtau = m - a >= 0,   db/dtau = m - b <= 0,
+// as the mean m (Eq. (11)) lies in B'. So tables of what the box at the hand-over covers are enough
+// from there on.
 #ifndef RectifiedTransport_TilePlan_h
 #define RectifiedTransport_TilePlan_h
 

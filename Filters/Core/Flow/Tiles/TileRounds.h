@@ -23,6 +23,7 @@
 namespace RectifiedTransport
 {
 
+// The tables of one tile are held at a time: those of the next are made in the same memory.
 template <int Dimension>
 class TileRounds
 {
@@ -71,6 +72,7 @@ public:
       {
         continue;
       }
+      // A tile has a part of the progress from `begin` to `end` that is in proportion to its items.
       const double all = static_cast<double>(items.Count());
       const double from = begin + (end - begin) * static_cast<double>(first) / all;
       const double to = begin + (end - begin) * static_cast<double>(first + count) / all;
@@ -91,9 +93,12 @@ private:
     }
   }
 
+  // The tables of the grid cells [low, high), whose values the density has; then the rest of the
+  // progress up to `to` is the task's.
   void BuildTile(const DensityValues& density, const GridSize<Dimension>& low,
     const GridSize<Dimension>& high, double from, double to)
   {
+    // The part of a tile's progress that making the tables takes, measured at a particle a cell.
     constexpr double partOfTables = 0.1;
     this->Work.BeginStage(
       from + (to - from) * partOfTables, high[Dimension - 1] - low[Dimension - 1]);
@@ -107,9 +112,12 @@ private:
   void RunOnRanks(const ByTile<Item>& items, Task& task, double begin, double end)
   {
     const Ranks& ranks = this->Work.Group();
+    // The same on all ranks, which compute it from the same counts.
     const std::vector<std::vector<TileUnit>> units = this->Schedule(items, Task::Cell, ranks);
     const auto own = static_cast<std::size_t>(ranks.Own());
     this->ReserveIf(!units[own].empty());
+    // There are as many rounds as the rank with the most tiles needs. Ranks that are done only take
+    // part in the collective calls.
     std::size_t rounds = 0;
     for (const std::vector<TileUnit>& those : units)
     {
@@ -120,10 +128,12 @@ private:
       const double each = (end - begin) / static_cast<double>(rounds);
       const double from = begin + each * static_cast<double>(round);
       const bool hasTile = round < units[own].size();
+      // Collective, also for ranks without a tile: each holds a part of the density.
       this->MakeTile(hasTile ? &units[own][round] : nullptr, from, from + each);
       if (hasTile)
       {
         const std::int64_t start = items.Start(units[own][round].Tile);
+        // Own particles first, which are not sent.
         for (const TileVisit& visit : units[own][round].Visits)
         {
           if (visit.From == ranks.Own())
@@ -132,6 +142,8 @@ private:
           }
         }
       }
+      // Particles of other ranks, in parts that bound the memory: out, through the kernels there,
+      // and back.
       TileVisitors<Item> visitors(items, units, round, ranks);
       while (visitors.HaveMore())
       {
@@ -149,10 +161,13 @@ private:
     }
   }
 
+  // The tiles of every rank, from the numbers of items that all have in each: one gather. The cost
+  // of a tile's tables is that of its largest possible size, in items.
   template <class Item>
   std::vector<std::vector<TileUnit>> Schedule(
     const ByTile<Item>& items, double cell, const Ranks& ranks) const
   {
+    // This rank's items of each tile, and those of all ranks.
     std::vector<TileCount> own;
     for (std::int64_t tile = 0; tile < this->Tiles.Count(); ++tile)
     {

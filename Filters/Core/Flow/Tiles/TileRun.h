@@ -24,13 +24,14 @@ namespace RectifiedTransport
 template <int Dimension>
 struct TileStage
 {
-  FlowMapView<Dimension> Map;
-  bool FromStates;
-  bool StopsAtMap;
-  bool IsKept; // where particles are that stay unresolved
-  int Pass;    // of the kernel
+  FlowMapView<Dimension> Map; // its finest level ends at the hand-over
+  bool FromStates;            // see FlowJob
+  bool StopsAtMap;            // see FlowJob
+  bool IsKept;                // where particles are that stay unresolved
+  int Pass;                   // of the kernel
 };
 
+// Gathers the particles of a tile in blocks (TileLanes.h), and lets the kernels advect them.
 template <int Dimension>
 class TileRun
 {
@@ -67,10 +68,11 @@ private:
   template <class Item, class GiveAll>
   struct Advection
   {
-    static constexpr double Cell = 0.02; // measured
+    static constexpr double Cell = 0.02; // measured, in the time of a particle
 
     void Run(std::int64_t first, std::int64_t last)
     {
+      // Each range has lanes of its own, and so at most one block that is not full.
       const FlowJob<Dimension> job = this->Parent.TileJob(this->Stage);
       this->Parent.Work.For(
         last - first, grain,
@@ -82,6 +84,8 @@ private:
           {
             this->Give(this->Items[item],
               [&](const double* values, std::int64_t index, std::int64_t particle) {
+                // Lanes are filled over the borders of items, and advanced when a block is full;
+                // the rest at the end of the range.
                 std::copy_n(values, lanes.ValuesEach(), lanes.Next());
                 lanes.Add(index, particle);
               });
@@ -120,6 +124,7 @@ private:
     const GiveAll& GiveItem;
   };
 
+  // The job on the tables of the tile that is worked on. Its particles lie close together.
   FlowJob<Dimension> TileJob(const TileStage<Dimension>& stage) const
   {
     FlowJob<Dimension> job = this->Wide;
@@ -135,10 +140,12 @@ private:
   // unresolved.
   Bytes AdvectVisitors(const TileStage<Dimension>& stage, Bytes& visitors)
   {
+    // [particle][each] as they were sent.
     const int each = TileLanes<Dimension>::valuesOf(stage.FromStates);
     const std::vector<double> values = fromBytes<double>(visitors);
     visitors = {};
     const auto count = static_cast<std::int64_t>(values.size()) / each;
+    // All ends are written and sent, with the mark: the sender decides whether it takes them.
     std::vector<double> ends(static_cast<std::size_t>(count * Dimension));
     ParticleMask unresolved(count);
     const PointSpan<Dimension> places(ends.data(), count);
@@ -157,6 +164,7 @@ private:
         lanes.Advance();
       },
       particles);
+    // A reply is [particle]{Dimension doubles, one byte}, in the order in which the particles came.
     constexpr std::size_t bytes = sizeof(double) * Dimension;
     Bytes reply(static_cast<std::size_t>(count) * (bytes + 1));
     char* next = reply.data();
@@ -168,7 +176,7 @@ private:
     return reply;
   }
 
-  const FlowJob<Dimension>& Wide;
+  const FlowJob<Dimension>& Wide; // on the graded tables
   Counters& Count;
   Progress& Work;
   TileRounds<Dimension> Rounds;

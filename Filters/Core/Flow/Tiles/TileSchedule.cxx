@@ -19,9 +19,13 @@ std::int64_t sumOf(const std::vector<TileVisit>& visits)
     [](std::int64_t sum, const TileVisit& visit) { return sum + visit.Count(); });
 }
 
+// A greedy schedule: each rank keeps its own items as far as their tables pay, the rest, by tiles
+// of the most items first, goes to the ranks of least cost. Costs are in the time of an item. All
+// ties are broken by numbers, so that every rank computes the same schedule.
 class Scheduling
 {
 public:
+  // Sets the bounds; ranks have no items yet.
   Scheduling(const std::vector<std::vector<TileCount>>& counts, double costOfTables)
     : CostOfTables(costOfTables)
     , Units(counts.size())
@@ -37,16 +41,20 @@ public:
         all += count.Items;
       }
     }
+    // Fewer items than that in a tile visit another rank. A rank takes no more than Most items, so
+    // that none is left to work when the others are done.
     this->Least = std::max<std::int64_t>(1, static_cast<std::int64_t>(worthwhile * costOfTables));
     this->Most = std::max(this->Least,
       static_cast<std::int64_t>(
         uneven * static_cast<double>(all) / static_cast<double>(counts.size())));
   }
 
+  // First what ranks keep, in the order of the ranks, then all that moves.
   void Add(const std::vector<std::vector<TileCount>>& counts)
   {
     for (std::size_t rank = 0; rank < counts.size(); ++rank)
     {
+      // The tiles of the most items first: their tables pay most, before the rank has its part.
       std::vector<TileCount> own = counts[rank];
       std::stable_sort(own.begin(), own.end(),
         [](const TileCount& a, const TileCount& b) { return a.Items > b.Items; });
@@ -55,6 +63,7 @@ public:
         this->AddOwn(rank, count);
       }
     }
+    // Negative, for the most items first, and equal numbers by tile.
     std::vector<std::pair<std::int64_t, std::int64_t>> order; // items and tiles
     for (const auto& [tile, visits] : this->Moving)
     {
@@ -70,6 +79,7 @@ public:
     }
   }
 
+  // The units of each rank, the largest first.
   std::vector<std::vector<TileUnit>> Sorted() const
   {
     std::vector<std::vector<TileUnit>> sorted;
@@ -80,6 +90,8 @@ public:
       {
         sorted.back().push_back({ tile, visits });
       }
+      // The largest first: rounds in which ranks wait for each other are then of about the same
+      // length.
       std::stable_sort(sorted.back().begin(), sorted.back().end(),
         [](const TileUnit& a, const TileUnit& b) { return a.Count() > b.Count(); });
     }
@@ -87,6 +99,7 @@ public:
   }
 
 private:
+  // What a rank has so far.
   struct Rank
   {
     std::map<std::int64_t, std::vector<TileVisit>> ByTile;
@@ -94,6 +107,8 @@ private:
     double Cost = 0.0; // with that of the tables
   };
 
+  // Gives a rank as many of its items in a tile as it may take, or none if they are too few for
+  // tables. The others move.
   void AddOwn(std::size_t rank, const TileCount& count)
   {
     std::int64_t own = std::min(count.Items, this->Most - this->Units[rank].Items);
@@ -114,6 +129,7 @@ private:
   {
     while (visit.Count() > 0)
     {
+      // Each part has Least items or more, so that the loop ends even if all ranks have enough.
       const std::size_t rank = this->Choose(tile, static_cast<std::size_t>(visit.From));
       const std::int64_t taken =
         std::min(visit.Count(), std::max(this->Least, this->Most - this->Units[rank].Items));
@@ -129,6 +145,7 @@ private:
     const auto cheaper = [this](std::size_t a, std::size_t b) {
       return this->Units[a].Cost < this->Units[b].Cost;
     };
+    // `best` has the tables already; `least` is the cheapest of all.
     std::size_t best = this->Units.size();
     std::size_t least = 0;
     for (std::size_t rank = 0; rank < this->Units.size(); ++rank)
@@ -148,6 +165,7 @@ private:
     return this->Units[from].Cost <= this->Units[least].Cost ? from : least;
   }
 
+  // The first items of a tile also cost its tables.
   void Give(std::size_t rank, std::int64_t tile, const TileVisit& visit)
   {
     Rank& given = this->Units[rank];

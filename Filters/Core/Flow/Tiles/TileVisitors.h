@@ -19,10 +19,14 @@
 namespace RectifiedTransport
 {
 
+// Particles leave in several exchanges, as a rank may receive few at a time. All ranks make the
+// same number of exchanges, which the schedule gives. A particle travels as its values alone, and
+// its reply comes back in the same order: which particle it is stays noted here.
 template <class Item>
 class TileVisitors
 {
 public:
+  // Items are particles, or parts of blocks.
   static constexpr std::int64_t ParticlesOfItem = std::is_integral_v<Item> ? 1 : BlockSize;
 
   // Of the items of this rank; `units` are those of all ranks.
@@ -41,6 +45,8 @@ public:
         continue;
       }
       const TileUnit& unit = units[rank][round];
+      // Items of this unit by the rank that they come from. The longest of all queues sets the
+      // number of exchanges.
       std::vector<std::int64_t> counts(units.size());
       for (const TileVisit& visit : unit.Visits)
       {
@@ -79,6 +85,7 @@ public:
         std::memcpy(part.data() + size, values, bytes);
         places.push_back({ index, particle });
       };
+      // Runs are taken in order, each as far as there is room.
       std::int64_t taken = 0;
       for (Run& run : this->Runs[rank])
       {
@@ -100,6 +107,7 @@ public:
     {
       const std::vector<Place>& places = this->Places[rank];
       const char* reply = replies[rank].data();
+      // Replies of a rank are as long as one another.
       const std::size_t each = places.empty() ? 0 : replies[rank].size() / places.size();
       for (const Place& place : places)
       {
@@ -110,6 +118,7 @@ public:
   }
 
 private:
+  // Items [Next, End) that have not left yet.
   struct Run
   {
     std::int64_t Next;
@@ -117,8 +126,8 @@ private:
   };
   struct Place
   {
-    std::int64_t Index;
-    std::int64_t Particle;
+    std::int64_t Index;    // in the positions
+    std::int64_t Particle; // in the row of particles
   };
 
   const ByTile<Item>& Items;

@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An advection through tiles that are worked through one after another (TilePlan.h).
+//
+// Forwards, particles whose cell of the finest lattice is good are sorted by the tile of their
+// place at the hand-over. Tile by tile they start from the lattice again, and are finished. The
+// others, and those that end unresolved, are taken to the hand-over one by one, like nodes of a
+// lattice, on the graded tables, and are finished tile by tile from their states there (pass 0).
+// What is then unresolved starts again from its seed with 2, 4, ... 32 times as many steps (the
+// other passes). What still ends in an empty cell is moved to the nearest mass.
+//
+// Backwards, tiles come first, from time 1 to the hand-over, where the lattice gives the seed.
+// Where it does not, or there is none, particles go on to time 0 on the graded tables.
 #ifndef RectifiedTransport_TiledAdvection_h
 #define RectifiedTransport_TiledAdvection_h
 
@@ -21,6 +31,8 @@
 namespace RectifiedTransport
 {
 
+// Particles are noted by their number in the row that the source has, in words of a bit each
+// (ParticleMask). Seeds are made again whenever they are needed, rather than kept.
 template <int Dimension>
 class TiledAdvection
 {
@@ -86,6 +98,7 @@ private:
     std::int64_t Tile;
   };
 
+  // Whether the finest lattice ends at the hand-over, so that particles start from it there.
   bool HandsOverFromMap() const
   {
     return this->Map.LevelCount > 0 &&
@@ -95,12 +108,14 @@ private:
   void RunChunk(const ParticleSource<Dimension>& source, std::int64_t length,
     PointSpan<Dimension> positions, double begin, double end)
   {
+    // Parts of the progress: until the map has been read, and until the tiles are done.
     constexpr double partOfMap = 0.1;
     constexpr double partOfTiles = 0.9;
     ParticleMask left(length);
     if (this->Wide.Backward || this->HandsOverFromMap())
     {
       this->Work.BeginStage(begin + partOfMap * (end - begin));
+      // Which particles are in which tile, then all tiles that have any.
       const ByTile<Entry> entries = this->FindTiles(source, length, left);
       const TileStage<Dimension> stage = this->StageOfEntries();
       this->Tiles.Run(entries, stage, positions, left, begin + partOfMap * (end - begin),
@@ -111,9 +126,11 @@ private:
     {
       for (std::int64_t block = 0; block < left.Blocks(); ++block)
       {
+        // Without a map that ends at the hand-over, all particles go the long way.
         left.AddToBlock(block, blockMask(length - block * BlockSize));
       }
     }
+    // Half of the progress that is left for each pass: nobody knows how many particles it leaves.
     const double done = this->Work.StageEnd();
     for (int pass = 0; pass <= this->LastPass; ++pass)
     {
@@ -130,6 +147,7 @@ private:
     }
   }
 
+  // The particles of a block, if there are so many left.
   static std::uint64_t blockMask(std::int64_t particles)
   {
     return particles >= BlockSize ? ~std::uint64_t{ 0 } : (std::uint64_t{ 1 } << particles) - 1;
@@ -149,6 +167,7 @@ private:
     const ParticleSource<Dimension>& source, std::int64_t length, ParticleMask& left)
   {
     const std::int64_t blocks = left.Blocks();
+    // A list of each range of blocks, so that their order does not depend on threads.
     std::vector<std::vector<Entry>> found(static_cast<std::size_t>((blocks + grain - 1) / grain));
     const auto find = [&](std::int64_t block, std::vector<Entry>& entries) {
       std::int64_t index[BlockSize];
@@ -157,11 +176,14 @@ private:
       const int count = fillBlock(source, length, block, index, places);
       if (!this->Wide.Backward)
       {
+        // Forwards a particle belongs to the tile of where the lattice takes it.
         double seeds[BlockSize * Dimension];
         std::copy_n(places, count * Dimension, seeds);
         this->Read(
           this->Wide, this->Map.Levels[this->Map.LevelCount - 1], seeds, count, places, deferred);
       }
+      // Particles of a block are close together, and so in few tiles: a search among the block's
+      // own entries is enough.
       const std::size_t before = entries.size();
       for (int i = 0; i < count; ++i)
       {
@@ -178,6 +200,7 @@ private:
           entries.push_back({ block, 0, tile });
           entry = entries.end() - 1;
         }
+        // Bit i is particle i of the block.
         entry->Particles |= std::uint64_t{ 1 } << i;
       }
     };
@@ -194,12 +217,15 @@ private:
       found, this->Plan.Tiles.Count(), [](const Entry& entry) { return entry.Tile; });
   }
 
+  // How the kernels advect the particles of entries: from the map forwards, to it backwards, in the
+  // pass of its finest level.
   TileStage<Dimension> StageOfEntries() const
   {
     const bool isBackward = this->Wide.Backward; // keeps those that the map gives no seed
     TileStage<Dimension> stage{ this->Map, false, isBackward, isBackward, 0 };
     if (isBackward && !this->HandsOverFromMap())
     {
+      // A level without records: all particles stop at the hand-over.
       stage.Map.LevelCount = 1;
       stage.Map.Levels[0].HandOver = this->Plan.HandOver;
       stage.Map.Levels[0].Records = nullptr;
@@ -230,9 +256,9 @@ private:
   // Particles of a pass that are taken to the hand-over by themselves.
   struct Extra
   {
-    std::vector<std::int64_t> Particle;
-    LargeBuffer<float> Records;
-    std::vector<unsigned char> Troubled;
+    std::vector<std::int64_t> Particle;  // their numbers in the row of particles
+    LargeBuffer<float> Records;          // [particle][record] at the hand-over, as of lattices
+    std::vector<unsigned char> Troubled; // 1 where a box was empty on the way
   };
 
   // Takes all that is in `given` from the seeds, with 2^pass times as many steps; what is still
@@ -249,6 +275,7 @@ private:
       extra.Particle.reserve(static_cast<std::size_t>(std::min(most, count - done)));
       for (; block < given.Blocks(); ++block)
       {
+        // A round takes as many whole blocks as the memory for records allows.
         std::uint64_t word = given.Block(block);
         if (static_cast<std::int64_t>(extra.Particle.size()) + __builtin_popcountll(word) > most)
         {
@@ -270,6 +297,10 @@ private:
     }
   }
 
+  // Takes particles from their seeds, or places, to the hand-over on the graded tables, where their
+  // records are kept, and forwards to the end in their tiles. Backwards the way on the graded
+  // tables comes last: the places are those at which the tiles left them, and the records are the
+  // seeds.
   void RunExtra(const ParticleSource<Dimension>& source, int pass, Extra& extra,
     PointSpan<Dimension> positions, ParticleMask& left, double begin, double end)
   {
@@ -281,6 +312,9 @@ private:
     extra.Records = LargeBuffer<float>(count * record);
     extra.Troubled.resize(static_cast<std::size_t>(count));
 
+    // The particles are the nodes of a level without a lattice, which ends at the hand-over. In
+    // pass 0 they start from the coarser lattices where these are good; with more steps the times
+    // are others, and all start from their seeds.
     FlowMapView<Dimension> map = this->Map;
     int parents = map.LevelCount - (this->HandsOverFromMap() ? 1 : 0);
     if (pass > 0)
@@ -295,6 +329,7 @@ private:
     level.Records = extra.Records.data();
     FlowJob<Dimension> job = this->Wide;
     job.Map = &map;
+    // Forwards the tiles follow.
     const double middle = isBackward ? end : begin + 0.5 * (end - begin);
     this->Work.BeginStage(middle);
     const auto particle = [&extra](std::int64_t number) {
@@ -319,6 +354,7 @@ private:
       this->WriteSeeds(source, extra, positions);
       return;
     }
+    // The numbers, in `extra`, of the particles that go on to their tile.
     // Those that met an empty box are redone, in the last pass from where they are all the same.
     map.Levels[0] = level;
     map.LevelCount = 1;
@@ -335,6 +371,8 @@ private:
         numbers[0].push_back(i);
       }
     }
+    // Each particle goes to the tile of its place at the hand-over, and on from its state there:
+    // one level, whose pass is -1.
     const ByTile<std::int64_t> byTile(numbers, this->Plan.Tiles.Count(), [&](std::int64_t number) {
       double place[Dimension];
       std::copy_n(level.Records + number * record, Dimension, place);
@@ -351,6 +389,7 @@ private:
       });
   }
 
+  // The seeds that the records have, clamped to the domain.
   void WriteSeeds(
     const ParticleSource<Dimension>& source, const Extra& extra, PointSpan<Dimension> positions)
   {
@@ -374,6 +413,7 @@ private:
     this->Work.Check();
   }
 
+  // Those that are in an empty cell still.
   void MoveToMass(const ParticleSource<Dimension>& source, const ParticleMask& left,
     PointSpan<Dimension> positions)
   {

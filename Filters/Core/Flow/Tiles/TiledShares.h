@@ -21,7 +21,9 @@
 namespace RectifiedTransport
 {
 
-// For boxes whose sides are in proportion to `aspect`.
+// For boxes whose sides are in proportion to `aspect`: a box of half sides r * aspect about a
+// centre. Those with gradedRatio strides along every axis are wide enough for the graded tables;
+// all others must lie in the tile of their centre and its halo.
 template <int Dimension>
 GridTiles<Dimension> tilesForShares(
   const GridSize<Dimension>& size, const Point<Dimension>& aspect, const TileLimits& limits)
@@ -47,6 +49,8 @@ GridTiles<Dimension> tilesForShares(
   return { size, halo, limits };
 }
 
+// Finds, for each centre and share, the measure of the box about the centre that holds the share
+// (BoxShare.h): by the graded tables where it is wide, else by those of the tile.
 template <int Dimension>
 class TiledShares
 {
@@ -85,8 +89,8 @@ private:
   // What TileRounds does with the tables of a tile.
   struct Solution
   {
-    static constexpr double Cell = 0.0025; // measured
-    static constexpr std::size_t Values = Dimension + 1;
+    static constexpr double Cell = 0.0025;               // measured, in the time of a box
+    static constexpr std::size_t Values = Dimension + 1; // centre and share
 
     void Run(std::int64_t first, std::int64_t last)
     {
@@ -105,6 +109,7 @@ private:
     template <class GiveOne>
     void Give(std::int64_t item, const GiveOne& give) const
     {
+      // A box is its own number: index and particle are the same.
       double values[Values];
       std::copy_n(this->Centres[item], Dimension, values);
       values[Dimension] = this->Shares[item];
@@ -151,7 +156,8 @@ private:
       this->Graded, this->Rounds.Tables(), toPoint(centre), this->Aspect, share);
   }
 
-  // Those without a share need no tables.
+  // The boxes by the tile of their centre. Those without a share need no tables. Each range fills a
+  // list of its own: the order does not depend on threads.
   ByTile<std::int64_t> FindTiles(
     ConstPointSpan<Dimension> centres, const double* shares, double* measures)
   {
