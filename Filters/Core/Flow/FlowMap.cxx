@@ -24,6 +24,8 @@ constexpr int isBent(int axis)
   return 2 << axis;
 }
 
+// The place of a node, the inverse of u(x) of LatticeAxis: x = u^2 / (4 Layer) in the layer. The
+// ends are exact.
 double placeOf(const LatticeAxis& axis, std::int64_t node)
 {
   if (node <= 0 || node >= axis.Cells)
@@ -40,7 +42,7 @@ double placeOf(const LatticeAxis& axis, std::int64_t node)
                                     : u - axis.Layer;
 }
 
-// One lattice while it is made.
+// One lattice while it is made: first the records of its nodes, then which of its cells are good.
 template <int Dimension>
 class LatticeBuild
 {
@@ -85,6 +87,8 @@ public:
       }
     };
     const auto nodes = static_cast<std::int64_t>(this->Marks.size());
+    // Equal parts of the nodes, which do not change the bits: a node's record depends on the
+    // coarser levels alone.
     const Ranks& ranks = this->Work.Group();
     const RankShare share(nodes, ranks);
     const std::int64_t evaluations =
@@ -100,6 +104,8 @@ public:
   // share of those that may not.
   double FindBad(unsigned char* bad)
   {
+    // One axis after the other: the bend of the stencil of four nodes that starts at each node,
+    // then the edge from each node to the next.
     std::vector<float> bends(this->Marks.size()); // squared, 1 is the most
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -140,6 +146,7 @@ private:
     this->Work.For(static_cast<std::int64_t>(this->Marks.size()), nodeGrain,
       [&](std::int64_t first, std::int64_t last) {
         const std::int64_t stride = this->Stride[axis];
+        // Counted along: a division for each node would cost more than the rest.
         std::int64_t place = first / stride % this->Nodes[axis];
         std::int64_t next = first - first % stride + stride;
         for (std::int64_t node = first; node < last; ++node)
@@ -155,7 +162,8 @@ private:
   }
 
   // The squared third difference from a node on, over 16, in deviations that are allowed: about
-  // what a cubic leaves out.
+  // what a cubic leaves out. Of the position x, and forwards also of x + (1 - t) v, where it would
+  // end on a straight line: what an error of v does until time 1.
   float Bend(std::int64_t node, std::int64_t stride) const
   {
     const std::int64_t record = this->RecordSize();
@@ -163,9 +171,11 @@ private:
     const auto difference = [&](int entry) {
       const float* r = first + entry;
       const std::int64_t s = stride * record;
+      // The third difference r_3 - 3 r_2 + 3 r_1 - r_0 of an entry of the records.
       return ((r[3 * s] - r[0]) + 3.0f * (r[s] - r[2 * s])) *
         this->InverseDeviation[entry % Dimension];
     };
+    // Squared lengths, in allowed deviations: `here` is that of x, `ahead` that of x + (1 - t) v.
     float here = 0.0f;
     float ahead = 0.0f;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -178,9 +188,11 @@ private:
         ahead += end * end;
       }
     }
+    // 16^2.
     return here >= ahead ? here / 256.0f : ahead / 256.0f;
   }
 
+  // The cells from the marks of their nodes, row by row along axis 0.
   double MarkCells(unsigned char* bad)
   {
     GridSize<Dimension> cells;
@@ -199,6 +211,7 @@ private:
         std::int64_t marked = 0;
         for (std::int64_t row = first; row < last; ++row)
         {
+          // The node at the low corner of the row's first cell.
           std::int64_t node = 0;
           std::int64_t rest = row;
           for (int axis = 1; axis < Dimension; ++axis)
@@ -226,9 +239,12 @@ private:
     for (int corner = 0; corner < (1 << Dimension); ++corner)
     {
       std::int64_t at = node;
+      // The edges of the cell that start at this corner are those along axes on whose low side it
+      // is.
       int relevant = isTroubled;
       for (int axis = 0; axis < Dimension; ++axis)
       {
+        // An edge along an axis is marked at its lower node.
         const bool upper = (corner >> axis & 1) != 0;
         at += upper ? this->Stride[axis] : 0;
         relevant |= upper ? 0 : isBent(axis);
@@ -241,15 +257,17 @@ private:
   const FlowJob<Dimension>& Job;
   const FlowMapLevel<Dimension>& Level;
   Progress& Work;
-  GridSize<Dimension> Nodes;
-  GridSize<Dimension> Stride; // in nodes
-  float InverseDeviation[Dimension];
-  std::vector<double> Places[Dimension];
-  std::vector<unsigned char> Marks; // of the nodes
+  GridSize<Dimension> Nodes;             // along each axis
+  GridSize<Dimension> Stride;            // in nodes
+  float InverseDeviation[Dimension];     // 1 / cells
+  std::vector<double> Places[Dimension]; // of the nodes along each axis, in cells
+  std::vector<unsigned char> Marks;      // of the nodes
 };
 
 } // namespace
 
+// Makes the coarsest level first: nodes of each level start from those before it, if these are good
+// there.
 template <int Dimension>
 FlowMap<Dimension>::FlowMap(
   const FlowMapShape<Dimension>& shape, const FlowJob<Dimension>& job, const Context& context)
@@ -261,6 +279,7 @@ FlowMap<Dimension>::FlowMap(
   }
   this->Map.Steps = shape.Steps;
   this->Map.Weights = this->Weights.data();
+  // The job of the nodes: its map has the levels that are made so far. Nodes lie far apart.
   FlowJob<Dimension> nodes = job;
   nodes.Map = &this->Map;
   nodes.Sparse = true;
@@ -279,6 +298,7 @@ FlowMap<Dimension>::FlowMap(
     std::int64_t cells = 1;
     for (int axis = 0; axis < Dimension; ++axis)
     {
+      // A node more than cells, at both ends of [0, S].
       const double size = job.Tables.Size[axis];
       const double length = size + 2.0 * planned.Layers[axis];
       level.Axes[axis] = { size, planned.Layers[axis], length,

@@ -77,7 +77,12 @@ double numberOfNodes(const GridSize<Dimension>& cells)
 }
 
 // Everything in units of the geometric mean of the axes' sizes: the flow commutes with scalings of
-// axes, and so do the lattices.
+// axes, and so do the lattices. With S that mean and s = 1 - t at a hand-over, the box there is
+//   W = S s / (1 - s)
+// wide, and the flow is smooth at that scale. The error that the interpolation may have is
+//   e = Error S / N^2,
+// in proportion to that of N steps. A lattice costs its nodes, and saves steps of all particles:
+// the finer it is, the later it may hand over.
 template <int Dimension>
 class LevelChooser
 {
@@ -153,6 +158,9 @@ public:
     {
       --coarsest;
     }
+    // Each next level has at least `coarsening` times the spacing, and so 2^d times fewer nodes.
+    // The last one that would be chosen is replaced by the coarsest, so that few nodes take all
+    // steps.
     std::vector<int> handOvers = { finest };
     const auto isCoarser = [&](int handOver, double ratio) {
       return this->Spacing(handOver) >= ratio * this->Spacing(handOvers.back());
@@ -178,6 +186,8 @@ public:
     for (std::size_t i = 0; i < levels.size(); ++i)
     {
       const int here = levels[i].HandOver;
+      // Evaluations of a node: those between two hand-overs, or all from its seed on the coarsest
+      // level.
       const double evaluations = i + 1 < levels.size()
         ? Fixed::Interpolation + this->FromCoarser(levels[i + 1].HandOver, here)
         : latticeSteps * (this->Steps - here);
@@ -207,7 +217,8 @@ private:
   // 1 - t at a hand-over.
   double Rest(int handOver) const { return timeLeft(this->Direction, handOver, this->Steps); }
 
-  // Square roots alone: they have the same bits everywhere.
+  // h = W (e / W)^(7/16), but no more than W / LeastRatio: 7/16 = 1/4 + 1/8 + 1/16, by square roots
+  // alone, which have the same bits everywhere.
   double FindSpacing(int handOver) const
   {
     const double width = this->Width(handOver);
@@ -224,7 +235,8 @@ private:
       : static_cast<double>(nodeSteps(handOver, coarser) + 1);
   }
 
-  // The same number of spacings to the box's width on every axis.
+  // The lattice of a hand-over: the same number of spacings to the box's width on every axis.
+  // Forwards with layers as wide as the box at both ends, where it is clipped.
   Level At(int handOver) const
   {
     const double spacing = std::min(this->Spacing(handOver), this->WidestSpacing());
@@ -246,16 +258,17 @@ private:
   const GridSize<Dimension> Size;
   const int Steps;
   const FlowDirection Direction;
-  double Mean;
-  double Particles;
-  double Error;
-  std::vector<double> Spacings; // by hand-over
+  double Mean;                  // S, in cells
+  double Particles;             // for which the levels are chosen
+  double Error;                 // e, in cells
+  std::vector<double> Spacings; // h by hand-over, ascending
 };
 
 } // namespace
 
 double timeLeft(FlowDirection direction, int handOver, int steps)
 {
+  // By symmetry 1 - G_k = G_N-k. Forwards, G divides the interval from commonStart to 1.
   const double graded = grading(handOver, steps);
   return direction == FlowDirection::Forward ? (1.0 - commonStart) * graded : graded;
 }
@@ -265,6 +278,7 @@ bool isAfterStart(FlowDirection direction, int handOver, int steps)
   return handOver + 2 < steps && timeLeft(direction, handOver + 2, steps) <= mostRest(direction);
 }
 
+// Tries every hand-over of the finest level, as there are no more than steps.
 template <int Dimension>
 FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numberOfSteps,
   FlowDirection direction, int refinement, int leastHandOver)
@@ -283,6 +297,8 @@ FlowMapShape<Dimension>::FlowMapShape(const GridSize<Dimension>& size, int numbe
       return;
     }
     this->Deviation = chooser.Deviations();
+    // The hand-over of the finest level that takes the least time, of the map and the particles, of
+    // those whose levels have few enough nodes.
     double least = std::numeric_limits<double>::infinity();
     for (int handOver = leastHandOver; handOver < steps; ++handOver)
     {
@@ -328,6 +344,7 @@ double FlowMapShape<Dimension>::MemorySize() const
   return bytes;
 }
 
+// Whether cost < particles * saved evaluations, both in velocity evaluations of particles.
 template <int Dimension>
 bool FlowMapShape<Dimension>::PaysFor(double particles) const
 {
@@ -335,6 +352,8 @@ bool FlowMapShape<Dimension>::PaysFor(double particles) const
   {
     return false;
   }
+  // Evaluations that a particle saves in a good cell, times the share of these, against those of
+  // the nodes.
   const double part = this->Direction == FlowDirection::Backward ? stepsBackward : 1.0;
   const double saved =
     part * this->NumberOfSteps - this->Levels.back().HandOver - Constants<Dimension>::Interpolation;
