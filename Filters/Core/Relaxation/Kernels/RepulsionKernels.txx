@@ -12,6 +12,8 @@ namespace RectifiedTransport
 namespace
 {
 
+// Places are summed in whole registers, points one after another: each place's sum has the same
+// order for every width.
 #if defined(__AVX512F__)
 constexpr int lanes = 8;
 #elif defined(__AVX__)
@@ -61,7 +63,7 @@ RT_INLINE Lanes squareRoot(const Lanes& a)
 }
 
 // exp(-q) for q in [0, 16], to 4e-10 of it: the 16th power of the Taylor polynomial of
-// exp(-q / 16) about 1/2.
+// exp(-q / 16) about 1/2, by Horner in t = 1/2 - q / 16, which is within 1/2.
 template <class Value>
 RT_INLINE Value exponential(const Value& q)
 {
@@ -84,6 +86,12 @@ RT_INLINE Value exponential(const Value& q)
   return p;
 }
 
+// The sums of one register of places x, over all points y of mass m and spacing k. With r = 1 /
+// (h^2 + k^2), K = A g(q) where A = (2 h k r)^(D/2) and q = |x - y|^2 r / (2 s^2), so that
+//   dK/dx      = -g'(q) A r (y - x) / s^2,
+//   dK/d(h^2)  = -g'(q) A r q + g(q) A (D/4 / h^2 - D/2 r).
+// g(q) = exp(-q) less its tangent at Cut, for q up to Cut, where it is 0 with its derivative.
+// Offsets are in the units of the points, masses in theirs.
 template <int Dimension>
 RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
   std::int64_t count, RepulsionTile<Dimension>& tile, int lane)
@@ -101,7 +109,7 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
   Lanes bySquare = {};
   for (const auto* point = points; point < points + count; ++point)
   {
-    Lanes offset[Dimension];
+    Lanes offset[Dimension]; // y - x
     Lanes squared = {};
     for (int axis = 0; axis < Dimension; ++axis)
     {
@@ -110,7 +118,7 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
     }
     const Lanes inverse = 1.0 / (square + point->Square);
     const Lanes q = lesser(squared * inverse * shape.PerVariance, shape.Cut);
-    Lanes overlap = twice * point->Spacing * inverse;
+    Lanes overlap = twice * point->Spacing * inverse; // m A
     if constexpr (Dimension == 3)
     {
       overlap *= squareRoot(overlap);
@@ -126,6 +134,8 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
       gradient[axis] += slope * offset[axis];
     }
   }
+  // The factors that all points have in common. D/4 / h^2 of the derivative multiplies the sum
+  // itself.
   store(sum, tile.Sum + lane);
   store(bySquare + (0.25 * Dimension) * sum / square, tile.BySquare + lane);
   for (int axis = 0; axis < Dimension; ++axis)
@@ -134,6 +144,7 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
   }
 }
 
+// The places of a tile, a register at a time.
 template <int Dimension>
 void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
   RepulsionTile<Dimension>& tile)

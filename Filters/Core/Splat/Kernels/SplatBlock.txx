@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A block of particles and their coordinates in index space. Included by SplatKernels.txx.
+// A block of particles and their coordinates in index space, in which cell i is [i, i + 1] along an
+// axis. Included by SplatKernels.txx.
 
 RT_INLINE std::int32_t smaller(std::int32_t a, std::int32_t b)
 {
@@ -59,6 +60,7 @@ constexpr int vectorsOfPeriod = 3;
 constexpr int blockCoordinates = 3 * splatBlock;
 static_assert(blockCoordinates % coordinatePeriod == 0, "blocks are whole periods");
 
+// A number of each coordinate of a period.
 struct Period
 {
   double Of[coordinatePeriod];
@@ -113,6 +115,7 @@ struct Block
   double Beyond[splatBlock]; // distances outside, or NaN; set if any are outside
 };
 
+// Points to index space by the whole matrix; __restrict, as `from` and `x` do not overlap.
 template <int Dimension>
 RT_INLINE void mapOblique(
   const IndexMap<Dimension>& map, const double* __restrict from, double* __restrict x)
@@ -134,6 +137,7 @@ template <int Dimension, class Real>
 RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* points,
   std::int64_t count, double* least, double* most)
 {
+  // First in physical space, in the lanes of a period, which are joined after the loop.
   Real low[coordinatePeriod];
   Real high[coordinatePeriod];
   for (int j = 0; j < coordinatePeriod; ++j)
@@ -178,6 +182,8 @@ RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* poin
     }
     for (int a = 0; a < Dimension; ++a)
     {
+      // The box of a linear map of a box: the extremes of each term add up. It holds all particles,
+      // but need not be the smallest.
       const double one = map.Matrix[a][r] * (low[r] - map.Origin[r]);
       const double other = map.Matrix[a][r] * (high[r] - map.Origin[r]);
       least[a] += one < other ? one : other;
@@ -194,6 +200,7 @@ RT_INLINE void findBounds(const SplatJob<Dimension, Real>& job, const Real* poin
   }
 }
 
+// All of the grid without a box.
 template <int Dimension, class Real>
 RT_INLINE CellBox<Dimension> boxOrGrid(
   const SplatJob<Dimension, Real>& job, const CellBox<Dimension>* box)
@@ -254,6 +261,7 @@ RT_INLINE void readBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimens
   std::int64_t first, const std::uint32_t* index, std::int64_t begin, Block& block)
 {
   readMasses(job, first, index, begin, block.Count, block.Mass);
+  // Gathered first: coordinates of an index, of floats, or of fewer than a block.
   double from[blockCoordinates];
   for (int i = 0; i < splatBlock; ++i)
   {
@@ -326,6 +334,7 @@ RT_INLINE bool placeBlock(
       const Four outside = excess <= 0.0 ? Four{} : excess;
       store(outside, beyond + begin + 4 * v);
       sum += outside;
+      // Clamped to [0, size]; NaN to 0.
       const Four above = x > 0.0 ? x : Four{};
       store(above < axes.Size[v] ? above : axes.Size[v], at);
     }
@@ -336,6 +345,7 @@ RT_INLINE bool placeBlock(
   }
   for (int i = 0; i < splatBlock; ++i)
   {
+    // The mass of what is outside counts at the border with Renormalize, else not at all.
     block.Beyond[i] = beyond[3 * i] + beyond[3 * i + 1] + beyond[3 * i + 2];
     block.Mass[i] = job.Renormalize || block.Beyond[i] == 0.0 ? block.Mass[i] : 0.0;
   }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The B-spline kernels, of a fixed number of cells an axis. Included by SplatKernels.txx.
+// The B-spline kernels of order 0, 1 and 2, of a fixed number of cells an axis. The weights of a
+// particle are products of those along the axes. Along each they sum to 1, and from order 1 on,
+// inside of the grid, the mean of the cells' centres is the particle's place: mass and centroid are
+// kept. Included by SplatKernels.txx.
 
 RT_INLINE FourCells truncated(const Four& x)
 {
@@ -15,6 +18,9 @@ RT_INLINE FourCells before(const FourCells& cells)
 // Weigh computes for coordinates in [0, size] the first cell, which may lie beyond the border, and
 // the Parts numbers from which Spread computes the Width weights. `Inside`: the coordinates are
 // more than one cell away from the border.
+//
+// Order 1: linear between the centres of two cells. With u the place from the lower one's centre,
+// the weights are 1 - u and u.
 struct CloudInCellWeights
 {
   static constexpr int Width = 2;
@@ -37,6 +43,7 @@ struct CloudInCellWeights
   }
 };
 
+// Order 0: all in the particle's own cell.
 struct NearestCellWeights
 {
   static constexpr int Width = 1;
@@ -50,6 +57,9 @@ struct NearestCellWeights
   static RT_INLINE void Spread(const double*, double* weight) { weight[0] = 1.0; }
 };
 
+// Order 2: the particle's own cell and both neighbours. With u in [-1/2, 1/2] the place from the
+// own cell's centre, the weights are (1/2 - u)^2 / 2, 3/4 - u^2, which is 1 less the others, and
+// (1/2 + u)^2 / 2.
 struct TriangularShapedCloudWeights
 {
   static constexpr int Width = 3;
@@ -80,7 +90,7 @@ constexpr int atLeastOne(int count)
 template <class Weights>
 struct WeighedBlock
 {
-  std::int32_t First[blockCoordinates];
+  std::int32_t First[blockCoordinates]; // the cells, which may lie beyond the border
   double Part[atLeastOne(Weights::Parts)][blockCoordinates];
 
   RT_INLINE void Spread(int coordinate, double* weight) const
@@ -101,6 +111,7 @@ template <bool Inside, bool IsMapped, int Dimension, class Weights, class Real, 
 RT_INLINE bool weighBlock(
   const Axes<Dimension, Real>& axes, const From* __restrict from, WeighedBlock<Weights>& weighed)
 {
+  // Each coordinate has its own bound; NaN is within none.
   const Period& allowed = Inside ? axes.Inside : axes.Within;
   auto inside = Four{} == Four{};
 #pragma GCC unroll 1
@@ -132,6 +143,7 @@ RT_INLINE CellBox<Dimension> boxOf(const WeighedBlock<Weights>& weighed)
   FourCells high[vectorsOfPeriod];
   for (int v = 0; v < vectorsOfPeriod; ++v)
   {
+    // The extremes of each lane of a period first, then those of the lanes of one axis.
     low[v] = load(weighed.First + 4 * v);
     high[v] = low[v];
   }
@@ -270,12 +282,15 @@ RT_INLINE Covered coveredBy(const CellBox<Dimension>& reached, const CellBox<Dim
   return covered;
 }
 
+// The splat of a range of particles, block by block. Most blocks lie inside of the grid and of the
+// box: these need no test of each particle.
 template <int Dimension, class Weights, class Real>
 class FixedSplat
 {
 public:
   static constexpr int Width = Weights::Width;
 
+  // See AddParticles.
   static std::int64_t Add(const SplatJob<Dimension, Real>& job, std::int64_t first,
     const std::uint32_t* index, std::int64_t count, const CellBox<Dimension>* box, double*)
   {
@@ -301,6 +316,7 @@ public:
     return outside;
   }
 
+  // See FindCells.
   static std::int64_t Find(
     const SplatJob<Dimension, Real>& job, std::int64_t first, int count, std::int32_t* cells)
   {
@@ -321,6 +337,8 @@ public:
     return outside;
   }
 
+  // See BoxOfParticles. Cells are monotonic in the coordinate: those of the bounds, widened by the
+  // rounding of the map, bound those of all particles.
   static CellBox<Dimension> Reach(
     const SplatJob<Dimension, Real>& job, std::int64_t first, std::int64_t count)
   {
@@ -359,6 +377,8 @@ private:
       return this->WeighPlaced();
     }
     const Real* points = this->Job.Particles.Points.data() + 3 * (first + begin);
+    // Straight from memory, once more where particles are at the border, and by the slow way where
+    // any are outside.
     this->IsInside = weighBlock<true, true>(this->JobAxes, points, this->Weighed);
     if (!this->IsInside && !weighBlock<false, true>(this->JobAxes, points, this->Weighed))
     {
@@ -369,6 +389,7 @@ private:
     return 0;
   }
 
+  // The weights of particles that are in index space already.
   int WeighPlaced()
   {
     this->IsInside = weighBlock<true, false>(this->JobAxes, this->Particles.X, this->Weighed);
@@ -404,6 +425,7 @@ private:
     return true;
   }
 
+  // Particle by particle: those within the box are added as a whole, those at its border in part.
   void AddParts()
   {
     if (this->IsInside && this->IsSlab())
@@ -431,6 +453,7 @@ private:
     }
   }
 
+  // A slab cuts along the last axis only: each particle adds a range of layers, which may be empty.
   void AddPartsOfSlab()
   {
     constexpr int last = Dimension - 1;

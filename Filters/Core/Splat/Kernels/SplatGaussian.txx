@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Gaussian, which reaches many cells: weights are computed for one particle at a time. Included
-// by SplatKernels.txx.
+// The Gaussian, which reaches many cells: weights are computed for one particle at a time, and are
+// products of those along the axes. It is cut at a distance, and corrected so that mass and
+// centroid are kept. Included by SplatKernels.txx.
 
 // exp(x) from basic operations alone: the last bit of the library's may depend on the processor.
+// The argument is halved until it is at most 1/2, where the Taylor polynomial of degree 13 is exact
+// to rounding, and the result squared as often.
 inline double exponential(double x)
 {
   int halvings = 0;
@@ -50,7 +53,11 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
 {
   const GaussianPlace place(x, job.Size[a], job.Cut);
   const int width = job.Width;
-  // exp(-(k - offset)^2 / 2 sigma^2), up to a factor, by powers of one exponential.
+  // exp(-(k - offset)^2 / 2 sigma^2) of cell k from the own one is
+  //   exp(-k^2 / 2 sigma^2) exp(offset / sigma^2)^k
+  // times a factor that all cells have in common, which the normalization below removes. The first
+  // exponential is known (AtOffset), the second is a power of one exponential, upwards and
+  // downwards.
   const double up = exponential(place.Offset * job.PerVariance);
   const double down = 1.0 / up;
   double power = 1.0;
@@ -65,6 +72,7 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
     weight[-k - place.FirstOffset] = power * job.AtOffset[k];
     power *= down;
   }
+  // The moments of order 0, 1 and 2 of the weights about the particle: S_0, S_1, S_2.
   double sum = 0.0;
   double moment = 0.0;
   double second = 0.0;
@@ -76,7 +84,8 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
     moment += weight[k] * distance;
     second += weight[k] * distance * distance;
   }
-  // The linear function of the distance for which the sum is 1 and the moment 0.
+  // The linear function p + q d of the distance d for which the sum is 1 and the moment 0:
+  //   p S_0 + q S_1 = 1,   p S_1 + q S_2 = 0.
   const double determinant = sum * second - moment * moment;
   const double constant = second / determinant;
   const double slope = -moment / determinant;
@@ -90,6 +99,7 @@ RT_INLINE void weighGaussian(const SplatJob<Dimension, Real>& job, int a, double
   }
 }
 
+// The first of the Kept cells of each particle along each axis, [particle][3].
 template <int Dimension, class Real>
 RT_INLINE void findGaussian(
   const SplatJob<Dimension, Real>& job, const Block& block, std::int32_t* cells)
@@ -104,6 +114,7 @@ RT_INLINE void findGaussian(
   }
 }
 
+// Adds particle i to the cells of a box. Of a particle that reaches none no weight is computed.
 template <int Dimension, class Real>
 RT_INLINE void addGaussian(const SplatJob<Dimension, Real>& job, const Block& block,
   const std::int32_t* first, int i, const CellBox<Dimension>& box, double* scratch)
@@ -158,6 +169,7 @@ RT_INLINE int findBlock(const SplatJob<Dimension, Real>& job, const Axes<Dimensi
   return anyOutside ? countOutside(job, block, cells, box) : 0;
 }
 
+// The kernels of the Gaussian, see SplatKernels.h.
 template <int Dimension, class Real>
 struct GaussianSplat
 {

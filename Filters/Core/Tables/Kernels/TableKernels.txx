@@ -16,12 +16,15 @@ namespace
 
 constexpr int sumLanes = 8;
 
+// Adds the lanes in a fixed order.
 RT_INLINE double addLanes(const double (&lanes)[sumLanes])
 {
   return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
     ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
 }
 
+// Cells 8 k + lane of a row are summed in lane `lane`. The moment is about the low face of the
+// first cell, whose centre is at 1/2: place[lane] is the centre of the next cell of a lane.
 RowInspection inspectRow(const double* values, std::int64_t count)
 {
   constexpr double limit = 1.7976931348623157e308;
@@ -52,6 +55,7 @@ RowInspection inspectRow(const double* values, std::int64_t count)
       wrong[lane] += (!(value >= 0.0) | !(value <= limit)) ? 1.0 : 0.0;
     }
   }
+  // The rest of the row continues the first lanes.
   for (std::int64_t i = whole; i < count; ++i)
   {
     const double value = values[i];
@@ -72,6 +76,7 @@ RowInspection inspectRow(const double* values, std::int64_t count)
   return found;
 }
 
+// Counts are sums of ones in doubles, exact below 2^53, which vectorize with the comparisons.
 RowMaximum countLargest(const double* values, std::int64_t count, double largest)
 {
   alignas(64) double equal[sumLanes] = {};
@@ -102,6 +107,8 @@ RowMaximum countLargest(const double* values, std::int64_t count, double largest
   return found;
 }
 
+// The sums {f, f x_1} of every column over the rows of a strip, in 3D: one row, all at the same
+// x_1.
 void addToColumns(
   const double* values, std::int64_t count, double centre, double* columns, double* moments)
 {
@@ -113,6 +120,7 @@ void addToColumns(
   }
 }
 
+// A record of a table, in the layout of TableView.h.
 using NodeRecord = double __attribute__((vector_size(32)));
 
 RT_INLINE NodeRecord loadNode(const double* node)
@@ -127,6 +135,10 @@ RT_INLINE void storeNode(double* node, NodeRecord value)
   std::memcpy(node, &value, sizeof(value));
 }
 
+// The node above cell (i, j) has the sums of all cells up to i and j. Algorithm 2 takes them from
+// three neighbours, E_i+1,j+1 = E_i+1,j + E_i,j+1 - E_i,j + f_i,j. With running sums of f and f x_0
+// along the row it is one addition to the node below, where nothing cancels. All cells of the row
+// have the same x_1.
 void addTableRow2D(const TableRow2D& row)
 {
   double sum = row.Prefix[0];
@@ -143,6 +155,9 @@ void addTableRow2D(const TableRow2D& row)
   }
 }
 
+// The same a dimension up: the row's running sums are added to those of the columns of the slice,
+// and these to the nodes of the slice before. A column holds {f, f x_0, f x_1, f}. Its last entry
+// becomes f x_2 by the slice's centre (`lift`).
 void addTableRow3D(const TableRow3D& row)
 {
   double sum = 0.0;
