@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 from PIL import Image
+from rt_filters import PROPERTIES, by_label
 from rt_proxies import proxies
 from rt_testing import OUTPUT, SOURCE, density_image, load_plugin, main, output_of, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -20,8 +21,7 @@ ENDS_WITHOUT_MAP = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersi
 class Plugin(unittest.TestCase):
     def test_labels_are_the_names_in_python(self):
         for proxy in proxies():
-            self.assertTrue(hasattr(simple, proxy.label.replace(" ", "").replace("-", "")),
-                            proxy.label)
+            self.assertTrue(hasattr(simple, by_label(proxy.label).name), proxy.label)
 
     def test_menu_and_representation(self):
         for proxy in proxies():
@@ -29,14 +29,11 @@ class Plugin(unittest.TestCase):
                 proxy.menu, proxy.element.get("name")).FindNestedElementByName("Hints")
             self.assertEqual(
                 hints.FindNestedElementByName("ShowInMenu").GetAttribute("category"), "Transport")
-            if proxy.label in ("Sample Density", "Uniform Seeds", "Relax Blue Noise"):
-                self.assertEqual(
-                    hints.FindNestedElementByName("RepresentationType").GetAttribute("type"),
-                    "Point Gaussian")
-            if proxy.class_name in ("vtkTransportInterpolator", "vtkTransportBarycenter"):
-                representation = hints.FindNestedElementByName("RepresentationType")
-                self.assertEqual(representation.GetAttribute("type"), "Point Gaussian")
-                self.assertEqual(representation.GetAttribute("port"), "1")
+            for tag, attributes in by_label(proxy.label).shown:
+                if tag == "RepresentationType":
+                    representation = hints.FindNestedElementByName(tag)
+                    for name, value in attributes.items():
+                        self.assertEqual(representation.GetAttribute(name), value, proxy.label)
 
     def test_every_proxy_and_property_is_documented(self):
         for proxy in proxies():
@@ -55,8 +52,7 @@ class Plugin(unittest.TestCase):
 
     def test_integration_is_advanced(self):
         sampler = simple.SampleDensity(Input=producer(simple, density_image()))
-        for name in ("Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Tables",
-                     "Threading"):
+        for name in (name for name, prop in PROPERTIES.items() if prop.advanced):
             self.assertEqual(sampler.GetProperty(name).GetPanelVisibility(), "advanced")
 
     def test_array_is_chosen_from_points_and_cells(self):

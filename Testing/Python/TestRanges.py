@@ -7,6 +7,7 @@ import re
 import unittest
 from typing import NamedTuple
 
+from rt_filters import by_label
 from rt_proxies import instance, page_rows, proxies
 from rt_testing import Listener, connect_inputs, density_image, main, points_in, size_of
 
@@ -14,9 +15,6 @@ from rt_testing import Listener, connect_inputs, density_image, main, points_in,
 WITHOUT = {"Bounds"}
 # A slider of 100 pixels has steps of a hundredth of this.
 LONGEST_SLIDER = 100000
-# What takes 10 GB at its highest is not tried there.
-LARGE = {("Area-Preserving Parameterization", "Resolution"), ("Sample Surface", "Resolution")}
-
 # What counts for Equal-Mass Cells with Measure Density only.
 DENSITY = {"Component", "DensityResolution"}
 
@@ -154,7 +152,7 @@ class Ranges(unittest.TestCase):
                     self.assert_taken(proxy, prop, beside(allowed.highest, whole, -math.inf))
                     self.assert_refused(proxy, prop, allowed.highest)
                 elif allowed.highest < math.inf:
-                    if (proxy.label, prop.name) not in LARGE:
+                    if prop.name not in by_label(proxy.label).slow_at_highest:
                         self.assert_taken(proxy, prop, number(allowed.highest, whole))
                     self.assert_refused(proxy, prop, beside(allowed.highest, whole, math.inf))
                 elif not whole:

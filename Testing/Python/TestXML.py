@@ -5,68 +5,13 @@ import os
 import unittest
 
 import numpy as np
+from rt_filters import FILTERS, PROPERTIES, Property, by_label
 from rt_proxies import instance, proxies
 from rt_testing import SOURCE, connect_inputs, density_image, digest, main
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 
-# What ParaView offers on servers of several processes.
-ON_RANKS = ("Area-Preserving Parameterization", "Density Barycenter", "Density-Equalizing Warp",
-            "Equal-Mass Cells", "Morph Densities", "Relax Blue Noise", "Sample Density",
-            "Sample Surface", "Solid Density", "Splat Mass", "Transport Map", "Transport Quality",
-            "Uniform Seeds")
-# The public names, which no version changes: class, inputs by port, outputs if there are several.
-PUBLIC = {
-    "Sample Density": ("vtkTransportSampler", ["Input", "Seeds"], []),
-    "Transport Map": ("vtkTransportMap", ["Input"], []),
-    "Equal-Mass Cells": ("vtkEqualMassCells", ["Input", "Domain"],
-                         ["Labels", "Sites", "Outlines"]),
-    "Morph Densities": ("vtkTransportInterpolator", ["Input", "Target"],
-                        ["Density", "Particles"]),
-    "Density Barycenter": ("vtkTransportBarycenter", ["Input"], ["Density", "Particles"]),
-    "Splat Mass": ("vtkMassSplatter", ["Input", "Reference"], []),
-    "Solid Density": ("vtkSolidDensity", ["Input"], []),
-    "Area-Preserving Parameterization": ("vtkAreaPreservingParameterization", ["Input"], []),
-    "Sample Surface": ("vtkSurfaceSampler", ["Input"], []),
-    "Uniform Seeds": ("vtkUniformSeedSource", [], []),
-    "Density-Equalizing Warp": ("vtkDensityEqualizingWarp", ["Input", "Density"], []),
-    "Transport Quality": ("vtkTransportQuality", ["Input", "Density"], []),
-    "Relax Blue Noise": ("vtkBlueNoiseRelaxation", ["Input", "Density"], []),
-}
-PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
-CHOICES = {  # the first is the default
-    "SeedPattern": PATTERNS, "Pattern": PATTERNS,
-    "NegativeValues": ["Error", "Clamp"],
-    "Integrator": ["Multistep", "RungeKutta4", "Euler", "Adaptive"],
-    "TableLookup": ["Interpolated", "Nearest"],
-    "FlowMaps": ["Auto", "On", "Off"],
-    "Tables": ["Auto", "Whole", "Tiled"],
-    "Threading": ["Auto", "VTK", "OpenMP", "Serial"],
-    "Direction": ["UniformToDensity", "DensityToUniform"],
-    "MassMode": ["Linear", "Geometric", "Source", "Normalize"],
-    "Kernel": ["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"],
-    "Boundary": ["Renormalize", "Drop"],
-    "Association": ["Points", "Cells"],
-    "Method": ["GaussianBlueNoise", "OptimalTransport"],
-    "Shape": ["Flow", "Power"],
-    "Measure": ["Uniform", "Density"],
-}
-ANIMATEABLE = {"FlowTime", "Parameter", "Blend", "Weights"}
-INTEGRATION = {"Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps", "Tables",
-               "Threading"}
-# The property that decides whether another one is shown (or enabled), and two values that differ.
-DEPENDENT = {
-    "NumberOfSteps": ({"Integrator"}, (32, 1)),
-    "Tolerance": ({"Integrator"}, (0.01, 2.0)),
-    "FlowMaps": ({"Integrator"}, (1, 2)),
-    "Radius": ({"Kernel"}, (1.0, 3.0)),
-    "SamplesPerCell": ({"SeedPattern"}, (0, 2)),
-    "RandomSeed": ({"SeedPattern", "Pattern"}, (1, 2)),
-    "NumberOfTimeSteps": ({"PublishTime"}, (11, 5)),
-    "Parameter": ({"PublishTime"}, (0.5, 0.25)),
-    "Component": ({"DensityArray"}, (-1, 0)),
-}
 # Of a filter that has Measure: shown where it is Density. Two values of each, and the kind of domain
 # that they differ for.
 OF_MEASURE = {
@@ -76,44 +21,21 @@ OF_MEASURE = {
     "NegativeValues": ((0, 1), "negative"),
     "DensityResolution": ((256, 3), "mesh"),
 }
-# A tolerance of another meaning than that of flows; ParaView looks for an array's components on Input,
-# and complains of one that has no data yet.
-ALWAYS_SHOWN = {("Relax Blue Noise", "Tolerance"), ("Equal-Mass Cells", "Component")}
-POINTS = {"view": "RenderView", "type": "Point Gaussian"}
-SECOND_OUTPUT = [("View", {"type": "None", "port": "1"}),
-                 ("RepresentationType", {**POINTS, "port": "1"})]
-VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
-FIRST_VOLUME = ("FirstDisplay", {"port": "0", **VOLUME[1]})
-SHOWN = {  # how an output is shown at first, where it is not as ParaView shows all
-    "Sample Density": [("RepresentationType", POINTS),
-                       ("FirstDisplay", {"property": "OutputPaths", "value": "1",
-                                         "type": "Wireframe", "array": "Time"}),
-                       ("FirstDisplay", {"property": "OutputPaths", "value": "0",
-                                         "type": "Point Gaussian"})],
-    "Transport Map": [("FirstDisplay", {"dimension": "3", "type": "Surface",
-                                        "array": "Displacement"}),
-                      ("FirstDisplay", {"array": "Displacement"})],
-    "Splat Mass": [VOLUME],
-    "Solid Density": [VOLUME],
-    "Sample Surface": [("RepresentationType", POINTS)],
-    "Uniform Seeds": [("RepresentationType", POINTS)],
-    "Relax Blue Noise": [("RepresentationType", POINTS)],
-    "Morph Densities": [*SECOND_OUTPUT, FIRST_VOLUME],
-    "Density Barycenter": [*SECOND_OUTPUT, FIRST_VOLUME],
-    "Equal-Mass Cells": [("RepresentationType",
-                          {"view": "RenderView", "type": "Surface", "port": "0"}),
-                         ("View", {"type": "None", "port": "1"}),
-                         ("FirstDisplay", {"port": "0", "array": "SiteColor", "categories": "1"}),
-                         ("FirstDisplay", {"port": "2", "dimension": "3",
-                                           "type": "Feature Edges", "array": ""}),
-                         ("FirstDisplay", {"port": "2", "array": ""})],
-    "Transport Quality": [("View", {"type": "SpreadSheetView"})],
-}
 
 
 def inputs(proxy):
     return {int(prop.element.get("port_index", 0)): prop for prop in proxy.properties.values()
             if prop.element.tag == "InputProperty"}
+
+
+def known(prop):
+    """What the register has of a property."""
+    return PROPERTIES.get(prop.name, Property())
+
+
+def depends_on(proxy, prop):
+    """The properties one of which decides whether a property of a proxy is shown."""
+    return () if prop.name in by_label(proxy.label).always_shown else known(prop).shown_by
 
 
 def decorators(prop):
@@ -197,15 +119,16 @@ class XML(unittest.TestCase):
 
     def test_public_names(self):
         self.assertEqual({proxy.label: proxy.class_name for proxy in proxies()},
-                         {label: public[0] for label, public in PUBLIC.items()})
+                         {filter_.label: filter_.class_name for filter_ in FILTERS})
         for case, proxy in self.each():
             with case:
                 found = inputs(proxy)
                 names = [found[port].name for port in sorted(found)]
-                self.assertEqual(names, PUBLIC[proxy.label][1])
+                public = by_label(proxy.label)
+                self.assertEqual(names, list(public.ports))
                 self.assertEqual(proxy.menu, "filters" if found else "sources")
                 self.assertEqual(proxy.element.get("multiprocess_support"),
-                                 "both" if proxy.label in ON_RANKS else "single_process")
+                                 "both" if public.on_ranks else "single_process")
 
     def test_nothing_is_overridden(self):
         """ParaView applies an override once, to the first proxy of a base before another plugin is
@@ -218,7 +141,7 @@ class XML(unittest.TestCase):
         for case, _, prop in self.each_property():
             with case:
                 if prop.texts:
-                    expected = {str(i): text for i, text in enumerate(CHOICES[prop.name])}
+                    expected = {str(i): text for i, text in enumerate(PROPERTIES[prop.name].choices)}
                     self.assertEqual(prop.texts, expected)
                     self.assertEqual(prop.default, "0")
 
@@ -271,9 +194,9 @@ class XML(unittest.TestCase):
                 ports = {}
                 for element in proxy.ports:
                     ports[int(element.get("index"))] = element.get("name")
-                self.assertEqual([ports[i] for i in sorted(ports)], PUBLIC[proxy.label][2])
-                count = instance(proxy).GetNumberOfOutputPorts()
-                self.assertEqual(count, max(1, len(PUBLIC[proxy.label][2])))
+                names = by_label(proxy.label).outputs
+                self.assertEqual([ports[i] for i in sorted(ports)], names)
+                self.assertEqual(instance(proxy).GetNumberOfOutputPorts(), max(1, len(names)))
 
     def test_arrays(self):
         """An array is chosen from the input that it is read of."""
@@ -297,12 +220,12 @@ class XML(unittest.TestCase):
             with case:
                 if prop.is_value or prop.is_list:
                     self.assertEqual(prop.element.get("animateable", "1") == "1",
-                                     prop.name in ANIMATEABLE)
+                                     known(prop).animateable)
 
     def test_integration_is_advanced(self):
         for case, _, prop in self.each_property():
             with case:
-                if prop.name in INTEGRATION:
+                if known(prop).advanced:
                     self.assertEqual(prop.element.get("panel_visibility"), "advanced")
 
     def test_groups(self):
@@ -318,7 +241,7 @@ class XML(unittest.TestCase):
             with case:
                 hints = [(e.tag, dict(e.attrib)) for e in proxy.element.find("Hints")]
                 self.assertEqual(hints[0], ("ShowInMenu", {"category": "Transport"}))
-                self.assertEqual(hints[1:], SHOWN.get(proxy.label, []))
+                self.assertEqual(hints[1:], by_label(proxy.label).shown)
 
     def test_what_an_error_names_is_not_advanced(self):
         for case, _, prop in self.each_property():
@@ -349,14 +272,13 @@ class XML(unittest.TestCase):
                                       for one in found],
                                      [("InputDataTypeDecorator", "vtkImageData", "1")])
                     continue
-                depends = prop.name in DEPENDENT and (proxy.label, prop.name) not in ALWAYS_SHOWN
-                self.assertEqual(len(found), 1 if depends else 0)
+                self.assertEqual(len(found), 1 if depends_on(proxy, prop) else 0)
                 for decorator in found:
                     self.assertEqual(decorator.get("type"), "GenericDecorator")
                     self.assertEqual(
                         decorator.get("mode"),
                         "enabled_state" if prop.name == "Parameter" else "visibility")
-                    self.assertIn(decorator.get("property"), DEPENDENT[prop.name][0])
+                    self.assertIn(decorator.get("property"), depends_on(proxy, prop))
                     owner = proxy.properties[decorator.get("property")]
                     values = (decorator.get("values") or decorator.get("value") or "").split()
                     if owner.texts or owner.boolean:
@@ -373,7 +295,7 @@ class XML(unittest.TestCase):
                     for value in owner.texts or (("0", "1") if owner.boolean else ()):
                         with self.subTest(**{owner.name: value}):
                             one, other = (result(proxy, {owner.name: int(value), prop.name: number})
-                                          for number in DEPENDENT[prop.name][1])
+                                          for number in known(prop).differing)
                             self.assertEqual(one != other, is_shown(decorator, value))
 
     def test_density_is_shown_where_it_is_the_measure(self):
@@ -388,7 +310,7 @@ class XML(unittest.TestCase):
     def test_component_is_shown_for_arrays_of_several(self):
         for case, proxy, prop in self.each_property():
             with case:
-                if prop.name == "Component" and (proxy.label, prop.name) not in ALWAYS_SHOWN:
+                if prop.name == "Component" and depends_on(proxy, prop):
                     attributes = dict(decorators(prop)[0].attrib)
                     # The array is not the one of a single component: fifth element, its name.
                     self.assertEqual((attributes["index"], attributes["number_of_components"],

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The register of filters and properties: each is here once, with what tests cannot read from the XML or
+the classes. A test that concerns every filter, or every one of a kind, goes through these tables, so that
+a new filter or property is tested by a new entry.
+
+Imports nothing but the standard library: scripts on ranks and in bare systems use it, too.
+"""
+import re
+from typing import NamedTuple
+
+POINTS = {"view": "RenderView", "type": "Point Gaussian"}
+PARTICLES = [("RepresentationType", POINTS)]
+VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
+BLEND = [("View", {"type": "None", "port": "1"}), ("RepresentationType", {**POINTS, "port": "1"}),
+         ("FirstDisplay", {"port": "0", **VOLUME[1]})]
+
+
+class Filter(NamedTuple):
+    """A filter or source. No version changes the label, the class or the names of inputs and outputs.
+
+    Kinds of inputs: density (any data with one), densities (several of these), image (its geometry),
+    points (no cells are read), mesh (points whose cells are passed on), disk and solid (surfaces).
+    """
+    label: str
+    class_name: str
+    inputs: dict = {}      # the kinds of what is needed, by name; by port
+    optional: dict = {}    # and of what may stay empty, on the ports after these
+    outputs: list = []     # their names, if there are several
+    refused: tuple = ()    # a property, a value that is out of range, one in range
+    quick: dict = {}       # properties for a run of milliseconds
+    variants: dict = {}    # further ones, of outputs of another kind, by name
+    saved: dict = {}       # values that are no defaults and have to come back from a state
+    shown: list = []       # hints of how an output is shown at first, where it is not as ParaView shows all
+    always_shown: tuple = ()     # properties that mean something else here than PROPERTIES has them mean
+    slow_at_highest: tuple = ()  # properties that take 10 GB at their highest value
+    on_ranks: bool = True  # whether ParaView offers it on servers of several processes
+
+    @property
+    def name(self):
+        """In Python."""
+        return re.sub("[ -]", "", self.label)
+
+    @property
+    def ports(self):
+        """The names and kinds of all inputs."""
+        return {**self.inputs, **self.optional}
+
+    def port_of(self, *kinds):
+        """The first port of an input of some kinds; None if it has none."""
+        return next((port for port, kind in enumerate(self.ports.values()) if kind in kinds), None)
+
+    def make(self, simple, sources, optional=False, **properties):
+        """Its proxy for a quick run. sources gives a source for each kind of input; from a name before
+        the kind, if both are in it."""
+        given = {name: sources.get(name) or sources[kind]
+                 for name, kind in (self.ports if optional else self.inputs).items()}
+        return getattr(simple, self.name)(**{name: make() for name, make in given.items()},
+                                          **{**self.quick, **properties})
+
+
+FILTERS = [
+    Filter("Sample Density", "vtkTransportSampler",
+           {"Input": "density"}, {"Seeds": "points"},
+           refused=("NumberOfSteps", 0, 2), quick=dict(NumberOfParticles=50),
+           variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
+           saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12),
+           shown=[*PARTICLES,
+                  ("FirstDisplay", {"property": "OutputPaths", "value": "1", "type": "Wireframe",
+                                    "array": "Time"}),
+                  ("FirstDisplay", {"property": "OutputPaths", "value": "0", "type": "Point Gaussian"})]),
+    Filter("Transport Map", "vtkTransportMap", {"Input": "density"}, refused=("NumberOfSteps", 0, 2),
+           saved=dict(InvertDensity=1, Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
+                      Integrator="Adaptive", Tolerance=0.5),
+           shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
+                  ("FirstDisplay", {"array": "Displacement"})]),
+    Filter("Equal-Mass Cells", "vtkEqualMassCells",
+           {"Input": "mesh"}, {"Domain": "density"}, ["Labels", "Sites", "Outlines"],
+           refused=("NormExponent", 0, 2), quick=dict(Resolution=16),
+           # ParaView looks for an array's components on Input, and complains of one that has no data yet.
+           always_shown=("Component",),
+           saved=dict(Resolution=60, CostExponent=4, NumberOfSteps=20),
+           shown=[("RepresentationType", {"view": "RenderView", "type": "Surface", "port": "0"}),
+                  ("View", {"type": "None", "port": "1"}),
+                  ("FirstDisplay", {"port": "0", "array": "SiteColor", "categories": "1"}),
+                  ("FirstDisplay", {"port": "2", "dimension": "3", "type": "Feature Edges", "array": ""}),
+                  ("FirstDisplay", {"port": "2", "array": ""})]),
+    Filter("Morph Densities", "vtkTransportInterpolator",
+           {"Input": "density", "Target": "density"}, outputs=["Density", "Particles"],
+           refused=("Parameter", 2, 0.5),
+           saved=dict(Parameter=0.25, MassMode="Geometric", Kernel="Gaussian", Radius=2,
+                      ParticlesPerCell=2, Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7),
+           shown=BLEND),
+    Filter("Density Barycenter", "vtkTransportBarycenter",
+           {"Input": "densities"}, outputs=["Density", "Particles"], refused=("ParticlesPerCell", 0, 1),
+           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1), shown=BLEND),
+    Filter("Splat Mass", "vtkMassSplatter",
+           {"Input": "points"}, {"Reference": "image"},
+           refused=("Radius", 0, 1), quick=dict(Dimensions=[8, 7, 6]),
+           saved=dict(Dimensions=[30, 20, 1], MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
+                      Boundary="Drop", Association="Cells"),
+           shown=[VOLUME]),
+    Filter("Solid Density", "vtkSolidDensity", {"Input": "solid"},
+           refused=("Supersampling", 99, 2), quick=dict(Resolution=12),
+           saved=dict(Resolution=20, Supersampling=3, Padding=0.25, Association="Cells",
+                      Threading="Serial"),
+           shown=[VOLUME]),
+    Filter("Area-Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
+           refused=("Resolution", 0, 12), quick=dict(Resolution=32),
+           saved=dict(Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial"),
+           slow_at_highest=("Resolution",)),
+    Filter("Sample Surface", "vtkSurfaceSampler", {"Input": "disk"},
+           refused=("NumberOfParticles", 0, 9), quick=dict(NumberOfParticles=40, Resolution=32),
+           saved=dict(NumberOfParticles=321, DensityArray=["POINTS", "Height"], SeedPattern="Jittered",
+                      RandomSeed=7, Corners=[2, 13, 39, 21], Resolution=24, NumberOfSteps=9),
+           shown=PARTICLES, slow_at_highest=("Resolution",)),
+    Filter("Uniform Seeds", "vtkUniformSeedSource", refused=("NumberOfPoints", 0, 9),
+           quick=dict(NumberOfPoints=40, Dimension=3),
+           saved=dict(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500, Pattern="Jittered"),
+           shown=PARTICLES),
+    Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
+           {"Input": "mesh", "Density": "density"}, refused=("Blend", -0.5, 1),
+           saved=dict(InvertDensity=1, Blend=0.25, NumberOfSteps=9)),
+    Filter("Transport Quality", "vtkTransportQuality",
+           {"Input": "points", "Density": "density"}, refused=("BlockSize", -1, 3),
+           saved=dict(InvertDensity=1, BlockSize=32),
+           shown=[("View", {"type": "SpreadSheetView"})]),
+    Filter("Relax Blue Noise", "vtkBlueNoiseRelaxation",
+           {"Input": "mesh", "Density": "density"}, refused=("MaximumIterations", -1, 2),
+           quick=dict(MaximumIterations=2),
+           saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
+           shown=PARTICLES, always_shown=("Tolerance",)),  # of another meaning than that of flows
+]
+
+
+class Property(NamedTuple):
+    """A property, whichever filters have it."""
+    choices: list = []         # the first is the default; no version changes them
+    animateable: bool = False
+    advanced: bool = False     # in the panel of every filter
+    shown_by: tuple = ()       # the properties one of which decides whether it is shown (or enabled)
+    differing: tuple = ()      # two values that give different results where it is shown
+
+
+PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
+PROPERTIES = {
+    "SeedPattern": Property(PATTERNS),
+    "Pattern": Property(PATTERNS),
+    "NegativeValues": Property(["Error", "Clamp"]),
+    "Integrator": Property(["Multistep", "RungeKutta4", "Euler", "Adaptive"], advanced=True),
+    "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
+    "Tolerance": Property(advanced=True, shown_by=("Integrator",), differing=(0.01, 2.0)),
+    "TableLookup": Property(["Interpolated", "Nearest"], advanced=True),
+    "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2)),
+    "Tables": Property(["Auto", "Whole", "Tiled"], advanced=True),
+    "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
+    "Direction": Property(["UniformToDensity", "DensityToUniform"]),
+    "MassMode": Property(["Linear", "Geometric", "Source", "Normalize"]),
+    "Kernel": Property(["CloudInCell", "NearestCell", "TriangularShapedCloud", "Gaussian"]),
+    "Radius": Property(shown_by=("Kernel",), differing=(1.0, 3.0)),
+    "Boundary": Property(["Renormalize", "Drop"]),
+    "Association": Property(["Points", "Cells"]),
+    "Method": Property(["GaussianBlueNoise", "OptimalTransport"]),
+    "Shape": Property(["Flow", "Power"]),
+    "Measure": Property(["Uniform", "Density"]),
+    "SamplesPerCell": Property(shown_by=("SeedPattern",), differing=(0, 2)),
+    "RandomSeed": Property(shown_by=("SeedPattern", "Pattern"), differing=(1, 2)),
+    "PublishTime": Property(),
+    "NumberOfTimeSteps": Property(shown_by=("PublishTime",), differing=(11, 5)),
+    "Parameter": Property(animateable=True, shown_by=("PublishTime",), differing=(0.5, 0.25)),
+    "Component": Property(shown_by=("DensityArray",), differing=(-1, 0)),
+    "FlowTime": Property(animateable=True),
+    "Blend": Property(animateable=True),
+    "Weights": Property(animateable=True),
+}
+
+
+def by_label(label):
+    return next(filter_ for filter_ in FILTERS if filter_.label == label)
+
+
+def of_kind(*kinds):
+    """The filters that have an input of one of some kinds, each with the first port of that."""
+    return [(filter_, filter_.port_of(*kinds)) for filter_ in FILTERS
+            if filter_.port_of(*kinds) is not None]
