@@ -43,8 +43,8 @@ cp -a --reflink=auto "$bare" "$folder"
 join_network
 mount_all
 mkdir "$folder/try"
-cp -r "$package" "$root/Testing/Package/"*.py "$root/Testing/Data/raccoon.png" "$root/Examples/Downstream" \
-  "$folder/try"
+cp -r "$package" "$root/Testing/Package/"*.py "$root/Testing/Python/rt_filters.py" \
+  "$root/Testing/Data/raccoon.png" "$root/Examples/Downstream" "$folder/try"
 deb="/try/$(basename "$package")"
 apt=(apt-get -qy --no-install-recommends)
 conf=/usr/bin/paraview.conf

@@ -6,6 +6,8 @@ import sys
 
 from paraview.simple import *
 
+from rt_filters import FILTERS
+
 photograph, others = sys.argv[1], sys.argv[2:]
 if others and others[0].isdigit():
     Connect("localhost", int(others[0]))
@@ -13,9 +15,7 @@ elif others:
     assert "SampleDensity" not in globals(), "python3 needs no LoadPlugin any more: say so in README.Debian"
     LoadPlugin(others[0], remote=False, ns=globals())
 
-for name in ["AreaPreservingParameterization", "DensityBarycenter", "DensityEqualizingWarp", "EqualMassCells",
-             "MorphDensities", "RelaxBlueNoise", "SampleDensity", "SampleSurface", "SolidDensity", "SplatMass",
-             "TransportMap", "TransportQuality", "UniformSeeds"]:
+for name in [filter_.name for filter_ in FILTERS]:
     assert name in globals(), f"{name} is not there: the plugin is not loaded"
 
 image = PNGSeriesReader(FileNames=[photograph])

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 
+from rt_filters import FILTERS
 from rt_proxies import proxies
 from rt_testing import (closed_surface, density_image, disk_surface, load_plugin, main, points_in,
                         producer, size_of)
@@ -43,44 +44,43 @@ def kind_of(data):
     return {"vtkImageData": "image", "vtkTable": "table"}.get(data.GetClassName(), "grid")
 
 
-def cases(simple):
-    """Filters by name of the case, each with inputs and properties for a quick run."""
-    def image(shape=(8, 6), cells=True, seed=0):
+def sources(simple, dimension, cells=True):
+    """A small source for each kind of input. A density and its partner differ."""
+    shape = (8, 6) if dimension == 2 else (4, 3, 2)
+
+    def image(seed=0):
         return producer(simple, density_image(shape, cells, seed))
 
-    def points(number=9):
-        return producer(simple, points_in(density_image((8, 6)), number))
+    def mesh():
+        if dimension == 3:  # with arrays of points and of cells
+            return simple.Elevation(Input=simple.Tetrahedralize(Input=image()))
+        return simple.Plane(Origin=[0, 0, 0], Point1=[3, 0, 0], Point2=[0, 9, 0], XResolution=3)
 
-    volume = (4, 3, 2)
-    return {
-        "SampleDensity": lambda: simple.SampleDensity(Input=image(), NumberOfParticles=50),
-        "SampleDensity paths": lambda: simple.SampleDensity(
-            Input=image(volume), NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4),
-        "TransportMap": lambda: simple.TransportMap(Input=image()),
-        "TransportMap points": lambda: simple.TransportMap(Input=image(volume, cells=False)),
-        "EqualMassCells": lambda: simple.EqualMassCells(Input=points(), Resolution=16),
-        "EqualMassCells volume": lambda: simple.EqualMassCells(
-            Input=points(), Domain=image(volume), Resolution=6),
-        "MorphDensities": lambda: simple.MorphDensities(Input=image(), Target=image(seed=2)),
-        "DensityBarycenter": lambda: simple.DensityBarycenter(
-            Input=[image(volume, False), image(volume, False, 2)], Weights=[1, 2]),
-        "SplatMass": lambda: simple.SplatMass(Input=points(), Dimensions=[4, 5, 1]),
-        "SolidDensity": lambda: simple.SolidDensity(
-            Input=producer(simple, closed_surface()), Resolution=8),
-        "UniformSeeds": lambda: simple.UniformSeeds(NumberOfPoints=40, Dimension=3),
-        "RelaxBlueNoise": lambda: simple.RelaxBlueNoise(
-            Input=points(), Density=image(), MaximumIterations=2),
-        "AreaPreservingParameterization": lambda: simple.AreaPreservingParameterization(
-            Input=producer(simple, disk_surface()), Resolution=32),
-        "SampleSurface": lambda: simple.SampleSurface(
-            Input=producer(simple, disk_surface()), NumberOfParticles=40, Resolution=32),
-        "DensityEqualizingWarp": lambda: simple.DensityEqualizingWarp(
-            Input=simple.Plane(Origin=[0, 0, 0], Point1=[3, 0, 0], Point2=[0, 9, 0], XResolution=3),
-            Density=image()),
-        "DensityEqualizingWarp grid": lambda: simple.DensityEqualizingWarp(
-            Input=simple.Tetrahedralize(Input=image(volume)), Density=image(volume)),
-        "TransportQuality": lambda: simple.TransportQuality(Input=points(), Density=image()),
-    }
+    return {"density": image, "image": image, "Target": lambda: image(2),
+            "densities": lambda: [image(), image(seed=2)], "mesh": mesh,
+            "points": lambda: producer(simple, points_in(density_image((8, 6)), 9)),
+            "disk": lambda: producer(simple, disk_surface()),
+            "solid": lambda: producer(simple, closed_surface())}
+
+
+def cases(simple):
+    """Filters by name of the case, each for a quick run: in the plane and in space, with all of its inputs,
+    and as it gives outputs of another kind."""
+    found = {}
+    for filter_ in FILTERS:
+        def add(case, dimension, filter_=filter_, **options):
+            found[(filter_.name + " " + case).strip()] = lambda: filter_.make(
+                simple, sources(simple, dimension, options.pop("cells", True)), **options)
+
+        add("", 2)
+        if filter_.port_of("density", "densities", "mesh", "image") is not None:
+            add("volume", 3)
+            add("volume of points", 3, cells=False)
+        if filter_.optional:
+            add("with all inputs", 3, optional=True)
+        for variant, properties in filter_.variants.items():
+            add(variant, 3, **properties)
+    return found
 
 
 def writer_of(made, port, path):
