@@ -4,63 +4,44 @@ import os
 import subprocess
 import unittest
 
-from rt_testing import OUTPUT, SOURCE, digest, load_plugin, main, output_of
+from rt_filters import FILTERS
+from rt_testing import OUTPUT, SOURCE, digest, load_plugin, main, output_of, size_of
 
 simple = load_plugin()
 
 
-KINDS = ("TransportSampler", "TransportMap", "DensityEqualizingWarp", "TransportQuality",
-         "EqualMassCells", "SolidDensity", "TransportInterpolator", "TransportBarycenter",
-         "MassSplatter", "AreaPreservingParameterization", "SurfaceSampler", "BlueNoiseRelaxation")
+def sources():
+    """One for each kind of input."""
+    photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
+                                                                "ascent.png")])
+    parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
+             for first in (100, 200, 300)]
+    seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=400)
+    particles = simple.SampleDensity(Input=photograph, InvertDensity=1, NumberOfParticles=500)
+    plane = simple.Plane(XResolution=6, YResolution=5)
+    sheet = simple.Calculator(Input=plane, ResultArrayName="Height", Function="2+coordsX")
+    sphere = simple.Sphere()
+    return {"density": photograph, "densities": parts, "image": parts[0], "mesh": seeds,
+            "points": particles, "disk": sheet, "solid": sphere}
 
 
 def pipeline():
-    """A photograph, seeds of its own, and filters with settings that are not the defaults."""
-    photograph = simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data",
-                                                                "ascent.png")])
-    seeds = simple.UniformSeeds(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500,
-                                Pattern="Jittered")
-    sampler = simple.SampleDensity(registrationName="Sampler", Input=photograph, Seeds=seeds,
-                                   InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4",
-                                   NumberOfSteps=12)
-    simple.TransportMap(registrationName="Map", Input=photograph, InvertDensity=1,
-                        Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
-                        Integrator="Adaptive", Tolerance=0.5)
-    simple.DensityEqualizingWarp(registrationName="Warp", Input=seeds, Density=photograph,
-                                 InvertDensity=1, Blend=0.25, NumberOfSteps=9)
-    simple.TransportQuality(registrationName="Quality", Input=sampler, Density=photograph,
-                            InvertDensity=1, BlockSize=32)
-    simple.RelaxBlueNoise(registrationName="Relaxation", Input=sampler, Density=photograph,
-                          InvertDensity=1, Method="OptimalTransport", MaximumIterations=3,
-                          Tolerance=0.001)
-    simple.SplatMass(registrationName="Splat", Input=sampler, Dimensions=[30, 20, 1],
-                     MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
-                     Boundary="Drop", Association="Cells")
-    simple.EqualMassCells(registrationName="Cells", Input=seeds, Domain=photograph, Resolution=60,
-                          CostExponent=4, NumberOfSteps=20)
-    simple.SolidDensity(registrationName="Solid", Input=simple.Sphere(), Resolution=20,
-                        Supersampling=3, Padding=0.25, Association="Cells", Threading="Serial")
-    simple.AreaPreservingParameterization(
-        registrationName="Parameterization", Input=simple.Plane(XResolution=6, YResolution=5),
-        Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial")
-    sheet = simple.Calculator(Input=simple.Plane(XResolution=6, YResolution=5),
-                              ResultArrayName="Height", Function="2+coordsX")
-    simple.SampleSurface(registrationName="OnSurface", Input=sheet, NumberOfParticles=321,
-                         DensityArray=["POINTS", "Height"], SeedPattern="Jittered", RandomSeed=7,
-                         Corners=[2, 13, 39, 21], Resolution=24, NumberOfSteps=9)
-    parts = [simple.ExtractSubset(Input=photograph, VOI=[first, first + 40, 0, 30, 0, 0])
-             for first in (100, 200, 300)]
-    simple.MorphDensities(registrationName="Morph", Input=parts[0], Target=parts[1], Parameter=0.25,
-                          MassMode="Geometric", Kernel="Gaussian", Radius=2, ParticlesPerCell=2,
-                          Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7)
-    simple.DensityBarycenter(registrationName="Barycenter", Input=parts, Weights=[1, 0.5, 2],
-                             MassMode="Normalize", InvertDensity=1)
+    """Every filter, with all inputs and settings that are not the defaults."""
+    given = sources()
+    for filter_ in FILTERS:
+        inputs = {kind: (lambda source=source: source) for kind, source in given.items()}
+        if "Target" in filter_.inputs:  # small ones, that differ
+            inputs.update(Input=lambda: given["densities"][0], Target=lambda: given["densities"][1])
+        # Dimensions count where there is no reference.
+        filter_.make(simple, inputs, optional="Reference" not in filter_.optional,
+                     registrationName=filter_.label, **filter_.saved)
 
 
 def digests():
-    """The hashes of the outputs of the pipeline's filters by their kinds."""
-    found = {source.GetXMLName(): source for source in simple.GetSources().values()}
-    return [kind + "=" + digest(output_of(found[kind])) for kind in KINDS]
+    """The hashes of the outputs of the pipeline's filters."""
+    outputs = [output_of(simple.FindSource(filter_.label)) for filter_ in FILTERS]
+    assert all(size_of(output) > 0 for output in outputs)
+    return [digest(output) for output in outputs]
 
 
 def in_a_process(script, path):
@@ -81,47 +62,29 @@ class State(unittest.TestCase):
     def test_state_file(self):
         pipeline()
         expected = digests()
-        self.assertEqual(len(set(expected)), len(KINDS))
+        self.assertEqual(len(set(expected)), len(FILTERS))
         path = os.path.join(OUTPUT, "state.pvsm")
         simple.SaveState(path)
         simple.ResetSession()
         simple.LoadState(path)
-        sampler = simple.FindSource("Sampler")
-        self.assertEqual(sampler.Integrator, "RungeKutta4")
-        self.assertEqual(sampler.NumberOfSteps, 12)
-        transport = simple.FindSource("Map")
-        self.assertEqual(transport.Direction, "DensityToUniform")
-        self.assertEqual(list(transport.SampleDimensions), [20, 30, 1])
-        self.assertEqual(simple.FindSource("Warp").Blend, 0.25)
-        self.assertEqual(simple.FindSource("Quality").BlockSize, 32)
-        relaxed = simple.FindSource("Relaxation")
-        self.assertEqual((relaxed.Method, relaxed.MaximumIterations, relaxed.Tolerance),
-                         ("OptimalTransport", 3, 0.001))
-        splat = simple.FindSource("Splat")
-        self.assertEqual((splat.Radius, splat.Boundary, list(splat.MassArray)),
-                         (1.5, "Drop", ["POINTS", "Mass"]))
-        cells = simple.FindSource("Cells")
-        self.assertEqual((cells.Resolution, cells.CostExponent, cells.NumberOfSteps), (60, 4, 20))
-        solid = simple.FindSource("Solid")
-        self.assertEqual((solid.Resolution, solid.Supersampling, solid.Padding, solid.Association,
-                          solid.Threading), (20, 3, 0.25, "Cells", "Serial"))
-        made = simple.FindSource("Parameterization")
-        self.assertEqual((list(made.Corners), made.Resolution, made.Polish, made.Threading),
-                         ([2, 13, 39, 21], 24, 0, "Serial"))
-        sampled = simple.FindSource("OnSurface")
-        self.assertEqual((sampled.NumberOfParticles, list(sampled.DensityArray), sampled.SeedPattern,
-                          sampled.RandomSeed, list(sampled.Corners), sampled.Resolution,
-                          sampled.NumberOfSteps),
-                         (321, ["POINTS", "Height"], "Jittered", 7, [2, 13, 39, 21], 24, 9))
-        morph = simple.FindSource("Morph")
-        self.assertEqual((morph.Parameter, morph.MassMode, morph.Kernel, morph.Radius),
-                         (0.25, "Geometric", "Gaussian", 2))
-        self.assertEqual((morph.ParticlesPerCell, list(morph.Dimensions)), (2, [30, 0, 0]))
-        self.assertEqual((morph.PublishTime, morph.NumberOfTimeSteps), (1, 7))
-        barycenter = simple.FindSource("Barycenter")
-        self.assertEqual(list(barycenter.Weights), [1, 0.5, 2])
-        self.assertEqual(len(barycenter.Input), 3)
+        for filter_ in FILTERS:
+            loaded = simple.FindSource(filter_.label)
+            for name, value in filter_.saved.items():
+                with self.subTest(filter_.label, property=name):
+                    found = getattr(loaded, name)
+                    self.assertEqual(list(found) if isinstance(value, list) else found, value)
+            for name, kind in filter_.inputs.items():
+                if kind == "densities":
+                    self.assertEqual(len(getattr(loaded, name)), 3)
         self.assertEqual(digests(), expected)
+
+    def test_saved_values_are_no_defaults(self):
+        for filter_ in FILTERS:
+            fresh = getattr(simple, filter_.name)()
+            for name, value in filter_.saved.items():
+                with self.subTest(filter_.label, property=name):
+                    found = getattr(fresh, name)
+                    self.assertNotEqual(list(found) if isinstance(value, list) else found, value)
 
     def test_state_of_before(self):
         """A state without the properties and defaults of now gives what it gave."""
@@ -166,12 +129,8 @@ class State(unittest.TestCase):
         self.assertEqual(in_a_process(script, os.path.join(OUTPUT, "trace.py")), expected)
 
     def assert_calls(self, script):
-        for call in ("SampleDensity(", "TransportMap(", "DensityEqualizingWarp(",
-                     "TransportQuality(", "EqualMassCells(", "SolidDensity(", "MorphDensities(",
-                     "DensityBarycenter(",
-                     "SplatMass(", "AreaPreservingParameterization(", "SampleSurface(",
-                     "RelaxBlueNoise("):
-            self.assertIn(call, script)
+        for filter_ in FILTERS:
+            self.assertIn(filter_.name + "(", script)
 
 
 if __name__ == "__main__":

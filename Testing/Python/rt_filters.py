@@ -115,7 +115,7 @@ FILTERS = [
            shown=PARTICLES, slow_at_highest=("Resolution",)),
     Filter("Uniform Seeds", "vtkUniformSeedSource", refused=("NumberOfPoints", 0, 9),
            quick=dict(NumberOfPoints=40, Dimension=3),
-           saved=dict(Bounds=[0, 511, 0, 511, 0, 0], NumberOfPoints=500, Pattern="Jittered"),
+           saved=dict(Bounds=[0, 511, 0, 511, 0, 9], NumberOfPoints=500, Pattern="Jittered"),
            shown=PARTICLES),
     Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
            {"Input": "mesh", "Density": "density"}, refused=("Blend", -0.5, 1),
