@@ -8,13 +8,34 @@ import subprocess
 import sys
 import unittest
 
+from rt_filters import FILTERS, by_label
 from rt_testing import SKIPPED, main
 
 MPIRUN = shutil.which("mpirun")
 PVBATCH = os.path.join(os.path.dirname(os.environ["RT_PVPYTHON"]), "pvbatch")
 SCRIPT = os.path.join(os.path.dirname(__file__), "ranks_script.py")
 
-# What takes points of several ranks.
+# Where inputs lie, by their kinds.
+PLACES = {"points": ("whole", "shared", "gathered"), "mesh": ("whole", "shared", "gathered"),
+          "disk": ("whole", "shared"), "solid": ("whole", "shared")}
+
+
+def cases():
+    """Filters with the name of the case, where their points or surfaces lie, and whether they have all of
+    their inputs."""
+    for filter_ in FILTERS:
+        for optional in (False, True) if filter_.optional else (False,):
+            kinds = (filter_.ports if optional else filter_.inputs).values()
+            kind = next((kind for kind in kinds if kind in PLACES), None)
+            for place in PLACES.get(kind, ("whole",)):
+                yield filter_, case_of(filter_, place, optional), place, optional
+    splat = by_label("Splat Mass")
+    for place in ("block of whole", "block of shared", "block of gathered"):
+        yield splat, case_of(splat, place, False), place, False
+
+
+def case_of(filter_, place, optional):
+    return "%s %s%s" % (filter_.name, place, " all" if optional else "")
 
 
 class Ranks(unittest.TestCase):
@@ -22,18 +43,10 @@ class Ranks(unittest.TestCase):
         run = subprocess.run(
             [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-np", "2", PVBATCH, *options,
              SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=140)
-        gave = dict(re.findall(r"GAVE (\w+(?: \w+)?) ((?:some|none)(?: error)?)$", run.stdout, re.M))
-        expected = {}
-        for filter_ in ("splat", "cells", "seeds", "quality", "relaxation", "reference", "domain",
-                        "block"):
-            for kind in ("whole", "gathered"):
-                expected["%s %s" % (filter_, kind)] = "some"
-            # Points in blocks are executed block by block.
-            expected["%s shared" % filter_] = "none error" if filter_ == "block" else "some"
-        expected.update({name: "some" for name in ("morph", "barycenter", "map", "warp", "solid",
-                                                   "parameterization", "surface",
-                                                   "parameterization shared", "surface shared",
-                                                   "solid shared")})
+        gave = dict(re.findall(r"GAVE (.*) ((?:some|none)(?: error)?)$", run.stdout, re.M))
+        # Points in blocks are executed block by block.
+        expected = {case: "none error" if place == "block of shared" else "some"
+                    for _, case, place, _ in cases()}
         self.assertEqual(gave, expected, run.stdout + run.stderr[-3000:])
         self.assertNotIn("within ten seconds", run.stdout + run.stderr)
         self.assertEqual(run.returncode, 0)

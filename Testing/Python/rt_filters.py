@@ -33,6 +33,7 @@ class Filter(NamedTuple):
     shown: list = []       # hints of how an output is shown at first, where it is not as ParaView shows all
     always_shown: tuple = ()     # properties that mean something else here than PROPERTIES has them mean
     slow_at_highest: tuple = ()  # properties that take 10 GB at their highest value
+    gives_table: bool = False
     on_ranks: bool = True  # whether ParaView offers it on servers of several processes
 
     @property
@@ -123,7 +124,7 @@ FILTERS = [
     Filter("Transport Quality", "vtkTransportQuality",
            {"Input": "points", "Density": "density"}, refused=("BlockSize", -1, 3),
            saved=dict(InvertDensity=1, BlockSize=32),
-           shown=[("View", {"type": "SpreadSheetView"})]),
+           shown=[("View", {"type": "SpreadSheetView"})], gives_table=True),
     Filter("Relax Blue Noise", "vtkBlueNoiseRelaxation",
            {"Input": "mesh", "Density": "density"}, refused=("MaximumIterations", -1, 2),
            quick=dict(MaximumIterations=2),
