@@ -3,7 +3,8 @@
 import unittest
 
 import numpy as np
-from rt_testing import Listener, density_image, main, points_in, size_of
+from rt_filters import of_kind
+from rt_testing import Listener, density_image, main, points_in, quick_algorithm, size_of
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.util.vtkConstants import VTK_ID_TYPE
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkUnsignedCharArray
@@ -106,10 +107,10 @@ class BrokenCells(unittest.TestCase):
 
     def test_densities(self):
         for make, part in BROKEN:
-            for kind in (rt.vtkTransportSampler, rt.vtkTransportMap):
-                with self.subTest(part, kind=kind.__name__):
-                    algorithm = kind()
-                    algorithm.SetInputDataObject(make())
+            for filter_, port in of_kind("density"):
+                with self.subTest(part, filter=filter_.name):
+                    algorithm = quick_algorithm(filter_)
+                    algorithm.SetInputDataObject(port, make())
                     self.expect(algorithm, part)
             blocks = vtkMultiBlockDataSet()
             blocks.SetBlock(0, grid_of(CUBE, [0, 8], [VTK_HEXAHEDRON]))
@@ -165,37 +166,29 @@ class BrokenCells(unittest.TestCase):
             flags = vtkUnsignedCharArray()
             flags.SetName("vtkGhostType")
             getattr(structured, "Get" + owner)().AddArray(flags)
-            for make in (rt.vtkTransportSampler, rt.vtkTransportMap, rt.vtkDensityEqualizingWarp,
-                         rt.vtkBlueNoiseRelaxation, rt.vtkEqualMassCells):
-                with self.subTest(owner, kind=make.__name__):
-                    algorithm = make()
-                    algorithm.SetInputDataObject(0, structured)
-                    if algorithm.GetNumberOfInputPorts() > 1:
-                        algorithm.SetInputDataObject(1, density_image((4, 3)))
-                    if make is rt.vtkTransportSampler:
-                        algorithm.SetInputDataObject(1, None)
+            for filter_, port in of_kind("density", "mesh"):
+                with self.subTest(owner, filter=filter_.name):
+                    algorithm = quick_algorithm(filter_)
+                    algorithm.SetInputDataObject(port, structured)
                     self.expect(algorithm, "The ghost array 'vtkGhostType' of the %s of the " % kind)
 
     def test_surfaces(self):
-        for kind, prepare in ((rt.vtkSurfaceSampler, None), (rt.vtkSolidDensity, None),
-                              (rt.vtkAreaPreservingParameterization, None)):
+        for filter_, _ in of_kind("disk", "solid"):
             for make, part in (
                     (lambda: surface_of([0, 1, 3, 0, 3, 99], [0, 3, 6]), "has the point 99"),
                     (lambda: surface_of([0, 1, 3, 0, 3, 2], [0, 3, 77]), "has its points from place 3 to 77")):
-                with self.subTest(kind=kind.__name__, part=part):
-                    algorithm = kind()
+                with self.subTest(filter=filter_.name, part=part):
+                    algorithm = quick_algorithm(filter_)
                     algorithm.SetInputDataObject(make())
                     self.expect(algorithm, "Cell 1 of the input surface " + part)
 
     def test_point_sets_whose_cells_pass(self):
-        image = density_image((4, 3))
-        for kind in (rt.vtkDensityEqualizingWarp, rt.vtkBlueNoiseRelaxation, rt.vtkEqualMassCells):
-            with self.subTest(kind=kind.__name__):
-                points = points_in(image)
+        for filter_, port in of_kind("mesh"):
+            with self.subTest(filter=filter_.name):
+                points = points_in(density_image((4, 3)))
                 points.SetVerts(cells_of([0, 1, 2, 400], [0, 2, 4]))
-                algorithm = kind()
-                algorithm.SetInputDataObject(0, points)
-                algorithm.SetInputDataObject(1, image)
+                algorithm = quick_algorithm(filter_)
+                algorithm.SetInputDataObject(port, points)
                 self.expect(algorithm, "Cell 1 of the input has the point 400; there are points 0 to 49")
 
     def test_domain(self):
@@ -209,15 +202,9 @@ class BrokenCells(unittest.TestCase):
         image = density_image((4, 3))
         points = points_in(image)
         points.SetVerts(cells_of([0, 1, 2, 400], [0, 2, 4]))
-        splatter = rt.vtkMassSplatter()
-        splatter.SetInputDataObject(0, points)
-        quality = rt.vtkTransportQuality()
-        quality.SetInputDataObject(0, points)
-        quality.SetInputDataObject(1, image)
-        sampler = rt.vtkTransportSampler()
-        sampler.SetInputDataObject(0, image)
-        sampler.SetInputDataObject(1, points)
-        for algorithm in (splatter, quality, sampler):
+        for filter_, port in of_kind("points"):
+            algorithm = quick_algorithm(filter_)
+            algorithm.SetInputDataObject(port, points)
             listener = Listener(algorithm)
             algorithm.Update()
             self.assertEqual(listener.errors, [])

@@ -4,69 +4,47 @@ that was announced, so that nothing may be requested of them. A crash is a failu
 import functools
 import unittest
 
-import rectifiedtransport as rt
-from rt_testing import Listener, chain, closed_surface, density_image, main, points_in
+from rt_filters import FILTERS, by_label
+from rt_testing import Listener, chain, main, quick_algorithm, set_property
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkFlyingEdges2D, vtkFlyingEdges3D
 from vtkmodules.vtkImagingCore import vtkImageShiftScale
 from vtkmodules.vtkImagingGeneral import vtkImageGradient
 
 
-def splatter():
-    splat = rt.vtkMassSplatter()
-    splat.SetInputData(points_in(density_image((4, 3, 2)), 20000))
-    splat.SetDimensions(20, 20, 20)
-    return splat, splat.SetRadius, 0, 1
+def make(filter_):
+    """An image filter with work for several steps of its progress."""
+    properties = {name: {"Resolution": 20, "Dimensions": (20, 20, 20)}.get(name, value)
+                  for name, value in filter_.quick.items()}
+    return quick_algorithm(filter_, (12, 9, 8), 20000 if filter_.port_of("points") == 0 else 50, False,
+                           **properties)
 
 
-def solid():
-    made = rt.vtkSolidDensity()
-    made.SetInputData(closed_surface())
-    made.SetResolution(20)
-    return made, made.SetSupersampling, 99, 2
+def gives_image(filter_):
+    information = make(filter_).GetOutputPortInformation(0)
+    return information.Get(vtkDataObject.DATA_TYPE_NAME()) == "vtkImageData"
 
 
-def cells():
-    divided = rt.vtkEqualMassCells()
-    divided.SetInputData(points_in(density_image((4, 3, 2))))
-    divided.SetResolution(20)
-    return divided, divided.SetNormExponent, 0, 2
-
-
-def transport_map():
-    made = rt.vtkTransportMap()
-    made.SetInputData(density_image((12, 9, 8), cells=False))
-    return made, made.SetNumberOfSteps, 0, 4
-
-
-def morph():
-    blend = rt.vtkTransportInterpolator()
-    blend.SetInputData(density_image((12, 9, 8), cells=False))
-    blend.SetTargetData(density_image((12, 9, 8), cells=False, seed=1))
-    return blend, blend.SetParameter, 2, 0.5
-
-
-def barycenter():
-    blend = rt.vtkTransportBarycenter()
-    for seed in range(2):
-        source = rt.vtkTransportMap()  # any producer of an image
-        source.SetInputData(density_image((9, 8, 7), cells=False, seed=seed))
-        blend.AddInputConnection(source.GetOutputPort())
-    blend.SetInputArrayToProcess(0, 0, 0, 0, "Density")
-    return blend, blend.SetParticlesPerCell, 0, 1
-
-
-PRODUCERS = (splatter, solid, cells, transport_map, morph, barycenter)
+PRODUCERS = [filter_ for filter_ in FILTERS if gives_image(filter_)]
 READERS = (vtkImageShiftScale, vtkImageGradient, vtkContourFilter, vtkFlyingEdges2D,
            vtkFlyingEdges3D)
 
 
 def each_producer(test):
-    """Runs a test with every producer."""
+    """Runs a test with every producer, how its wrong and its right value are set, and whether readers
+    find an array on its points."""
     @functools.wraps(test)
     def run(self):
-        for make in PRODUCERS:
-            with self.subTest(producer=make.__name__):
-                test(self, make, *make())
+        self.assertGreater(len(PRODUCERS), 5)
+        for filter_ in PRODUCERS:
+            name, wrong, right = filter_.refused
+            usual = make(filter_)
+            usual.Update()
+            on_points = usual.GetOutputDataObject(0).GetPointData().GetNumberOfArrays() > 0
+            with self.subTest(producer=filter_.name):
+                producer = make(filter_)
+                test(self, producer, functools.partial(set_property, producer, name, wrong),
+                     functools.partial(set_property, producer, name, right), on_points)
     return run
 
 
@@ -84,8 +62,8 @@ class Downstream(unittest.TestCase):
             self.assertEqual(points == 0, empty, reader.GetClassName())
 
     @each_producer
-    def test_failures(self, make, producer, turn, wrong, right):
-        turn(wrong)
+    def test_failures(self, producer, turn_wrong, turn_right, on_points):
+        turn_wrong()
         reported = Listener(producer)
         readers = self.readers_of(producer)
         for _ in range(2):
@@ -94,22 +72,22 @@ class Downstream(unittest.TestCase):
                 self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
         self.assertEqual(len(reported.errors), 2, reported.errors)  # one, and the executive's
         self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
-        turn(right)
-        if make is cells:
-            return  # its labels are on cells
+        turn_right()
+        if not on_points:
+            return
         images = [r for r in readers if r.IsA("vtkImageAlgorithm")]
         self.check(images, False)
-        turn(wrong)
+        turn_wrong()
         for reader in images:
             reader.Update()
         self.check(images, True)
-        turn(right)
+        turn_right()
         producer.Update()
         self.assertGreater(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
 
     @each_producer
-    def test_aborts(self, make, producer, turn, wrong, right):
-        turn(right)
+    def test_aborts(self, producer, turn_wrong, turn_right, on_points):
+        turn_right()
         reported = Listener(producer)
         readers = self.readers_of(producer)
         for reader in readers:
@@ -122,27 +100,27 @@ class Downstream(unittest.TestCase):
             producer.SetAbortExecute(0)
         self.assertEqual(reported.errors, [])
         producer.Modified()
-        if make is not cells:
+        if on_points:
             self.check(readers[:1], False)
 
     @each_producer
-    def test_later_pieces(self, make, producer, turn, wrong, right):
-        turn(right)
+    def test_later_pieces(self, producer, turn_wrong, turn_right, on_points):
+        turn_right()
         for reader in self.readers_of(producer):
             reader.UpdatePiece(1, 2, 0)
             self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
             self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
 
     @each_producer
-    def test_deleted_readers(self, make, producer, turn, wrong, right):
+    def test_deleted_readers(self, producer, turn_wrong, turn_right, on_points):
         """VTK does not forget them."""
-        turn(wrong)
+        turn_wrong()
         reader = self.readers_of(producer)[0]
         reader.Update()
         reader.Update()
         self.assertEqual(reader.GetOutput().GetNumberOfPoints(), 0)
-        turn(right)
-        if make is not cells:
+        turn_right()
+        if on_points:
             self.check([reader], False)
         producer.AddObserver("ProgressEvent", lambda *_: producer.SetAbortExecute(1))
         producer.Modified()
@@ -150,7 +128,7 @@ class Downstream(unittest.TestCase):
         self.assertEqual(producer.GetOutputDataObject(0).GetNumberOfPoints(), 0)
 
     def test_only_the_first_piece_of_a_solid(self):
-        made = solid()[0]
+        made = make(by_label("Solid Density"))
         counts = []
         for piece in range(3):
             made.UpdatePiece(piece, 3, 0)

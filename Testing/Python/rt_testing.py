@@ -84,16 +84,31 @@ def surface_for(algorithm):
     return disk_surface() if hasattr(algorithm, "GetNumberOfCorners") else closed_surface()
 
 
-def connect_inputs(algorithm, shape=(4, 3), number=50):
+def connect_inputs(algorithm, shape=(4, 3), number=50, cells=True):
     """Gives data to the inputs that an algorithm requires, small images by default."""
     for port in range(algorithm.GetNumberOfInputPorts()):
         information = algorithm.GetInputPortInformation(port)
         if not information.Has(vtkAlgorithm.INPUT_IS_OPTIONAL()):
-            image = density_image(shape)
+            image = density_image(shape, cells, seed=port)
             kind = information.Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), 0)
             algorithm.SetInputData(port, image if kind in ("vtkImageData", "vtkDataSet") else
                                    surface_for(algorithm) if kind == "vtkPolyData" else
                                    points_in(image, number))
+
+
+def quick_algorithm(filter_, *inputs, **properties):
+    """A new object of the class of a filter of the register, for a quick run; the arguments are those of
+    connect_inputs."""
+    import rectifiedtransport
+    algorithm = getattr(rectifiedtransport, filter_.class_name)()
+    connect_inputs(algorithm, *inputs)
+    for name, value in {**filter_.quick, **properties}.items():
+        set_property(algorithm, name, value)
+    return algorithm
+
+
+def set_property(algorithm, name, value):
+    getattr(algorithm, "Set" + name)(*(value if isinstance(value, (list, tuple)) else [value]))
 
 
 def chain(*algorithms):
