@@ -16,6 +16,27 @@ def numbers(text):
     return [float(x) for x in text.split()]
 
 
+def numbers_for(prop, text):
+    """Of the type that the property's setter takes."""
+    return [x if prop.element.tag == "DoubleVectorProperty" else int(x) for x in numbers(text)]
+
+
+def others(prop):
+    """Values that are not the default, as in the XML."""
+    if prop.texts:
+        return [value for value in prop.texts if value != prop.default]
+    if prop.boolean:
+        return ["10"[int(prop.default)]]
+    return [" ".join("%g" % (x + step) for x in numbers(prop.default)) for step in (1, 7)]
+
+
+def printed(prop, value):
+    """A value as Print() has it."""
+    if prop.boolean:
+        return ("Off", "On")[int(value)]
+    return prop.texts.get(value, value)
+
+
 def header_comment(class_name, name):
     """The comment above a property's setter in the header of a class or of its superclasses."""
     with open(os.path.join(SOURCE, "Filters", class_name + ".h"), encoding="utf-8") as file:
@@ -49,6 +70,20 @@ class Defaults(unittest.TestCase):
                 value = getattr(instance(proxy), getter(prop))()
                 value = list(value) if isinstance(value, tuple) else [value]
                 self.assertEqual(value, numbers(prop.default))
+
+    def test_printed(self):
+        """Print() has every property, by default and after it is set."""
+        for case, proxy, prop in self.each_value():
+            with case:
+                filter_ = instance(proxy)
+                self.assertIn("  %s: %s\n" % (prop.name, printed(prop, prop.default)), str(filter_))
+                for value in others(prop):
+                    getattr(filter_, prop.command)(*numbers_for(prop, value))
+                    self.assertIn("  %s: %s\n" % (prop.name, printed(prop, value)), str(filter_))
+                if prop.texts:
+                    getattr(filter_, prop.command)(len(prop.texts) + 1)
+                    self.assertEqual(getattr(filter_, getter(prop) + "AsString")(), "Unknown")
+                    self.assertIn("  %s: Unknown\n" % prop.name, str(filter_))
 
     def test_enumeration_texts(self):
         for case, proxy, prop in self.each_value():
