@@ -21,6 +21,7 @@ from vtkmodules.vtkCommonCore import vtkObject, vtkPoints, vtkVersion
 from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkDataObject, vtkImageData,
                                            vtkMultiBlockDataSet, vtkPolyData)
 import rectifiedtransport as rt
+from rt_filters import FILTERS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
@@ -390,6 +391,7 @@ def mass_cells_runs():
 def digests():
     vtkObject.GlobalWarningDisplayOff()
     found = {}
+    ran = set()
     for runs in (sampler_runs, map_runs, warp_runs, blend_runs, splat_runs, other_runs,
                  parameterization_runs, surface_runs, relaxation_runs):
         for name, filter_class, inputs, properties in runs():
@@ -399,6 +401,8 @@ def digests():
                 vtkDataObject.ROW if outputs[0].IsA("vtkTable") else vtkDataObject.POINT)
             assert count > 0, name
             found[name] = Digest(*outputs).text()
+            ran.add(filter_class.__name__)
+    assert ran == {filter_.class_name for filter_ in FILTERS}, ran
     return found
 
 

@@ -10,6 +10,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
+from rt_filters import FILTERS
+from rt_proxies import proxies
 from rt_testing import OUTPUT, density_image, digest, load_plugin, main
 
 simple = load_plugin()
@@ -122,21 +124,33 @@ def points(source):
     return simple.CellCenters(mesh(source, 0.3), VertexCells=1)
 
 
-# Every filter that has two inputs.
-FILTERS = {
-    "sampler": lambda one, other: simple.SampleDensity(one, Seeds=points(other), **ARRAYS),
-    "warp": lambda one, other: simple.DensityEqualizingWarp(points(one), Density=other, **ARRAYS),
-    "quality": lambda one, other: simple.TransportQuality(points(one), Density=other, **ARRAYS),
-    "relaxation": lambda one, other: simple.RelaxBlueNoise(
-        points(one), Density=other, MaximumIterations=2, **ARRAYS),
-    "cells": lambda one, other: simple.EqualMassCells(
-        points(one), Domain=other, Measure="Density", Resolution=192, **ARRAYS),
-    "splat": lambda one, other: simple.SplatMass(points(one), Reference=other),
-    "barycenter": lambda one, other: simple.DensityBarycenter(
-        Input=[one, other], Weights=[3, 1], **ARRAYS),
-    "morph of meshes": lambda one, other: simple.MorphDensities(
-        mesh(one), Target=mesh(other), Parameter=0.25, DensityResolution=32, **BOTH),
-}
+PROPERTIES = {proxy.label: proxy.properties for proxy in proxies()}
+
+
+def of_two_inputs(filter_):
+    """What makes a filter of two data sets of a series, or None if it has one input at the most."""
+    names = list(filter_.ports)
+    if len(names) < 2 and "densities" not in filter_.ports.values():
+        return None
+    arrays = {name: ["CELLS", "Density"] for name in ("DensityArray", "TargetArray")
+              if name in PROPERTIES[filter_.label]}
+    given = {"Equal-Mass Cells": dict(Measure="Density", Resolution=192),
+             "Density Barycenter": dict(Weights=[3, 1])}.get(filter_.label, {})
+
+    def make(one, other):
+        by_name = {}
+        for name, source in zip(names, (one, other)):
+            wants_points = filter_.ports[name] in ("points", "mesh")
+            by_name[name] = lambda source=points(source) if wants_points else source: source
+        if filter_.port_of("densities") is not None:
+            by_name = {names[0]: lambda: [one, other]}
+        return filter_.make(simple, by_name, bool(filter_.optional), **arrays, **given)
+    return make
+
+
+MAKERS = {filter_.name: of_two_inputs(filter_) for filter_ in FILTERS if of_two_inputs(filter_)}
+MAKERS["morph of meshes"] = lambda one, other: simple.MorphDensities(
+    mesh(one), Target=mesh(other), Parameter=0.25, DensityResolution=32, **BOTH)
 
 
 class Series(unittest.TestCase):
@@ -203,7 +217,7 @@ class Series(unittest.TestCase):
                     self.expect_ends(morph_of(one, other), lambda m: update(m, time), 1, 10)
 
     def test_every_filter_has_the_inputs_of_two_readers(self):
-        for name, make in FILTERS.items():
+        for name, make in MAKERS.items():
             for first, second in (("force", "force"), ("extract", None), (None, "force")):
                 for order in ([0], [5, 11]):
                     with self.subTest(filter=name, ways=(first, second), order=order):
