@@ -284,13 +284,22 @@ void checkBarycenter(vtkAlgorithm* filter, const Inputs& inputs, Findings& findi
   }
 }
 
+//------------------------------------------------------------------------------
+void quickBlend(RandomSource&, vtkAlgorithm* filter)
+{
+  auto* blend = Blend::SafeDownCast(filter);
+  blend->SetParticlesPerCell(1);
+  blend->SetDimensions(4, 4, 4);
+}
+
 } // namespace
 
 void addBlendKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Morph", make<Morph>, drawMorph, drawMorphInputs, expectMorph, checkMorph });
+  kinds.push_back({ "Morph", make<Morph>, drawMorph, drawMorphInputs, expectMorph, checkMorph,
+    quickBlend });
   kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, drawBarycenterInputs,
-    expectBarycenter, checkBarycenter });
+    expectBarycenter, checkBarycenter, quickBlend });
 }
 
 } // namespace Campaign

@@ -3,7 +3,6 @@
 
 #include "Downstream.h"
 #include "FilterKind.h"
-#include "Kinds.h"
 #include "Listener.h"
 
 #include "vtkTrivialProducer.h"
@@ -12,19 +11,6 @@
 
 namespace Campaign
 {
-
-const std::vector<FilterKind>& filterKinds()
-{
-  static const std::vector<FilterKind> kinds = []() {
-    std::vector<FilterKind> all;
-    addTransportKinds(all);
-    addBlendKinds(all);
-    addOtherKinds(all);
-    addSurfaceKinds(all);
-    return all;
-  }();
-  return kinds;
-}
 
 namespace
 {

@@ -111,7 +111,7 @@ public:
     for (const CraftedFilter& filter : craftedFilters())
     {
       RandomSource own(this->Random.Next());
-      if (std::string(filter.Takes) == "vtkDataObject" || this->Data->IsA(filter.Takes))
+      if (filter.Takes == "vtkDataObject" || this->Data->IsA(filter.Takes.c_str()))
       {
         this->RunFilter(filter, own, mass);
       }
@@ -170,14 +170,14 @@ private:
 
   void RunFilter(const CraftedFilter& kind, RandomSource& random, const Mass& mass)
   {
-    announce(std::string("running ") + kind.Name, this->Text);
-    const vtkSmartPointer<vtkAlgorithm> filter = kind.New(random, this->Data);
+    announce("running " + kind.Name, this->Text);
+    const vtkSmartPointer<vtkAlgorithm> filter = newCrafted(kind, random, this->Data);
     Findings findings;
     const Outcome outcome = update(filter, {}, findings);
     ++this->Result.Runs;
     this->Result.Errors += outcome.Errors.empty() ? 0 : 1;
     this->Result.Digest = this->Result.Digest * 31 + outcome.Digest;
-    this->Result.Log += std::string(kind.Name) + "\n";
+    this->Result.Log += kind.Name + "\n";
     for (const std::string& message : outcome.Errors)
     {
       this->Result.Log += "  message: " + message + "\n";
@@ -203,7 +203,7 @@ private:
     for (const std::string& finding : findings.All)
     {
       this->Result.Log += "  WRONG: " + finding + "\n";
-      this->Result.Findings.push_back(std::string(kind.Name) + ": " + finding);
+      this->Result.Findings.push_back(kind.Name + ": " + finding);
     }
   }
 

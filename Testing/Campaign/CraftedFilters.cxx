@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CraftedFilters.h"
 
-#include "vtkAreaPreservingParameterization.h"
-#include "vtkBlueNoiseRelaxation.h"
-#include "vtkDensityEqualizingWarp.h"
-#include "vtkDoubleArray.h"
-#include "vtkEqualMassCells.h"
+#include "vtkDensityAlgorithm.h"
 #include "vtkImageData.h"
-#include "vtkMassSplatter.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSolidDensity.h"
-#include "vtkSurfaceSampler.h"
-#include "vtkTransportBarycenter.h"
-#include "vtkTransportInterpolator.h"
-#include "vtkTransportMap.h"
-#include "vtkTransportQuality.h"
-#include "vtkTransportSampler.h"
 
 namespace Campaign
 {
@@ -50,14 +39,24 @@ vtkSmartPointer<vtkPolyData> soundPoints()
   return data;
 }
 
-// The density on a port: by name, on points or cells, or the default.
-template <class Filter>
-void chooseDensity(RandomSource& random, Filter* filter, int port, int index = 0)
+std::string takenBy(vtkAlgorithm* filter, int port)
 {
-  filter->SetDensityResolution(random.Of({ 1, 9, 9, 16 }));
-  filter->SetNegativeValues(random.Of({ 0, 0, 1 }));
-  filter->SetInvertDensity(random.Chance(0.1) ? 1 : 0);
-  const std::int64_t kind = random.Whole(0, 3);
+  vtkInformation* information = filter->GetInputPortInformation(port);
+  const char* type = information->Get(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), 0);
+  return type ? type : "vtkDataObject";
+}
+
+bool holdsPoints(const std::string& type)
+{
+  return type == "vtkPointSet" || type == "vtkPolyData";
+}
+
+// The array of an input: by name, on points or cells, or the default. Masses are on points.
+void chooseArray(RandomSource& random, vtkAlgorithm* filter, int port, bool onCells)
+{
+  // Of two densities, the second has an array of its own.
+  const int index = port > 0 && !holdsPoints(takenBy(filter, 0)) ? 1 : 0;
+  const std::int64_t kind = random.Whole(0, onCells ? 3 : 1);
   if (kind > 0)
   {
     filter->SetInputArrayToProcess(index, port, 0,
@@ -66,180 +65,74 @@ void chooseDensity(RandomSource& random, Filter* filter, int port, int index = 0
   }
 }
 
-vtkSmartPointer<vtkAlgorithm> newSampler(RandomSource& random, vtkDataObject* crafted)
+void chooseDensity(RandomSource& random, vtkDensityAlgorithm* filter)
 {
-  const auto filter = vtkSmartPointer<vtkTransportSampler>::New();
-  filter->SetNumberOfParticles(30);
-  filter->SetInputDataObject(0, crafted);
-  chooseDensity(random, filter.Get(), 0);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newSeeded(RandomSource&, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkTransportSampler>::New();
-  filter->SetInputDataObject(0, soundDensity());
-  filter->SetInputDataObject(1, crafted);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newMap(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkTransportMap>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetDirection(static_cast<int>(random.Whole(0, 1)));
-  chooseDensity(random, filter.Get(), 0);
-  return filter;
-}
-
-// Filters of points on port 0 and a density on port 1.
-template <class Filter>
-vtkSmartPointer<vtkAlgorithm> newOfPoints(RandomSource&, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<Filter>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetInputDataObject(1, soundDensity());
-  if (auto* relaxation = vtkBlueNoiseRelaxation::SafeDownCast(filter))
-  {
-    relaxation->SetMaximumIterations(2);
-  }
-  return filter;
-}
-
-template <class Filter>
-vtkSmartPointer<vtkAlgorithm> newOfDensity(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<Filter>::New();
-  filter->SetInputDataObject(0, soundPoints());
-  filter->SetInputDataObject(1, crafted);
-  if (auto* relaxation = vtkBlueNoiseRelaxation::SafeDownCast(filter))
-  {
-    relaxation->SetMaximumIterations(2);
-    relaxation->SetMethod(static_cast<int>(random.Whole(0, 1)));
-  }
-  chooseDensity(random, filter.Get(), 1);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newMorph(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkTransportInterpolator>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetInputDataObject(1, random.Chance(0.5) ? crafted : soundDensity().Get());
-  filter->SetParticlesPerCell(1);
-  filter->SetDimensions(4, 4, 4);
-  chooseDensity(random, filter.Get(), 0);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newBarycenter(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkTransportBarycenter>::New();
-  filter->AddInputDataObject(0, crafted);
-  filter->AddInputDataObject(0, crafted);
-  filter->SetParticlesPerCell(1);
-  filter->SetDimensions(4, 4, 4);
-  chooseDensity(random, filter.Get(), 0);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newCells(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkEqualMassCells>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetResolution(8);
-  filter->SetNumberOfSteps(8);
-  filter->SetShape(random.Chance(0.1) ? 1 : 0); // power cells of one far site take seconds
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newCellsOfDomain(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkEqualMassCells>::New();
-  filter->SetInputDataObject(0, soundPoints());
-  filter->SetInputDataObject(1, crafted);
-  filter->SetResolution(8);
-  filter->SetNumberOfSteps(8);
-  filter->SetShape(random.Chance(0.1) ? 1 : 0);
-  filter->SetMeasure(static_cast<int>(random.Whole(0, 1)));
-  chooseDensity(random, filter.Get(), 1);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newSplatter(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkMassSplatter>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetDimensions(5, 6, 4);
-  filter->SetKernel(static_cast<int>(random.Whole(0, 3)));
-  if (random.Chance(0.5))
-  {
-    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "p");
-  }
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newSplatterOn(RandomSource&, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkMassSplatter>::New();
-  filter->SetInputDataObject(0, soundPoints());
-  filter->SetInputDataObject(1, crafted);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newSolid(RandomSource&, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkSolidDensity>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetResolution(8);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newParameterization(RandomSource&, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkAreaPreservingParameterization>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetResolution(8);
-  return filter;
-}
-
-vtkSmartPointer<vtkAlgorithm> newSurfaceSampler(RandomSource& random, vtkDataObject* crafted)
-{
-  const auto filter = vtkSmartPointer<vtkSurfaceSampler>::New();
-  filter->SetInputDataObject(0, crafted);
-  filter->SetNumberOfParticles(20);
-  filter->SetResolution(8);
-  if (random.Chance(0.5))
-  {
-    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "v");
-  }
-  return filter;
+  filter->SetDensityResolution(random.Of({ 1, 9, 9, 16 }));
+  filter->SetNegativeValues(random.Of({ 0, 0, 1 }));
+  filter->SetInvertDensity(random.Chance(0.1) ? 1 : 0);
 }
 
 } // namespace
 
+vtkSmartPointer<vtkAlgorithm> newCrafted(
+  const CraftedFilter& crafted, RandomSource& random, vtkDataObject* data)
+{
+  const vtkSmartPointer<vtkAlgorithm> filter = crafted.Kind->New();
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* information = filter->GetInputPortInformation(port);
+    const bool isCrafted = port == crafted.Port;
+    if (!isCrafted && information->Has(vtkAlgorithm::INPUT_IS_OPTIONAL()))
+    {
+      continue;
+    }
+    const bool ofPoints = holdsPoints(takenBy(filter, port));
+    // Of two densities both may be crafted.
+    const bool alike = !ofPoints && !holdsPoints(crafted.Takes) && random.Chance(0.5);
+    vtkSmartPointer<vtkDataObject> input = data;
+    if (!isCrafted && ofPoints)
+    {
+      input = soundPoints();
+    }
+    else if (!isCrafted && !alike)
+    {
+      input = soundDensity();
+    }
+    filter->SetInputDataObject(port, input);
+    if (information->Has(vtkAlgorithm::INPUT_IS_REPEATABLE()))
+    {
+      filter->AddInputDataObject(port, input);
+    }
+  }
+  crafted.Kind->MakeQuick(random, filter);
+  auto* ofDensity = vtkDensityAlgorithm::SafeDownCast(filter);
+  if (ofDensity && !holdsPoints(crafted.Takes))
+  {
+    chooseDensity(random, ofDensity);
+  }
+  // Points are read as they are but for those of filters that read no other density.
+  if (!ofDensity ? crafted.Port == 0 : !holdsPoints(crafted.Takes))
+  {
+    chooseArray(random, filter, crafted.Port, crafted.Takes != "vtkPointSet");
+  }
+  return filter;
+}
+
 const std::vector<CraftedFilter>& craftedFilters()
 {
-  static const std::vector<CraftedFilter> filters = {
-    { "Sampler", "vtkDataObject", newSampler },
-    { "Sampler of seeds", "vtkPointSet", newSeeded },
-    { "Map", "vtkDataObject", newMap },
-    { "Warp", "vtkPointSet", newOfPoints<vtkDensityEqualizingWarp> },
-    { "Warp of a density", "vtkDataObject", newOfDensity<vtkDensityEqualizingWarp> },
-    { "Quality", "vtkPointSet", newOfPoints<vtkTransportQuality> },
-    { "Quality of a density", "vtkDataObject", newOfDensity<vtkTransportQuality> },
-    { "Relaxation", "vtkPointSet", newOfPoints<vtkBlueNoiseRelaxation> },
-    { "Relaxation of a density", "vtkDataObject", newOfDensity<vtkBlueNoiseRelaxation> },
-    { "Morph", "vtkDataObject", newMorph },
-    { "Barycenter", "vtkDataObject", newBarycenter },
-    { "Cells", "vtkPointSet", newCells },
-    { "Cells of a domain", "vtkDataObject", newCellsOfDomain },
-    { "Splatter", "vtkPointSet", newSplatter },
-    { "Splatter on an image", "vtkImageData", newSplatterOn },
-    { "Solid", "vtkPolyData", newSolid },
-    { "Parameterization", "vtkPolyData", newParameterization },
-    { "SurfaceSampler", "vtkPolyData", newSurfaceSampler },
-  };
+  static const std::vector<CraftedFilter> filters = []() {
+    std::vector<CraftedFilter> all;
+    for (const FilterKind& kind : filterKinds())
+    {
+      const vtkSmartPointer<vtkAlgorithm> filter = kind.New();
+      for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+      {
+        all.push_back({ kind.Name + std::string(port > 0 ? " on its second port" : ""), &kind, port,
+          takenBy(filter, port) });
+      }
+    }
+    return all;
+  }();
   return filters;
 }
 

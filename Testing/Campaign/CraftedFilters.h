@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All filters, each with a crafted input on one of its ports and a sound one on the other.
+// All filters of the register, each with a crafted input on one of its ports and sound ones on the
+// others that it needs.
 #ifndef Campaign_CraftedFilters_h
 #define Campaign_CraftedFilters_h
 
-#include "RandomSource.h"
+#include "FilterKind.h"
 
-#include "vtkAlgorithm.h"
-#include "vtkDataObject.h"
-#include "vtkSmartPointer.h"
-
+#include <string>
 #include <vector>
 
 namespace Campaign
@@ -16,10 +14,14 @@ namespace Campaign
 
 struct CraftedFilter
 {
-  const char* Name;
-  const char* Takes; // the least class of the crafted input
-  vtkSmartPointer<vtkAlgorithm> (*New)(RandomSource& random, vtkDataObject* crafted);
+  std::string Name;
+  const FilterKind* Kind;
+  int Port;          // of the crafted input
+  std::string Takes; // its least class
 };
+
+vtkSmartPointer<vtkAlgorithm> newCrafted(
+  const CraftedFilter& filter, RandomSource& random, vtkDataObject* crafted);
 
 const std::vector<CraftedFilter>& craftedFilters();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A class of filters: how to make one, its properties and inputs, and what its output has to be.
+// The register of filters: how to make one, its properties and inputs, and what its output has to be.
+// Tests of Testing/Cxx that concern every filter go through it, too.
 #ifndef Campaign_FilterKind_h
 #define Campaign_FilterKind_h
 
@@ -27,6 +28,9 @@ struct FilterKind
   State (*Expect)(vtkAlgorithm* filter, const Inputs& inputs);
   // Looks at an output that is not empty.
   void (*Check)(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings);
+  // After inputs are connected: properties in their ranges with which a run takes milliseconds,
+  // whatever is wrong with an input.
+  void (*MakeQuick)(RandomSource& random, vtkAlgorithm* filter);
 };
 
 const std::vector<FilterKind>& filterKinds();

@@ -14,6 +14,9 @@ vtkSmartPointer<vtkAlgorithm> make()
   return vtkSmartPointer<T>::New();
 }
 
+// Of a filter that is quick as it is.
+inline void leaveAsItIs(RandomSource&, vtkAlgorithm*) {}
+
 void addTransportKinds(std::vector<FilterKind>& kinds);
 void addBlendKinds(std::vector<FilterKind>& kinds);
 void addOtherKinds(std::vector<FilterKind>& kinds);

@@ -300,17 +300,50 @@ void checkSource(vtkAlgorithm* filter, const Inputs&, Findings& findings)
   }
 }
 
+//------------------------------------------------------------------------------
+void quickCells(RandomSource& random, vtkAlgorithm* filter)
+{
+  auto* cells = Cells::SafeDownCast(filter);
+  cells->SetResolution(8);
+  cells->SetNumberOfSteps(8);
+  cells->SetShape(random.Chance(0.1) ? 1 : 0); // power cells of one far site take seconds
+  if (filter->GetNumberOfInputConnections(1) > 0)
+  {
+    cells->SetMeasure(static_cast<int>(random.Whole(0, 1)));
+  }
+}
+
+void quickSplatter(RandomSource& random, vtkAlgorithm* filter)
+{
+  auto* splatter = Splatter::SafeDownCast(filter);
+  splatter->SetDimensions(5, 6, 4);
+  splatter->SetKernel(static_cast<int>(random.Whole(0, 3)));
+}
+
+void quickSolid(RandomSource&, vtkAlgorithm* filter)
+{
+  Solid::SafeDownCast(filter)->SetResolution(8);
+}
+
+void quickSource(RandomSource&, vtkAlgorithm* filter)
+{
+  Source::SafeDownCast(filter)->SetNumberOfPoints(30);
+}
+
 } // namespace
 
 void addOtherKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Cells", make<Cells>, drawCells, drawCellsInputs, expectCells, checkCells });
+  kinds.push_back({ "Cells", make<Cells>, drawCells, drawCellsInputs, expectCells, checkCells,
+    quickCells });
   kinds.push_back({ "Splatter", make<Splatter>, drawSplatter, drawSplatterInputs, expectSplatter,
-    checkSplatter });
-  kinds.push_back({ "Solid", make<Solid>, drawSolid, drawSolidInputs, expectSolid, checkSolid });
+    checkSplatter, quickSplatter });
+  kinds.push_back({ "Solid", make<Solid>, drawSolid, drawSolidInputs, expectSolid, checkSolid,
+    quickSolid });
   kinds.push_back(
     { "Source", make<Source>, drawSource, [](RandomSource&, Settings&) { return Inputs(); },
-      [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource });
+      [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource,
+      quickSource });
 }
 
 } // namespace Campaign

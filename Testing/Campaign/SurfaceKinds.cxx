@@ -320,14 +320,28 @@ void checkSampler(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings
   requireSampled(input->GetCellData(), false);
 }
 
+//------------------------------------------------------------------------------
+void quickParameterization(RandomSource&, vtkAlgorithm* filter)
+{
+  Parameterization::SafeDownCast(filter)->SetResolution(8);
+}
+
+void quickSampler(RandomSource&, vtkAlgorithm* filter)
+{
+  auto* sampler = Sampler::SafeDownCast(filter);
+  sampler->SetNumberOfParticles(20);
+  sampler->SetResolution(8);
+}
+
 } // namespace
 
 void addSurfaceKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back({ "Parameterization", make<Parameterization>, drawParameterization,
-    drawParameterizationInputs, expectDisk, checkParameterization });
+    drawParameterizationInputs, expectDisk, checkParameterization, quickParameterization });
   kinds.push_back(
-    { "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk, checkSampler });
+    { "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk, checkSampler,
+      quickSampler });
 }
 
 } // namespace Campaign

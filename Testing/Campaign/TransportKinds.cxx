@@ -422,19 +422,39 @@ void checkRelaxation(vtkAlgorithm* filter, const Inputs& inputs, Findings& findi
   }
 }
 
+//------------------------------------------------------------------------------
+void quickSampler(RandomSource&, vtkAlgorithm* filter)
+{
+  Sampler::SafeDownCast(filter)->SetNumberOfParticles(30);
+}
+
+void quickMap(RandomSource& random, vtkAlgorithm* filter)
+{
+  Map::SafeDownCast(filter)->SetDirection(static_cast<int>(random.Whole(0, 1)));
+}
+
+void quickRelaxation(RandomSource& random, vtkAlgorithm* filter)
+{
+  auto* relaxation = Relaxation::SafeDownCast(filter);
+  relaxation->SetMaximumIterations(2);
+  relaxation->SetMethod(static_cast<int>(random.Whole(0, 1)));
+}
+
 } // namespace
 
 void addTransportKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back(
-    { "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler, checkSampler });
-  kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap });
+    { "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler, checkSampler,
+      quickSampler });
+  kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap, quickMap });
   kinds.push_back(
-    { "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp });
+    { "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp,
+      leaveAsItIs });
   kinds.push_back({ "Quality", make<Quality>, drawQuality, drawPointsAndDensityInputs,
-    expectQuality, checkQuality });
+    expectQuality, checkQuality, leaveAsItIs });
   kinds.push_back({ "Relaxation", make<Relaxation>, drawRelaxation, drawRelaxationInputs,
-    expectRelaxation, checkRelaxation });
+    expectRelaxation, checkRelaxation, quickRelaxation });
 }
 
 } // namespace Campaign

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Kinds.h"
+
+namespace Campaign
+{
+
+const std::vector<FilterKind>& filterKinds()
+{
+  static const std::vector<FilterKind> kinds = []() {
+    std::vector<FilterKind> all;
+    addTransportKinds(all);
+    addBlendKinds(all);
+    addOtherKinds(all);
+    addSurfaceKinds(all);
+    return all;
+  }();
+  return kinds;
+}
+
+} // namespace Campaign
