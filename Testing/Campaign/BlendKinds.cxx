@@ -296,8 +296,8 @@ void quickBlend(RandomSource&, vtkAlgorithm* filter)
 
 void addBlendKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Morph", make<Morph>, drawMorph, drawMorphInputs, expectMorph, checkMorph,
-    quickBlend });
+  kinds.push_back(
+    { "Morph", make<Morph>, drawMorph, drawMorphInputs, expectMorph, checkMorph, quickBlend });
   kinds.push_back({ "Barycenter", make<Barycenter>, drawBlend, drawBarycenterInputs,
     expectBarycenter, checkBarycenter, quickBlend });
 }

@@ -12,6 +12,8 @@ void drawDensitySettings(Settings& settings)
   settings.Draw<T, int>("Component", &T::SetComponent, { -1, 0, 0, 1, 3, 4, -2, 100 }, {}, 0.2);
   settings.Draw<T, vtkTypeBool>("InvertDensity", &T::SetInvertDensity, { 0, 1 }, {}, 0.2);
   settings.Draw<T, int>("NegativeValues", &T::SetNegativeValues, { 0, 1 }, { -1, 2 }, 0.3);
+  settings.Draw<T, int>(
+    "DensityResolution", &T::SetDensityResolution, { 1, 9, 16, 40 }, { 0, -1 }, 0.2);
 }
 
 void drawChoice(RandomSource& random, Settings& settings, int port, int index, Input& input)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The register of filters: how to make one, its properties and inputs, and what its output has to be.
-// Tests of Testing/Cxx that concern every filter go through it, too.
+// The register of filters: how to make one, its properties and inputs, and what its output has to
+// be. Tests of Testing/Cxx that concern every filter go through it, too.
 #ifndef Campaign_FilterKind_h
 #define Campaign_FilterKind_h
 

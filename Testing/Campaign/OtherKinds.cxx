@@ -48,6 +48,14 @@ void drawCells(Settings& settings)
     { 0.0, -1.0, NaN, Infinity }, 0.4);
   drawFlowSettings<Cells>(settings);
   settings.Draw<Cells, int>("Shape", &Cells::SetShape, { 0, 1 }, { -1, 2 }, 0.4);
+  settings.Draw<Cells, int>("Measure", &Cells::SetMeasure, { 0, 1 }, { -1, 2 }, 0.3);
+  // These count where the density does: out of range they are no errors elsewhere.
+  settings.Draw<Cells, int>("Component", &Cells::SetComponent, { -1, 0 }, {}, 0.2);
+  settings.Draw<Cells, vtkTypeBool>("InvertDensity", &Cells::SetInvertDensity, { 0, 1 }, {}, 0.2);
+  settings.Draw<Cells, int>("NegativeValues", &Cells::SetNegativeValues, { 0, 1 }, {}, 0.2);
+  settings.Draw<Cells, int>(
+    "DensityResolution", &Cells::SetDensityResolution, { 1, 9, 16, 40 }, {}, 0.2);
+  settings.Draw<Cells, int>("Tables", &Cells::SetTables, { 0, 1, 2 }, {}, 0.2);
 }
 
 Inputs drawCellsInputs(RandomSource& random, Settings& settings)
@@ -69,6 +77,10 @@ State expectCells(vtkAlgorithm* filter, const Inputs& inputs)
     // There may be less than a pixel for each site; a domain or cost that has no power cells.
     state = worse(state, State::Odd);
   }
+  if (cells->GetMeasure() == Cells::DENSITY)
+  {
+    state = worse(state, State::Odd); // a domain without a density
+  }
   return inputs[1].empty() ? state : worse(state, inputs[1][0].Condition);
 }
 
@@ -88,6 +100,10 @@ void checkCells(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
   for (vtkIdType i = 0; ids && i < pixels; ++i)
   {
     const double id = ids->GetComponent(i, 0);
+    if (id == -1.0 && cells->GetMeasure() == Cells::DENSITY)
+    {
+      continue; // a pixel without mass
+    }
     if (!(id >= 0.0 && id < static_cast<double>(count)))
     {
       findings.That(false, "SiteId " + textOf(id));
@@ -279,6 +295,7 @@ void drawSource(Settings& settings)
   settings.Draw<Source, int>("Pattern", &Source::SetPattern, { 0, 1, 2, 3, 4 }, { -1, 5 });
   settings.Draw<Source, int>("RandomSeed", &Source::SetRandomSeed,
     { 0, -1, 5, std::numeric_limits<int>::max(), std::numeric_limits<int>::min() }, {}, 0.3);
+  drawThreading<Source>(settings);
 }
 
 void checkSource(vtkAlgorithm* filter, const Inputs&, Findings& findings)
@@ -334,16 +351,15 @@ void quickSource(RandomSource&, vtkAlgorithm* filter)
 
 void addOtherKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back({ "Cells", make<Cells>, drawCells, drawCellsInputs, expectCells, checkCells,
-    quickCells });
+  kinds.push_back(
+    { "Cells", make<Cells>, drawCells, drawCellsInputs, expectCells, checkCells, quickCells });
   kinds.push_back({ "Splatter", make<Splatter>, drawSplatter, drawSplatterInputs, expectSplatter,
     checkSplatter, quickSplatter });
-  kinds.push_back({ "Solid", make<Solid>, drawSolid, drawSolidInputs, expectSolid, checkSolid,
-    quickSolid });
+  kinds.push_back(
+    { "Solid", make<Solid>, drawSolid, drawSolidInputs, expectSolid, checkSolid, quickSolid });
   kinds.push_back(
     { "Source", make<Source>, drawSource, [](RandomSource&, Settings&) { return Inputs(); },
-      [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource,
-      quickSource });
+      [](vtkAlgorithm*, const Inputs&) { return State::Sound; }, checkSource, quickSource });
 }
 
 } // namespace Campaign

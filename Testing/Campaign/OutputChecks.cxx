@@ -9,9 +9,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace Campaign
 {
+
+void Findings::Near(double a, double b, double tolerance, const std::string& what)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << what << ": " << a << " and " << b;
+  // Numbers below the least normal one have fewer digits.
+  const double size = std::max({ std::abs(a), std::abs(b), std::numeric_limits<double>::min() });
+  this->That(a == b || std::abs(a - b) <= tolerance * size, text.str());
+}
 
 State densityState(vtkAlgorithm* filter, const Input& input)
 {

@@ -108,6 +108,8 @@ public:
     return text;
   }
 
+  const std::vector<Setting>& GetAll() const { return this->All; }
+
   std::size_t Count() const { return this->All.size(); }
 
 private:

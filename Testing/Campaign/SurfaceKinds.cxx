@@ -339,9 +339,8 @@ void addSurfaceKinds(std::vector<FilterKind>& kinds)
 {
   kinds.push_back({ "Parameterization", make<Parameterization>, drawParameterization,
     drawParameterizationInputs, expectDisk, checkParameterization, quickParameterization });
-  kinds.push_back(
-    { "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk, checkSampler,
-      quickSampler });
+  kinds.push_back({ "SurfaceSampler", make<Sampler>, drawSampler, drawSamplerInputs, expectDisk,
+    checkSampler, quickSampler });
 }
 
 } // namespace Campaign

@@ -307,6 +307,7 @@ void drawQuality(Settings& settings)
   settings.Draw<Quality, int>("BlockSize", &Quality::SetBlockSize,
     { 0, 1, 2, 8, 100, std::numeric_limits<int>::max() }, { -1, -3 });
   drawTables<Quality>(settings);
+  drawThreading<Quality>(settings);
   drawDensitySettings(settings);
 }
 
@@ -444,13 +445,11 @@ void quickRelaxation(RandomSource& random, vtkAlgorithm* filter)
 
 void addTransportKinds(std::vector<FilterKind>& kinds)
 {
-  kinds.push_back(
-    { "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler, checkSampler,
-      quickSampler });
+  kinds.push_back({ "Sampler", make<Sampler>, drawSampler, drawSamplerInputs, expectSampler,
+    checkSampler, quickSampler });
   kinds.push_back({ "Map", make<Map>, drawMap, drawMapInputs, expectMap, checkMap, quickMap });
-  kinds.push_back(
-    { "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp,
-      leaveAsItIs });
+  kinds.push_back({ "Warp", make<Warp>, drawWarp, drawPointsAndDensityInputs, expectWarp, checkWarp,
+    leaveAsItIs });
   kinds.push_back({ "Quality", make<Quality>, drawQuality, drawPointsAndDensityInputs,
     expectQuality, checkQuality, leaveAsItIs });
   kinds.push_back({ "Relaxation", make<Relaxation>, drawRelaxation, drawRelaxationInputs,

@@ -59,16 +59,6 @@ void checkProgress(const std::vector<double>& reported, Findings& findings)
 
 } // namespace
 
-void Findings::Near(double a, double b, double tolerance, const std::string& what)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << what << ": " << a << " and " << b;
-  // Numbers below the least normal one have fewer digits.
-  const double size = std::max({ std::abs(a), std::abs(b), std::numeric_limits<double>::min() });
-  this->That(a == b || std::abs(a - b) <= tolerance * size, text.str());
-}
-
 Outcome update(vtkAlgorithm* filter, const Disturbance& disturbance, Findings& findings)
 {
   Listener listener(filter, disturbance.AbortAt);

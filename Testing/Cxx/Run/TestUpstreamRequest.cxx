@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What filters ask of their inputs, whatever piece they are asked for themselves: all of it and no
-// ghosts, which would be there twice. The warp alone moves a piece of its points at a time.
+// ghosts, which would be there twice. The warp alone moves a piece of its points at a time. Of the
+// register, all filters of images and points.
+#include "KindTest.h"
 #include "TestSource.h"
-#include "WarpTest.h"
 
-#include "vtkBlueNoiseRelaxation.h"
-#include "vtkEqualMassCells.h"
-#include "vtkMassSplatter.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTransportBarycenter.h"
-#include "vtkTransportInterpolator.h"
-#include "vtkTransportMap.h"
-#include "vtkTransportQuality.h"
 
 #include <array>
 
@@ -46,9 +40,10 @@ void expectWhole(Checks& checks, const Asked& asked, const char* name)
   checks.That(asked.Ghosts == 0, "no ghosts", __LINE__, name);
 }
 
-// Both ports of a filter, of either of which there may be none.
-void checkFilter(Checks& checks, vtkAlgorithm* filter, bool pointsFirst, bool imageSecond)
+// All ports of a filter.
+void checkFilter(Checks& checks, const Campaign::FilterKind& kind)
 {
+  const auto filter = kind.New();
   const std::array<int, 6> whole{ 0, 8, 0, 6, 0, 0 };
   Asked ofImage;
   vtkNew<ImageSource> image;
@@ -68,29 +63,31 @@ void checkFilter(Checks& checks, vtkAlgorithm* filter, bool pointsFirst, bool im
     ofPoints.Read(output);
     return makePoints({ 3, 2, 0, 4, 5, 0, 6, 1, 0 });
   };
-  vtkAlgorithm* first = pointsFirst ? static_cast<vtkAlgorithm*>(points) : image;
-  filter->SetInputConnection(0, first->GetOutputPort());
-  const bool second = filter->GetNumberOfInputPorts() > 1;
-  if (second)
+  bool hasImage = false;
+  bool hasPoints = false;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    vtkAlgorithm* other = imageSecond ? static_cast<vtkAlgorithm*>(image) : points;
-    filter->SetInputConnection(1, other->GetOutputPort());
+    const bool takesPoints = portKind(filter, port) == PortKind::Points;
+    filter->SetInputConnection(
+      port, (takesPoints ? static_cast<vtkAlgorithm*>(points) : image)->GetOutputPort());
+    hasPoints = hasPoints || takesPoints;
+    hasImage = hasImage || !takesPoints;
   }
   Messages messages(filter);
   filter->UpdatePiece(0, 3, 2);
   const char* name = filter->GetClassName();
   checks.That(messages.Errors.empty(), "no error", __LINE__, name);
-  if (!pointsFirst || (second && imageSecond))
+  if (hasImage)
   {
     expectWhole(checks, ofImage, name);
     checks.That(ofImage.Extent == whole, "the whole extent", __LINE__, name);
   }
-  if (pointsFirst && filter->IsA("vtkDensityEqualizingWarp"))
+  if (hasPoints && filter->IsA("vtkDensityEqualizingWarp"))
   {
     checks.That(
       ofPoints.Piece == 0 && ofPoints.Pieces == 3 && ofPoints.Ghosts == 2, "a piece", __LINE__);
   }
-  else if (pointsFirst || (second && !imageSecond))
+  else if (hasPoints)
   {
     expectWhole(checks, ofPoints, name);
   }
@@ -101,14 +98,17 @@ void checkFilter(Checks& checks, vtkAlgorithm* filter, bool pointsFirst, bool im
 int TestUpstreamRequest(int, char*[])
 {
   Checks checks;
-  checkFilter(checks, vtkNew<vtkTransportSampler>(), false, false);
-  checkFilter(checks, vtkNew<vtkTransportMap>(), false, false);
-  checkFilter(checks, vtkNew<vtkEqualMassCells>(), true, true);
-  checkFilter(checks, vtkNew<vtkTransportInterpolator>(), false, true);
-  checkFilter(checks, vtkNew<vtkTransportBarycenter>(), false, false);
-  checkFilter(checks, vtkNew<vtkMassSplatter>(), true, true);
-  checkFilter(checks, vtkNew<vtkDensityEqualizingWarp>(), true, true);
-  checkFilter(checks, vtkNew<vtkTransportQuality>(), true, true);
-  checkFilter(checks, vtkNew<vtkBlueNoiseRelaxation>(), true, true);
+  int filters = 0;
+  for (const Campaign::FilterKind& kind : Campaign::filterKinds())
+  {
+    const auto filter = kind.New();
+    const int ports = filter->GetNumberOfInputPorts();
+    if (ports > 0 && portKind(filter, 0) != PortKind::Surface)
+    {
+      checkFilter(checks, kind);
+      ++filters;
+    }
+  }
+  CHECK(checks, filters >= 9);
   return checks.Result();
 }
