@@ -254,7 +254,12 @@ Inputs drawBarycenterInputs(RandomSource& random, Settings& settings)
         random.Chance(0.95) ? random.Of({ 0.0, 1.0, random.Unit() }) : drawExceptional(random));
     }
   }
-  settings.Add("Weights", std::to_string(weights.size()) + " of them",
+  std::string text;
+  for (const double weight : weights)
+  {
+    text += textOf(weight) + " ";
+  }
+  settings.Add("Weights", weights.empty() ? "none" : text,
     [weights](vtkAlgorithm* filter) { setWeights(filter, weights); });
   if (random.Chance(0.02))
   {

@@ -124,7 +124,9 @@ class Defaults(unittest.TestCase):
                 self.assertEqual(prop.element.get("number_of_elements"), "0")
                 self.assertIsNone(prop.default)
                 count = prop.element.get("set_number_command")
-                self.assertEqual(getattr(instance(proxy), "G" + count[1:])(), 0)
+                filter_ = instance(proxy)
+                self.assertEqual(getattr(filter_, "G" + count[1:])(), 0)
+                self.assertRegex(str(filter_), r"\n  %s: (automatic|equal)\n" % prop.name)
                 self.assertTrue(prop.documentation.endswith("Default: none."), prop.documentation)
                 self.assertEqual(page_rows(proxy)[prop.name][0], "none")
 

@@ -16,7 +16,7 @@ WITHOUT = {"Bounds"}
 # A slider of 100 pixels has steps of a hundredth of this.
 LONGEST_SLIDER = 100000
 # What counts for Equal-Mass Cells with Measure Density only.
-DENSITY = {"Component", "DensityResolution"}
+DENSITY = {"Component", "DensityResolution", "NegativeValues"}
 
 
 class Range(NamedTuple):
@@ -159,6 +159,19 @@ class Ranges(unittest.TestCase):
                     self.assert_taken(proxy, prop, 50.0)
                 if not whole:
                     self.assert_refused(proxy, prop, math.nan)
+
+    def test_choices(self):
+        """The error says the name of each value."""
+        for proxy in proxies():
+            for prop in proxy.properties.values():
+                if prop.texts:
+                    with self.subTest(proxy=proxy.label, property=prop.name):
+                        named = ["%d (%s)" % (i, text) for i, text in enumerate(prop.texts.values())]
+                        for value in (-1, len(named)):
+                            reported, output = run(proxy, prop, value)
+                            self.assertIn("%s is %d; it must be %s or %s" % (
+                                prop.name, value, ", ".join(named[:-1]), named[-1]), reported.errors[0])
+                            self.assertEqual(size_of(output), 0)
 
     def test_infinite(self):
         """The largest component is a norm; everything else is finite."""
