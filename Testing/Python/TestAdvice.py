@@ -3,6 +3,7 @@
 put first. The filter then has a result."""
 import unittest
 
+from rt_filters import of_kind
 from rt_testing import Listener, load_plugin, main, output_of, producer, size_of
 
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -101,7 +102,7 @@ TOUCHING = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 1, 0), (2, 2, 0), (1
             (4, 2, 0)]
 TOUCHING_CELLS = [(0, 1, 2, 3), (2, 4, 5, 6), (1, 0, 7), (1, 7, 8, 4), (4, 8, 5)]
 
-SURFACES = ("SampleSurface", "AreaPreservingParameterization")
+SURFACES = tuple(filter_.name for filter_, _ in of_kind("disk"))
 
 TABLE = [
     Advice(SURFACES, simple.Sphere, "cut it open, for example with Clip",

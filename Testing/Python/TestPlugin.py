@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from PIL import Image
-from rt_filters import PROPERTIES, by_label
+from rt_filters import FILTERS, PROPERTIES, by_label
 from rt_proxies import proxies
 from rt_testing import OUTPUT, SOURCE, density_image, load_plugin, main, output_of, producer
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -143,17 +143,23 @@ class Plugin(unittest.TestCase):
             self.assertLess(values[-1], values[0])
             self.assertEqual(relaxed.GetProperty("Tolerance").GetPanelVisibility(), "advanced")
 
-    def test_second_inputs_accept_densities(self):
+    def test_inputs_accept_what_they_take(self):
         image = producer(simple, density_image())
         sphere = simple.Sphere()
-        sphere.UpdatePipeline()
-        for make in (simple.DensityEqualizingWarp, simple.RelaxBlueNoise):
-            filter_ = make(Input=sphere, Density=image)
-            for name, source, right in (("Input", sphere, True), ("Input", image, False),
-                                        ("Density", image, True), ("Density", sphere, True)):
-                accepted = filter_.SMProxy.GetProperty(name)
-                accepted.SetUncheckedInputConnection(0, source.SMProxy, 0)
-                self.assertEqual(bool(accepted.IsInDomains()), right)
+        table = simple.ProgrammableSource(OutputDataSetType="vtkTable")
+        sources = {"image": image, "sphere": sphere, "table": table}
+        for source in sources.values():
+            source.UpdatePipeline()
+        taken = {"density": {"image", "sphere"}, "densities": {"image", "sphere"}, "image": {"image"}}
+        for filter_ in FILTERS:
+            made = getattr(simple, filter_.name)()
+            for name, kind in filter_.ports.items():
+                accepted = made.SMProxy.GetProperty(name)
+                for kind_of_source, source in sources.items():
+                    with self.subTest(filter_.label, input=name, source=kind_of_source):
+                        accepted.SetUncheckedInputConnection(0, source.SMProxy, 0)
+                        self.assertEqual(bool(accepted.IsInDomains()),
+                                         kind_of_source in taken.get(kind, {"sphere"}))
 
     def test_solid_is_a_density(self):
         """Points are active for Contour and volume rendering, and a density for other filters."""
@@ -202,23 +208,6 @@ class Plugin(unittest.TestCase):
         again = simple.TransportQuality(
             Input=sampled, Density=simple.SplatMass(Input=sampled, Dimensions=[8, 8, 1]))
         self.assertEqual(output_of(again).GetNumberOfRows(), 1)
-
-    def test_parameterizations_are_of_surfaces(self):
-        image = producer(simple, density_image())
-        for make in (simple.AreaPreservingParameterization, simple.SampleSurface):
-            made = make(Input=simple.Plane())
-            accepted = made.SMProxy.GetProperty("Input")
-            self.assertTrue(accepted.IsInDomains())
-            accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
-            self.assertFalse(accepted.IsInDomains())
-
-    def test_solids_are_of_surfaces(self):
-        image = producer(simple, density_image())
-        solid = simple.SolidDensity(Input=simple.Sphere())
-        accepted = solid.SMProxy.GetProperty("Input")
-        self.assertTrue(accepted.IsInDomains())
-        accepted.SetUncheckedInputConnection(0, image.SMProxy, 0)
-        self.assertFalse(accepted.IsInDomains())
 
     @unittest.skipUnless(hasattr(simple, "GDALRasterReader"), "ParaView is built without GDAL")
     def test_readers_of_photographs(self):

@@ -73,9 +73,8 @@ def domain_of(kind, shape):
 def result(proxy, values, domain=None):
     """All that comes out with some properties set."""
     filter_ = instance(proxy)
-    # Flow maps need grids that are not too small for their lattices.
-    shape, number, resolution = \
-        ((260, 240), 20000, 512) if "FlowMaps" in values else ((4, 3), 50, 40)
+    large = any(PROPERTIES[name].needs_large for name in values if name in PROPERTIES)
+    shape, number, resolution = ((260, 240), 20000, 512) if large else ((4, 3), 50, 40)
     connect_inputs(filter_, shape, number)
     if hasattr(filter_, "SetNumberOfParticles"):
         filter_.SetNumberOfParticles(30)

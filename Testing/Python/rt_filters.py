@@ -140,6 +140,7 @@ class Property(NamedTuple):
     advanced: bool = False     # in the panel of every filter
     shown_by: tuple = ()       # the properties one of which decides whether it is shown (or enabled)
     differing: tuple = ()      # two values that give different results where it is shown
+    needs_large: bool = False  # these do so for large grids and many particles only
 
 
 PATTERNS = ["BlueNoise", "Lattice", "Jittered", "LowDiscrepancy", "Random"]
@@ -151,7 +152,8 @@ PROPERTIES = {
     "NumberOfSteps": Property(advanced=True, shown_by=("Integrator",), differing=(32, 1)),
     "Tolerance": Property(advanced=True, shown_by=("Integrator",), differing=(0.01, 2.0)),
     "TableLookup": Property(["Interpolated", "Nearest"], advanced=True),
-    "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2)),
+    "FlowMaps": Property(["Auto", "On", "Off"], advanced=True, shown_by=("Integrator",), differing=(1, 2),
+                         needs_large=True),
     "Tables": Property(["Auto", "Whole", "Tiled"], advanced=True),
     "Threading": Property(["Auto", "VTK", "OpenMP", "Serial"], advanced=True),
     "Direction": Property(["UniformToDensity", "DensityToUniform"]),
