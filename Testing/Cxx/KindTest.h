@@ -35,4 +35,25 @@ inline bool isRepeatable(vtkAlgorithm* filter, int port)
   return filter->GetInputPortInformation(port)->Has(vtkAlgorithm::INPUT_IS_REPEATABLE());
 }
 
+// Gives a filter what it needs, twice where that may be several.
+inline void connectNeeded(vtkAlgorithm* filter, vtkDataObject* image, vtkDataObject* points,
+  vtkDataObject* surface = nullptr)
+{
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    const PortKind takes = portKind(filter, port);
+    vtkDataObject* input = takes == PortKind::Points ? points
+      : takes == PortKind::Surface                   ? surface
+                                                     : image;
+    if (isNeeded(filter, port) && input)
+    {
+      filter->SetInputDataObject(port, input);
+      if (isRepeatable(filter, port))
+      {
+        filter->AddInputDataObject(port, input);
+      }
+    }
+  }
+}
+
 #endif

@@ -3,6 +3,7 @@
 // from the smallest spacings to the largest.
 #include "BlendTest.h"
 #include "CellsTest.h"
+#include "KindTest.h"
 #include "ParameterizationTest.h"
 #include "SolidTest.h"
 #include "SurfaceSamplerTest.h"
@@ -176,6 +177,40 @@ void checkScales(Checks& checks)
   CHECK(checks, best == filters);
 }
 
+// Every filter of the register, with sheets and plane images, and with closed surfaces and images
+// in space.
+void checkKinds(Checks& checks)
+{
+  std::vector<double> scales{ 1.0 };
+  for (int exponent = -320; exponent <= 308; exponent += 27)
+  {
+    scales.push_back(std::pow(10.0, exponent));
+  }
+  for (const Campaign::FilterKind& kind : Campaign::filterKinds())
+  {
+    bool isGood = false; // at scale 1
+    for (const double scale : scales)
+    {
+      auto points = makePoints({ -scale, 2.5 * scale, 0, scale, 3 * scale, 0, 0, 4 * scale, 0 });
+      auto sheet = makeSheet(5, 4, [scale](double x, double y) {
+        return std::array<double, 3>{ 0.2 * scale * x, 0.2 * scale * y, 0.01 * scale * x * y };
+      });
+      auto box = makeBox(-scale, scale, 0, scale, 0, 0.5 * scale);
+      for (const bool inSpace : { false, true })
+      {
+        const auto filter = kind.New();
+        connectNeeded(filter, makeScaled({ 6, 5, inSpace ? 3 : 1 }, true, scale), points,
+          inSpace ? box : sheet);
+        Campaign::RandomSource random(7);
+        kind.MakeQuick(random, filter);
+        const bool ends = expectFinite(checks, filter, scale, __LINE__);
+        isGood = isGood || (ends && scale == 1.0);
+      }
+    }
+    checks.That(isGood, "a result at scale 1", __LINE__, kind.Name);
+  }
+}
+
 // Where the figures are no numbers, and where only what is on the way to them is none.
 void checkFigures(Checks& checks)
 {
@@ -324,5 +359,5 @@ void checkTimes(Checks& checks)
 
 int TestExtremes(int, char*[])
 {
-  return runChecks({ checkScales, checkFigures, checkSources, checkTimes });
+  return runChecks({ checkScales, checkKinds, checkFigures, checkSources, checkTimes });
 }

@@ -38,19 +38,7 @@ int TestOneError(int, char*[])
   {
     const auto filter = kind.New();
     int arrays = 0;
-    for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
-    {
-      const PortKind takes = portKind(filter, port);
-      if (isNeeded(filter, port) && takes != PortKind::Surface)
-      {
-        filter->SetInputDataObject(
-          port, takes == PortKind::Points ? static_cast<vtkDataObject*>(points) : image);
-        if (isRepeatable(filter, port))
-        {
-          filter->AddInputDataObject(port, image);
-        }
-      }
-    }
+    connectNeeded(filter, image, points);
     for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
     {
       // A density or, of the filters that read none, masses.

@@ -3,6 +3,7 @@
 // that finds all made, and where only a part is new.
 #include "BlendTest.h"
 #include "CellsTest.h"
+#include "KindTest.h"
 #include "ParameterizationTest.h"
 #include "ProgressTest.h"
 #include "SolidTest.h"
@@ -152,6 +153,31 @@ void checkSources(Checks& checks)
   }
 }
 
+// Every filter of the register, as it is by default.
+void checkKinds(Checks& checks)
+{
+  auto image = makeImage(9, 7, 1, true, bumpy);
+  auto points = makePoints({ 3, 2, 0, 4, 5, 0, 6, 1, 0 });
+  for (const Campaign::FilterKind& kind : Campaign::filterKinds())
+  {
+    int runs = 0;
+    // Some take closed surfaces, others disks.
+    for (const vtkSmartPointer<vtkPolyData>& surface : { makeSphere(0, 0, 0, 1), makeHill(true) })
+    {
+      const auto filter = kind.New();
+      connectNeeded(filter, image, points, surface);
+      Messages messages(filter);
+      filter->Update();
+      if (messages.Errors.empty())
+      {
+        expectRising(checks, filter, kind.Name, __LINE__);
+        ++runs;
+      }
+    }
+    checks.That(runs > 0, "a run without an error", __LINE__, kind.Name);
+  }
+}
+
 // Loops of several slices.
 void checkLarge(Checks& checks)
 {
@@ -201,6 +227,7 @@ int TestProgress(int, char*[])
   checkBlends(checks, 1);
   checkBlends(checks, 6);
   checkSources(checks);
+  checkKinds(checks);
   checkLarge(checks);
   return checks.Result();
 }
