@@ -127,7 +127,7 @@ OTHERS = [
     E(CORE + "Parameterization/MassRaster.cxx", "polygon.Area() > «accuracy * cells * length»", "1e-14"),
     E(CORE + "Parameterization/MassRaster.cxx", "if («rows[0] < firstRow»)", "false"),
     E(CORE + "Parameterization/MapDistortion.cxx", "sum += «weight»", "1.0 / static_cast<double>(ascending.size())"),
-    S(CORE + "Parameterization/MapTiles.cxx", "taken.insert(groupOf[neighbour]);", ";"),
+    S(CORE + "Parameterization/MapRegions.cxx", "taken.insert(groupOf[neighbour]);", ";"),
     E(CORE + "Parameterization/LocalMap.cxx", "isFree && «(sides >> axis & 1) == 0»", "sides == 0"),
     E(CORE + "Parameterization/AreaPolish.cxx", "«right[m] -= this->Smoothing * value * (a[axis] - b[axis])»",
       "right[m] += this->Smoothing * value * (a[axis] - b[axis])"),

@@ -27,7 +27,7 @@ namespace
 
 using Extent = std::array<int, 6>;
 
-struct Tile
+struct Part
 {
   vtkImageData* Image;
   std::string Name;
@@ -95,10 +95,10 @@ bool areOfOneKind(vtkDataArray* a, vtkDataArray* b)
     a->GetNumberOfComponents() == b->GetNumberOfComponents();
 }
 
-std::optional<std::vector<Tile>> tilesOf(
+std::optional<std::vector<Part>> partsOf(
   const std::vector<DensityBlock>& blocks, bool onPoints, ImageGrid& lattice)
 {
-  std::vector<Tile> tiles;
+  std::vector<Part> parts;
   vtkDataArray* first = nullptr;
   for (const DensityBlock& block : blocks)
   {
@@ -109,7 +109,7 @@ std::optional<std::vector<Tile>> tilesOf(
       return std::nullopt;
     }
     const ImageGrid grid = gridOf(image, onPoints);
-    if (tiles.empty())
+    if (parts.empty())
     {
       lattice = grid;
     }
@@ -118,10 +118,10 @@ std::optional<std::vector<Tile>> tilesOf(
     {
       return std::nullopt;
     }
-    tiles.push_back({ image, block.Name, block.Array, *place,
+    parts.push_back({ image, block.Name, block.Array, *place,
       onPoints ? std::vector<unsigned char>() : flagsOfCells(image, block.Name) });
   }
-  return tiles;
+  return parts;
 }
 
 // The numbers of values along the axes of an extent, and of a place among them.
@@ -151,21 +151,21 @@ struct Lattice
   std::array<std::int64_t, 3> Size;
 };
 
-// Calls visit(from, to, count) for runs of values of a tile with mass that are no ghosts, until it
+// Calls visit(from, to, count) for runs of values of a part with mass that are no ghosts, until it
 // returns false. Returns whether it never did.
 template <class Visit>
-bool visitRuns(const Tile& tile, const Lattice& all, const ImageGrid& like, const Visit& visit)
+bool visitRuns(const Part& part, const Lattice& all, const ImageGrid& like, const Visit& visit)
 {
-  if (!tile.Array)
+  if (!part.Array)
   {
     return true;
   }
   const bool onPoints = like.IsOnPoints();
-  const Lattice own(tile.Place, like);
-  const unsigned char* flags = !onPoints && !tile.Flags.empty()
-    ? tile.Flags.data()
+  const Lattice own(part.Place, like);
+  const unsigned char* flags = !onPoints && !part.Flags.empty()
+    ? part.Flags.data()
     : ghostFlags(
-        tile.Image, onPoints ? vtkDataObject::POINT : vtkDataObject::CELL, tile.Name.c_str());
+        part.Image, onPoints ? vtkDataObject::POINT : vtkDataObject::CELL, part.Name.c_str());
   const unsigned char mask = onPoints ? ghostPoint : ghostCell;
   for (std::int64_t k = 0; k < own.Size[2]; ++k)
   {
@@ -192,15 +192,15 @@ bool visitRuns(const Tile& tile, const Lattice& all, const ImageGrid& like, cons
   return true;
 }
 
-// Which values of the lattice a tile has given; false where cells overlap or points differ.
-bool findGiven(const std::vector<Tile>& tiles, const Lattice& all, const ImageGrid& like,
+// Which values of the lattice a part has given; false where cells overlap or points differ.
+bool findGiven(const std::vector<Part>& parts, const Lattice& all, const ImageGrid& like,
   std::vector<vtkIdType>& given, std::vector<std::int32_t>& giver)
 {
-  for (std::size_t t = 0; t < tiles.size(); ++t)
+  for (std::size_t t = 0; t < parts.size(); ++t)
   {
-    const Tile& tile = tiles[t];
+    const Part& part = parts[t];
     const bool apart =
-      visitRuns(tile, all, like, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
+      visitRuns(part, all, like, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
         for (std::int64_t i = 0; i < count; ++i)
         {
           std::int32_t& owner = giver[static_cast<std::size_t>(to + i)];
@@ -211,11 +211,11 @@ bool findGiven(const std::vector<Tile>& tiles, const Lattice& all, const ImageGr
             source = static_cast<vtkIdType>(from + i);
             continue;
           }
-          const vtkDataArray* other = tiles[static_cast<std::size_t>(owner)].Array;
+          const vtkDataArray* other = parts[static_cast<std::size_t>(owner)].Array;
           for (int c = 0; like.IsOnPoints() && c < other->GetNumberOfComponents(); ++c)
           {
             const double a = const_cast<vtkDataArray*>(other)->GetComponent(source, c);
-            const double b = tile.Array->GetComponent(static_cast<vtkIdType>(from + i), c);
+            const double b = part.Array->GetComponent(static_cast<vtkIdType>(from + i), c);
             if (!(a == b) && !(std::isnan(a) && std::isnan(b)))
             {
               return false;
@@ -236,18 +236,18 @@ bool findGiven(const std::vector<Tile>& tiles, const Lattice& all, const ImageGr
   return true;
 }
 
-bool allHave(const std::vector<Tile>& tiles, int owner, vtkDataArray* array)
+bool allHave(const std::vector<Part>& parts, int owner, vtkDataArray* array)
 {
-  return std::all_of(tiles.begin(), tiles.end(), [&](const Tile& tile) {
-    vtkDataArray* own = tile.Image->GetAttributes(owner)->GetArray(array->GetName());
-    return !tile.Array ||
+  return std::all_of(parts.begin(), parts.end(), [&](const Part& part) {
+    vtkDataArray* own = part.Image->GetAttributes(owner)->GetArray(array->GetName());
+    return !part.Array ||
       (own && areOfOneKind(own, array) &&
-        own->GetNumberOfTuples() == tile.Image->GetNumberOfElements(owner));
+        own->GetNumberOfTuples() == part.Image->GetNumberOfElements(owner));
   });
 }
 
-// Zero where no tile has a value.
-void joinArray(const std::vector<Tile>& tiles, int owner, vtkDataArray* like, const Lattice& all,
+// Zero where no part has a value.
+void joinArray(const std::vector<Part>& parts, int owner, vtkDataArray* like, const Lattice& all,
   const ImageGrid& grid, vtkDataSetAttributes* output)
 {
   const double bytes = all.Count() * like->GetNumberOfComponents() * like->GetDataTypeSize();
@@ -261,10 +261,10 @@ void joinArray(const std::vector<Tile>& tiles, int owner, vtkDataArray* like, co
     purpose, bytes, [&]() { joined->SetNumberOfTuples(static_cast<vtkIdType>(all.Count())); });
   joined->Fill(0.0);
   // The first image that has a value gives it.
-  for (auto tile = tiles.rbegin(); tile != tiles.rend(); ++tile)
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
   {
-    vtkDataArray* from = tile->Image->GetAttributes(owner)->GetArray(like->GetName());
-    visitRuns(*tile, all, grid, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
+    vtkDataArray* from = part->Image->GetAttributes(owner)->GetArray(like->GetName());
+    visitRuns(*part, all, grid, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
       joined->InsertTuples(static_cast<vtkIdType>(to), static_cast<vtkIdType>(count),
         static_cast<vtkIdType>(first), from);
       return true;
@@ -282,21 +282,21 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
     return vtkImageData::SafeDownCast(blocks.front().Data);
   }
   ImageGrid lattice;
-  const auto tiles = tilesOf(blocks, onPoints, lattice);
-  if (!tiles)
+  const auto parts = partsOf(blocks, onPoints, lattice);
+  if (!parts)
   {
     return nullptr;
   }
-  Extent whole = tiles->front().Place;
+  Extent whole = parts->front().Place;
   double values = 0.0;
-  for (const Tile& tile : *tiles)
+  for (const Part& part : *parts)
   {
     for (std::size_t a = 0; a < 3; ++a)
     {
-      whole[2 * a] = std::min(whole[2 * a], tile.Place[2 * a]);
-      whole[2 * a + 1] = std::max(whole[2 * a + 1], tile.Place[2 * a + 1]);
+      whole[2 * a] = std::min(whole[2 * a], part.Place[2 * a]);
+      whole[2 * a + 1] = std::max(whole[2 * a + 1], part.Place[2 * a + 1]);
     }
-    values += Lattice(tile.Place, lattice).Count();
+    values += Lattice(part.Place, lattice).Count();
   }
   constexpr double mostEmpty = 8.0;
   const Lattice all(whole, lattice);
@@ -311,7 +311,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
       given.resize(static_cast<std::size_t>(all.Count()));
       giver.assign(static_cast<std::size_t>(all.Count()), -1);
     });
-  if (!findGiven(*tiles, all, lattice, given, giver))
+  if (!findGiven(*parts, all, lattice, given, giver))
   {
     return nullptr;
   }
@@ -321,16 +321,16 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   {
     const ImageGrid grid = lattice.WithValuesOn(owner == vtkDataObject::POINT);
     const auto first = std::find_if(
-      tiles->begin(), tiles->end(), [](const Tile& tile) { return tile.Array != nullptr; });
+      parts->begin(), parts->end(), [](const Part& part) { return part.Array != nullptr; });
     vtkDataSetAttributes* from = first->Image->GetAttributes(owner);
     for (int i = 0; i < from->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = from->GetArray(i);
       if (array && array->GetName() &&
         array != from->GetArray(vtkDataSetAttributes::GhostArrayName()) &&
-        allHave(*tiles, owner, array))
+        allHave(*parts, owner, array))
       {
-        joinArray(*tiles, owner, array, Lattice(whole, grid), grid, joined->GetAttributes(owner));
+        joinArray(*parts, owner, array, Lattice(whole, grid), grid, joined->GetAttributes(owner));
       }
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images that tile one lattice, as one image.
+// Images that are parts of one lattice, as one image.
 #ifndef RectifiedTransport_JoinedImages_h
 #define RectifiedTransport_JoinedImages_h
 

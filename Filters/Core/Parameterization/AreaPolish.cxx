@@ -2,7 +2,7 @@
 #include "Core/Parameterization/AreaPolish.h"
 
 #include "Core/Parallel/Progress.h"
-#include "Core/Parameterization/MapTiles.h"
+#include "Core/Parameterization/MapRegions.h"
 
 #include <Eigen/Geometry>
 
@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr std::int64_t tilePoints = 5000;
-constexpr int steps = 3;             // of a tile in a sweep
+constexpr int steps = 3;             // of a region in a sweep
 constexpr double leastShare = 1e-13; // of the area, that weighs; smaller ones have no accuracy
 
 using Cotangents = std::array<double, 3>;
@@ -251,18 +251,18 @@ void polishAreas(
   const MapParts& parts, int sweep, std::vector<Point<2>>& positions, const Context& context)
 {
   Progress progress(context);
-  const auto groups = makeTiles(parts.Disk, positions, tilePoints, sweep);
+  const auto groups = makeRegions(parts.Disk, positions, tilePoints, sweep);
   std::int64_t done = 0;
-  for (const std::vector<MapTile>& group : groups)
+  for (const std::vector<MapRegion>& group : groups)
   {
-    const auto tiles = static_cast<std::int64_t>(group.size());
+    const auto regions = static_cast<std::int64_t>(group.size());
     progress.BeginStage(static_cast<double>(++done) / static_cast<double>(groups.size()));
     progress.For(
-      tiles, 1,
+      regions, 1,
       [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t tile = first; tile < last; ++tile)
+        for (std::int64_t region = first; region < last; ++region)
         {
-          LocalMap map(parts, group[static_cast<std::size_t>(tile)], positions);
+          LocalMap map(parts, group[static_cast<std::size_t>(region)], positions);
           TilePolish(parts, map, sweep == 0).Run(progress);
           map.Store(positions);
         }

@@ -73,8 +73,8 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
   Polls polls(progress);
   for (const Box& box : this->Boxes)
   {
-    auto* first = numbered.data() + box.First * repulsionTile;
-    auto* last = numbered.data() + std::min(box.Last * repulsionTile, this->Size());
+    auto* first = numbered.data() + box.First * repulsionBlock;
+    auto* last = numbered.data() + std::min(box.Last * repulsionBlock, this->Size());
     const int axis = box.Second < 0 ? 0 : widestAxis<Dimension>(first, last);
     const auto before = [&polls, axis](const auto& a, const auto& b) {
       polls.Count();
@@ -86,7 +86,7 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
       continue;
     }
     const std::int64_t middle = this->Boxes[static_cast<std::size_t>(box.Second)].First;
-    std::nth_element(first, numbered.data() + middle * repulsionTile, last, before);
+    std::nth_element(first, numbered.data() + middle * repulsionBlock, last, before);
   }
   this->Places.resize(this->Sorted.size());
   for (std::size_t i = 0; i < numbered.size(); ++i)
@@ -99,18 +99,18 @@ void ReachTree<Dimension>::Build(std::vector<ScaledPoint<Dimension>> points, Pro
   progress.Check();
 }
 
-// The tree of halves of the tiles, without places yet.
+// The tree of halves of the blocks, without places yet.
 template <int Dimension>
 void ReachTree<Dimension>::MakeBoxes()
 {
-  this->TileBox.assign(static_cast<std::size_t>(this->Tiles()), 0);
+  this->BlockBox.assign(static_cast<std::size_t>(this->Blocks()), 0);
   this->Boxes.clear();
-  if (this->Tiles() == 0)
+  if (this->Blocks() == 0)
   {
     return;
   }
   this->Boxes = makeBoxTree<Box>(
-    this->Tiles(),
+    this->Blocks(),
     [](std::int64_t first, std::int64_t last) {
       Box box{};
       box.First = first;
@@ -118,12 +118,12 @@ void ReachTree<Dimension>::MakeBoxes()
       box.Second = -1;
       return box;
     },
-    [](const Box& box) { return (box.First + box.Last) / 2; }); // of one tile: the first
+    [](const Box& box) { return (box.First + box.Last) / 2; }); // of one block: the first
   for (std::size_t i = 0; i < this->Boxes.size(); ++i)
   {
     if (this->Boxes[i].Second < 0)
     {
-      this->TileBox[static_cast<std::size_t>(this->Boxes[i].First)] = static_cast<std::int64_t>(i);
+      this->BlockBox[static_cast<std::size_t>(this->Boxes[i].First)] = static_cast<std::int64_t>(i);
     }
   }
 }
@@ -131,8 +131,8 @@ void ReachTree<Dimension>::MakeBoxes()
 template <int Dimension>
 void ReachTree<Dimension>::Bound(Box& box) const
 {
-  const std::int64_t first = box.First * repulsionTile;
-  const std::int64_t last = std::min(box.Last * repulsionTile, this->Size());
+  const std::int64_t first = box.First * repulsionBlock;
+  const std::int64_t last = std::min(box.Last * repulsionBlock, this->Size());
   std::fill_n(box.Low, Dimension, std::numeric_limits<double>::infinity());
   std::fill_n(box.High, Dimension, -std::numeric_limits<double>::infinity());
   box.Square = 0.0;
@@ -170,11 +170,11 @@ void ReachTree<Dimension>::Update()
 }
 
 template <int Dimension>
-int ReachTree<Dimension>::Fill(std::int64_t tile, RepulsionTile<Dimension>& into) const
+int ReachTree<Dimension>::Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const
 {
-  const std::int64_t first = tile * repulsionTile;
-  const std::int64_t last = std::min(first + repulsionTile, this->Size());
-  for (int lane = 0; lane < repulsionTile; ++lane)
+  const std::int64_t first = block * repulsionBlock;
+  const std::int64_t last = std::min(first + repulsionBlock, this->Size());
+  for (int lane = 0; lane < repulsionBlock; ++lane)
   {
     const auto& point = this->Sorted[static_cast<std::size_t>(std::min(first + lane, last - 1))];
     for (int axis = 0; axis < Dimension; ++axis)
@@ -188,11 +188,11 @@ int ReachTree<Dimension>::Fill(std::int64_t tile, RepulsionTile<Dimension>& into
 }
 
 template <int Dimension>
-void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
+void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t block, double reach,
   std::vector<ScaledPoint<Dimension>>& found) const
 {
   const Box& target =
-    targets.Boxes[static_cast<std::size_t>(targets.TileBox[static_cast<std::size_t>(tile)])];
+    targets.Boxes[static_cast<std::size_t>(targets.BlockBox[static_cast<std::size_t>(block)])];
   const auto isInReach = [&](const double* low, const double* high, double square) {
     double squared = 0.0;
     for (int axis = 0; axis < Dimension; ++axis)
@@ -224,8 +224,8 @@ void ReachTree<Dimension>::FindInReach(const ReachTree& targets, std::int64_t ti
       stack[depth++] = at + 1;
       continue;
     }
-    const std::int64_t first = box.First * repulsionTile;
-    const std::int64_t last = std::min(first + repulsionTile, this->Size());
+    const std::int64_t first = box.First * repulsionBlock;
+    const std::int64_t last = std::min(first + repulsionBlock, this->Size());
     for (const auto* point = this->Points() + first; point < this->Points() + last; ++point)
     {
       if (isInReach(point->X, point->X, point->Square))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A tree of bounding boxes over points that reach as far as their spacings. It finds the points
-// whose kernels may overlap a box. Its leaves are tiles of `repulsionTile` points (the last may
+// whose kernels may overlap a box. Its leaves are blocks of `repulsionBlock` points (the last may
 // have fewer), as the kernels take them.
 #ifndef RectifiedTransport_ReachTree_h
 #define RectifiedTransport_ReachTree_h
@@ -38,18 +38,18 @@ public:
   void Update();
 
   std::int64_t Size() const { return static_cast<std::int64_t>(this->Sorted.size()); }
-  std::int64_t Tiles() const { return (this->Size() + repulsionTile - 1) / repulsionTile; }
+  std::int64_t Blocks() const { return (this->Size() + repulsionBlock - 1) / repulsionBlock; }
   ScaledPoint<Dimension>* Points() { return this->Sorted.data(); }
   const ScaledPoint<Dimension>* Points() const { return this->Sorted.data(); }
   // The original indices of the points given to Build.
   const std::int64_t* Order() const { return this->Places.data(); }
 
-  // The points of a tile, the last one repeated to fill it. Returns how many there are.
-  int Fill(std::int64_t tile, RepulsionTile<Dimension>& into) const;
+  // The points of a block, the last one repeated to fill it. Returns how many there are.
+  int Fill(std::int64_t block, RepulsionBlock<Dimension>& into) const;
 
-  // Finds the points y to which points of a tile of `targets` may be closer than sqrt(reach * (the
+  // Finds the points y to which points of a block of `targets` may be closer than sqrt(reach * (the
   // sum of both squared spacings)).
-  void FindInReach(const ReachTree& targets, std::int64_t tile, double reach,
+  void FindInReach(const ReachTree& targets, std::int64_t block, double reach,
     std::vector<ScaledPoint<Dimension>>& found) const;
 
 private:
@@ -58,7 +58,7 @@ private:
     double Low[Dimension];
     double High[Dimension];
     double Square;      // the largest squared spacing
-    std::int64_t First; // tiles [First, Last)
+    std::int64_t First; // blocks [First, Last)
     std::int64_t Last;
     std::int64_t Second; // the first child is the next box; -1 in a leaf
   };
@@ -69,7 +69,7 @@ private:
   std::vector<ScaledPoint<Dimension>> Sorted;
   std::vector<std::int64_t> Places;
   std::vector<Box> Boxes;
-  std::vector<std::int64_t> TileBox;
+  std::vector<std::int64_t> BlockBox;
 };
 
 } // namespace RectifiedTransport

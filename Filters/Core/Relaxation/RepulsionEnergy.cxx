@@ -14,7 +14,7 @@ namespace
 
 constexpr std::int64_t grain = 256;
 constexpr std::int64_t firstSlice = 16 * grain; // a few milliseconds
-constexpr std::int64_t tileGrain = 16;
+constexpr std::int64_t blockGrain = 16;
 
 } // namespace
 
@@ -104,31 +104,32 @@ void RepulsionEnergy<Dimension>::FindAttraction(Progress& progress)
   targets.Build(std::move(nodes), progress);
   this->Attraction.assign(static_cast<std::size_t>(this->Tree.Nodes()), {});
   progress.For(
-    targets.Tiles(), tileGrain,
+    targets.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
       std::vector<ScaledPoint<Dimension>> found;
-      RepulsionTile<Dimension> tile;
+      RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
         this->Sources.FindInReach(targets, i, this->Reach, found);
-        const int count = targets.Fill(i, tile);
-        this->Kernels.Sum(this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
+        const int count = targets.Fill(i, block);
+        this->Kernels.Sum(
+          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
         for (int lane = 0; lane < count; ++lane)
         {
-          const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionTile + lane]);
+          const auto node = static_cast<std::size_t>(targets.Order()[i * repulsionBlock + lane]);
           HermiteData<Dimension>& data = this->Attraction[node];
           const HermiteData<Dimension>& spacing = this->Tree.Spacing()[node];
-          data[0] = tile.Sum[lane];
+          data[0] = block.Sum[lane];
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto entry = std::size_t{ 1 } << axis;
             data[entry] =
-              tile.Gradient[axis][lane] + 2.0 * spacing[0] * spacing[entry] * tile.BySquare[lane];
+              block.Gradient[axis][lane] + 2.0 * spacing[0] * spacing[entry] * block.BySquare[lane];
           }
         }
       }
     },
-    tileGrain);
+    blockGrain);
   progress.Check();
   this->Tree.FindMixed(this->Attraction, false, progress);
   progress.Check();
@@ -190,35 +191,37 @@ double RepulsionEnergy<Dimension>::Evaluate(ConstPointSpan<Dimension> points,
     firstSlice);
   this->Particles.Update();
   const double scale = 2.0 / this->Count;
-  std::vector<double> energies(static_cast<std::size_t>(this->Particles.Tiles()));
+  std::vector<double> energies(static_cast<std::size_t>(this->Particles.Blocks()));
   progress.For(
-    this->Particles.Tiles(), tileGrain,
+    this->Particles.Blocks(), blockGrain,
     [&](std::int64_t first, std::int64_t last) {
       std::vector<ScaledPoint<Dimension>> found;
-      RepulsionTile<Dimension> tile;
+      RepulsionBlock<Dimension> block;
       for (std::int64_t i = first; i < last; ++i)
       {
         this->Particles.FindInReach(this->Particles, i, this->Reach, found);
-        const int filled = this->Particles.Fill(i, tile);
-        this->Kernels.Sum(this->Shape, found.data(), static_cast<std::int64_t>(found.size()), tile);
+        const int filled = this->Particles.Fill(i, block);
+        this->Kernels.Sum(
+          this->Shape, found.data(), static_cast<std::int64_t>(found.size()), block);
         double sum = 0.0;
         for (int lane = 0; lane < filled; ++lane)
         {
-          const std::int64_t point = i * repulsionTile + lane;
+          const std::int64_t point = i * repulsionBlock + lane;
           const Data& h = spacing[static_cast<std::size_t>(point)];
           const Data& a = attraction[static_cast<std::size_t>(point)];
-          sum += tile.Sum[lane] - 2.0 * a[0];
+          sum += block.Sum[lane] - 2.0 * a[0];
           for (int axis = 0; axis < Dimension; ++axis)
           {
             const auto entry = std::size_t{ 1 } << axis;
             gradient[order[point]][axis] = scale *
-              (tile.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * tile.BySquare[lane] - a[entry]);
+              (block.Gradient[axis][lane] + 2.0 * h[0] * h[entry] * block.BySquare[lane] -
+                a[entry]);
           }
         }
         energies[static_cast<std::size_t>(i)] = sum;
       }
     },
-    tileGrain);
+    blockGrain);
   double sum = this->Constant;
   for (const double energy : energies)
   {

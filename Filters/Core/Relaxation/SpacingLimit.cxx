@@ -24,17 +24,17 @@ double affordableNeighbours(std::int64_t points)
   return std::max(Dimension == 2 ? 2000.0 : 10000.0, pairs / static_cast<double>(points));
 }
 
-// The mean over a sample of tiles.
+// The mean over a sample of blocks.
 template <int Dimension>
 double meanNeighbours(const ReachTree<Dimension>& tree, double reach, Progress& progress)
 {
   constexpr std::int64_t most = 64;
-  const std::int64_t taken = std::min(most, tree.Tiles());
+  const std::int64_t taken = std::min(most, tree.Blocks());
   std::vector<ScaledPoint<Dimension>> found;
   double sum = 0.0;
   for (std::int64_t i = 0; i < taken; ++i)
   {
-    tree.FindInReach(tree, i * tree.Tiles() / taken, reach, found);
+    tree.FindInReach(tree, i * tree.Blocks() / taken, reach, found);
     sum += static_cast<double>(found.size());
     progress.Check();
   }

@@ -297,21 +297,21 @@ void expectSameBits(InstructionSet set)
     std::generate(x.begin(), x.end(), [&]() { return 3.0 * uniformNumber(engine); });
     point = scaledPoint<Dimension>(x, 0.5 + uniformNumber(engine), uniformNumber(engine));
   }
-  RepulsionTile<Dimension> tile{};
-  for (int lane = 0; lane < repulsionTile; ++lane)
+  RepulsionBlock<Dimension> block{};
+  for (int lane = 0; lane < repulsionBlock; ++lane)
   {
-    for (auto& row : tile.X)
+    for (auto& row : block.X)
     {
       row[lane] = 3.0 * uniformNumber(engine);
     }
-    tile.Spacing[lane] = 0.5 + uniformNumber(engine);
-    tile.Square[lane] = tile.Spacing[lane] * tile.Spacing[lane];
+    block.Spacing[lane] = 0.5 + uniformNumber(engine);
+    block.Square[lane] = block.Spacing[lane] * block.Spacing[lane];
   }
   const RepulsionShape shape{ 2.0, 5.0, std::exp(-5.0) };
-  RepulsionTile<Dimension> other = tile;
-  repulsionKernels<Dimension>(InstructionSet::SSE2).Sum(shape, points.data(), 101, tile);
+  RepulsionBlock<Dimension> other = block;
+  repulsionKernels<Dimension>(InstructionSet::SSE2).Sum(shape, points.data(), 101, block);
   repulsionKernels<Dimension>(set).Sum(shape, points.data(), 101, other);
-  EXPECT_EQ(std::memcmp(&tile, &other, sizeof(tile)), 0) << nameOf(set);
+  EXPECT_EQ(std::memcmp(&block, &other, sizeof(block)), 0) << nameOf(set);
 }
 
 TEST(RepulsionEnergy, KernelsHaveTheSameBits)

@@ -33,19 +33,19 @@ struct RepulsionShape
   double AtCut; // exp(-Cut) of these kernels
 };
 
-constexpr int repulsionTile = 8;
+constexpr int repulsionBlock = 8;
 
 // Places, and sums over the points y of m K(x, y) and its derivatives at each.
 template <int Dimension>
-struct RepulsionTile
+struct RepulsionBlock
 {
-  double X[Dimension][repulsionTile];
-  double Spacing[repulsionTile];
-  double Square[repulsionTile];
+  double X[Dimension][repulsionBlock];
+  double Spacing[repulsionBlock];
+  double Square[repulsionBlock];
 
-  double Sum[repulsionTile];
-  double Gradient[Dimension][repulsionTile]; // by x, at constant spacing
-  double BySquare[repulsionTile];            // by Square
+  double Sum[repulsionBlock];
+  double Gradient[Dimension][repulsionBlock]; // by x, at constant spacing
+  double BySquare[repulsionBlock];            // by Square
 };
 
 template <int Dimension>
@@ -53,7 +53,7 @@ struct RepulsionKernels
 {
   // Each place sums over the points in their order.
   void (*Sum)(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
-    RepulsionTile<Dimension>& tile);
+    RepulsionBlock<Dimension>& block);
   double (*Exponential)(double); // exp(-q) for q in [0, 16]
 };
 

@@ -94,17 +94,17 @@ RT_INLINE Value exponential(const Value& q)
 // Offsets are in the units of the points, masses in theirs.
 template <int Dimension>
 RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension>* points,
-  std::int64_t count, RepulsionTile<Dimension>& tile, int lane)
+  std::int64_t count, RepulsionBlock<Dimension>& block, int lane)
 {
   Lanes x[Dimension];
   Lanes gradient[Dimension];
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    x[axis] = load(tile.X[axis] + lane);
+    x[axis] = load(block.X[axis] + lane);
     gradient[axis] = Lanes{};
   }
-  const Lanes twice = 2.0 * load(tile.Spacing + lane);
-  const Lanes square = load(tile.Square + lane);
+  const Lanes twice = 2.0 * load(block.Spacing + lane);
+  const Lanes square = load(block.Square + lane);
   Lanes sum = {};
   Lanes bySquare = {};
   for (const auto* point = points; point < points + count; ++point)
@@ -136,22 +136,22 @@ RT_INLINE void sumLanes(const RepulsionShape& shape, const ScaledPoint<Dimension
   }
   // The factors that all points have in common. D/4 / h^2 of the derivative multiplies the sum
   // itself.
-  store(sum, tile.Sum + lane);
-  store(bySquare + (0.25 * Dimension) * sum / square, tile.BySquare + lane);
+  store(sum, block.Sum + lane);
+  store(bySquare + (0.25 * Dimension) * sum / square, block.BySquare + lane);
   for (int axis = 0; axis < Dimension; ++axis)
   {
-    store(gradient[axis] * (2.0 * shape.PerVariance), tile.Gradient[axis] + lane);
+    store(gradient[axis] * (2.0 * shape.PerVariance), block.Gradient[axis] + lane);
   }
 }
 
-// The places of a tile, a register at a time.
+// The places of a block, a register at a time.
 template <int Dimension>
-void sumTile(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
-  RepulsionTile<Dimension>& tile)
+void sumBlock(const RepulsionShape& shape, const ScaledPoint<Dimension>* points, std::int64_t count,
+  RepulsionBlock<Dimension>& block)
 {
-  for (int lane = 0; lane < repulsionTile; lane += lanes)
+  for (int lane = 0; lane < repulsionBlock; lane += lanes)
   {
-    sumLanes<Dimension>(shape, points, count, tile, lane);
+    sumLanes<Dimension>(shape, points, count, block, lane);
   }
 }
 
@@ -165,7 +165,7 @@ double exponentialOf(double q)
 template <int Dimension>
 RepulsionKernels<Dimension> RECTIFIEDTRANSPORT_KERNELS()
 {
-  return { &sumTile<Dimension>, &exponentialOf };
+  return { &sumBlock<Dimension>, &exponentialOf };
 }
 
 template RepulsionKernels<2> RECTIFIEDTRANSPORT_KERNELS<2>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tiles of a map's points: each point is in one, and tiles of a group touch no triangle together.
-#include "Core/Parameterization/MapTiles.h"
+// Regions of a map's points: each point is in one, and regions of a group touch no triangle
+// together.
+#include "Core/Parameterization/MapRegions.h"
 #include "DiskSurfaces.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace
 {
 
 using Positions = std::vector<Point<2>>;
-using Groups = std::vector<std::vector<MapTile>>;
+using Groups = std::vector<std::vector<MapRegion>>;
 
 Positions planeOf(const Mesh& mesh)
 {
@@ -25,24 +26,24 @@ Positions planeOf(const Mesh& mesh)
   return positions;
 }
 
-// Returns the number of tiles.
-std::size_t expectTiles(const DiskMesh& disk, const Groups& groups, std::int64_t most)
+// Returns the number of regions.
+std::size_t expectRegions(const DiskMesh& disk, const Groups& groups, std::int64_t most)
 {
-  std::vector<int> tileOf(static_cast<std::size_t>(disk.NumberOfPoints()), -1);
+  std::vector<int> regionOf(static_cast<std::size_t>(disk.NumberOfPoints()), -1);
   std::vector<std::size_t> groupOf;
   std::int64_t points = 0;
   for (std::size_t group = 0; group < groups.size(); ++group)
   {
     EXPECT_FALSE(groups[group].empty());
-    for (const MapTile& tile : groups[group])
+    for (const MapRegion& region : groups[group])
     {
-      EXPECT_FALSE(tile.empty());
-      EXPECT_LE(static_cast<std::int64_t>(tile.size()), most);
-      EXPECT_TRUE(std::is_sorted(tile.begin(), tile.end()));
-      for (const std::int64_t point : tile)
+      EXPECT_FALSE(region.empty());
+      EXPECT_LE(static_cast<std::int64_t>(region.size()), most);
+      EXPECT_TRUE(std::is_sorted(region.begin(), region.end()));
+      for (const std::int64_t point : region)
       {
-        EXPECT_EQ(tileOf[static_cast<std::size_t>(point)], -1) << point;
-        tileOf[static_cast<std::size_t>(point)] = static_cast<int>(groupOf.size());
+        EXPECT_EQ(regionOf[static_cast<std::size_t>(point)], -1) << point;
+        regionOf[static_cast<std::size_t>(point)] = static_cast<int>(groupOf.size());
         ++points;
       }
       groupOf.push_back(group);
@@ -53,8 +54,8 @@ std::size_t expectTiles(const DiskMesh& disk, const Groups& groups, std::int64_t
   {
     for (int i = 0; i < 3; ++i)
     {
-      const int a = tileOf[static_cast<std::size_t>(disk.Triangle(t)[i])];
-      const int b = tileOf[static_cast<std::size_t>(disk.Triangle(t)[(i + 1) % 3])];
+      const int a = regionOf[static_cast<std::size_t>(disk.Triangle(t)[i])];
+      const int b = regionOf[static_cast<std::size_t>(disk.Triangle(t)[(i + 1) % 3])];
       EXPECT_TRUE(
         a == b || groupOf[static_cast<std::size_t>(a)] != groupOf[static_cast<std::size_t>(b)])
         << "triangle " << t;
@@ -63,7 +64,7 @@ std::size_t expectTiles(const DiskMesh& disk, const Groups& groups, std::int64_t
   return groupOf.size();
 }
 
-TEST(MapTiles, PartsOfThePoints)
+TEST(MapRegions, PartsOfThePoints)
 {
   const Mesh mesh = makeRandomTriangulation(40, 30, 1e-5);
   const DiskMesh disk(mesh.Surface());
@@ -72,31 +73,31 @@ TEST(MapTiles, PartsOfThePoints)
   {
     for (int variant = 0; variant < 9; ++variant)
     {
-      const Groups groups = makeTiles(disk, positions, most, variant);
-      const std::size_t tiles = expectTiles(disk, groups, most);
+      const Groups groups = makeRegions(disk, positions, most, variant);
+      const std::size_t regions = expectRegions(disk, groups, most);
       // Not many more than there have to be.
-      EXPECT_LE(tiles, 4 * 1271 / static_cast<std::size_t>(most) + 1);
-      EXPECT_EQ(groups, makeTiles(disk, positions, most, variant));
+      EXPECT_LE(regions, 4 * 1271 / static_cast<std::size_t>(most) + 1);
+      EXPECT_EQ(groups, makeRegions(disk, positions, most, variant));
     }
   }
 }
 
-// Between two successive variants the tiles' borders move.
-TEST(MapTiles, VariantsDiffer)
+// Between two successive variants the regions' borders move.
+TEST(MapRegions, VariantsDiffer)
 {
   const Mesh mesh = makeRectangle(60, 60);
   const DiskMesh disk(mesh.Surface());
   const Positions positions = planeOf(mesh);
   const auto bordersOf = [&](int variant) {
-    std::vector<std::size_t> tileOf(positions.size());
+    std::vector<std::size_t> regionOf(positions.size());
     std::size_t number = 0;
-    for (const auto& group : makeTiles(disk, positions, 500, variant))
+    for (const auto& group : makeRegions(disk, positions, 500, variant))
     {
-      for (const MapTile& tile : group)
+      for (const MapRegion& region : group)
       {
-        for (const std::int64_t point : tile)
+        for (const std::int64_t point : region)
         {
-          tileOf[static_cast<std::size_t>(point)] = number;
+          regionOf[static_cast<std::size_t>(point)] = number;
         }
         ++number;
       }
@@ -104,9 +105,10 @@ TEST(MapTiles, VariantsDiffer)
     std::set<std::int64_t> borders;
     for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
     {
-      const auto tile = [&](
-                          int i) { return tileOf[static_cast<std::size_t>(disk.Triangle(t)[i])]; };
-      if (tile(0) != tile(1) || tile(1) != tile(2))
+      const auto region = [&](int i) {
+        return regionOf[static_cast<std::size_t>(disk.Triangle(t)[i])];
+      };
+      if (region(0) != region(1) || region(1) != region(2))
       {
         borders.insert(t);
       }
@@ -124,7 +126,7 @@ TEST(MapTiles, VariantsDiffer)
 }
 
 // All points in one place, or on one line: their numbers decide.
-TEST(MapTiles, EqualCoordinates)
+TEST(MapRegions, EqualCoordinates)
 {
   const Mesh mesh = makeRectangle(20, 20);
   const DiskMesh disk(mesh.Surface());
@@ -137,9 +139,9 @@ TEST(MapTiles, EqualCoordinates)
   {
     for (int variant = 0; variant < 4; ++variant)
     {
-      const Groups groups = makeTiles(disk, positions, 10, variant);
-      expectTiles(disk, groups, 10);
-      EXPECT_EQ(groups, makeTiles(disk, positions, 10, variant));
+      const Groups groups = makeRegions(disk, positions, 10, variant);
+      expectRegions(disk, groups, 10);
+      EXPECT_EQ(groups, makeRegions(disk, positions, 10, variant));
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Parameterization/MapTiles.h"
+#include "Core/Parameterization/MapRegions.h"
 
 #include <algorithm>
 #include <array>
@@ -15,22 +15,22 @@ namespace
 
 using Iterator = std::vector<std::int64_t>::iterator;
 
-class TileTree
+class RegionTree
 {
 public:
-  TileTree(ConstPointSpan<2> positions, std::int64_t most, int variant)
+  RegionTree(ConstPointSpan<2> positions, std::int64_t most, int variant)
     : Positions(positions)
     , Most(most)
     , Variant(variant)
   {
   }
 
-  std::vector<MapTile> Cut()
+  std::vector<MapRegion> Cut()
   {
     std::vector<std::int64_t> points(static_cast<std::size_t>(this->Positions.size()));
     std::iota(points.begin(), points.end(), std::int64_t{ 0 });
     this->Split(points.begin(), points.end(), 0);
-    return std::move(this->Tiles);
+    return std::move(this->Regions);
   }
 
 private:
@@ -38,8 +38,8 @@ private:
   {
     if (end - begin <= this->Most)
     {
-      this->Tiles.emplace_back(begin, end);
-      std::sort(this->Tiles.back().begin(), this->Tiles.back().end());
+      this->Regions.emplace_back(begin, end);
+      std::sort(this->Regions.back().begin(), this->Regions.back().end());
       return;
     }
     constexpr std::array<double, 4> parts{ 0.5, 0.38, 0.62, 0.44 };
@@ -60,43 +60,43 @@ private:
   const ConstPointSpan<2> Positions;
   const std::int64_t Most;
   const int Variant;
-  std::vector<MapTile> Tiles;
+  std::vector<MapRegion> Regions;
 };
 
 } // namespace
 
-std::vector<std::vector<MapTile>> makeTiles(
+std::vector<std::vector<MapRegion>> makeRegions(
   const DiskMesh& disk, ConstPointSpan<2> positions, std::int64_t most, int variant)
 {
-  std::vector<MapTile> tiles = TileTree(positions, most, variant).Cut();
-  std::vector<std::size_t> tileOf(static_cast<std::size_t>(positions.size()));
-  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+  std::vector<MapRegion> regions = RegionTree(positions, most, variant).Cut();
+  std::vector<std::size_t> regionOf(static_cast<std::size_t>(positions.size()));
+  for (std::size_t region = 0; region < regions.size(); ++region)
   {
-    for (const std::int64_t point : tiles[tile])
+    for (const std::int64_t point : regions[region])
     {
-      tileOf[static_cast<std::size_t>(point)] = tile;
+      regionOf[static_cast<std::size_t>(point)] = region;
     }
   }
-  std::vector<std::set<std::size_t>> neighbours(tiles.size());
+  std::vector<std::set<std::size_t>> neighbours(regions.size());
   for (std::int64_t t = 0; t < disk.NumberOfTriangles(); ++t)
   {
     for (int i = 0; i < 3; ++i)
     {
-      const std::size_t a = tileOf[static_cast<std::size_t>(disk.Triangle(t)[i])];
-      const std::size_t b = tileOf[static_cast<std::size_t>(disk.Triangle(t)[(i + 1) % 3])];
+      const std::size_t a = regionOf[static_cast<std::size_t>(disk.Triangle(t)[i])];
+      const std::size_t b = regionOf[static_cast<std::size_t>(disk.Triangle(t)[(i + 1) % 3])];
       if (a != b)
       {
         neighbours[std::max(a, b)].insert(std::min(a, b));
       }
     }
   }
-  // Each tile goes into the first group that has no neighbour of it.
-  std::vector<std::vector<MapTile>> groups;
-  std::vector<std::size_t> groupOf(tiles.size());
-  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+  // Each region goes into the first group that has no neighbour of it.
+  std::vector<std::vector<MapRegion>> groups;
+  std::vector<std::size_t> groupOf(regions.size());
+  for (std::size_t region = 0; region < regions.size(); ++region)
   {
     std::set<std::size_t> taken;
-    for (const std::size_t neighbour : neighbours[tile])
+    for (const std::size_t neighbour : neighbours[region])
     {
       taken.insert(groupOf[neighbour]);
     }
@@ -105,9 +105,9 @@ std::vector<std::vector<MapTile>> makeTiles(
     {
       ++group;
     }
-    groupOf[tile] = group;
+    groupOf[region] = group;
     groups.resize(std::max(groups.size(), group + 1));
-    groups[group].push_back(std::move(tiles[tile]));
+    groups[group].push_back(std::move(regions[region]));
   }
   return groups;
 }
