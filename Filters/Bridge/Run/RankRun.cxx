@@ -270,11 +270,6 @@ std::vector<Bytes> MpiRun::Transfer(
   return received;
 }
 
-} // namespace
-
-namespace
-{
-
 std::unique_ptr<RankRun> meet(
   const std::string& filter, bool withData, std::chrono::duration<double> longest)
 {

@@ -109,7 +109,6 @@ public:
   }
 
 private:
-private:
   static TilePlan<Dimension> PlanFor(const GridSize<Dimension>& size, const FlowOptions& options,
     FlowDirection direction, double particles, const TileLimits& limits)
   {
