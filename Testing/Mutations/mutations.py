@@ -189,7 +189,7 @@ OTHERS = [
       "(sampler.SamplesPerCell > 2 ? 2 : sampler.SamplesPerCell)"),
     E("Filters/vtkUniformSeedSource.cxx", "«this->NumberOfPoints >= 1», \"NumberOfPoints\"",
       "this->NumberOfPoints != 0"),
-    S(BRIDGE + "Run/OutputInformation.cxx", "image->GetPointData()->Initialize();", ";"),
+    S(BRIDGE + "Pipeline/OutputInformation.cxx", "image->GetPointData()->Initialize();", ";"),
     # disks and their parameterization
     E(CORE + "Mesh/DiskMesh.cxx", "if («reached != valence[static_cast<std::size_t>(point)]»)",
       "reached > valence[static_cast<std::size_t>(point)]"),
@@ -284,7 +284,7 @@ OTHERS = [
     E(BRIDGE + "Run/SeparateInputs.cxx", "return «one.Upstream.size() > other.Upstream.size()»",
       "one.Upstream.size() < other.Upstream.size()"),
     E(BRIDGE + "Run/SeparateInputs.cxx", "if («hasWrongTime(filter, port)»)", "false"),
-    S(BRIDGE + "Run/RequestedTimes.cxx",
+    S(BRIDGE + "Pipeline/RequestedTimes.cxx",
       "time = output->Get(Pipeline::UPDATE_TIME_STEP());", ""),
     # cells of the mass of a density
     E(CORE + "SiteCells/PixelMasses.cxx",

@@ -30,7 +30,8 @@ RUN = {"Run"}
 WORKERS = RUN | {"Image", "Points", "Settings", "Density", "Ranks"}
 BLOCKS = RUN | {"Image", "Points", "Ranks", "Density"}
 BRIDGE = {
-    "Run": set(),
+    "Pipeline": set(),
+    "Run": {"Pipeline"},
     "Image": RUN,
     "Points": RUN,
     "Ranks": RUN | {"Image", "Points"},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SeparateInputs.h"
 
+#include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Run/Failure.h"
-#include "Bridge/Run/RequestedTimes.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Bridge/Run/ConsumerExtents.h"
+#include "Bridge/Pipeline/ConsumerExtents.h"
 
 #include "vtkDataObject.h"
 #include "vtkExecutive.h"
