@@ -248,7 +248,7 @@ def errors(r):
     expect_no_strays(r, "Holes3D/core/64")
     print_table(["error in cells (mean / 95 % / 99.9 %)", "paper", "core", "without maps"],
                 [[text] + [r.errors(name % kind) for kind in ("paper", "core", "core_off")]
-                 for text, name in CORE])
+                 for text, name in CORE[3:6]])
     print_text(f"With the correct velocity at t = 1 the paper's error on the photograph is "
                f"{r.errors('Photograph/paper_limit')}.")
 
