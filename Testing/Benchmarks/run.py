@@ -146,9 +146,8 @@ def memory(r):
 
 
 def core(r):
-    print_table(["core", "new density", "same density again", "new density, without maps"],
-                [[text] + [r.timed(name % kind, name % "paper")
-                           for kind in ("core", "core_again", "core_off")] for text, name in CORE])
+    print_table(["same density again", "core"],
+                [[text, r.timed(name % "core_again", name % "paper")] for text, name in CORE])
     print_text(f"With sorted seeds the paper takes {r.time('Photograph/paper_sorted')} on the "
                "photograph.")
 
@@ -335,11 +334,10 @@ def tiles(r):
     rows = []
     for *text, name in TILED:
         name = f"Tiles/{name}"
-        peak, predicted = (r.median(name, f"{what}_bytes") / 1e6 for what in ("peak", "foretold"))
-        rows.append(text + [f"{r.median(name, 'real_time'):.1f} s", f"{peak:.0f} MB",
-                            f"{'tables: ' if 'whole' in text else ''}{predicted:.0f} MB"])
+        rows.append(text + [f"{r.median(name, 'real_time'):.1f} s",
+                            f"{r.median(name, 'peak_bytes') / 1e6:.0f} MB"])
     print_table(["cells", "particles", "direction", "steps", "tables", "two threads",
-                 "memory beyond input and output", "predicted"], rows)
+                 "memory beyond input and output"], rows)
 
 
 # What prints the figures without an option; of each option its help, benchmarks and what prints.
