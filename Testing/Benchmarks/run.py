@@ -148,8 +148,6 @@ def memory(r):
 def core(r):
     print_table(["same density again", "core"],
                 [[text, r.timed(name % "core_again", name % "paper")] for text, name in CORE])
-    print_text(f"With sorted seeds the paper takes {r.time('Photograph/paper_sorted')} on the "
-               "photograph.")
 
 
 def flows(r):
@@ -164,13 +162,10 @@ def flows(r):
                  for text, name in FLOWS])
     growths = [f"{r.ratio(f'Flow2D/{kind}/4096', f'Flow2D/{kind}/256', 'per_particle'):.2f}"
                for kind in ("core", "core_off")]
-    few = [r.time(f"Flow{name}")
-           for name in ("2D/few/1024", "2D/few_off/1024", "3D/few/256", "3D/few_off/256")]
     sorts = [r.median(f"Sort{group}/core/1000000") for group in ("2D", "3D")]  # ms a million: ns
     print_text(f"A particle costs {growths[0]} times as much on 4096² as on 256²; {growths[1]} "
-               f"times without maps. 1,024 particles on 1024² take {few[0]} with Auto and {few[1]} "
-               f"with Off; 8,192 in 256³ take {few[2]} and {few[3]}. The sort takes "
-               f"{sorts[0]:.2g} ns a particle in 2D and {sorts[1]:.2g} ns in 3D.")
+               f"times without maps. The sort takes {sorts[0]:.2g} ns a particle in 2D and "
+               f"{sorts[1]:.2g} ns in 3D.")
 
 
 def tables(r):
@@ -253,8 +248,7 @@ def errors(r):
 
 
 QUALITY = (("photograph", "photograph, 1024²"), ("gaussians_1024", "two Gaussians, 1024²"),
-           ("shape_256", "0/1 shape with a hole, 256²"), ("gaussians_128", "two Gaussians, 128³"),
-           ("shape_64", "0/1 shape with a hole, 64³"))
+           ("gaussians_128", "two Gaussians, 128³"), ("shape_64", "0/1 shape with a hole, 64³"))
 METHODS = (("paper", "paper"),
            ("multistep_16", "Multistep, 16"),
            ("multistep_32", "**Multistep, 32**"), ("multistep_32_off", "without maps"),
@@ -275,8 +269,7 @@ def quality(r):
     print_table(["density", "integrator", "velocities a particle",
                  "error in cells (mean / 95 % / 99.9 %)", "backward", "density error"], rows)
     print_text("Particles in empty cells, and outside or NaN, for the shape with a hole: "
-               f"{r.strays('Quality/shape_256/forward/paper')} of the paper's at 256², "
-               f"{r.strays('Quality/shape_64/forward/paper')} at 64³.")
+               f"{r.strays('Quality/shape_64/forward/paper')} of the paper's.")
 
 
 def morphs(r):
