@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One advection of many particles (paper, Section 3.3): ranges of blocks for the kernels.
-// Unresolved particles are advected again with smaller steps; the rest are moved to the nearest
-// mass.
+// One advection of many particles (paper, Section 3.3): blocks for the kernels. Unresolved
+// particles are advected again with smaller steps; the rest are moved to the nearest mass.
 #ifndef RectifiedTransport_AdvectionRun_h
 #define RectifiedTransport_AdvectionRun_h
 
@@ -26,30 +25,54 @@ namespace RectifiedTransport
 
 constexpr int rangeBlocks = 16;
 
-// The grains of a range, one by one: an executor may join several.
-template <class Kernel>
-void forGrains(std::int64_t first, std::int64_t last, std::int64_t grain, const Kernel& kernel)
-{
-  for (; first < last; first += grain)
-  {
-    kernel(first, std::min(first + grain, last));
-  }
-}
-
 // Counted over the ranges of one advection. Sums of integers do not depend on their order.
 struct Counters
 {
   std::atomic<std::int64_t> Redone{ 0 };
   std::atomic<std::int64_t> MovedToMass{ 0 };
   std::atomic<std::int64_t> Evaluations{ 0 };
+
+  FlowReport Report() const
+  {
+    FlowReport report;
+    report.Redone = this->Redone;
+    report.MovedToMass = this->MovedToMass;
+    report.Evaluations = this->Evaluations;
+    return report;
+  }
 };
 
-// Particles that met an empty box or ended in an empty cell, to be redone.
+// Particles that wait for a pass: after the first one, those that met an empty box or ended in an
+// empty cell. Their seeds are copies, because the output may be the array of the seeds.
 template <int Dimension>
-struct UnresolvedParticles
+struct WaitingParticles
 {
   std::vector<std::int64_t> Index; // in the output
-  std::vector<double> Seeds;
+  std::vector<double> Seeds;       // [particle][Dimension]
+
+  std::int64_t Count() const { return static_cast<std::int64_t>(this->Index.size()); }
+  void Add(std::int64_t index, const double* seed)
+  {
+    this->Index.push_back(index);
+    this->Seeds.insert(this->Seeds.end(), seed, seed + Dimension);
+  }
+  void Add(const WaitingParticles& others)
+  {
+    this->Index.insert(this->Index.end(), others.Index.begin(), others.Index.end());
+    this->Seeds.insert(this->Seeds.end(), others.Seeds.begin(), others.Seeds.end());
+  }
+  // Keeps the marked ones, in their order.
+  void Keep(const std::vector<unsigned char>& marks)
+  {
+    this->Index.resize(compact(
+      this->Index.size(), [&](std::size_t i) { return marks[i] != 0; },
+      [&](std::size_t i, std::size_t place) {
+        this->Index[place] = this->Index[i];
+        std::copy_n(
+          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + place * Dimension);
+      }));
+    this->Seeds.resize(this->Index.size() * Dimension);
+  }
 };
 
 // Moves a particle that ends in an empty cell even with the smallest steps to the nearest mass.
@@ -69,181 +92,34 @@ void moveToMass(const FlowJob<Dimension>& job, std::int64_t particle, Counters& 
   }
 }
 
-// Advects particles, at most rangeBlocks * BlockSize.
-template <int Dimension>
-class RangeAdvection
-{
-public:
-  RangeAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
-    : Job(job)
-    , Count(counters)
-    , Work(progress)
-    , Advect(flowKernels().Advect<Dimension>())
-  {
-  }
-
-  // Reads `count` particles of a source.
-  template <class Source>
-  void Fill(Source& source, std::int64_t first, int count)
-  {
-    // Copies, because the output may be the array of the seeds.
-    source.Fill(first, count, this->Index, this->Seeds);
-    this->Number = count;
-  }
-
-  // Advects the particles and keeps the unresolved ones, for the next pass.
-  void Pass(int pass)
-  {
-    const int count = std::exchange(this->Number, 0);
-    for (int first = 0; first < count && !this->Work.ShouldStop(); first += BlockSize)
-    {
-      const int lanes = std::min(BlockSize, count - first);
-      bool unresolved[BlockSize] = {};
-      this->Count.Evaluations += this->Advect(
-        this->Job, this->Seeds + first * Dimension, this->Index + first, lanes, pass, unresolved);
-      const int before = this->Number;
-      this->Number += compact(
-        lanes, [&](int i) { return unresolved[i]; },
-        [&](int i, int place) {
-          this->Index[before + place] = this->Index[first + i];
-          std::copy_n(this->Seeds + (first + i) * Dimension, Dimension,
-            this->Seeds + (before + place) * Dimension);
-        });
-    }
-    if (pass == 0)
-    {
-      this->Number = this->Job.Backward || this->Job.Nearest ? 0 : this->Number;
-      this->Count.Redone += this->Number;
-    }
-  }
-
-  // All passes; what is left moves to the nearest mass.
-  void Run(int firstPass, int lastPass)
-  {
-    for (int pass = firstPass; this->Number > 0 && pass <= lastPass; ++pass)
-    {
-      this->Pass(pass);
-    }
-    for (int i = 0; i < this->Number && !this->Work.ShouldStop(); ++i)
-    {
-      moveToMass<Dimension>(this->Job, this->Index[i], this->Count);
-    }
-  }
-
-  UnresolvedParticles<Dimension> Unresolved() const
-  {
-    return { { this->Index, this->Index + this->Number },
-      { this->Seeds, this->Seeds + this->Number * Dimension } };
-  }
-
-private:
-  const FlowJob<Dimension>& Job;
-  Counters& Count;
-  Progress& Work;
-  const AdvectBlock<Dimension> Advect;
-  int Number = 0;
-  std::int64_t Index[rangeBlocks * BlockSize];
-  double Seeds[rangeBlocks * BlockSize * Dimension];
-};
-
-// Advects the unresolved particles of many ranges together: a block with few particles costs nearly
-// as much as a full one, and most ranges leave few.
-template <int Dimension>
-class UnresolvedAdvection
-{
-public:
-  UnresolvedAdvection(const FlowJob<Dimension>& job, Counters& counters, Progress& progress)
-    : Job(job)
-    , Count(counters)
-    , Work(progress)
-    , Advect(flowKernels().Advect<Dimension>())
-  {
-  }
-
-  void Run(const std::vector<UnresolvedParticles<Dimension>>& ranges, int firstPass, int lastPass)
-  {
-    for (const UnresolvedParticles<Dimension>& range : ranges)
-    {
-      this->Index.insert(this->Index.end(), range.Index.begin(), range.Index.end());
-      this->Seeds.insert(this->Seeds.end(), range.Seeds.begin(), range.Seeds.end());
-    }
-    this->IsUnresolved.resize(this->Index.size());
-    for (int pass = firstPass; !this->Index.empty() && pass <= lastPass; ++pass)
-    {
-      this->Pass(pass);
-      this->Count.Redone += pass == 0 ? static_cast<std::int64_t>(this->Index.size()) : 0;
-    }
-    const auto left = static_cast<std::int64_t>(this->Index.size());
-    this->Work.Threads().For(left, BlockSize, [this](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
-      {
-        moveToMass<Dimension>(this->Job, this->Index[static_cast<std::size_t>(i)], this->Count);
-      }
-    });
-  }
-
-private:
-  void Pass(int pass)
-  {
-    const auto count = static_cast<std::int64_t>(this->Index.size());
-    const auto advect = [this, pass](std::int64_t first, std::int64_t last) {
-      if (this->Work.ShouldStop())
-      {
-        return;
-      }
-      bool unresolved[BlockSize] = {};
-      this->Count.Evaluations += this->Advect(this->Job, this->Seeds.data() + first * Dimension,
-        this->Index.data() + first, static_cast<int>(last - first), pass, unresolved);
-      std::copy(unresolved, unresolved + (last - first), this->IsUnresolved.data() + first);
-    };
-    this->Work.Threads().For(count, BlockSize, [&advect](std::int64_t first, std::int64_t last) {
-      forGrains(first, last, BlockSize, advect);
-    });
-    const std::size_t left = compact(
-      this->Index.size(), [&](std::size_t i) { return this->IsUnresolved[i] != 0; },
-      [&](std::size_t i, std::size_t place) {
-        this->Index[place] = this->Index[i];
-        std::copy_n(
-          this->Seeds.data() + i * Dimension, Dimension, this->Seeds.data() + place * Dimension);
-      });
-    this->Index.resize(left);
-  }
-
-  const FlowJob<Dimension>& Job;
-  Counters& Count;
-  Progress& Work;
-  const AdvectBlock<Dimension> Advect;
-  std::vector<std::int64_t> Index;
-  std::vector<double> Seeds;
-  std::vector<unsigned char> IsUnresolved;
-};
-
-// The particles of a source for one range, with local memory for their end points.
+// The end points of the particles of one range, in local memory, and the grid cells that they are
+// in.
 template <int Dimension>
 class RangeCells
 {
 public:
-  RangeCells(const ParticleSource<Dimension>& source, const FlowJob<Dimension>& job)
-    : Order(source)
-    , Job(job)
+  // Reads `count` particles of a source, at most rangeBlocks * BlockSize.
+  RangeCells(const FlowJob<Dimension>& job, const ParticleSource<Dimension>& source,
+    std::int64_t first, int count)
+    : Job(job)
+    , Number(static_cast<std::size_t>(count))
   {
     this->Job.Output = this->Ends;
+    this->Particles.Index.resize(this->Number.size());
+    this->Particles.Seeds.resize(this->Number.size() * Dimension);
+    source.Fill(first, count, this->Number.data(), this->Particles.Seeds.data());
+    std::iota(this->Particles.Index.begin(), this->Particles.Index.end(), std::int64_t{ 0 });
   }
 
   const FlowJob<Dimension>& LocalJob() const { return this->Job; }
-
-  void Fill(std::int64_t first, int count, std::int64_t* index, double* points)
-  {
-    this->Order.Fill(first, count, this->Number, points);
-    std::iota(index, index + count, std::int64_t{ 0 });
-  }
+  WaitingParticles<Dimension>& All() { return this->Particles; }
 
   // Writes the number of the grid cell with mass in which each particle ends, or the nearest one.
   // Returns how many end in empty cells.
-  std::int64_t Write(int count, std::int64_t* cells) const
+  std::int64_t Write(std::int64_t* cells) const
   {
     std::int64_t missed = 0;
-    for (int i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < this->Number.size(); ++i)
     {
       Point<Dimension> point;
       std::copy_n(this->Ends + i * Dimension, Dimension, point.begin());
@@ -276,9 +152,9 @@ private:
     return middle;
   }
 
-  const ParticleSource<Dimension>& Order;
   FlowJob<Dimension> Job;
-  std::int64_t Number[rangeBlocks * BlockSize];
+  std::vector<std::int64_t> Number; // of each particle's cell in the output
+  WaitingParticles<Dimension> Particles;
   double Ends[rangeBlocks * BlockSize * Dimension];
 };
 
@@ -334,11 +210,10 @@ public:
     this->Job.Output = positions.data();
     this->Job.Times = times.empty() ? nullptr : times.data();
     this->Job.TimeCount = std::max<std::int64_t>(1, static_cast<std::int64_t>(times.size()));
-    constexpr std::size_t enough = 2048; // particles: fills blocks, and takes little time
+    constexpr std::int64_t enough = 2048; // particles: fills blocks, and takes little time
     const Executor& threads = this->Work.Threads();
     this->Work.BeginStage(1.0, source.Count());
-    std::vector<UnresolvedParticles<Dimension>> unresolved;
-    std::size_t left = 0;
+    WaitingParticles<Dimension> unresolved;
     std::int64_t chunkEnd = 0;
     for (std::int64_t chunk = 0, begin = 0; begin < source.Count();)
     {
@@ -349,32 +224,44 @@ public:
       }
       const std::int64_t slice =
         std::min(chunkEnd - begin, this->Work.NextSlice(this->Grain * threads.Concurrency()));
-      const std::size_t before = unresolved.size();
-      unresolved.resize(before + static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
-      const auto advect = [&](std::int64_t first, std::int64_t last) {
-        RangeAdvection<Dimension> range(this->Job, this->Count, this->Work);
-        range.Fill(source, begin - chunk + first, static_cast<int>(last - first));
-        range.Pass(this->First);
-        unresolved[before + static_cast<std::size_t>(first / this->Grain)] = range.Unresolved();
-      };
+      // A list of each range, so that their order does not depend on threads.
+      std::vector<WaitingParticles<Dimension>> left(
+        static_cast<std::size_t>((slice + this->Grain - 1) / this->Grain));
       threads.For(slice, this->Grain, [&](std::int64_t first, std::int64_t last) {
-        forGrains(first, last, this->Grain, advect);
+        WaitingParticles<Dimension>& those = left[static_cast<std::size_t>(first / this->Grain)];
+        for (; first < last && !this->Work.ShouldStop(); first += BlockSize)
+        {
+          std::int64_t index[BlockSize];
+          double seeds[BlockSize * Dimension];
+          bool isUnresolved[BlockSize] = {};
+          const auto count = static_cast<int>(std::min<std::int64_t>(BlockSize, last - first));
+          source.Fill(begin - chunk + first, count, index, seeds);
+          this->Count.Evaluations +=
+            this->Kernel(this->Job, seeds, index, count, this->First, isUnresolved);
+          for (int i = 0; i < count; ++i)
+          {
+            if (isUnresolved[i])
+            {
+              those.Add(index[i], seeds + i * Dimension);
+            }
+          }
+        }
       });
-      for (std::size_t range = before; range < unresolved.size(); ++range)
+      for (const WaitingParticles<Dimension>& those : left)
       {
-        left += unresolved[range].Index.size();
+        unresolved.Add(those);
       }
       begin += slice;
-      if (left >= enough || begin == chunkEnd)
+      // Those of many ranges together: a block with few particles costs nearly as much as a full
+      // one, and most ranges leave few.
+      if (unresolved.Count() >= enough || begin == chunkEnd)
       {
-        UnresolvedAdvection<Dimension>(this->Job, this->Count, this->Work)
-          .Run(unresolved, this->First + 1, this->Shared.LastPass());
-        unresolved.clear();
-        left = 0;
+        this->RunPassesAfter(this->First, this->Job, unresolved, threads);
+        unresolved = {};
       }
       this->Work.EndSlice(slice);
     }
-    return this->Report();
+    return this->Count.Report();
   }
 
   // Advects the particles of a source and writes the grid cell in which each ends. Throws
@@ -385,39 +272,74 @@ public:
     for (std::int64_t chunk = 0; chunk < source.Count();)
     {
       const std::int64_t count = source.Prepare(chunk);
-      const auto advect = [&](std::int64_t first, std::int64_t last) {
-        const int length = static_cast<int>(last - first);
-        RangeCells<Dimension> ends(source, this->Job);
-        RangeAdvection<Dimension> range(ends.LocalJob(), this->Count, this->Work);
-        range.Fill(ends, first, length);
-        range.Run(this->First, this->Shared.LastPass());
-        if (!this->Work.ShouldStop())
-        {
-          this->Count.MovedToMass += ends.Write(length, cells);
-        }
-      };
       chunk += count;
       this->Work.BeginStage(static_cast<double>(chunk) / all);
       this->Work.For(
         count, this->Grain,
-        [&](std::int64_t first, std::int64_t last) { forGrains(first, last, this->Grain, advect); },
+        [&](std::int64_t first, std::int64_t last) {
+          // An executor may join ranges.
+          for (; first < last; first += this->Grain)
+          {
+            RangeCells<Dimension> range(
+              this->Job, source, first, static_cast<int>(std::min(this->Grain, last - first)));
+            this->RunPassesAfter(this->First - 1, range.LocalJob(), range.All(), SerialExecutor());
+            if (!this->Work.ShouldStop())
+            {
+              this->Count.MovedToMass += range.Write(cells);
+            }
+          }
+        },
         this->Grain);
     }
-    return this->Report();
+    return this->Count.Report();
   }
 
 private:
-  FlowReport Report() const
+  // Advects particles pass after pass, until the last one or none is left. What is left moves to
+  // the nearest mass.
+  void RunPassesAfter(int pass, const FlowJob<Dimension>& job,
+    WaitingParticles<Dimension>& particles, const Executor& threads)
   {
-    FlowReport report;
-    report.Redone = this->Count.Redone;
-    report.MovedToMass = this->Count.MovedToMass;
-    report.Evaluations = this->Count.Evaluations;
-    return report;
+    std::vector<unsigned char> isUnresolved;
+    while (particles.Count() > 0)
+    {
+      if (pass == 0)
+      {
+        if (job.Backward || job.Nearest)
+        {
+          return; // these are not redone: they stay where they are
+        }
+        this->Count.Redone += particles.Count();
+      }
+      if (pass == this->Shared.LastPass())
+      {
+        break;
+      }
+      ++pass;
+      isUnresolved.assign(particles.Index.size(), 0);
+      threads.For(particles.Count(), BlockSize, [&](std::int64_t first, std::int64_t last) {
+        for (; first < last && !this->Work.ShouldStop(); first += BlockSize)
+        {
+          bool marks[BlockSize] = {};
+          const auto count = static_cast<int>(std::min<std::int64_t>(BlockSize, last - first));
+          this->Count.Evaluations += this->Kernel(job, particles.Seeds.data() + first * Dimension,
+            particles.Index.data() + first, count, pass, marks);
+          std::copy_n(marks, count, isUnresolved.data() + first);
+        }
+      });
+      particles.Keep(isUnresolved);
+    }
+    threads.For(particles.Count(), BlockSize, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last && !this->Work.ShouldStop(); ++i)
+      {
+        moveToMass<Dimension>(job, particles.Index[static_cast<std::size_t>(i)], this->Count);
+      }
+    });
   }
 
   const AdvectionJob<Dimension> Shared;
   FlowJob<Dimension> Job;
+  const AdvectBlock<Dimension> Kernel = flowKernels().Advect<Dimension>();
   std::shared_ptr<const FlowMap<Dimension>> Map;
   int First = 0; // pass
   Counters Count;
