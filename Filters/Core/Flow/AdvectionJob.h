@@ -41,6 +41,11 @@ enum class AdvectionKind
   ForwardToCells // of a density of isolated cells
 };
 
+constexpr FlowDirection directionOf(AdvectionKind kind)
+{
+  return kind == AdvectionKind::Backward ? FlowDirection::Backward : FlowDirection::Forward;
+}
+
 // Relative to the domain's longest side. Below it, the estimate of a step's error is only rounding,
 // and smaller steps gain no accuracy.
 constexpr double finestTolerance = 0x1p-40;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flow map of the last number of steps in one direction, kept for later runs.
+// The flow maps of the last number of steps in both directions, kept for later runs.
 #ifndef RectifiedTransport_KeptFlowMap_h
 #define RectifiedTransport_KeptFlowMap_h
 
 #include "Core/Flow/FlowMap.h"
+#include "Core/Flow/FlowOptions.h"
 #include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -74,6 +75,22 @@ private:
   std::mutex Mutex;
   Steps Of;
   std::shared_ptr<const FlowMap<Dimension>> Map;
+};
+
+// One for each direction.
+template <int Dimension>
+class KeptFlowMaps
+{
+public:
+  KeptFlowMap<Dimension>& At(FlowDirection direction)
+  {
+    return direction == FlowDirection::Backward ? this->Backward : this->Forward;
+  }
+  std::int64_t MemorySize() { return this->Forward.MemorySize() + this->Backward.MemorySize(); }
+
+private:
+  KeptFlowMap<Dimension> Forward;
+  KeptFlowMap<Dimension> Backward;
 };
 
 } // namespace RectifiedTransport

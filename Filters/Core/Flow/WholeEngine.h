@@ -31,10 +31,7 @@ public:
 
   const TableView<Dimension>& View() const override { return this->Tables.View(); }
   const DensitySummary& Summary() const override { return this->Tables.Summary(); }
-  std::int64_t MemorySize() override
-  {
-    return this->Tables.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
-  }
+  std::int64_t MemorySize() override { return this->Tables.MemorySize() + this->Maps.MemorySize(); }
   bool HasWholeTables() const override { return true; }
   TableMemory ReleaseMemory() override { return this->Tables.ReleaseMemory(); }
 
@@ -102,13 +99,13 @@ private:
     double firstTime = 1.0)
   {
     const AdvectionJob<Dimension>& shared = run.SharedJob();
-    const FlowJob<Dimension>& job = shared.Job;
     if (!takesFlowMaps(options) || options.Maps == FlowMaps::Off || particles == 0.0)
     {
       return;
     }
-    const FlowMapShape<Dimension> shape(this->Size, options.NumberOfSteps,
-      job.Backward ? FlowDirection::Backward : FlowDirection::Forward, shared.Refinement);
+    const FlowDirection direction = directionOf(shared.Kind);
+    const FlowMapShape<Dimension> shape(
+      this->Size, options.NumberOfSteps, direction, shared.Refinement);
     // Isolated cells leave most boxes empty before particles could take over.
     const bool pays = shared.Kind != AdvectionKind::ForwardToCells && shape.PaysFor(particles);
     if (shape.Levels.empty() || firstTime < 1.0 - shape.Levels.back().TimeLeft ||
@@ -118,15 +115,15 @@ private:
     }
     const double particlesCost = particles * shape.Levels.back().HandOver;
     bool isNew = false;
-    auto map = this->Maps[job.Backward ? 1 : 0].FindOrMake(
-      shape, shared.Refinement, job, run.Group(),
+    auto map = this->Maps.At(direction).FindOrMake(
+      shape, shared.Refinement, shared.Job, run.Group(),
       [&]() { return run.BeginPreparation(shape.Cost / (shape.Cost + particlesCost)); }, isNew);
     run.UseMap(std::move(map), isNew);
   }
 
   const GridSize<Dimension> Size;
   SummedAreaTables<Dimension> Tables;
-  KeptFlowMap<Dimension> Maps[2]; // forward and backward
+  KeptFlowMaps<Dimension> Maps;
 };
 
 } // namespace RectifiedTransport

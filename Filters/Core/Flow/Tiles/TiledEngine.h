@@ -32,10 +32,7 @@ public:
   const TableView<Dimension>& View() const override { return this->Graded.View(); }
   const DensitySummary& Summary() const override { return this->Graded.Summary(); }
   bool HasWholeTables() const override { return false; }
-  std::int64_t MemorySize() override
-  {
-    return this->Graded.MemorySize() + this->Maps[0].MemorySize() + this->Maps[1].MemorySize();
-  }
+  std::int64_t MemorySize() override { return this->Graded.MemorySize() + this->Maps.MemorySize(); }
   void SetDensity(const DensitySource<Dimension>& density) override { this->Density = density; }
   void PrepareShares(const GridSize<Dimension>& low, const GridSize<Dimension>& high) override
   {
@@ -77,8 +74,7 @@ public:
     ParticleSource<Dimension> source(
       seeds, this->Size, positions.size(), TilePlan<Dimension>::SortedParticles);
     const AdvectionJob<Dimension> shared(this->View(), kind, options);
-    const bool isBackward = kind == AdvectionKind::Backward;
-    const FlowDirection direction = isBackward ? FlowDirection::Backward : FlowDirection::Forward;
+    const FlowDirection direction = directionOf(kind);
     requireTiles<Dimension>(this->Size, options, direction, this->Limits);
     const double particles = source.CountOfAll(*context.Group);
     const TilePlan<Dimension> plan =
@@ -89,7 +85,7 @@ public:
     if (!plan.Shape.Levels.empty())
     {
       bool isNew = false;
-      map = this->Maps[isBackward ? 1 : 0].FindOrMake(
+      map = this->Maps.At(direction).FindOrMake(
         plan.Shape, 0, shared.Job, *context.Group,
         [&]() {
           progress.BeginStage(plan.Shape.Cost / (plan.Shape.Cost + particles * plan.HandOver));
@@ -101,11 +97,7 @@ public:
     TiledAdvection<Dimension>(
       this->Density, this->Graded, plan, shared, map.get(), counters, progress)
       .Run(source, positions);
-    FlowReport report;
-    report.Redone = counters.Redone;
-    report.MovedToMass = counters.MovedToMass;
-    report.Evaluations = counters.Evaluations;
-    return report;
+    return counters.Report();
   }
 
 private:
@@ -126,7 +118,7 @@ private:
   std::shared_ptr<const DensityValues> Prepared; // for Share
   const TileLimits Limits;
   const GradedTables<Dimension> Graded;
-  KeptFlowMap<Dimension> Maps[2];
+  KeptFlowMaps<Dimension> Maps;
 };
 
 } // namespace RectifiedTransport
