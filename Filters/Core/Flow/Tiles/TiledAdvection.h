@@ -18,7 +18,8 @@
 #include "Core/Flow/ParticleSource.h"
 #include "Core/Flow/Tiles/TileEntries.h"
 #include "Core/Flow/Tiles/TilePlan.h"
-#include "Core/Flow/Tiles/TileRun.h"
+#include "Core/Flow/Tiles/TileRounds.h"
+#include "Core/Flow/Tiles/TileTask.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Tables/GradedTables.h"
 
@@ -45,7 +46,7 @@ public:
     , Wide(shared.Job)
     , Count(counters)
     , Work(progress)
-    , Tiles(density, graded, plan, this->Wide, counters, progress)
+    , Rounds(density, graded, plan.Tiles, progress)
     , Read(flowKernels().Read<Dimension>())
     , LastPass(shared.Job.Backward ? 0 : shared.LastPass())
   {
@@ -72,7 +73,7 @@ public:
   {
     const std::int64_t all = source.Count();
     const double begin = this->Work.StageEnd();
-    for (std::int64_t first = 0; this->Tiles.HasAnyRank(first < all);)
+    for (std::int64_t first = 0; this->Rounds.HasAnyRank(first < all);)
     {
       const std::int64_t length = first < all ? source.Prepare(first) : 0;
       const auto stageAt = [&](std::int64_t done) {
@@ -118,9 +119,11 @@ private:
       // Which particles are in which tile, then all tiles that have any.
       const ByTile<Entry> entries = this->FindTiles(source, length, left);
       const TileStage<Dimension> stage = this->StageOfEntries();
-      this->Tiles.Run(entries, stage, positions, left, begin + partOfMap * (end - begin),
-        begin + partOfTiles * (end - begin),
-        [&](const Entry& entry, const auto& give) { giveEntry(source, entry, give); });
+      const EntryParticles giveEntry{ source };
+      this->Rounds.Run(entries,
+        TileTask(this->Wide, this->Rounds.Tables(), stage, entries, giveEntry,
+          TileResults<Dimension>{ positions, left, this->Count }, this->Work),
+        begin + partOfMap * (end - begin), begin + partOfTiles * (end - begin));
     }
     else
     {
@@ -234,24 +237,28 @@ private:
     return stage;
   }
 
-  // Calls give(values, index, particle) for each particle of an item of a tile.
-  template <class Give>
-  static void giveEntry(
-    const ParticleSource<Dimension>& source, const Entry& entry, const Give& give)
+  // Gives TileTask the particles of an entry.
+  struct EntryParticles
   {
-    std::int64_t index[BlockSize];
-    double seeds[BlockSize * Dimension];
-    // What is after its last particle in this tile is not used.
-    const int count = BlockSize - __builtin_clzll(entry.Particles);
-    source.Fill(entry.Block * BlockSize, count, index, seeds);
-    for (int i = 0; i < count; ++i)
+    template <class Give>
+    void operator()(const Entry& entry, const Give& give) const
     {
-      if ((entry.Particles >> i & 1) != 0)
+      std::int64_t index[BlockSize];
+      double seeds[BlockSize * Dimension];
+      // What is after its last particle in this tile is not used.
+      const int count = BlockSize - __builtin_clzll(entry.Particles);
+      this->Source.Fill(entry.Block * BlockSize, count, index, seeds);
+      for (int i = 0; i < count; ++i)
       {
-        give(seeds + i * Dimension, index[i], entry.Block * BlockSize + i);
+        if ((entry.Particles >> i & 1) != 0)
+        {
+          give(seeds + i * Dimension, index[i], entry.Block * BlockSize + i);
+        }
       }
     }
-  }
+
+    const ParticleSource<Dimension>& Source;
+  };
 
   // Particles of a pass that are taken to the hand-over by themselves.
   struct Extra
@@ -269,7 +276,7 @@ private:
   {
     const std::int64_t most = this->Plan.ExtraParticles();
     std::int64_t block = 0;
-    for (std::int64_t done = 0; this->Tiles.HasAnyRank(done < count);)
+    for (std::int64_t done = 0; this->Rounds.HasAnyRank(done < count);)
     {
       Extra extra;
       extra.Particle.reserve(static_cast<std::size_t>(std::min(most, count - done)));
@@ -378,15 +385,19 @@ private:
       std::copy_n(level.Records + number * record, Dimension, place);
       return this->Plan.TileOf(place);
     });
-    this->Tiles.Run(byTile, { map, true, false, pass == this->LastPass, -1 }, positions, left,
-      middle, end, [&](std::int64_t number, const auto& give) {
-        std::int64_t index = 0;
-        double seed[Dimension];
-        source.Fill(particle(number), 1, &index, seed);
-        double state[TileLanes<Dimension>::StateSize];
-        std::copy_n(level.Records + number * record, TileLanes<Dimension>::StateSize, state);
-        give(state, index, particle(number));
-      });
+    const TileStage<Dimension> stage{ map, true, false, pass == this->LastPass, -1 };
+    const auto giveNumber = [&](std::int64_t number, const auto& give) {
+      std::int64_t index = 0;
+      double seed[Dimension];
+      source.Fill(particle(number), 1, &index, seed);
+      double state[TileLanes<Dimension>::StateSize];
+      std::copy_n(level.Records + number * record, TileLanes<Dimension>::StateSize, state);
+      give(state, index, particle(number));
+    };
+    this->Rounds.Run(byTile,
+      TileTask(this->Wide, this->Rounds.Tables(), stage, byTile, giveNumber,
+        TileResults<Dimension>{ positions, left, this->Count }, this->Work),
+      middle, end);
   }
 
   // The seeds that the records have, clamped to the domain.
@@ -438,7 +449,7 @@ private:
   FlowJob<Dimension> Wide; // on the graded tables
   Counters& Count;
   Progress& Work;
-  TileRun<Dimension> Tiles;
+  TileRounds<Dimension> Rounds;
   const ReadMap<Dimension> Read;
   const int LastPass;
   std::vector<StepWeights> Weights;
