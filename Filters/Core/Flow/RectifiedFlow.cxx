@@ -22,26 +22,6 @@ namespace
 
 constexpr const char* noTiles = "a density of one axis has no tiles, it needs whole tables";
 
-template <int Dimension>
-std::unique_ptr<FlowEngine<Dimension>> makeEngine(const DensitySource<Dimension>& density,
-  FlowTables tables, const Context& context, const TileLimits& limits)
-{
-  check<Dimension>(density.Size, "a density");
-  Progress progress(context);
-  if (tables == FlowTables::Whole)
-  {
-    return std::make_unique<WholeEngine<Dimension>>(density, progress);
-  }
-  if constexpr (Dimension == 1)
-  {
-    throw std::invalid_argument(noTiles);
-  }
-  else
-  {
-    return std::make_unique<TiledEngine<Dimension>>(density, limits, progress);
-  }
-}
-
 } // namespace
 
 template <int Dimension>
@@ -55,8 +35,21 @@ template <int Dimension>
 RectifiedFlow<Dimension>::RectifiedFlow(const DensitySource<Dimension>& density, FlowTables tables,
   const Context& context, const TileLimits& limits)
   : Cells(density.Size)
-  , Engine(makeEngine(density, tables, context, limits))
 {
+  check<Dimension>(density.Size, "a density");
+  Progress progress(context);
+  if (tables == FlowTables::Whole)
+  {
+    this->Engine = std::make_unique<WholeEngine<Dimension>>(density, progress);
+  }
+  else if constexpr (Dimension == 1)
+  {
+    throw std::invalid_argument(noTiles);
+  }
+  else
+  {
+    this->Engine = std::make_unique<TiledEngine<Dimension>>(density, limits, progress);
+  }
 }
 
 template <int Dimension>

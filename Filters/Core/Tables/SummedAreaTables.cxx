@@ -42,27 +42,32 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   : Memory(std::move(memory))
 {
   this->Allocate(density.Size);
+  TableView<Dimension>& tables = this->Tables;
+  double* const nodes = this->Memory.Nodes.data();
+  std::uint64_t* const occupied = this->Memory.Occupied.data();
+  const std::int64_t layers = tables.Cells[Dimension - 1];
   const std::shared_ptr<const DensityValues> values = density.Whole();
-  this->Build(*values, progress);
-  const DensitySummary found = this->Found;
-  requireDensity(found);
-  this->Tables.Largest = found.Maximum;
-  if (const int exponent = scalingOf(found.Maximum))
+  progress.BeginStage(1.0, layers);
+  buildTables(TableBuild<Dimension>{ *values, progress, tables, nodes, occupied, this->Found });
+  requireDensity(this->Found);
+  // Extreme values are scaled (ScaledDensity.h). The summary stays that of the density itself.
+  const int exponent = scalingOf(this->Found.Maximum);
+  tables.Largest = std::ldexp(this->Found.Maximum, exponent);
+  if (exponent != 0)
   {
     const ScaledDensity scaled(*values, exponent);
-    this->Build(scaled, progress);
-    this->Found = found;
-    this->Tables.Largest = std::ldexp(found.Maximum, exponent);
+    DensitySummary ofScaled;
+    progress.BeginStage(1.0, layers);
+    buildTables(TableBuild<Dimension>{ scaled, progress, tables, nodes, occupied, ofScaled });
   }
 
-  TableView<Dimension>& tables = this->Tables;
   std::int64_t node = 0;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     node += tables.Cells[axis] *
       (axis == 0 ? TableView<Dimension>::Record : tables.Levels[0].Stride[axis]);
   }
-  const double* last = this->Memory.Nodes.data() + node;
+  const double* last = nodes + node;
   for (int axis = 0; axis < Dimension; ++axis)
   {
     tables.Centroid[axis] = last[1 + axis] / last[0];
@@ -71,9 +76,9 @@ SummedAreaTables<Dimension>::SummedAreaTables(
   bool full = true;
   for (std::int64_t word = 0; word < this->Memory.Occupied.size() && full; ++word)
   {
-    full = this->Memory.Occupied.data()[word] == ~std::uint64_t{ 0 };
+    full = occupied[word] == ~std::uint64_t{ 0 };
   }
-  tables.Occupied = full ? nullptr : this->Memory.Occupied.data();
+  tables.Occupied = full ? nullptr : occupied;
 }
 
 template <int Dimension>
@@ -123,15 +128,6 @@ void SummedAreaTables<Dimension>::Allocate(const GridSize<Dimension>& size)
   }
   tables.WordsPerRow = (size[0] + 63) / 64;
   resize(this->Memory.Occupied, tables.WordsPerRow * rows);
-}
-
-template <int Dimension>
-void SummedAreaTables<Dimension>::Build(const DensityValues& density, Progress& progress)
-{
-  this->Found = {};
-  progress.BeginStage(1.0, this->Tables.Cells[Dimension - 1]);
-  buildTables(TableBuild<Dimension>{ density, progress, this->Tables, this->Memory.Nodes.data(),
-    this->Memory.Occupied.data(), this->Found });
 }
 
 template class SummedAreaTables<1>;

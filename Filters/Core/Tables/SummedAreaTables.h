@@ -46,7 +46,6 @@ public:
 
 private:
   void Allocate(const GridSize<Dimension>& size);
-  void Build(const DensityValues& density, Progress& progress);
 
   TableMemory Memory;
   TableView<Dimension> Tables;
