@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <string>
 
 namespace RectifiedTransport
@@ -80,10 +81,16 @@ public:
 
   void Flow(const PointTransport<D>& flow, const FlowOptions& options)
   {
-    withMemory(this->Purpose, static_cast<double>(this->Count) * sizeof(std::int64_t), [&]() {
-      const PointSpan<D> points(this->Index, this->Count);
+    const PointSpan<D> points(this->Index, this->Count);
+    try
+    {
       flow.Backward(points, points, options, this->Work.Stage());
-    });
+    }
+    catch (const std::bad_alloc& caught)
+    {
+      const double sort = static_cast<double>(this->Count) * sizeof(std::int64_t);
+      failOutOfMemory(caught, this->Purpose, sort);
+    }
   }
 
   // Overwrites the index coordinates in 3D.

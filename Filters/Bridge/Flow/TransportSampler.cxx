@@ -25,6 +25,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -185,7 +186,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   progress.BeginStage(ends[2]);
   const ConstPointSpan<D> seeds = particles.Seeds();
   const PointSpan<D> positions = particles.Positions();
-  withMemory(purpose, count * sizeof(std::int64_t), [&]() { // of the sort
+  try
+  {
     if (times.back() == 0.0 && times.size() == 1)
     {
       progress.For(seeds.size(), grain, [=](std::int64_t first, std::int64_t last) {
@@ -203,7 +205,12 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
                                 .ForwardAt(seeds, times, positions, sampler.Flow, progress.Stage())
                                 .MovedToMass;
     }
-  });
+  }
+  catch (const std::bad_alloc& caught)
+  {
+    const double sort = count * sizeof(std::int64_t);
+    failOutOfMemory(caught, purpose, sort);
+  }
 
   if (given)
   {

@@ -2,6 +2,7 @@
 #include "Bridge/Run/Memory.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Flow/NoMemoryForFlowMap.h"
 
 #include <sstream>
 
@@ -26,6 +27,15 @@ std::string describeLack(const std::string& purpose, double bytes)
 void failOutOfMemory(const std::string& purpose, double bytes)
 {
   throw Failure(describeLack(purpose, bytes));
+}
+
+void failOutOfMemory(const std::bad_alloc& caught, const std::string& purpose, double bytes)
+{
+  if (dynamic_cast<const NoMemoryForFlowMap*>(&caught))
+  {
+    throw; // what the handler has caught
+  }
+  failOutOfMemory(purpose, bytes);
 }
 
 void requireMemory(const std::string& purpose, double bytes)

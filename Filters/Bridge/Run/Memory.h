@@ -4,7 +4,6 @@
 #ifndef RectifiedTransport_Memory_h
 #define RectifiedTransport_Memory_h
 
-#include "Core/Flow/NoMemoryForFlowMap.h"
 #include "Core/Parallel/LargeBuffer.h"
 
 #include "vtkAbstractArray.h"
@@ -21,13 +20,18 @@ namespace RectifiedTransport
 std::string describeLack(const std::string& purpose, double bytes);
 
 [[noreturn]] void failOutOfMemory(const std::string& purpose, double bytes);
+// The same for the exception that a handler has caught, unless it names its purpose itself: then it
+// is thrown again.
+[[noreturn]] void failOutOfMemory(
+  const std::bad_alloc& caught, const std::string& purpose, double bytes);
 
 // Throws Failure if a single block of this size cannot be allocated. Systems that overcommit memory
 // refuse single blocks that exceed it, but not sums of blocks.
 void requireMemory(const std::string& purpose, double bytes);
 
 // Calls a function; its std::bad_alloc becomes a Failure, unless the exception itself names its
-// purpose.
+// purpose. Workers build tables and advect in a try block instead: many calls lead from there to
+// the kernels, and a lambda would be one more.
 template <class Function>
 auto withMemory(const std::string& purpose, double bytes, Function&& function)
 {
@@ -35,13 +39,9 @@ auto withMemory(const std::string& purpose, double bytes, Function&& function)
   {
     return function();
   }
-  catch (const NoMemoryForFlowMap&)
+  catch (const std::bad_alloc& caught)
   {
-    throw;
-  }
-  catch (const std::bad_alloc&)
-  {
-    failOutOfMemory(purpose, bytes);
+    failOutOfMemory(caught, purpose, bytes);
   }
 }
 
