@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Density/FlowCache.h"
 
+#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -29,8 +30,9 @@ const SharedFlow& FlowCache::Update(
   if (!onAllRanks(progress.Group(), this->Kept && this->Hash == hash))
   {
     this->Hash = ContentHash(); // invalid until the tables are built
-    this->Kept =
-      SharedFlow::FindOrBuild(density, hash, tables, std::move(this->Kept), progress, end);
+    const auto findOrBuild = dispatchDimension(density.Grid().Dimension(),
+      &SharedFlow::FindOrBuild<1>, &SharedFlow::FindOrBuild<2>, &SharedFlow::FindOrBuild<3>);
+    this->Kept = findOrBuild(density, hash, tables, std::move(this->Kept), progress, end);
     this->Time = std::max(this->Time, this->Kept->BuildTime());
   }
   else

@@ -5,13 +5,14 @@
 #include "Bridge/Image/GridText.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/Memory.h"
-#include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -21,12 +22,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-template <int D>
-std::string describeTables(const GridSize<D>& size)
-{
-  return "the tables of a density of " + describeSize<D>(size) + " cells";
-}
 
 // The flows in use by any filter of the process, by the content of their densities. Expired entries
 // are erased at the next insertion.
@@ -83,6 +78,24 @@ private:
 
 } // namespace
 
+template <int D>
+SharedFlow::SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDensity& density)
+  : Kept(std::move(flow))
+  , Kind(tables)
+  , Mass(this->Flow<D>().Total() * density.Grid().CellMeasure())
+{
+  if (!(this->Mass > 0.0) || std::isinf(this->Mass))
+  {
+    DensitySummary found;
+    found.Total = this->Mass;
+    density.ThrowInvalid(found);
+  }
+  this->Values = density.Unusual();
+  this->Values.Found = this->Flow<D>().Summary();
+  this->Built.Modified();
+}
+
+template <int D>
 std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   const ContentHash& content, FlowTables tables, std::shared_ptr<SharedFlow> previous,
   Progress& progress, double end)
@@ -94,10 +107,14 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   {
     return shared;
   }
-  AnyFlow old;
-  if (previous && registry.EraseIfUnique(previous))
+  // Whole tables use its memory again: old and new tables side by side would double the peak.
+  std::optional<RectifiedFlow<D>> old;
+  if (previous && registry.EraseIfUnique(previous) && tables == FlowTables::Whole)
   {
-    old = std::move(previous->Kept);
+    if (auto* flow = std::get_if<RectifiedFlow<D>>(&previous->Kept))
+    {
+      old = std::move(*flow);
+    }
   }
   previous.reset();
 
@@ -105,11 +122,24 @@ std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild(InputDensity& density,
   progress.BeginStage(progress.StageEnd() + partOfPreparation * (end - progress.StageEnd()));
   density.Prepare(tables, progress);
   progress.BeginStage(end);
-  const auto made = std::make_shared<SharedFlow>();
-  made->Kind = tables;
-  const auto build = dispatchDimension(density.Grid().Dimension(), &SharedFlow::Build<1>,
-    &SharedFlow::Build<2>, &SharedFlow::Build<3>);
-  ((*made).*build)(density, std::move(old), progress);
+  std::shared_ptr<SharedFlow> made;
+  try
+  {
+    made = std::make_shared<SharedFlow>(old
+        ? RectifiedFlow<D>(density.Source<D>(), std::move(*old), progress.Stage())
+        : RectifiedFlow<D>(density.Source<D>(), tables, progress.Stage()),
+      tables, density);
+  }
+  catch (const InvalidDensity& invalid)
+  {
+    density.ThrowInvalid(invalid.Summary());
+  }
+  catch (const std::bad_alloc& caught)
+  {
+    const GridSize<D> size = density.Grid().Size<D>();
+    failOutOfMemory(caught, "the tables of a density of " + describeSize<D>(size) + " cells",
+      RectifiedFlow<D>::MemoryFor(size));
+  }
   density.ReleaseGathered(); // whole tables need no values
   if (isShared)
   {
@@ -135,44 +165,11 @@ void SharedFlow::Attach(InputDensity& density, Progress& progress)
   }
 }
 
-// Old and new tables side by side would double the peak.
-template <int D>
-void SharedFlow::Build(InputDensity& density, AnyFlow previous, Progress& progress)
-{
-  const GridSize<D> size = density.Grid().Size<D>();
-  withMemory(describeTables<D>(size), RectifiedFlow<D>::MemoryFor(size), [&]() {
-    try
-    {
-      if (this->Kind == FlowTables::Tiled)
-      {
-        previous = std::monostate();
-        this->Kept = RectifiedFlow<D>(density.Source<D>(), FlowTables::Tiled, progress.Stage());
-      }
-      else if (auto* memory = std::get_if<RectifiedFlow<D>>(&previous))
-      {
-        this->Kept = RectifiedFlow<D>(density.Source<D>(), std::move(*memory), progress.Stage());
-      }
-      else
-      {
-        previous = std::monostate();
-        this->Kept = RectifiedFlow<D>(density.Source<D>(), progress.Stage());
-      }
-    }
-    catch (const InvalidDensity& invalid)
-    {
-      density.ThrowInvalid(invalid.Summary());
-    }
-  });
-  DensitySummary found;
-  found.Total = this->Flow<D>().Total() * density.Grid().CellMeasure();
-  if (!(found.Total > 0.0) || std::isinf(found.Total))
-  {
-    density.ThrowInvalid(found);
-  }
-  this->Mass = found.Total;
-  this->Values = density.Unusual();
-  this->Values.Found = this->Flow<D>().Summary();
-  this->Built.Modified();
-}
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<1>(
+  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<2>(
+  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
+template std::shared_ptr<SharedFlow> SharedFlow::FindOrBuild<3>(
+  InputDensity&, const ContentHash&, FlowTables, std::shared_ptr<SharedFlow>, Progress&, double);
 
 } // namespace RectifiedTransport

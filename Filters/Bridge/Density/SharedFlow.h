@@ -19,6 +19,11 @@ class ContentHash;
 class SharedFlow
 {
 public:
+  // With tables of this kind, just made. Throws Failure if its total mass is not positive and
+  // finite.
+  template <int D>
+  SharedFlow(RectifiedFlow<D> flow, FlowTables tables, const InputDensity& density);
+
   // What moves points.
   template <int D>
   const PointTransport<D>& Transport() const
@@ -41,6 +46,7 @@ public:
   // shares it; progress then reaches `end`. Flows with tiles are not shared because they read the
   // density of one filter's run. Resets `previous` first and reuses its memory if it has no other
   // owner. Throws Failure and Cancelled.
+  template <int D>
   static std::shared_ptr<SharedFlow> FindOrBuild(InputDensity& density, const ContentHash& content,
     FlowTables tables, std::shared_ptr<SharedFlow> previous, Progress& progress, double end);
 
@@ -51,12 +57,9 @@ private:
   using AnyFlow =
     std::variant<std::monostate, RectifiedFlow<1>, RectifiedFlow<2>, RectifiedFlow<3>>;
 
-  template <int D>
-  void Build(InputDensity& density, AnyFlow previous, Progress& progress);
-
   AnyFlow Kept;
-  FlowTables Kind = FlowTables::Whole;
-  double Mass = 0.0;
+  FlowTables Kind;
+  double Mass;
   UnusualValues Values;
   vtkTimeStamp Built;
 };
