@@ -32,15 +32,9 @@ const char* const NegativeValuesTexts[] = { "Error", "Clamp" };
 
 struct vtkDensityAlgorithm::vtkInternals
 {
-  struct vtkInput
-  {
-    DensityChoice Choice;
-    DensityInput Data;
-  };
-
   FlowCache Cache;
-  std::map<int, vtkInput> Inputs; // by their numbers
-  bool IsAnnouncing = false;      // the run that follows gives the warnings
+  std::map<int, DensityInput> Inputs; // by their numbers
+  bool IsAnnouncing = false;          // the run that follows gives the warnings
 };
 
 //------------------------------------------------------------------------------
@@ -97,9 +91,8 @@ std::unique_ptr<InputDensity> vtkDensityAlgorithm::ReadDensity(
 std::unique_ptr<InputDensity> vtkDensityAlgorithm::ReadDensity(
   vtkDataObject* input, RectifiedTransport::Progress& progress, int arrayIndex, int number)
 {
-  vtkInternals::vtkInput& read = this->Internals->Inputs[number];
-  read.Choice = this->GetDensityChoice(arrayIndex);
-  return read.Data.Read(read.Choice, input, progress);
+  const DensityChoice choice = this->GetDensityChoice(arrayIndex);
+  return this->Internals->Inputs[number].Read(choice, input, progress);
 }
 
 //------------------------------------------------------------------------------

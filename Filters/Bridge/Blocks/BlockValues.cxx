@@ -42,11 +42,6 @@ void BlockValues::SetData(vtkDataSet* data)
   this->Set = data;
 }
 
-void BlockValues::SetLattice(std::shared_ptr<const CellLattice> lattice)
-{
-  this->CellsOf = std::move(lattice);
-}
-
 BlockValues BlockValues::Only(double value) const
 {
   BlockValues only;

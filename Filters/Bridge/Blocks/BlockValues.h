@@ -9,14 +9,12 @@
 #include "Core/Parallel/LargeBuffer.h"
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace RectifiedTransport
 {
 
-class CellLattice;
 class Progress;
 
 class BlockValues
@@ -25,9 +23,6 @@ public:
   vtkDataSet* Data() const;
   // Takes another data set of the same points and cells, which may have other arrays.
   void SetData(vtkDataSet* data);
-  // The lattice that the blocks' cells form; nullptr if they form none.
-  const CellLattice* Lattice() const { return this->CellsOf.get(); }
-  void SetLattice(std::shared_ptr<const CellLattice> lattice);
   bool IsOnPoints() const { return this->OnPoints; }
   // Values of the points or the cells; 0 where no counted cell needs them.
   const double* Values() const { return this->Density.data(); }
@@ -62,7 +57,6 @@ private:
   friend class BlockReading;
 
   vtkSmartPointer<vtkDataSet> Set;
-  std::shared_ptr<const CellLattice> CellsOf;
   bool OnPoints = false;
   std::string ArrayName;
   UnusualValues Known;

@@ -217,6 +217,19 @@ void addGeometry(const DensityBlock& block, DataContent& content)
   }
 }
 
+void addArrays(const DensityBlock& block, DataContent& content)
+{
+  for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkDataSetAttributes* attributes = block.Data->GetAttributes(owner);
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      content.AddArray(attributes->GetAbstractArray(i));
+      content.AddNumber(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
+    }
+  }
+}
+
 int dimensionOfCellType(int type)
 {
   static const std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions = dimensionsOfTypes();

@@ -35,6 +35,15 @@ struct DensityBlock
   vtkDataArray* Array = nullptr; // the density; set by those who know its name, none: no mass
 };
 
+// Blocks whose arrays have one name and association. At least one block has an array; those without
+// it carry no mass but are part of the domain.
+struct DensityBlocks
+{
+  std::vector<DensityBlock> All;
+  bool OnPoints;
+  int Dimension; // the largest of a block's cells
+};
+
 // The leaves of a composite data set that are not data sets with cells, such as tables.
 struct OtherLeaves
 {
@@ -49,8 +58,9 @@ struct OtherLeaves
 std::vector<DensityBlock> densityBlocks(vtkDataObject* data, OtherLeaves* others = nullptr,
   Progress* progress = nullptr, const Ranks& ranks = SoloRanks::Get());
 
-// Adds everything that a block's points and cells are made of, with ghost flags.
+// Adds everything that a block's points and cells are made of, with ghost flags; and all arrays.
 void addGeometry(const DensityBlock& block, DataContent& content);
+void addArrays(const DensityBlock& block, DataContent& content);
 
 // The largest dimension of the cells of a data set; the dimension of a cell type.
 int largestCellDimension(vtkDataSet* data);

@@ -7,10 +7,8 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -33,17 +31,19 @@ DataContent contentOf(const std::vector<DensityBlock>& blocks)
   {
     content.AddNumber(static_cast<std::uint64_t>(block.Number));
     addGeometry(block, content);
-    for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
-    {
-      vtkDataSetAttributes* attributes = block.Data->GetAttributes(owner);
-      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-      {
-        content.AddArray(attributes->GetAbstractArray(i));
-        content.AddNumber(static_cast<std::uint64_t>(attributes->IsArrayAnAttribute(i)));
-      }
-    }
+    addArrays(block, content);
   }
   return content;
+}
+
+std::vector<DataPart> partsOf(const std::vector<DensityBlock>& blocks)
+{
+  std::vector<DataPart> parts;
+  for (const DensityBlock& block : blocks)
+  {
+    parts.push_back({ block.Number, block.Name, block.Data });
+  }
+  return parts;
 }
 
 vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks)
@@ -56,12 +56,8 @@ vtkSmartPointer<vtkDataObject> gatherImage(vtkImageData* own, const Ranks& ranks
 // As blocks of one data set.
 vtkSmartPointer<vtkDataObject> gatherBlocks(vtkDataObject* own, const Ranks& ranks)
 {
-  std::vector<DataPart> parts;
-  for (const DensityBlock& block : densityBlocks(own, nullptr, nullptr, ranks))
-  {
-    parts.push_back({ block.Number, block.Name, block.Data });
-  }
-  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::First);
+  const GatheredParts gathered =
+    gatherDataParts(partsOf(densityBlocks(own, nullptr, nullptr, ranks)), ranks, Receivers::First);
   if (gathered.AreWhole)
   {
     return own;
@@ -104,13 +100,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
     return this->Blocks;
   }
   *this = GatheredBlocks();
-  std::vector<DataPart> parts;
-  for (const DensityBlock& block : own)
-  {
-    parts.push_back({ block.Number, block.Name, block.Data });
-  }
-  const GatheredParts gathered = gatherDataParts(parts, ranks, Receivers::All);
-  for (const DataPart& part : gathered.Parts)
+  for (const DataPart& part : gatherDataParts(partsOf(own), ranks, Receivers::All).Parts)
   {
     const auto time = static_cast<std::uint64_t>(part.Data->GetMTime());
     this->Blocks.push_back({ part.Data, part.Name, part.Number, time });

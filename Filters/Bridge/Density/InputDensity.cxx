@@ -4,7 +4,6 @@
 #include "Bridge/Density/DensityFailure.h"
 #include "Core/Parallel/Progress.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -57,28 +56,14 @@ double InputDensity::White() const
 
 std::vector<std::string> InputDensity::Describe(const UnusualValues& values) const
 {
-  std::vector<std::string> lines;
-  const ValuePlaces places{ this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
-    this->Geometry.NumberOfCells() };
   // Of several components it is the luminance.
   const bool isInverted =
     this->Rules.Invert && (this->Rules.Component >= 0 || this->Components() == 1);
-  const double raw = isInverted ? values.White.Value - values.Found.Maximum : values.Found.Maximum;
-  if (isUnusualLargest(values.Found, raw, places.All))
-  {
-    const double share = static_cast<double>(values.Found.Maxima) *
-      (values.Found.Maximum / std::max(values.Found.Total, values.Found.Maximum));
-    lines.push_back(describeLargest(places, values.Found, raw, share));
-  }
-  else if (this->Rules.Invert && isUnusualWhite(values.White))
-  {
-    lines.push_back(describeWhite(places, values.White));
-  }
-  if (isUnusualLowest(values.Clamped))
-  {
-    lines.push_back(describeLowest(places, values.Clamped));
-  }
-  return lines;
+  const double largest = values.Found.Maximum;
+  return describeUnusual(values,
+    { this->Name, this->Name, this->Name, this->Geometry.IsOnPoints() ? "points" : "cells",
+      this->Geometry.NumberOfCells() },
+    isInverted ? values.White.Value - largest : largest, this->Rules.Invert);
 }
 
 void InputDensity::TellUnusual(const UnusualValues& values, Progress& progress)

@@ -2,6 +2,7 @@
 #include "Bridge/Density/PiecesDensity.h"
 
 #include "Bridge/Density/DensityFailure.h"
+#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/Failure.h"
@@ -146,11 +147,9 @@ std::uint64_t PiecesDensity::Fingerprint(Progress& progress) const
 {
   vtkImageData* own = this->Distribution->OwnImage();
   const bool onPoints = this->Geometry.IsOnPoints();
-  vtkDataSetAttributes* attributes =
-    own->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-  const std::uint64_t bits = fingerprint({ attributes->GetArray(this->ArrayName.c_str()),
-                                           own->GetPointGhostArray(), own->GetCellGhostArray() },
-    progress);
+  vtkDataArray* array = attributesOf(own, onPoints)->GetArray(this->ArrayName.c_str());
+  const std::uint64_t bits =
+    fingerprint({ array, own->GetPointGhostArray(), own->GetCellGhostArray() }, progress);
   return joinFingerprints(this->Distribution->Group(),
     onPoints ? this->Distribution->Points() : this->Distribution->Cells(),
     own->GetNumberOfPoints() == 0 ? 1 : bits);
@@ -215,10 +214,8 @@ std::unique_ptr<DensityImage> PiecesDensity::Gather(const Extent& extent) const
     return nullptr;
   }
   const bool onPoints = this->Geometry.IsOnPoints();
-  vtkDataSetAttributes* attributes =
-    image->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-  return std::make_unique<DensityImage>(
-    image, attributes->GetArray(this->ArrayName.c_str()), onPoints, this->Rules);
+  vtkDataArray* array = attributesOf(image, onPoints)->GetArray(this->ArrayName.c_str());
+  return std::make_unique<DensityImage>(image, array, onPoints, this->Rules);
 }
 
 template <int D>

@@ -21,12 +21,119 @@ constexpr std::int64_t fewest = 8;
 constexpr double farBelow = 1e-6;
 constexpr double nothingBelow = 1e-15;
 constexpr double below = 0.9;
+constexpr double mostOfMass = 0.5;
+
+// Whether files use this number for missing data: -999, 9999, 1e20, 9.96921e36 and so on.
+bool isFillValue(double value)
+{
+  constexpr double always = 1e30; // 1e30, 9.96921e36, 1.70141e38, the largest float
+  constexpr double tens = 1e10;
+  const double size = std::abs(value);
+  if (size >= always || value == -32768.0 || value == -2147483648.0 || value == 2147483647.0)
+  {
+    return true;
+  }
+  const double power = std::round(std::log10(std::max(size, 1.0)));
+  const double ten = std::pow(10.0, power);
+  // Powers of ten as floats, too; and 999, 9999, 99999 and so on.
+  return size >= tens ? std::abs(size / ten - 1.0) < 1e-7 : power >= 3.0 && size == ten - 1.0;
+}
+
+// The part of the mass that the largest density carries if all values are of cells of one size.
+double shareByValues(const DensitySummary& found)
+{
+  const double total = std::max(found.Total, found.Maximum);
+  return static_cast<double>(found.Maxima) * (found.Maximum / total);
+}
+
+// Whether the largest density may carry most of the mass by mistake: it is in a single cell, or in
+// several cells and far above all others.
+bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t values)
+{
+  const double largest = found.Maximum;
+  const double next = found.BelowMaximum;
+  if (values < fewest || !(largest > found.Minimum) || !(shareByValues(found) > mostOfMass))
+  {
+    return false;
+  }
+  if (isFillValue(raw) && next <= below * largest)
+  {
+    return true;
+  }
+  if (found.Maxima == 1)
+  {
+    return next > 0.0;
+  }
+  // Two values may be a mask and its ground.
+  return next > 0.0 && next <= (found.Minimum < next ? farBelow : nothingBelow) * largest;
+}
+
+bool isUnusualWhite(const LargestValue& white)
+{
+  constexpr double farFromAll = 1e-10;
+  return std::isfinite(white.Value) && std::isfinite(white.Next) && white.Value > 0.0 &&
+    white.Next != 0.0 &&
+    (std::abs(white.Next) <= farFromAll * white.Value ||
+      (isFillValue(white.Value) && white.Next <= below * white.Value));
+}
+
+bool isUnusualLowest(const LowestValue& lowest)
+{
+  return lowest.Count > 0 &&
+    static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative) > mostOfMass &&
+    (isFillValue(lowest.Value) ||
+      (lowest.Largest > 0.0 && lowest.Largest <= farBelow * -lowest.Value));
+}
 
 std::string countOf(std::int64_t count, std::int64_t first, const ValuePlaces& places)
 {
   std::ostringstream text;
   text << count << " of " << places.All << " " << places.Of
        << (count == 1 ? " (index " : " (the first at index ") << first << ")";
+  return text.str();
+}
+
+std::string describeLargest(
+  const ValuePlaces& places, const DensitySummary& found, double raw, double share)
+{
+  std::ostringstream text;
+  text << "The value " << raw << " of the " << places.Largest << ", in "
+       << countOf(found.Maxima, found.FirstMaximum, places) << ", carries ";
+  text.precision(3);
+  text << 100.0 * share << " % of the mass";
+  text.precision(6);
+  if (isFillValue(raw))
+  {
+    text << "; if it marks missing data, leave these " << places.Of << " out (Threshold does) or "
+         << "blank them";
+  }
+  else
+  {
+    text << ", the next largest is " << found.BelowMaximum << " as a density; is it meant?";
+  }
+  return text.str();
+}
+
+std::string describeWhite(const ValuePlaces& places, const LargestValue& white)
+{
+  std::ostringstream text;
+  text << "InvertDensity takes the value " << white.Value << " of the " << places.White << ", in "
+       << countOf(white.Count, white.First, places) << ", for white, and the next largest is "
+       << white.Next
+       << ": all others carry about equal mass; if it marks missing data, leave these " << places.Of
+       << " out (Threshold does) or blank them";
+  return text.str();
+}
+
+std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
+{
+  std::ostringstream text;
+  text << "The value " << lowest.Value << " of the " << places.Lowest << ", in "
+       << countOf(lowest.Count, lowest.First, places) << ", is ";
+  text.precision(3);
+  text << 100.0 * static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative)
+       << " % of what NegativeValues = Clamp takes as 0; if it marks missing data, they carry no "
+          "mass, as they should";
   return text.str();
 }
 
@@ -64,60 +171,6 @@ void merge(const LowestValue& part, LowestValue& all)
   all.Largest = largest;
 }
 
-bool isFillValue(double value)
-{
-  constexpr double always = 1e30; // 1e30, 9.96921e36, 1.70141e38, the largest float
-  constexpr double tens = 1e10;
-  const double size = std::abs(value);
-  if (size >= always || value == -32768.0 || value == -2147483648.0 || value == 2147483647.0)
-  {
-    return true;
-  }
-  const double power = std::round(std::log10(std::max(size, 1.0)));
-  const double ten = std::pow(10.0, power);
-  // Powers of ten as floats, too; and 999, 9999, 99999 and so on.
-  return size >= tens ? std::abs(size / ten - 1.0) < 1e-7 : power >= 3.0 && size == ten - 1.0;
-}
-
-bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t values)
-{
-  const double largest = found.Maximum;
-  const double next = found.BelowMaximum;
-  const double total = std::max(found.Total, largest);
-  if (values < fewest || !(largest > found.Minimum) ||
-    !(static_cast<double>(found.Maxima) * (largest / total) > mostOfMass))
-  {
-    return false;
-  }
-  if (isFillValue(raw) && next <= below * largest)
-  {
-    return true;
-  }
-  if (found.Maxima == 1)
-  {
-    return next > 0.0;
-  }
-  // Two values may be a mask and its ground.
-  return next > 0.0 && next <= (found.Minimum < next ? farBelow : nothingBelow) * largest;
-}
-
-bool isUnusualWhite(const LargestValue& white)
-{
-  constexpr double farFromAll = 1e-10;
-  return std::isfinite(white.Value) && std::isfinite(white.Next) && white.Value > 0.0 &&
-    white.Next != 0.0 &&
-    (std::abs(white.Next) <= farFromAll * white.Value ||
-      (isFillValue(white.Value) && white.Next <= below * white.Value));
-}
-
-bool isUnusualLowest(const LowestValue& lowest)
-{
-  return lowest.Count > 0 &&
-    static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative) > mostOfMass &&
-    (isFillValue(lowest.Value) ||
-      (lowest.Largest > 0.0 && lowest.Largest <= farBelow * -lowest.Value));
-}
-
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress)
 {
@@ -153,48 +206,27 @@ LowestValue findLowest(
   return reduceChunks(progress, count, grain, LowestValue(), ofChunk, join);
 }
 
-std::string describeLargest(
-  const ValuePlaces& places, const DensitySummary& found, double raw, double share)
+std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
+  double raw, bool isInverted, const std::function<double()>& shareOfLargest)
 {
-  std::ostringstream text;
-  text << "The value " << raw << " of the " << places.Name << ", in "
-       << countOf(found.Maxima, found.FirstMaximum, places) << ", carries ";
-  text.precision(3);
-  text << 100.0 * share << " % of the mass";
-  text.precision(6);
-  if (isFillValue(raw))
+  std::vector<std::string> lines;
+  if (isUnusualLargest(values.Found, raw, places.All))
   {
-    text << "; if it marks missing data, leave these " << places.Of << " out (Threshold does) or "
-         << "blank them";
+    const double share = shareOfLargest ? shareOfLargest() : shareByValues(values.Found);
+    if (share > mostOfMass)
+    {
+      lines.push_back(describeLargest(places, values.Found, raw, share));
+    }
   }
-  else
+  else if (isInverted && isUnusualWhite(values.White))
   {
-    text << ", the next largest is " << found.BelowMaximum << " as a density; is it meant?";
+    lines.push_back(describeWhite(places, values.White));
   }
-  return text.str();
-}
-
-std::string describeWhite(const ValuePlaces& places, const LargestValue& white)
-{
-  std::ostringstream text;
-  text << "InvertDensity takes the value " << white.Value << " of the " << places.Name << ", in "
-       << countOf(white.Count, white.First, places) << ", for white, and the next largest is "
-       << white.Next
-       << ": all others carry about equal mass; if it marks missing data, leave these " << places.Of
-       << " out (Threshold does) or blank them";
-  return text.str();
-}
-
-std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest)
-{
-  std::ostringstream text;
-  text << "The value " << lowest.Value << " of the " << places.Name << ", in "
-       << countOf(lowest.Count, lowest.First, places) << ", is ";
-  text.precision(3);
-  text << 100.0 * static_cast<double>(lowest.Count) * (lowest.Value / lowest.Negative)
-       << " % of what NegativeValues = Clamp takes as 0; if it marks missing data, they carry no "
-          "mass, as they should";
-  return text.str();
+  if (isUnusualLowest(values.Clamped))
+  {
+    lines.push_back(describeLowest(places, values.Clamped));
+  }
+  return lines;
 }
 
 } // namespace RectifiedTransport

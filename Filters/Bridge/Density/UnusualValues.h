@@ -8,16 +8,14 @@
 #include "Core/Tables/Density.h"
 
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace RectifiedTransport
 {
 
 class Progress;
-class Ranks;
-
-constexpr double mostOfMass = 0.5;
 
 // The lowest of the values that NegativeValues = Clamp takes as 0.
 struct LowestValue
@@ -41,34 +39,27 @@ struct UnusualValues
 void merge(const LargestValue& part, LargestValue& all);
 void merge(const LowestValue& part, LowestValue& all);
 
-// Whether files use this number for missing data: -999, 9999, 1e20, 9.96921e36 and so on.
-bool isFillValue(double value);
-
-// Whether one value may carry most of the mass by mistake, judged only by the values: it is in a
-// single cell, or in several cells and far above all others. `raw` is the array's value for the
-// largest density.
-bool isUnusualLargest(const DensitySummary& found, double raw, std::int64_t values);
-bool isUnusualWhite(const LargestValue& white);
-bool isUnusualLowest(const LowestValue& lowest);
-
 // The values that `rules` clamp, in `count` tuples that `reader` reads by these rules. Runs as the
 // current stage. Throws Cancelled.
 LowestValue findLowest(
   vtkDataArray* array, const DensityReader& reader, std::int64_t count, Progress& progress);
 
-// How a message names the cells or points that have a value.
+// How messages name the values of a density.
 struct ValuePlaces
 {
-  std::string Name; // of the array
-  const char* Of;   // "cells"
+  // The arrays that have the largest density, white, and the lowest value.
+  std::string Largest;
+  std::string White;
+  std::string Lowest;
+  const char* Of; // "cells"
   std::int64_t All;
 };
 
-// One line for each finding.
-std::string describeLargest(
-  const ValuePlaces& places, const DensitySummary& found, double raw, double share);
-std::string describeWhite(const ValuePlaces& places, const LargestValue& white);
-std::string describeLowest(const ValuePlaces& places, const LowestValue& lowest);
+// A line for each finding. `raw` is the array's value for the largest density. `shareOfLargest`
+// gives the part of the mass that the largest density carries; without it, all values are of cells
+// of one size.
+std::vector<std::string> describeUnusual(const UnusualValues& values, const ValuePlaces& places,
+  double raw, bool isInverted, const std::function<double()>& shareOfLargest = nullptr);
 
 } // namespace RectifiedTransport
 

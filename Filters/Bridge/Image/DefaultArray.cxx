@@ -12,6 +12,11 @@
 namespace RectifiedTransport
 {
 
+vtkDataSetAttributes* attributesOf(vtkDataSet* data, bool onPoints)
+{
+  return data->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
+}
+
 bool isIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
   return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||

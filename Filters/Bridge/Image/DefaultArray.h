@@ -17,6 +17,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+vtkDataSetAttributes* attributesOf(vtkDataSet* data, bool onPoints);
+
 // Whether an array holds ids or flags of points or cells, by its attribute or its name.
 bool isIds(vtkDataSetAttributes* attributes, vtkAbstractArray* array);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Inputs/DensityInput.h"
 
-#include "Bridge/Blocks/BlockArrays.h"
+#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Density/DensityFailure.h"
 #include "Bridge/Density/DensityImage.h"
 #include "Bridge/Density/PiecesDensity.h"
@@ -9,7 +9,6 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Ranks/SameOnRanks.h"
-#include "Bridge/Resampling/MeshInput.h"
 #include "Bridge/Run/ArrayList.h"
 #include "Bridge/Run/Failure.h"
 #include "Core/Parallel/Progress.h"
@@ -113,36 +112,112 @@ void reportOthers(const DensityChoice& choice, const OtherLeaves& others, const 
   }
 }
 
-// Sets the arrays of blocks, and warns of those that have none.
-BlockArrays chooseArrays(const DensityChoice& choice, std::vector<DensityBlock>& blocks)
+struct FoundArray
 {
+  vtkDataArray* Array = nullptr;
+  std::size_t Block = 0;
+  int Association = 0;
+};
+
+// In the first block of the most dimensions that has one. Without one, throws the Failure of the
+// first block of the most dimensions.
+FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock>& blocks,
+  const std::vector<int>& dimensions)
+{
+  const auto findIn = [&](std::size_t b) {
+    FoundArray found;
+    found.Array = requireArray(choice, blocks[b].Data, blocks[b].Name, found.Association);
+    found.Block = b;
+    return found;
+  };
+  const auto most = std::max_element(dimensions.begin(), dimensions.end());
+  for (int dimension = *most; dimension > 0; --dimension)
+  {
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+    {
+      if (dimensions[b] != dimension)
+      {
+        continue;
+      }
+      try
+      {
+        return findIn(b);
+      }
+      catch (const Failure&)
+      {
+        // Blocks may lack an array that is named; others may have no array to choose from.
+        if (choice.ArrayName.empty() && hasArrays(blocks[b].Data))
+        {
+          throw;
+        }
+      }
+    }
+  }
+  return findIn(static_cast<std::size_t>(most - dimensions.begin()));
+}
+
+// Sets the arrays of the blocks and leaves out those that cannot carry mass: of fewer dimensions
+// than the blocks with the array, and those of more dimensions without it.
+DensityBlocks chooseArrays(const DensityChoice& choice, const std::vector<DensityBlock>& blocks)
+{
+  std::vector<int> dimensions;
   for (const DensityBlock& block : blocks)
   {
     requireReadableCells(block.Data, block.Name);
+    dimensions.push_back(largestCellDimension(block.Data));
   }
-  const bool isNamed = !choice.ArrayName.empty();
-  const BlockArrays arrays = BlockArrays::Set(
-    [&](const DensityBlock& block, int& association) {
-      return requireArray(choice, block.Data, block.Name, association);
-    },
-    [&](vtkDataSet* data) { return isNamed || !hasArrays(data); }, blocks);
-  for (const DensityBlock& block : blocks)
+  if (*std::max_element(dimensions.begin(), dimensions.end()) == 0)
+  {
+    throw Failure("The input has no cells of a length, area or volume, so that it has no density; "
+                  "Splat Mass makes one of points");
+  }
+  const FoundArray found = findArray(choice, blocks, dimensions);
+  const char* name = found.Array->GetName();
+  DensityBlocks chosen{ {}, found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    dimensions[found.Block] };
+  std::int64_t all = 0; // blocks of as many dimensions or more
+  std::int64_t without = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    if (dimensions[b] < chosen.Dimension)
+    {
+      continue;
+    }
+    DensityBlock block = blocks[b];
+    block.Array = b == found.Block ? found.Array
+      : name                       ? attributesOf(block.Data, chosen.OnPoints)->GetArray(name)
+                                   : nullptr;
+    ++all;
+    without += block.Array ? 0 : 1;
+    if (dimensions[b] == chosen.Dimension)
+    {
+      chosen.All.push_back(block);
+    }
+  }
+  for (const DensityBlock& block : chosen.All)
   {
     if (block.Array)
     {
-      requireTuples(block.Array, block.Data, arrays.OnPoints, block.Name);
+      requireTuples(block.Array, block.Data, chosen.OnPoints, block.Name);
     }
   }
-  if (arrays.Without > 0)
+  if (without > 0)
   {
-    const DensityBlock& first = *std::find_if(
-      blocks.begin(), blocks.end(), [](const DensityBlock& block) { return block.Array; });
-    const char* found = first.Array->GetName();
-    choice.Warn(std::to_string(arrays.Without) + " of " + std::to_string(arrays.All) +
-      " blocks of the input have no " + (arrays.OnPoints ? "point" : "cell") + " array '" +
-      (found ? found : "") + "' and carry no mass");
+    choice.Warn(std::to_string(without) + " of " + std::to_string(all) +
+      " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array '" +
+      (name ? name : "") + "' and carry no mass");
   }
-  return arrays;
+  return chosen;
+}
+
+// The kind of the data, the same on all ranks; empty if none has data. Collective.
+std::string kindOf(vtkDataObject* input, const Ranks& ranks)
+{
+  const bool isImage = vtkImageData::SafeDownCast(input) != nullptr;
+  const bool hasData = isImage || ranks.AreSeveral() ? hasElements(input) : input != nullptr;
+  // Ranks without data take part.
+  const char* kind = !hasData ? "" : isImage ? "an image" : "no image";
+  return requireSameOnRanks(ranks, kind, "The density is ");
 }
 
 } // namespace
@@ -150,40 +225,8 @@ BlockArrays chooseArrays(const DensityChoice& choice, std::vector<DensityBlock>&
 std::unique_ptr<InputDensity> DensityInput::Read(
   const DensityChoice& choice, vtkDataObject* input, Progress& progress)
 {
-  auto density = this->ReadAny(choice, input, progress);
-  if (density)
-  {
-    density->SetListener(
-      [this, &choice](const std::vector<std::string>& lines, const InputDensity::Content& content) {
-        this->Tell(choice, lines, content);
-      });
-  }
-  return density;
-}
-
-// Once for each change of a density: what does not change it may run the filter, too.
-void DensityInput::Tell(const DensityChoice& choice, const std::vector<std::string>& lines,
-  const InputDensity::Content& content)
-{
-  const InputDensity::Content before = std::exchange(this->Told, content);
-  if (content != before || content[0] == 0)
-  {
-    std::for_each(lines.begin(), lines.end(), choice.WarnOfValues);
-  }
-}
-
-std::unique_ptr<InputDensity> DensityInput::ReadAny(
-  const DensityChoice& choice, vtkDataObject* input, Progress& progress)
-{
   const Ranks& ranks = progress.Group();
-  auto* image = vtkImageData::SafeDownCast(input);
-  const bool hasData = image || ranks.AreSeveral() ? hasElements(input) : input != nullptr;
-  // Ranks without data take part.
-  const std::string kind = requireSameOnRanks(ranks,
-    !hasData  ? ""
-      : image ? "an image"
-              : "no image",
-    "The density is ");
+  const std::string kind = kindOf(input, ranks);
   if (kind.empty())
   {
     return nullptr;
@@ -194,13 +237,31 @@ std::unique_ptr<InputDensity> DensityInput::ReadAny(
       std::to_string(choice.Association) +
       "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
   }
-  if (kind != "an image")
+  std::unique_ptr<InputDensity> density;
+  if (kind == "an image")
   {
-    return this->ReadBlocks(choice, input, progress);
+    this->Resampled = ResampledDensity();
+    this->Gathered = GatheredBlocks();
+    auto* image = vtkImageData::SafeDownCast(input);
+    density = ranks.AreSeveral() ? readPieces(choice, image, ranks) : readImage(choice, image);
   }
-  this->Resampled = ResampledDensity();
-  this->Gathered = GatheredBlocks();
-  return ranks.AreSeveral() ? readPieces(choice, image, ranks) : readImage(choice, image);
+  else
+  {
+    density = this->ReadBlocks(choice, input, progress);
+  }
+  if (density)
+  {
+    // Once for each change of a density: what does not change it may run the filter, too.
+    density->SetListener([this, warn = choice.WarnOfValues](const std::vector<std::string>& lines,
+                           const InputDensity::Content& content) {
+      const InputDensity::Content before = std::exchange(this->Told, content);
+      if (content != before || content[0] == 0)
+      {
+        std::for_each(lines.begin(), lines.end(), warn);
+      }
+    });
+  }
+  return density;
 }
 
 std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
@@ -218,14 +279,13 @@ std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
   {
     return nullptr;
   }
-  const BlockArrays arrays = chooseArrays(choice, blocks);
-  this->Resampled.Update(
-    blocks, arrays.OnPoints, arrays.Dimension, choice.Resolution, choice.Rules, progress);
+  auto density =
+    this->Resampled.Read(chooseArrays(choice, blocks), choice.Resolution, choice.Rules, progress);
   for (const std::string& warning : this->Resampled.Warnings())
   {
     choice.Warn(warning);
   }
-  return std::make_unique<MeshInput>(this->Resampled, choice.Rules);
+  return density;
 }
 
 bool isDensityAssociation(int association)

@@ -3,7 +3,6 @@
 #ifndef RectifiedTransport_DensityInput_h
 #define RectifiedTransport_DensityInput_h
 
-#include "Bridge/Blocks/DensityBlocks.h"
 #include "Bridge/Blocks/GatheredInputs.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Resampling/ResampledDensity.h"
@@ -17,7 +16,6 @@ VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractArray;
 class vtkDataObject;
 class vtkDataSet;
-class vtkImageData;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -44,18 +42,14 @@ bool isDensityAssociation(int association);
 class DensityInput
 {
 public:
-  // nullptr if the data have no points. Collective. The density is valid until the next Read, while
-  // the choice lives. Throws Failure and Cancelled.
+  // nullptr if the data have no points. Collective. The density is valid until the next Read.
+  // Throws Failure and Cancelled.
   std::unique_ptr<InputDensity> Read(
     const DensityChoice& choice, vtkDataObject* input, Progress& progress);
 
 private:
-  std::unique_ptr<InputDensity> ReadAny(
-    const DensityChoice& choice, vtkDataObject* input, Progress& progress);
   std::unique_ptr<InputDensity> ReadBlocks(
     const DensityChoice& choice, vtkDataObject* input, Progress& progress);
-  void Tell(const DensityChoice& choice, const std::vector<std::string>& lines,
-    const InputDensity::Content& content);
 
   ResampledDensity Resampled;
   GatheredBlocks Gathered;

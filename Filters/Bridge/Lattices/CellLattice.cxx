@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Lattices/CellLattice.h"
 
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Lattices/LatticeFrame.h"
 #include "Bridge/Run/Memory.h"
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
-#include "vtkImageData.h"
 
 #include <algorithm>
 #include <array>
@@ -129,9 +125,10 @@ ImageGrid CellLattice::DividedGrid(int resolution) const
   return this->Box.WithValues(values);
 }
 
-bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const
+bool CellLattice::FindTaken(
+  const std::vector<BlockValues>& values, Progress& progress, std::vector<bool>& taken) const
 {
-  std::vector<bool> taken(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
+  taken.assign(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
   bool once = true;
   this->VisitCounted(values, progress, [&](std::int64_t place, std::size_t, std::size_t) {
     once = once && !taken[static_cast<std::size_t>(place)];
@@ -140,32 +137,27 @@ bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values, Progress& 
   return once;
 }
 
-vtkSmartPointer<vtkImageData> CellLattice::MakeImage(
-  const std::vector<BlockValues>& values, const char* name, Progress& progress) const
+bool CellLattice::HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const
 {
-  requireMemory("an image of " + describeValues(this->Box) + " cells",
-    numberOfValues(this->Box) * sizeof(double));
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  applyGrid(this->Box, image);
-  const std::int64_t count = this->Box.NumberOfCells();
-  auto density = newArray<vtkDoubleArray>(name, 1, static_cast<vtkIdType>(count));
-  double* cells = density->GetPointer(0);
-  std::fill_n(cells, count, 0.0);
+  std::vector<bool> taken;
+  return this->FindTaken(values, progress, taken);
+}
+
+void CellLattice::CopyValues(
+  const std::vector<BlockValues>& values, double* cells, Progress& progress) const
+{
+  std::fill_n(cells, this->Box.NumberOfCells(), 0.0);
   this->VisitCounted(
     values, progress, [&](std::int64_t place, std::size_t block, std::size_t cell) {
       cells[place] = values[block].Values()[cell];
     });
-  image->GetCellData()->SetScalars(density);
-  return image;
 }
 
 void CellLattice::ClearAround(const std::vector<BlockValues>& values, const ImageGrid& divided,
   double* cells, Progress& progress) const
 {
-  std::vector<bool> taken(static_cast<std::size_t>(this->Box.NumberOfCells()), false);
-  this->VisitCounted(values, progress, [&taken](std::int64_t place, std::size_t, std::size_t) {
-    taken[static_cast<std::size_t>(place)] = true;
-  });
+  std::vector<bool> taken;
+  this->FindTaken(values, progress, taken);
   const std::array<int, 3> whole = this->Box.NumberOfValues();
   const std::array<int, 3> fine = divided.NumberOfValues();
   const int parts = std::max({ fine[0] / whole[0], fine[1] / whole[1], fine[2] / whole[2] });

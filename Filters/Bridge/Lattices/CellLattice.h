@@ -10,16 +10,10 @@
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
 
-#include "vtkSmartPointer.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkImageData;
-VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
@@ -45,10 +39,9 @@ public:
   // Whether no two counted cells are at the same place. The values are those of the blocks in Find
   // that have an array, in their order.
   bool HasEachOnce(const std::vector<BlockValues>& values, Progress& progress) const;
-  // The grid with the cell values in their places, 0 if there is none. Throws Failure.
-  vtkSmartPointer<vtkImageData> MakeImage(
-    const std::vector<BlockValues>& values, const char* name, Progress& progress) const;
-  // In an image of the divided grid, sets to 0 what rounding put outside the cells.
+  // For the grid: the cell values in their places, 0 if there is none.
+  void CopyValues(const std::vector<BlockValues>& values, double* cells, Progress& progress) const;
+  // For the divided grid: sets to 0 what rounding put outside the cells.
   void ClearAround(const std::vector<BlockValues>& values, const ImageGrid& divided, double* cells,
     Progress& progress) const;
 
@@ -60,6 +53,10 @@ public:
   const LatticeFrame& Frame() const { return this->Axes; }
 
 private:
+  // Which places have a counted cell. Returns whether none has two.
+  bool FindTaken(
+    const std::vector<BlockValues>& values, Progress& progress, std::vector<bool>& taken) const;
+
   LatticeFrame Axes;
   ImageGrid Box;
   std::vector<std::vector<std::int64_t>> Places; // of the cells of each block; -1: none

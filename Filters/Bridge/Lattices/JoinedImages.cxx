@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Lattices/JoinedImages.h"
 
+#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Run/Memory.h"
@@ -343,7 +344,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
                                           : int{ vtkDataSetAttributes::HIDDENCELL });
     std::transform(giver.begin(), giver.end(), flags->GetPointer(0),
       [hidden](std::int32_t owner) { return owner < 0 ? hidden : static_cast<unsigned char>(0); });
-    joined->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL)->AddArray(flags);
+    attributesOf(joined, onPoints)->AddArray(flags);
   }
   return joined;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/MeshDensity.h"
 
-#include "Bridge/Blocks/BlockValues.h"
-#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Meshes/CellPieces.h"
 #include "Bridge/Meshes/MeshSlabs.h"
 #include "Bridge/Meshes/RegionShapes.h"
@@ -13,10 +11,7 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/Reduction.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
-#include "vtkImageData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -171,7 +166,7 @@ std::string percent(double part, double whole)
 }
 
 template <int D>
-double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+double integrate(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
 {
   Size<D> size = sizeOf<D>(blocks, grid, progress);
   if constexpr (D == 2)
@@ -218,7 +213,7 @@ std::vector<std::string> warningsOf(const Size<D>& size, const std::vector<Block
 }
 
 template <int D>
-std::vector<std::string> integrate(
+std::vector<std::string> resample(
   const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
 {
   const MeshSlabs<D> slabs(grid.Size<D>());
@@ -257,29 +252,19 @@ std::vector<std::string> integrate(
 
 } // namespace
 
-double MeshDensity::IntegralOf(
-  const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
+std::vector<std::string> resampleCells(const std::vector<BlockValues>& blocks,
+  const ImageGrid& grid, Progress& progress, double* density)
 {
-  return dispatchDimension(grid.Dimension(), integralOf<1>, integralOf<2>, integralOf<3>)(
-    blocks, grid, progress);
+  return withMemory("the order of the input's cells", 0.0, [&]() {
+    return dispatchDimension(grid.Dimension(), resample<1>, resample<2>, resample<3>)(
+      blocks, grid, progress, density);
+  });
 }
 
-MeshDensity MeshDensity::Make(const std::vector<BlockValues>& blocks, const ImageGrid& grid,
-  const char* name, Progress& progress)
+double integralOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
 {
-  requireMemory("an image of " + describeValues(grid) + " cells (see DensityResolution)",
-    numberOfValues(grid) * sizeof(double));
-  MeshDensity made;
-  made.Image = vtkSmartPointer<vtkImageData>::New();
-  applyGrid(grid, made.Image);
-  auto density = newArray<vtkDoubleArray>(name, 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-  double* sums = density->GetPointer(0);
-  made.Warnings = withMemory("the order of the input's cells", 0.0, [&]() {
-    return dispatchDimension(grid.Dimension(), integrate<1>, integrate<2>, integrate<3>)(
-      blocks, grid, progress, sums);
-  });
-  made.Image->GetCellData()->SetScalars(density);
-  return made;
+  return dispatchDimension(grid.Dimension(), integrate<1>, integrate<2>, integrate<3>)(
+    blocks, grid, progress);
 }
 
 } // namespace RectifiedTransport

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Resampling/ResampledDensity.h"
 
-#include "Bridge/Lattices/CellLattice.h"
+#include "Bridge/Density/DensityImage.h"
+#include "Bridge/Image/DefaultArray.h"
+#include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Lattices/JoinedImages.h"
+#include "Bridge/Lattices/PlacesInLattice.h"
 #include "Bridge/Meshes/MeshGrid.h"
 #include "Bridge/Meshes/RegionShapes.h"
+#include "Bridge/Points/SampledArrays.h"
 #include "Bridge/Resampling/MeshDensity.h"
-#include "Bridge/Resampling/UnusualBlocks.h"
+#include "Bridge/Resampling/PlacesInMeshes.h"
+#include "Bridge/Run/Memory.h"
+#include "Core/Parallel/Progress.h"
+#include "Core/Tables/DensityInspection.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
-#include <optional>
 #include <utility>
 
 namespace RectifiedTransport
@@ -36,146 +41,201 @@ std::vector<DensityBlock> withMass(const std::vector<DensityBlock>& blocks)
   return with;
 }
 
-const char* nameOfArray(const std::vector<DensityBlock>& blocks)
-{
-  const auto with = std::find_if(
-    blocks.begin(), blocks.end(), [](const DensityBlock& block) { return block.Array != nullptr; });
-  return with->Array->GetName();
-}
-
-DataContent contentOf(const std::vector<DensityBlock>& blocks)
+DataContent contentOf(const DensityBlocks& blocks, int resolution, const DensityRules& rules)
 {
   // Images may be joined, with all their arrays.
-  const bool areImages = std::all_of(blocks.begin(), blocks.end(),
-    [](const DensityBlock& block) { return vtkImageData::SafeDownCast(block.Data) != nullptr; });
+  const bool mayJoin = blocks.All.size() > 1 &&
+    std::all_of(blocks.All.begin(), blocks.All.end(),
+      [](const DensityBlock& block) { return vtkImageData::SafeDownCast(block.Data) != nullptr; });
   DataContent content;
-  for (const DensityBlock& block : blocks)
+  for (const DensityBlock& block : blocks.All)
   {
     addGeometry(block, content);
     content.AddArray(block.Array);
-    for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
+    if (mayJoin)
     {
-      vtkDataSetAttributes* attributes = block.Data->GetAttributes(owner);
-      for (int i = 0; areImages && blocks.size() > 1 && i < attributes->GetNumberOfArrays(); ++i)
-      {
-        content.AddArray(attributes->GetAbstractArray(i));
-      }
+      addArrays(block, content);
     }
   }
-  return content;
-}
-
-} // namespace
-
-vtkImageData* ResampledDensity::Image() const
-{
-  return this->Made;
-}
-
-void ResampledDensity::Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension,
-  int resolution, const DensityRules& rules, Progress& progress)
-{
-  DataContent content = contentOf(blocks);
-  for (const int number : { onPoints ? 1 : 0, dimension, resolution, rules.Component,
+  for (const int number : { blocks.OnPoints ? 1 : 0, blocks.Dimension, resolution, rules.Component,
          rules.Invert ? 1 : 0, rules.ClampNegative ? 1 : 0 })
   {
     content.AddNumber(static_cast<std::uint64_t>(number));
   }
-  if (this->Made && content.IsSameAs(this->Content, progress))
+  return content;
+}
+
+// Adds what is known about a block's values. `isBeyond`: its value replaces that of the blocks
+// before. Blocks number their values each from 0: the index stays that of the block of this name.
+template <class Found>
+void addBlock(const BlockValues& block, const Found& part, std::int64_t Found::*index,
+  bool isBeyond, Found& all, std::string& name)
+{
+  const std::int64_t first = all.*index;
+  merge(part, all);
+  if (name.empty() || isBeyond)
   {
-    this->Attach(blocks);
+    name = block.Name();
     return;
   }
-  *this = ResampledDensity();
-  if (!this->Join(blocks, onPoints))
-  {
-    this->Resample(blocks, onPoints, dimension, resolution, rules, progress);
-  }
-  content.Keep(progress);
-  this->Content = std::move(content);
+  all.*index = first;
 }
 
-// Returns whether the blocks are images that tile a lattice.
-bool ResampledDensity::Join(const std::vector<DensityBlock>& blocks, bool onPoints)
+std::vector<std::string> describeBlocks(const std::vector<BlockValues>& blocks,
+  const ImageGrid& grid, bool isInverted, Progress& progress)
 {
-  this->Made = joinImages(blocks, onPoints);
-  if (!this->Made)
+  UnusualValues all;
+  ValuePlaces places{ {}, {}, {}, blocks.front().IsOnPoints() ? "points" : "cells", 0 };
+  for (const BlockValues& block : blocks)
   {
-    return false;
+    const UnusualValues& known = block.Unusual();
+    addBlock(block, known.Found, &DensitySummary::FirstMaximum,
+      known.Found.Maximum > all.Found.Maximum, all.Found, places.Largest);
+    addBlock(block, known.White, &LargestValue::First, known.White.Value > all.White.Value,
+      all.White, places.White);
+    addBlock(block, known.Clamped, &LowestValue::First, known.Clamped.Value < all.Clamped.Value,
+      all.Clamped, places.Lowest);
+    places.All += block.NumberOfValues();
   }
-  this->OnPoints = onPoints;
-  vtkDataSetAttributes* attributes =
-    this->Made->GetAttributes(onPoints ? vtkDataObject::POINT : vtkDataObject::CELL);
-  this->Density =
-    blocks.size() == 1 ? blocks.front().Array : attributes->GetArray(nameOfArray(blocks));
-  return true;
+  const double largest = all.Found.Maximum;
+  return describeUnusual(
+    all, places, isInverted ? all.White.Value - largest : largest, isInverted, [&]() {
+      std::vector<BlockValues> only;
+      only.reserve(blocks.size());
+      for (const BlockValues& block : blocks)
+      {
+        only.push_back(block.Only(largest));
+      }
+      return integralOf(only, grid, progress) / integralOf(blocks, grid, progress);
+    });
 }
 
-void ResampledDensity::Resample(const std::vector<DensityBlock>& blocks, bool onPoints,
-  int dimension, int resolution, const DensityRules& rules, Progress& progress)
+} // namespace
+
+// The image that data sets were resampled to. Its values are densities, with the rules applied.
+// Particles get their arrays from the data sets.
+class ResampledDensity::Density final : public DensityImage
 {
-  // A mesh is checked by meshGrid before its values are read.
-  const MassCells cells = massCells(blocks, dimension, progress);
-  std::shared_ptr<const CellLattice> lattice;
-  if (!cells.AreClosedLines)
+public:
+  explicit Density(const ResampledDensity& made)
+    : DensityImage(made.Image, made.Image->GetCellData()->GetScalars(), false, DensityRules())
+    , Made(made)
   {
-    if (std::optional<CellLattice> found = CellLattice::Find(blocks, dimension, progress))
+  }
+
+  void SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles, Progress& progress,
+    vtkPointData* output) const override
+  {
+    const std::vector<BlockValues>& meshes = this->Made.Meshes;
+    constexpr double partOfSearch = 0.5;
+    progress.BeginStage(progress.StageEnd() + partOfSearch * (1.0 - progress.StageEnd()));
+    ArraySource source{ {}, "input", false };
+    for (const BlockValues& mesh : meshes)
     {
-      lattice = std::make_shared<const CellLattice>(std::move(*found));
+      source.Sets.push_back(mesh.Data());
     }
+    if (this->Made.Lattice)
+    {
+      const PlacesInLattice places(*this->Made.Lattice, meshes, particles, progress);
+      sampleArrays(source, places, progress, 1.0, output);
+      return;
+    }
+    const PlacesInMeshes places(meshes, this->Grid(), particles, progress);
+    sampleArrays(source, places, progress, 1.0, output);
   }
-  ImageGrid grid = !lattice ? meshGrid(blocks, cells, resolution, progress)
-    : onPoints              ? lattice->DividedGrid(resolution)
-                            : lattice->Grid();
-  this->Blocks = readBlocks(withMass(blocks), onPoints, cells, rules, progress);
-  if (lattice && !lattice->HasEachOnce(this->Blocks, progress))
+
+private:
+  std::vector<std::string> Describe(const UnusualValues& /*values*/) const override
   {
-    lattice.reset();
-    grid = meshGrid(blocks, cells, resolution, progress);
+    return this->Made.Unusual;
   }
-  const char* name = nameOfArray(blocks);
-  const char* called = name ? name : "Density";
-  if (lattice && !onPoints)
+
+  const ResampledDensity& Made;
+};
+
+std::unique_ptr<InputDensity> ResampledDensity::Read(
+  const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
+{
+  DataContent content = contentOf(blocks, resolution, rules);
+  if (!content.IsSameAs(this->Content, progress))
   {
-    this->Made = lattice->MakeImage(this->Blocks, called, progress);
+    *this = ResampledDensity();
+    this->Image = joinImages(blocks.All, blocks.OnPoints);
+    if (!this->Image)
+    {
+      this->Resample(blocks, resolution, rules, progress);
+    }
+    content.Keep(progress);
+    this->Content = std::move(content);
+  }
+  // The data sets may be new ones with the same content.
+  const std::vector<DensityBlock> read = withMass(blocks.All);
+  if (!this->Meshes.empty())
+  {
+    for (std::size_t b = 0; b < read.size(); ++b)
+    {
+      this->Meshes[b].SetData(read[b].Data);
+    }
+    return std::make_unique<Density>(*this);
+  }
+  vtkDataArray* array = read.front().Array;
+  if (blocks.All.size() == 1)
+  {
+    this->Image = vtkImageData::SafeDownCast(read.front().Data);
   }
   else
   {
-    if (!lattice && cells.Dimension == 2)
-    {
-      markRegions(this->Blocks, grid, progress);
-    }
-    const MeshDensity made = MeshDensity::Make(this->Blocks, grid, called, progress);
-    this->Made = made.Image;
-    this->Lost = made.Warnings;
+    array = attributesOf(this->Image, blocks.OnPoints)->GetArray(array->GetName());
   }
-  this->Density = this->Made->GetCellData()->GetScalars();
-  if (lattice && onPoints)
-  {
-    auto* values = vtkDoubleArray::SafeDownCast(this->Density);
-    lattice->ClearAround(this->Blocks, grid, values->GetPointer(0), progress);
-  }
-  for (BlockValues& block : this->Blocks)
-  {
-    block.SetLattice(lattice);
-  }
-  this->Resampled = true;
-  this->Unusual = describeUnusual(this->Blocks, grid, rules.Invert, progress);
+  return std::make_unique<DensityImage>(this->Image, array, blocks.OnPoints, rules);
 }
 
-// The data sets may be new ones with the same content.
-void ResampledDensity::Attach(const std::vector<DensityBlock>& blocks)
+void ResampledDensity::Resample(
+  const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress)
 {
-  if (!this->Resampled && blocks.size() == 1)
+  // A mesh is checked by meshGrid before its values are read.
+  const MassCells cells = massCells(blocks.All, blocks.Dimension, progress);
+  if (!cells.AreClosedLines)
   {
-    this->Made = vtkImageData::SafeDownCast(blocks.front().Data);
-    this->Density = blocks.front().Array;
+    this->Lattice = CellLattice::Find(blocks.All, blocks.Dimension, progress);
   }
-  const std::vector<DensityBlock> read = withMass(blocks);
-  for (std::size_t b = 0; b < this->Blocks.size(); ++b)
+  ImageGrid grid = !this->Lattice ? meshGrid(blocks.All, cells, resolution, progress)
+    : blocks.OnPoints             ? this->Lattice->DividedGrid(resolution)
+                                  : this->Lattice->Grid();
+  const std::vector<DensityBlock> read = withMass(blocks.All);
+  this->Meshes = readBlocks(read, blocks.OnPoints, cells, rules, progress);
+  if (this->Lattice && !this->Lattice->HasEachOnce(this->Meshes, progress))
   {
-    this->Blocks[b].SetData(read[b].Data);
+    this->Lattice.reset();
+    grid = meshGrid(blocks.All, cells, resolution, progress);
   }
+  if (!this->Lattice && cells.Dimension == 2)
+  {
+    markRegions(this->Meshes, grid, progress);
+  }
+  const bool isLatticeImage = this->Lattice && !blocks.OnPoints;
+  requireMemory("an image of " + describeValues(grid) +
+      (isLatticeImage ? " cells" : " cells (see DensityResolution)"),
+    numberOfValues(grid) * sizeof(double));
+  this->Image = vtkSmartPointer<vtkImageData>::New();
+  applyGrid(grid, this->Image);
+  const char* name = read.front().Array->GetName();
+  const auto density = newArray<vtkDoubleArray>(
+    name ? name : "Density", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+  if (isLatticeImage)
+  {
+    this->Lattice->CopyValues(this->Meshes, density->GetPointer(0), progress);
+  }
+  else
+  {
+    this->Lost = resampleCells(this->Meshes, grid, progress, density->GetPointer(0));
+  }
+  if (this->Lattice && blocks.OnPoints)
+  {
+    this->Lattice->ClearAround(this->Meshes, grid, density->GetPointer(0), progress);
+  }
+  this->Image->GetCellData()->SetScalars(density);
+  this->Unusual = describeBlocks(this->Meshes, grid, rules.Invert, progress);
 }
 
 } // namespace RectifiedTransport

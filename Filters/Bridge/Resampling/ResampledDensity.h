@@ -6,10 +6,13 @@
 #include "Bridge/Blocks/BlockValues.h"
 #include "Bridge/Blocks/DataContent.h"
 #include "Bridge/Blocks/DensityBlocks.h"
-#include "Bridge/Density/DensityReader.h"
+#include "Bridge/Density/InputDensity.h"
+#include "Bridge/Lattices/CellLattice.h"
 
 #include "vtkSmartPointer.h"
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,36 +29,26 @@ class Progress;
 class ResampledDensity
 {
 public:
-  // The arrays of the blocks have one name and association; at least one block has an array. Blocks
-  // without it carry no mass but are part of the domain. Throws Failure and Cancelled.
-  void Update(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension, int resolution,
-    const DensityRules& rules, Progress& progress);
+  // Images that tile a lattice are joined, other data sets resampled with `resolution` cells. The
+  // density is valid until the next Read. Throws Failure and Cancelled.
+  std::unique_ptr<InputDensity> Read(
+    const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress);
 
-  vtkImageData* Image() const;
-  vtkDataArray* Array() const { return this->Density; }
-  bool IsOnPoints() const { return this->OnPoints; }
-  // Whether the image's values are already densities, with the rules applied: the data sets are not
-  // images that tile a lattice.
-  bool IsResampled() const { return this->Resampled; }
-  // The data sets, if the image was resampled.
-  const std::vector<BlockValues>& Meshes() const { return this->Blocks; }
   // Warnings about data that carry no mass.
   const std::vector<std::string>& Warnings() const { return this->Lost; }
-  // Findings about values that are probably not meant, if the image was resampled.
-  const std::vector<std::string>& Findings() const { return this->Unusual; }
 
 private:
-  bool Join(const std::vector<DensityBlock>& blocks, bool onPoints);
-  void Resample(const std::vector<DensityBlock>& blocks, bool onPoints, int dimension,
-    int resolution, const DensityRules& rules, Progress& progress);
-  void Attach(const std::vector<DensityBlock>& blocks);
+  class Density;
 
-  DataContent Content; // of the last Update
-  vtkSmartPointer<vtkImageData> Made;
-  vtkDataArray* Density = nullptr;
-  bool OnPoints = false;
-  bool Resampled = false;
-  std::vector<BlockValues> Blocks;
+  void Resample(
+    const DensityBlocks& blocks, int resolution, const DensityRules& rules, Progress& progress);
+
+  DataContent Content; // of the last Read
+  vtkSmartPointer<vtkImageData> Image;
+  // If the image was resampled: the data sets with mass, the lattice of their cells if they form
+  // one, and findings about values that are probably not meant.
+  std::vector<BlockValues> Meshes;
+  std::optional<CellLattice> Lattice;
   std::vector<std::string> Unusual;
   std::vector<std::string> Lost;
 };
