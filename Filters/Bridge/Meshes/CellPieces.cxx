@@ -92,7 +92,7 @@ void CellPieces<D>::AddTo(const GridSlab<D>& slab, vtkIdType cell, [[maybe_unuse
 }
 
 template <int D>
-typename CellPieces<D>::Size CellPieces<D>::SizeOf(vtkIdType cell)
+CellSize CellPieces<D>::SizeOf(vtkIdType cell)
 {
   const auto meanOf = [](const auto& values) {
     double sum = 0.0;
@@ -102,7 +102,7 @@ typename CellPieces<D>::Size CellPieces<D>::SizeOf(vtkIdType cell)
     }
     return sum / static_cast<double>(values.size());
   };
-  Size size;
+  CellSize size;
   MultilinearBox<D> box;
   if (this->FindBox(cell, box))
   {
@@ -135,7 +135,7 @@ typename CellPieces<D>::Size CellPieces<D>::SizeOf(vtkIdType cell)
 
 // As left out.
 template <int D>
-void CellPieces<D>::AddBoxAround(vtkIdType cell, Size& size)
+void CellPieces<D>::AddBoxAround(vtkIdType cell, CellSize& size)
 {
   this->Data->GetCellPoints(cell, this->Ids);
   const vtkIdType count = this->Ids->GetNumberOfIds();

@@ -10,6 +10,8 @@
 #include "vtkNew.h"
 #include "vtkType.h"
 
+#include <cstdint>
+
 VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
 class vtkGenericCell;
@@ -19,6 +21,23 @@ VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
+
+// What cells contain, in grid cells.
+struct CellSize
+{
+  double Integral = 0.0; // of the density
+  double Measure = 0.0;
+  double Wide = 0.0;            // of the measure, that of simplices which several lines cross
+  std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
+  double LeftOutIntegral = 0.0; // at most: of the boxes around these
+  double LeftOutMeasure = 0.0;
+};
+
+inline CellSize operator+(const CellSize& a, const CellSize& b)
+{
+  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut,
+    a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure };
+}
 
 // For one thread.
 template <int D>
@@ -33,16 +52,7 @@ public:
   // Adds the integrals over a cell of dimension D; over simplices along lines or exactly.
   void AddTo(const GridSlab<D>& slab, vtkIdType cell, bool alongLines);
 
-  struct Size
-  {
-    double Integral = 0.0; // of the density
-    double Measure = 0.0;
-    double Wide = 0.0;            // of the measure, that of simplices which several lines cross
-    std::int64_t LeftOut = 0;     // cells that VTK could not divide into simplices
-    double LeftOutIntegral = 0.0; // at most: of the boxes around these
-    double LeftOutMeasure = 0.0;
-  };
-  Size SizeOf(vtkIdType cell);
+  CellSize SizeOf(vtkIdType cell);
 
   // Divides a cell of dimension D into simplices. Returns whether VTK could.
   bool Divide(vtkIdType cell);
@@ -54,7 +64,7 @@ public:
 
 private:
   bool FindBox(vtkIdType cell, MultilinearBox<D>& box);
-  void AddBoxAround(vtkIdType cell, Size& size);
+  void AddBoxAround(vtkIdType cell, CellSize& size);
   template <class Visit>
   bool VisitSimplices(vtkIdType cell, const Visit& visit);
 

@@ -8,6 +8,7 @@
 #include "vtkNew.h"
 
 #include <limits>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -17,10 +18,8 @@ namespace
 
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
-} // namespace
-
 template <int D>
-CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
+Bins<vtkIdType> cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
   const MeshSlabs<D>& slabs, double margin, Progress& progress)
 {
   struct Reach
@@ -60,37 +59,39 @@ CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
       }
     }
   });
-  CellsOfSlabs found;
-  found.Begin.assign(static_cast<std::size_t>(slabs.Count) + 2, 0);
-  for (const Reach& reach : reaches)
-  {
-    for (std::int32_t s = reach.First; s <= reach.Last; ++s)
+  Bins<vtkIdType> found;
+  found.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
+    for (std::size_t cell = 0; cell < reaches.size(); ++cell)
     {
-      ++found.Begin[static_cast<std::size_t>(s) + 2];
+      for (std::int32_t s = reaches[cell].First; s <= reaches[cell].Last; ++s)
+      {
+        add(static_cast<std::size_t>(s), static_cast<vtkIdType>(cell));
+      }
     }
-  }
-  for (std::size_t s = 2; s < found.Begin.size(); ++s)
-  {
-    found.Begin[s] += found.Begin[s - 1];
-  }
-  found.Cells.resize(static_cast<std::size_t>(found.Begin.back()));
-  for (std::size_t cell = 0; cell < reaches.size(); ++cell)
-  {
-    for (std::int32_t s = reaches[cell].First; s <= reaches[cell].Last; ++s)
-    {
-      std::int64_t& next = found.Begin[static_cast<std::size_t>(s) + 1];
-      found.Cells[static_cast<std::size_t>(next++)] = static_cast<vtkIdType>(cell);
-    }
-  }
-  found.Begin.pop_back();
+  });
   return found;
 }
 
-template CellsOfSlabs cellsOfSlabs<1>(
-  const BlockValues&, const ImageGrid&, const MeshSlabs<1>&, double, Progress&);
-template CellsOfSlabs cellsOfSlabs<2>(
-  const BlockValues&, const ImageGrid&, const MeshSlabs<2>&, double, Progress&);
-template CellsOfSlabs cellsOfSlabs<3>(
-  const BlockValues&, const ImageGrid&, const MeshSlabs<3>&, double, Progress&);
+} // namespace
+
+template <int D>
+std::vector<Bins<vtkIdType>> cellsOfSlabs(const std::vector<BlockValues>& blocks,
+  const ImageGrid& grid, const MeshSlabs<D>& slabs, double margin, Progress& progress)
+{
+  std::vector<Bins<vtkIdType>> cells;
+  cells.reserve(blocks.size());
+  for (const BlockValues& block : blocks)
+  {
+    cells.push_back(cellsOfSlabs<D>(block, grid, slabs, margin, progress));
+  }
+  return cells;
+}
+
+template std::vector<Bins<vtkIdType>> cellsOfSlabs<1>(
+  const std::vector<BlockValues>&, const ImageGrid&, const MeshSlabs<1>&, double, Progress&);
+template std::vector<Bins<vtkIdType>> cellsOfSlabs<2>(
+  const std::vector<BlockValues>&, const ImageGrid&, const MeshSlabs<2>&, double, Progress&);
+template std::vector<Bins<vtkIdType>> cellsOfSlabs<3>(
+  const std::vector<BlockValues>&, const ImageGrid&, const MeshSlabs<3>&, double, Progress&);
 
 } // namespace RectifiedTransport

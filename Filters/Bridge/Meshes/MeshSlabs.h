@@ -4,7 +4,9 @@
 #define RectifiedTransport_MeshSlabs_h
 
 #include "Bridge/Blocks/BlockValues.h"
+#include "Core/Geometry/Bins.h"
 #include "Core/Geometry/ImageGrid.h"
+#include "Core/Overlap/Overlap.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +23,8 @@ template <int D>
 struct MeshSlabs
 {
   explicit MeshSlabs(const GridSize<D>& size)
-    : Planes(std::max<std::int64_t>((size[D - 1] + most - 1) / most, std::min(size[D - 1], least)))
+    : Size(size)
+    , Planes(std::max<std::int64_t>((size[D - 1] + most - 1) / most, std::min(size[D - 1], least)))
     , Count((size[D - 1] + this->Planes - 1) / this->Planes)
   {
   }
@@ -33,23 +36,25 @@ struct MeshSlabs
       static_cast<std::int64_t>(std::clamp(plane, 0.0, end)) / this->Planes, this->Count - 1);
   }
 
+  // A slab of the values of all cells.
+  GridSlab<D> Slab(std::int64_t slab, double* values) const
+  {
+    return { this->Size, slab * this->Planes,
+      std::min((slab + 1) * this->Planes, this->Size[D - 1]), values };
+  }
+
   static constexpr std::int64_t most = 64;
   static constexpr std::int64_t least = 4;
+  GridSize<D> Size;
   std::int64_t Planes;
   std::int64_t Count;
 };
 
-// The cells of a block that are divided and reach each slab, in their order.
-struct CellsOfSlabs
-{
-  std::vector<vtkIdType> Cells;
-  std::vector<std::int64_t> Begin; // of each slab, and the end
-};
-
-// The cells nearer than `margin` grid cells to a slab. Throws Cancelled.
+// Of each block the cells that are divided and nearer than `margin` grid cells to each slab, in
+// their order. Throws Cancelled.
 template <int D>
-CellsOfSlabs cellsOfSlabs(const BlockValues& values, const ImageGrid& grid,
-  const MeshSlabs<D>& slabs, double margin, Progress& progress);
+std::vector<Bins<vtkIdType>> cellsOfSlabs(const std::vector<BlockValues>& blocks,
+  const ImageGrid& grid, const MeshSlabs<D>& slabs, double margin, Progress& progress);
 
 } // namespace RectifiedTransport
 

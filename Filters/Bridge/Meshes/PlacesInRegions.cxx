@@ -31,15 +31,15 @@ double squaredDistance(const Point<2>& a, const Point<2>& b, double part, const 
 
 } // namespace
 
-RegionRows::RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last,
-  std::int64_t low, std::int64_t high)
+RegionRows::RegionRows(
+  const RegionBatch& batch, const Edges& edges, std::int64_t low, std::int64_t high)
   : Batch(batch)
   , Lower{ infinity, infinity }
   , Upper{ -infinity, -infinity }
 {
-  for (std::size_t i = first; i < last; ++i)
+  for (const RegionBatch::Edge& number : edges)
   {
-    const OutlineEdge& edge = batch.At(batch.Edges[i]);
+    const OutlineEdge& edge = batch.At(number);
     for (int axis = 0; axis < 2; ++axis)
     {
       this->Lower[axis] = std::min({ this->Lower[axis], edge.From[axis], edge.To[axis] });
@@ -48,45 +48,34 @@ RegionRows::RegionRows(const RegionBatch& batch, std::size_t first, std::size_t 
   }
   // Edges that are within a row of these.
   this->FirstRow = std::max(low - 1, static_cast<std::int64_t>(std::floor(this->Lower[1])));
-  const std::int64_t lastRow =
-    std::min(high, static_cast<std::int64_t>(std::floor(this->Upper[1])));
-  const auto rows =
-    static_cast<std::size_t>(std::max<std::int64_t>(lastRow - this->FirstRow, 0)) + 1;
-  this->Begin.assign(rows + 2, 0);
-  const auto visit = [&](const auto& add) {
-    for (std::size_t i = first; i < last; ++i)
+  this->LastRow =
+    std::max(this->FirstRow, std::min(high, static_cast<std::int64_t>(std::floor(this->Upper[1]))));
+  const auto rows = static_cast<std::size_t>(this->LastRow - this->FirstRow) + 1;
+  this->Rows.Fill(rows, [&](const auto& add) {
+    for (const RegionBatch::Edge& number : edges)
     {
-      const OutlineEdge& edge = batch.At(batch.Edges[i]);
-      const std::int64_t end = this->RowOf(std::max(edge.From[1], edge.To[1]));
-      for (std::int64_t row = this->RowOf(std::min(edge.From[1], edge.To[1])); row <= end; ++row)
+      const OutlineEdge& edge = batch.At(number);
+      const std::size_t end = this->RowOf(std::max(edge.From[1], edge.To[1]));
+      for (std::size_t row = this->RowOf(std::min(edge.From[1], edge.To[1])); row <= end; ++row)
       {
-        add(static_cast<std::size_t>(row), batch.Edges[i]);
+        add(row, number);
       }
     }
-  };
-  visit([&](std::size_t row, const RegionBatch::Edge&) { ++this->Begin[row + 2]; });
-  for (std::size_t row = 2; row < this->Begin.size(); ++row)
-  {
-    this->Begin[row] += this->Begin[row - 1];
-  }
-  this->Sorted.resize(this->Begin.back());
-  visit([&](std::size_t row, const RegionBatch::Edge& edge) {
-    this->Sorted[this->Begin[row + 1]++] = edge;
   });
 }
 
-std::int64_t RegionRows::RowOf(double y) const
+std::size_t RegionRows::RowOf(double y) const
 {
-  const auto last = static_cast<std::int64_t>(this->Begin.size()) - 3;
-  return std::clamp<std::int64_t>(
-    static_cast<std::int64_t>(std::floor(y)) - this->FirstRow, 0, last);
+  return static_cast<std::size_t>(
+    std::clamp(static_cast<std::int64_t>(std::floor(y)), this->FirstRow, this->LastRow) -
+    this->FirstRow);
 }
 
 // Of the edge of the input that a piece is of.
 void RegionRows::SetEnds(
-  const RegionBatch::Edge& edge, double part, double weight, int at, Found& found) const
+  const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const
 {
-  const RegionShape& shape = this->Batch.Shapes[static_cast<std::size_t>(edge.Shape)];
+  const RegionShape& shape = this->Batch.ShapeOf(edge);
   const OutlineEdge& piece = this->Batch.At(edge);
   const std::int64_t begin = piece.Edge;
   const Point<2>& a = shape.Outline.At(begin);
@@ -94,6 +83,7 @@ void RegionRows::SetEnds(
   const Point<2> x{ piece.From[0] + part * (piece.To[0] - piece.From[0]),
     piece.From[1] + part * (piece.To[1] - piece.From[1]) };
   const double along = partNearest(a, b, x);
+  found.Set = shape.Block;
   found.Cell = shape.Cells[static_cast<std::size_t>(piece.Ring)];
   found.Points[at] = shape.Points[static_cast<std::size_t>(begin)];
   found.Points[at + 1] = shape.Points[static_cast<std::size_t>(shape.Outline.Next(begin))];
@@ -101,7 +91,7 @@ void RegionRows::SetEnds(
   found.Weights[at + 1] = weight * along;
 }
 
-bool RegionRows::FindInside(const Point<2>& x, Found& found) const
+bool RegionRows::FindInside(const Point<2>& x, MeshPlace& found) const
 {
   if (x[1] < this->Lower[1] || x[1] > this->Upper[1])
   {
@@ -116,10 +106,9 @@ bool RegionRows::FindInside(const Point<2>& x, Found& found) const
   Side left;
   Side right;
   bool isInside = false;
-  const auto row = static_cast<std::size_t>(this->RowOf(x[1]));
-  for (std::size_t i = this->Begin[row]; i < this->Begin[row + 1]; ++i)
+  for (const RegionBatch::Edge& number : this->Rows[this->RowOf(x[1])])
   {
-    const OutlineEdge& edge = this->Batch.At(this->Sorted[i]);
+    const OutlineEdge& edge = this->Batch.At(number);
     if ((edge.From[1] > x[1]) == (edge.To[1] > x[1]))
     {
       continue;
@@ -130,7 +119,7 @@ bool RegionRows::FindInside(const Point<2>& x, Found& found) const
     Side& side = off <= 0.0 ? left : right;
     if (std::abs(off) < side.Distance)
     {
-      side = { std::abs(off), this->Sorted[i], part };
+      side = { std::abs(off), number, part };
     }
   }
   if (!isInside || left.Distance == infinity || right.Distance == infinity)
@@ -145,26 +134,22 @@ bool RegionRows::FindInside(const Point<2>& x, Found& found) const
   return true;
 }
 
-void RegionRows::FindNearest(const Point<2>& x, Found& found) const
+void RegionRows::FindNearest(const Point<2>& x, MeshPlace& found) const
 {
   RegionBatch::Edge nearest{ -1, 0 };
   double best = 2.0 + 1e-9; // the diagonal of a grid cell
   double bestPart = 0.0;
-  const std::int64_t last = this->RowOf(x[1] + 1.0);
-  for (std::int64_t row = this->RowOf(x[1] - 1.0); row <= last; ++row)
+  for (const RegionBatch::Edge& number :
+    this->Rows.Of(this->RowOf(x[1] - 1.0), this->RowOf(x[1] + 1.0)))
   {
-    for (std::size_t i = this->Begin[static_cast<std::size_t>(row)];
-         i < this->Begin[static_cast<std::size_t>(row) + 1]; ++i)
+    const OutlineEdge& edge = this->Batch.At(number);
+    const double part = partNearest(edge.From, edge.To, x);
+    const double distance = squaredDistance(edge.From, edge.To, part, x);
+    if (distance < best)
     {
-      const OutlineEdge& edge = this->Batch.At(this->Sorted[i]);
-      const double part = partNearest(edge.From, edge.To, x);
-      const double distance = squaredDistance(edge.From, edge.To, part, x);
-      if (distance < best)
-      {
-        best = distance;
-        bestPart = part;
-        nearest = this->Sorted[i];
-      }
+      best = distance;
+      bestPart = part;
+      nearest = number;
     }
   }
   if (nearest.Shape >= 0)
@@ -177,9 +162,9 @@ void RegionRows::FindNearest(const Point<2>& x, Found& found) const
   }
 }
 
-RegionRows::Found RegionRows::Find(const Point<2>& x) const
+MeshPlace RegionRows::Find(const Point<2>& x) const
 {
-  Found found{};
+  MeshPlace found{};
   found.Distance = infinity;
   if (!this->FindInside(x, found))
   {

@@ -6,48 +6,50 @@
 #include "Bridge/Meshes/RegionShapes.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace RectifiedTransport
 {
+
+// Points of cells around a place.
+struct MeshPlace
+{
+  double Distance; // squared, in grid cells; infinite while there is none
+  vtkIdType Cell;
+  vtkIdType Points[4];
+  double Weights[4];
+  int Set; // the block
+};
 
 // The edges of one region in a slab, by rows of grid cells.
 class RegionRows
 {
 public:
-  // Edges [first, last) of the batch are those of one region; places are in rows [low, high).
-  RegionRows(const RegionBatch& batch, std::size_t first, std::size_t last, std::int64_t low,
-    std::int64_t high);
+  using Edges = Bins<RegionBatch::Edge>::Range;
+
+  // Places are in rows [low, high).
+  RegionRows(const RegionBatch& batch, const Edges& edges, std::int64_t low, std::int64_t high);
 
   Point<2> Low() const { return this->Lower; }
   Point<2> High() const { return this->Upper; }
 
-  // Points of the outline around a place, and its distance, squared.
-  struct Found
-  {
-    double Distance;
-    vtkIdType Cell;
-    vtkIdType Points[4];
-    double Weights[4];
-  };
   // A place in the region is between the outline to its left and to its right. Any other place is
   // at the nearest point of the outline; infinitely far if that is farther than the diagonal of a
   // grid cell.
-  Found Find(const Point<2>& x) const;
+  MeshPlace Find(const Point<2>& x) const;
 
 private:
-  std::int64_t RowOf(double y) const;
+  std::size_t RowOf(double y) const;
   void SetEnds(
-    const RegionBatch::Edge& edge, double part, double weight, int at, Found& found) const;
-  bool FindInside(const Point<2>& x, Found& found) const;
-  void FindNearest(const Point<2>& x, Found& found) const;
+    const RegionBatch::Edge& edge, double part, double weight, int at, MeshPlace& found) const;
+  bool FindInside(const Point<2>& x, MeshPlace& found) const;
+  void FindNearest(const Point<2>& x, MeshPlace& found) const;
 
   const RegionBatch& Batch;
   Point<2> Lower;
   Point<2> Upper;
   std::int64_t FirstRow;
-  std::vector<std::size_t> Begin;
-  std::vector<RegionBatch::Edge> Sorted;
+  std::int64_t LastRow;
+  Bins<RegionBatch::Edge> Rows;
 };
 
 } // namespace RectifiedTransport

@@ -65,17 +65,15 @@ public:
     {
       values.MarkAsSimple(cell);
     }
-    const OutlineEdge* end = shape.Edges.data() + shape.Edges.size();
-    for (const OutlineEdge* first = shape.Edges.data(); values.IsOnPoints() && first != end;)
+    if (!values.IsOnPoints())
     {
-      const std::int32_t ring = first->Ring;
-      const OutlineEdge* last =
-        std::find_if(first, end, [=](const OutlineEdge& edge) { return edge.Ring != ring; });
+      return;
+    }
+    shape.VisitRegions([&](std::int32_t ring, const OutlineEdge* first, const OutlineEdge* last) {
       shape.Values[static_cast<std::size_t>(ring)] =
         RingValues(shape.Outline, ring, shape.Points.data(), values.Values())
           .At(sizeOfRegion(first, last).Centroid);
-      first = last;
-    }
+    });
   }
 
 private:
@@ -241,7 +239,7 @@ std::vector<Unit> unitsOf(const std::vector<BlockValues>& blocks)
 // Sorts the edges of a batch by the slabs that they reach.
 void findSlabs(const MeshSlabs<2>& slabs, double margin, RegionBatch& batch)
 {
-  const auto visit = [&](const auto& add) {
+  batch.Slabs.Fill(static_cast<std::size_t>(slabs.Count), [&](const auto& add) {
     for (std::size_t s = 0; s < batch.Shapes.size(); ++s)
     {
       const std::vector<OutlineEdge>& edges = batch.Shapes[s].Edges;
@@ -257,18 +255,7 @@ void findSlabs(const MeshSlabs<2>& slabs, double margin, RegionBatch& batch)
         }
       }
     }
-  };
-  batch.Begin.assign(static_cast<std::size_t>(slabs.Count) + 2, 0);
-  visit([&](std::size_t slab, const RegionBatch::Edge&) { ++batch.Begin[slab + 2]; });
-  for (std::size_t slab = 2; slab < batch.Begin.size(); ++slab)
-  {
-    batch.Begin[slab] += batch.Begin[slab - 1];
-  }
-  batch.Edges.resize(batch.Begin.back());
-  visit([&](std::size_t slab, const RegionBatch::Edge& edge) {
-    batch.Edges[batch.Begin[slab + 1]++] = edge;
   });
-  batch.Begin.pop_back();
 }
 
 } // namespace

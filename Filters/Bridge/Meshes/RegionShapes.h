@@ -9,6 +9,7 @@
 #include "Core/Geometry/ImageGrid.h"
 #include "Core/Overlap/RegionOutlines.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -32,25 +33,41 @@ struct RegionShape
   std::vector<vtkIdType> Cells;   // of each ring
   std::vector<double> Values;     // of each ring's region
   std::vector<OutlineEdge> Edges; // of regionOutlines
+
+  // Calls visit(ring, first, last) with the edges of the region of each ring that has one.
+  template <class Visit>
+  void VisitRegions(const Visit& visit) const
+  {
+    const OutlineEdge* end = this->Edges.data() + this->Edges.size();
+    for (const OutlineEdge* first = this->Edges.data(); first != end;)
+    {
+      const std::int32_t ring = first->Ring;
+      const OutlineEdge* last =
+        std::find_if(first, end, [=](const OutlineEdge& edge) { return edge.Ring != ring; });
+      visit(ring, first, last);
+      first = last;
+    }
+  }
 };
 
 // Shapes that are processed together.
 struct RegionBatch
 {
-  std::vector<RegionShape> Shapes;
-  // The edges that reach each slab, in the order of the shapes and their edges.
   struct Edge
   {
     std::int32_t Shape;
     std::int32_t Edge;
   };
-  std::vector<Edge> Edges;
-  std::vector<std::size_t> Begin; // of each slab, and the end
+  std::vector<RegionShape> Shapes;
+  Bins<Edge> Slabs; // the edges that reach each, in the order of the shapes and their edges
 
+  const RegionShape& ShapeOf(const Edge& edge) const
+  {
+    return this->Shapes[static_cast<std::size_t>(edge.Shape)];
+  }
   const OutlineEdge& At(const Edge& edge) const
   {
-    return this->Shapes[static_cast<std::size_t>(edge.Shape)]
-      .Edges[static_cast<std::size_t>(edge.Edge)];
+    return this->ShapeOf(edge).Edges[static_cast<std::size_t>(edge.Edge)];
   }
   // Whether two edges are of the same region.
   bool IsSame(const Edge& a, const Edge& b) const

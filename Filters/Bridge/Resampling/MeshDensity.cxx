@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <sstream>
 
@@ -28,84 +29,67 @@ namespace
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 template <int D>
-using Size = typename CellPieces<D>::Size;
-
-template <int D>
-Size<D> sumOf(const Size<D>& a, const Size<D>& b)
+CellSize sizeOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
 {
-  return { a.Integral + b.Integral, a.Measure + b.Measure, a.Wide + b.Wide, a.LeftOut + b.LeftOut,
-    a.LeftOutIntegral + b.LeftOutIntegral, a.LeftOutMeasure + b.LeftOutMeasure };
-}
-
-template <int D>
-Size<D> sizeOf(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
-{
-  Size<D> size;
+  CellSize size;
   for (const BlockValues& block : blocks)
   {
-    size = sumOf<D>(size,
+    size = size +
       reduceChunks(
-        progress, block.Data()->GetNumberOfCells(), grain, Size<D>(),
+        progress, block.Data()->GetNumberOfCells(), grain, CellSize(),
         [&](std::int64_t first, std::int64_t last) {
           CellPieces<D> pieces(block, grid);
-          Size<D> part;
+          CellSize part;
           for (std::int64_t cell = first; cell < last; ++cell)
           {
-            part = block.IsDivided(cell) ? sumOf<D>(part, pieces.SizeOf(cell)) : part;
+            part = block.IsDivided(cell) ? part + pieces.SizeOf(cell) : part;
           }
           return part;
         },
-        sumOf<D>));
+        std::plus<>());
   }
   return size;
 }
 
-Size<2> sizeOf(const RegionShape& shape)
+void addSizes(const RegionBatch& batch, CellSize& all)
 {
-  Size<2> size;
-  const OutlineEdge* end = shape.Edges.data() + shape.Edges.size();
-  for (const OutlineEdge* first = shape.Edges.data(); first != end;)
+  for (const RegionShape& shape : batch.Shapes)
   {
-    const std::int32_t ring = first->Ring;
-    const OutlineEdge* last =
-      std::find_if(first, end, [=](const OutlineEdge& edge) { return edge.Ring != ring; });
-    const double area = sizeOfRegion(first, last).Area;
-    size.Measure += area;
-    size.Integral += area * shape.Values[static_cast<std::size_t>(ring)];
-    first = last;
+    CellSize size;
+    shape.VisitRegions([&](std::int32_t ring, const OutlineEdge* first, const OutlineEdge* last) {
+      const double area = sizeOfRegion(first, last).Area;
+      size.Measure += area;
+      size.Integral += area * shape.Values[static_cast<std::size_t>(ring)];
+    });
+    all = all + size;
   }
-  return size;
 }
 
 // Adds what the regions of a batch cover of a slab.
 void addEdges(const RegionBatch& batch, std::int64_t number, const GridSlab<2>& slab)
 {
-  const std::size_t begin = batch.Begin[static_cast<std::size_t>(number)];
-  const std::size_t end = batch.Begin[static_cast<std::size_t>(number) + 1];
-  if (begin == end)
+  const auto edges = batch.Slabs[static_cast<std::size_t>(number)];
+  if (edges.Size() == 0)
   {
     return;
   }
   RegionCoverage coverage(slab);
-  for (std::size_t i = begin; i < end; ++i)
+  for (const RegionBatch::Edge* edge = edges.First; edge != edges.Last; ++edge)
   {
-    const RegionBatch::Edge& edge = batch.Edges[i];
-    const OutlineEdge& piece = batch.At(edge);
+    const OutlineEdge& piece = batch.At(*edge);
     coverage.Add(piece.From, piece.To);
-    if (i + 1 == end || !batch.IsSame(edge, batch.Edges[i + 1]))
+    if (edge + 1 == edges.Last || !batch.IsSame(*edge, *(edge + 1)))
     {
-      coverage.Finish(batch.Shapes[static_cast<std::size_t>(edge.Shape)]
-                        .Values[static_cast<std::size_t>(piece.Ring)]);
+      coverage.Finish(batch.ShapeOf(*edge).Values[static_cast<std::size_t>(piece.Ring)]);
     }
   }
 }
 
 template <int D>
-void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOfSlabs>& cells,
+void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<Bins<vtkIdType>>& cells,
   const MeshSlabs<D>& slabs, const ImageGrid& grid, bool alongLines, Progress& progress,
   double* sums)
 {
-  const GridSize<D> size = grid.Size<D>();
   std::fill_n(sums, grid.NumberOfCells(), 0.0);
   constexpr std::int64_t cellsBetweenPolls = 256;
   progress.For(
@@ -113,20 +97,18 @@ void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOf
     [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t s = first; s < last; ++s)
       {
-        const GridSlab<D> slab{ size, s * slabs.Planes,
-          std::min((s + 1) * slabs.Planes, size[D - 1]), sums };
+        const GridSlab<D> slab = slabs.Slab(s, sums);
         for (std::size_t b = 0; b < blocks.size(); ++b)
         {
           CellPieces<D> pieces(blocks[b], grid);
-          const std::int64_t begin = cells[b].Begin[static_cast<std::size_t>(s)];
-          const std::int64_t end = cells[b].Begin[static_cast<std::size_t>(s) + 1];
-          for (std::int64_t i = begin; i < end; ++i)
+          std::int64_t added = 0;
+          for (const vtkIdType cell : cells[b][static_cast<std::size_t>(s)])
           {
-            if ((i - begin) % cellsBetweenPolls == 0 && progress.ShouldStop())
+            if (added++ % cellsBetweenPolls == 0 && progress.ShouldStop())
             {
               return;
             }
-            pieces.AddTo(slab, cells[b].Cells[static_cast<std::size_t>(i)], alongLines);
+            pieces.AddTo(slab, cell, alongLines);
           }
         }
       }
@@ -136,21 +118,16 @@ void addBlocks(const std::vector<BlockValues>& blocks, const std::vector<CellsOf
 
 // Adds what regions cover, and their sizes.
 void addRegions(const std::vector<BlockValues>& blocks, const MeshSlabs<2>& slabs,
-  const ImageGrid& grid, Progress& progress, double* sums, Size<2>& all)
+  const ImageGrid& grid, Progress& progress, double* sums, CellSize& all)
 {
-  const GridSize<2> size = grid.Size<2>();
   visitRegions(blocks, grid, slabs, 0.0, progress, [&](const RegionBatch& batch) {
-    for (const RegionShape& shape : batch.Shapes)
-    {
-      all = sumOf<2>(all, sizeOf(shape));
-    }
+    addSizes(batch, all);
     progress.For(
       slabs.Count, 1,
       [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t s = first; s < last && !progress.ShouldStop(); ++s)
         {
-          addEdges(
-            batch, s, { size, s * slabs.Planes, std::min((s + 1) * slabs.Planes, size[1]), sums });
+          addEdges(batch, s, slabs.Slab(s, sums));
         }
       },
       1);
@@ -168,22 +145,17 @@ std::string percent(double part, double whole)
 template <int D>
 double integrate(const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress)
 {
-  Size<D> size = sizeOf<D>(blocks, grid, progress);
+  CellSize size = sizeOf<D>(blocks, grid, progress);
   if constexpr (D == 2)
   {
-    visitRegions(
-      blocks, grid, MeshSlabs<2>(grid.Size<2>()), 0.0, progress, [&](const RegionBatch& batch) {
-        for (const RegionShape& shape : batch.Shapes)
-        {
-          size = sumOf<2>(size, sizeOf(shape));
-        }
-      });
+    visitRegions(blocks, grid, MeshSlabs<2>(grid.Size<2>()), 0.0, progress,
+      [&](const RegionBatch& batch) { addSizes(batch, size); });
   }
   return size.Integral;
 }
 
 template <int D>
-std::vector<std::string> warningsOf(const Size<D>& size, const std::vector<BlockValues>& blocks)
+std::vector<std::string> warningsOf(const CellSize& size, const std::vector<BlockValues>& blocks)
 {
   std::vector<std::string> warnings;
   if (size.LeftOut > 0)
@@ -217,13 +189,8 @@ std::vector<std::string> resample(
   const std::vector<BlockValues>& blocks, const ImageGrid& grid, Progress& progress, double* sums)
 {
   const MeshSlabs<D> slabs(grid.Size<D>());
-  std::vector<CellsOfSlabs> cells;
-  cells.reserve(blocks.size());
-  for (const BlockValues& block : blocks)
-  {
-    cells.push_back(cellsOfSlabs<D>(block, grid, slabs, 0.0, progress));
-  }
-  Size<D> size = sizeOf<D>(blocks, grid, progress);
+  const std::vector<Bins<vtkIdType>> cells = cellsOfSlabs<D>(blocks, grid, slabs, 0.0, progress);
+  CellSize size = sizeOf<D>(blocks, grid, progress);
   constexpr double mostlyWide = 0.9;
   constexpr double tolerance = 1e-3; // of the mass, for lines
   bool alongLines = D == 3 && size.Wide >= mostlyWide * size.Measure;
@@ -236,7 +203,7 @@ std::vector<std::string> resample(
       [sums](std::int64_t first, std::int64_t last) {
         return std::accumulate(sums + first, sums + last, 0.0);
       },
-      [](double a, double b) { return a + b; });
+      std::plus<>());
     alongLines = std::abs(found - size.Integral) <= tolerance * size.Integral;
     if (!alongLines)
     {

@@ -4,6 +4,7 @@
 #define RectifiedTransport_PlacesInMeshes_h
 
 #include "Bridge/Blocks/BlockValues.h"
+#include "Bridge/Meshes/PlacesInRegions.h"
 #include "Bridge/Points/SampledArrays.h"
 #include "Core/Geometry/Points.h"
 #include "Core/Parallel/LargeBuffer.h"
@@ -31,18 +32,7 @@ public:
   SampledPlace Find(std::int64_t place) const override;
 
 private:
-  struct Place
-  {
-    double Distance; // squared, in grid cells; infinite while there is none
-    vtkIdType Cell;
-    vtkIdType Points[4];
-    double Weights[4];
-    int Set;
-  };
-  template <int D>
-  friend class PlaceSearch;
-
-  LargeBuffer<Place> Found;
+  LargeBuffer<MeshPlace> Found;
 };
 
 } // namespace RectifiedTransport

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Overlap/RegionOutlines.h"
 
+#include "Core/Geometry/Bins.h"
 #include "Core/Overlap/RingSweep.h"
 #include "Core/Parallel/Progress.h"
 
@@ -36,27 +37,17 @@ public:
     const double rows =
       lengths > 0.0 ? std::clamp(2.0 * count * height / lengths, 1.0, count) : 1.0;
     this->PerLength = height > 0.0 ? rows / height : 0.0;
-    this->Begin.assign(static_cast<std::size_t>(rows) + 3, 0);
-    this->VisitEdges([this](std::size_t row, std::int64_t) { ++this->Begin[row + 2]; });
-    for (std::size_t row = 2; row < this->Begin.size(); ++row)
-    {
-      this->Begin[row] += this->Begin[row - 1];
-    }
-    this->Sorted.resize(this->Begin.back());
-    this->VisitEdges([this](std::size_t row, std::int64_t edge) {
-      this->Sorted[this->Begin[row + 1]++] = static_cast<std::int32_t>(edge);
-    });
+    this->Rows.Fill(
+      static_cast<std::size_t>(rows) + 1, [this](const auto& add) { this->VisitEdges(add); });
   }
 
   // The rings that have the first point of an edge inside, but for its own.
   std::vector<std::int64_t> RingsAround(std::int64_t point) const
   {
     const NumberedPoint p = this->All.Numbered(point);
-    const std::size_t row = this->RowOf(p.X);
     std::vector<std::int64_t> around;
-    for (std::size_t i = this->Begin[row]; i < this->Begin[row + 1]; ++i)
+    for (const std::int64_t edge : this->Rows[this->RowOf(p.X)])
     {
-      const std::int64_t edge = this->Sorted[i];
       const std::int64_t ring = this->All.RingOf(edge);
       NumberedPoint low = this->All.Numbered(edge);
       NumberedPoint high = this->All.Numbered(this->All.Next(edge));
@@ -98,7 +89,8 @@ private:
   template <class Visit>
   void VisitEdges(const Visit& visit) const
   {
-    for (std::int64_t edge = 0; edge < this->All.Edges(); ++edge)
+    const auto edges = static_cast<std::int32_t>(this->All.Edges());
+    for (std::int32_t edge = 0; edge < edges; ++edge)
     {
       const std::size_t a = this->RowOf(this->All.At(edge));
       const std::size_t b = this->RowOf(this->All.At(this->All.Next(edge)));
@@ -112,8 +104,7 @@ private:
   const Rings& All;
   double Low;
   double PerLength;
-  std::vector<std::size_t> Begin;
-  std::vector<std::int32_t> Sorted;
+  Bins<std::int32_t> Rows;
 };
 
 // The point where two edges cross, the same for both; where they lie on each other some point of
