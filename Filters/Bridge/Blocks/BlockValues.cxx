@@ -32,16 +32,6 @@ constexpr unsigned char unused = 1; // of values that are not read
 
 } // namespace
 
-vtkDataSet* BlockValues::Data() const
-{
-  return this->Set;
-}
-
-void BlockValues::SetData(vtkDataSet* data)
-{
-  this->Set = data;
-}
-
 BlockValues BlockValues::Only(double value) const
 {
   BlockValues only;
@@ -51,9 +41,9 @@ BlockValues BlockValues::Only(double value) const
   only.Open = this->Open;
   const std::int64_t count = this->Density.size();
   withMemory("the values of the " + this->ArrayName,
-    static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Counted.size()), [&]() {
+    static_cast<double>(count) * sizeof(double) + static_cast<double>(this->Roles.size()), [&]() {
       only.Density = LargeBuffer<double>(count);
-      only.Counted = this->Counted;
+      only.Roles = this->Roles;
     });
   std::transform(this->Density.data(), this->Density.data() + count, only.Density.data(),
     [value](double density) { return density == value ? density : 0.0; });
@@ -66,16 +56,15 @@ class BlockReading
 public:
   BlockReading(const DensityBlock& block, bool onPoints, const MassCells& cells,
     const DensityRules& rules, Progress& progress)
-    : Name(describeArray(block.Array) + " of the " + block.Name)
-    , Array(block.Array)
+    : Array(block.Array)
     , Clamps(rules.ClampNegative && !rules.Invert)
     , Reader(makeDensityReader(block.Array, rules))
   {
-    requireComponent(Name, rules.Component, block.Array->GetNumberOfComponents());
     this->Read.Set = block.Data;
-    this->Read.ArrayName = this->Name;
+    this->Read.ArrayName = describeArray(block.Array) + " of the " + block.Name;
     this->Read.OnPoints = onPoints;
     this->Read.Cells = cells;
+    requireComponent(this->Read.Name(), rules.Component, block.Array->GetNumberOfComponents());
     this->FindCounted(block, progress);
     this->Reader->SetBlanks(this->Flags.data(), unused);
   }
@@ -83,69 +72,54 @@ public:
   // For white.
   double FindLargest()
   {
+    LargestValue& white = this->Read.Known.White;
     if (this->Array->GetDataType() == VTK_UNSIGNED_CHAR)
     {
-      this->Read.Known.White.Value = std::numeric_limits<unsigned char>::max();
+      white.Value = std::numeric_limits<unsigned char>::max();
     }
     else
     {
-      this->Read.Known.White =
-        this->Reader->Largest(0, static_cast<std::int64_t>(this->Flags.size()));
+      white = this->Reader->Largest(0, static_cast<std::int64_t>(this->Flags.size()));
     }
-    return this->Read.Known.White.Value;
+    return white.Value;
   }
 
   void SetWhite(double white) { this->Reader->SetWhite(white); }
 
-  void ReadValues(Progress& progress)
+  BlockValues Finish(Progress& progress)
   {
     const auto count = static_cast<std::int64_t>(this->Flags.size());
-    withMemory("the values of the " + this->Name, static_cast<double>(count) * sizeof(double),
+    withMemory("the values of the " + this->Read.Name(),
+      static_cast<double>(count) * sizeof(double),
       [&]() { this->Read.Density = LargeBuffer<double>(count); });
     double* values = this->Read.Density.data();
     progress.For(count, grain, [&](std::int64_t first, std::int64_t last) {
       this->Reader->Read(first, last - first, values + first);
     });
-    DensitySummary summary;
-    for (std::int64_t i = 0; i < count; ++i)
+    const DensitySummary found = summarize(values, count, 0);
+    if (found.NotFinite > 0 || found.Negative > 0)
     {
-      summary.Total += values[i];
-      if (!std::isfinite(values[i]))
-      {
-        summary.FirstNotFinite = summary.NotFinite++ == 0 ? i : summary.FirstNotFinite;
-      }
-      else if (values[i] < 0.0)
-      {
-        summary.FirstNegative = summary.Negative++ == 0 ? i : summary.FirstNegative;
-      }
+      throwInvalidDensity(this->Read.Name(), found);
     }
-    if (summary.NotFinite > 0 || summary.Negative > 0)
-    {
-      throwInvalidDensity(this->Name, summary);
-    }
-    if (count > 0)
-    {
-      const auto [least, largest] = std::minmax_element(values, values + count);
-      inspectLargest(values, count, 0, *least, *largest, summary);
-    }
-    this->Read.Known.Found = summary;
+    this->Read.Known.Found = found;
     if (this->Clamps)
     {
       this->Read.Known.Clamped = findLowest(this->Array, *this->Reader, count, progress);
     }
+    return std::move(this->Read);
   }
-
-  BlockValues Take() { return std::move(this->Read); }
 
 private:
   void FindCounted(const DensityBlock& block, Progress& progress)
   {
     vtkDataSet* data = block.Data;
+    const MassCells& mass = this->Read.Cells;
+    const bool onPoints = this->Read.OnPoints;
     const BlankedCells blanked(data, block.Name.c_str());
     const vtkIdType cells = data->GetNumberOfCells();
-    this->Read.Counted.assign(static_cast<std::size_t>(cells), 0);
+    this->Read.Roles.assign(static_cast<std::size_t>(cells), BlockValues::NotCounted);
     this->Flags.assign(
-      static_cast<std::size_t>(this->Read.OnPoints ? data->GetNumberOfPoints() : cells), unused);
+      static_cast<std::size_t>(onPoints ? data->GetNumberOfPoints() : cells), unused);
     vtkNew<vtkIdList> points;
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
@@ -153,7 +127,6 @@ private:
       {
         progress.Check();
       }
-      const MassCells& mass = this->Read.Cells;
       if (!mass.HasDimension(data, cell) || blanked.Has(cell))
       {
         continue;
@@ -163,22 +136,16 @@ private:
         ++this->Read.Open;
         continue;
       }
-      bool counts = true;
-      if (blanked.MayHavePoints() || this->Read.OnPoints)
+      if (blanked.MayHavePoints() || onPoints)
       {
         data->GetCellPoints(cell, points);
-        counts = !blanked.HasPointOf(points);
+        if (blanked.HasPointOf(points))
+        {
+          continue;
+        }
       }
-      this->Read.Counted[static_cast<std::size_t>(cell)] = counts ? 1 : 0;
-      if (counts && mass.AreClosedLines)
-      {
-        this->Read.MarkAsRegion(cell);
-      }
-      if (!counts)
-      {
-        continue;
-      }
-      if (!this->Read.OnPoints)
+      this->Read.RoleOf(cell) = mass.AreClosedLines ? BlockValues::Region : BlockValues::Divided;
+      if (!onPoints)
       {
         this->Flags[static_cast<std::size_t>(cell)] = 0;
         continue;
@@ -190,7 +157,6 @@ private:
     }
   }
 
-  const std::string Name;
   vtkDataArray* Array;
   const bool Clamps;
   std::unique_ptr<DensityReader> Reader;
@@ -225,8 +191,7 @@ std::vector<BlockValues> readBlocks(const std::vector<DensityBlock>& blocks, boo
   values.reserve(readings.size());
   for (BlockReading& reading : readings)
   {
-    reading.ReadValues(progress);
-    values.push_back(reading.Take());
+    values.push_back(reading.Finish(progress));
   }
   return values;
 }

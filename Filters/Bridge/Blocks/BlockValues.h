@@ -8,6 +8,8 @@
 #include "Bridge/Density/UnusualValues.h"
 #include "Core/Parallel/LargeBuffer.h"
 
+#include "vtkDataSet.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,9 +22,9 @@ class Progress;
 class BlockValues
 {
 public:
-  vtkDataSet* Data() const;
+  vtkDataSet* Data() const { return this->Set; }
   // Takes another data set of the same points and cells, which may have other arrays.
-  void SetData(vtkDataSet* data);
+  void SetData(vtkDataSet* data) { this->Set = data; }
   bool IsOnPoints() const { return this->OnPoints; }
   // Values of the points or the cells; 0 where no counted cell needs them.
   const double* Values() const { return this->Density.data(); }
@@ -33,21 +35,15 @@ public:
   const UnusualValues& Unusual() const { return this->Known; }
   // The same cells with the density only where it is `value`. Throws Failure if memory is short.
   BlockValues Only(double value) const;
-  bool IsCounted(vtkIdType cell) const
-  {
-    return this->Counted[static_cast<std::size_t>(cell)] != 0;
-  }
+  bool IsCounted(vtkIdType cell) const { return this->RoleOf(cell) != NotCounted; }
   // Counted cells are regions within their outlines, or are divided into simplices and boxes.
-  bool IsRegion(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] >= 2; }
-  bool IsDivided(vtkIdType cell) const
-  {
-    return this->Counted[static_cast<std::size_t>(cell)] == 1;
-  }
-  void MarkAsRegion(vtkIdType cell) { this->Counted[static_cast<std::size_t>(cell)] = 2; }
+  bool IsRegion(vtkIdType cell) const { return this->RoleOf(cell) >= Region; }
+  bool IsDivided(vtkIdType cell) const { return this->RoleOf(cell) == Divided; }
+  void MarkAsRegion(vtkIdType cell) { this->RoleOf(cell) = Region; }
   // Regions whose outline is known not to cross itself. The first visit finds out, each region on
   // one thread.
-  bool IsSimple(vtkIdType cell) const { return this->Counted[static_cast<std::size_t>(cell)] == 3; }
-  void MarkAsSimple(vtkIdType cell) const { this->Counted[static_cast<std::size_t>(cell)] = 3; }
+  bool IsSimple(vtkIdType cell) const { return this->RoleOf(cell) == SimpleRegion; }
+  void MarkAsSimple(vtkIdType cell) const { this->RoleOf(cell) = SimpleRegion; }
   // Whether the cells are closed lines, which are around regions together.
   bool AreClosedLines() const { return this->Cells.AreClosedLines; }
   // The number of lines that are not closed, if the others are around regions.
@@ -56,12 +52,21 @@ public:
 private:
   friend class BlockReading;
 
+  enum Role : unsigned char
+  {
+    NotCounted,
+    Divided,
+    Region,
+    SimpleRegion
+  };
+  Role& RoleOf(vtkIdType cell) const { return this->Roles[static_cast<std::size_t>(cell)]; }
+
   vtkSmartPointer<vtkDataSet> Set;
   bool OnPoints = false;
   std::string ArrayName;
   UnusualValues Known;
   LargeBuffer<double> Density;
-  mutable std::vector<unsigned char> Counted; // 1: divided, 2: a region, 3: a simple one
+  mutable std::vector<Role> Roles; // of the cells
   MassCells Cells;
   vtkIdType Open = 0;
 };

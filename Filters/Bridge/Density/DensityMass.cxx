@@ -5,7 +5,6 @@
 #include "Core/Parallel/Reduction.h"
 #include "Core/Tables/DensityInspection.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -21,14 +20,7 @@ DensitySummary summaryOf(const InputDensity& density, Progress& progress)
   const auto readChunk = [&](std::int64_t first, std::int64_t last) {
     std::vector<double> values(static_cast<std::size_t>(last - first));
     density.Values()->Read(first, last - first, values.data());
-    DensitySummary found;
-    for (const double value : values)
-    {
-      found.Total += value;
-    }
-    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-    inspectLargest(values.data(), last - first, first, *least, *largest, found);
-    return found;
+    return summarize(values.data(), last - first, first);
   };
   const auto join = [](DensitySummary all, const DensitySummary& chunk) {
     merge(chunk, all);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace RectifiedTransport
 {
@@ -83,6 +84,22 @@ RowInspection inspectCells(const double* values, std::int64_t count, std::int64_
     markOccupied(values, count, words);
   }
   return row;
+}
+
+DensitySummary summarize(const double* values, std::int64_t count, std::int64_t index)
+{
+  DensitySummary found;
+  if (count > 0)
+  {
+    found.Total = std::accumulate(values, values + count, 0.0);
+    const RowInspection row = tableKernels().Inspect(values, count);
+    inspectLargest(values, count, index, row.Smallest, row.Largest, found);
+    if (row.Wrong > 0)
+    {
+      findWrong(values, count, index, found);
+    }
+  }
+  return found;
 }
 
 void merge(const DensitySummary& part, DensitySummary& whole)

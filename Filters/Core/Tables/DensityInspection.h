@@ -21,6 +21,9 @@ RowInspection inspectCells(const double* values, std::int64_t count, std::int64_
 void inspectLargest(const double* values, std::int64_t count, std::int64_t index, double least,
   double largest, DensitySummary& found);
 
+// The summary of values of which the first has the index `index`. Adds them up in their order.
+DensitySummary summarize(const double* values, std::int64_t count, std::int64_t index);
+
 // Adds the summary of a part to that of the whole.
 void merge(const DensitySummary& part, DensitySummary& whole);
 
