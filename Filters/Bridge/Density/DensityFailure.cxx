@@ -8,7 +8,6 @@
 #include "vtkDataSet.h"
 
 #include <cmath>
-#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -24,11 +23,8 @@ void requireTuples(vtkDataArray* array, vtkDataSet* data, bool onPoints, const s
   const vtkIdType expected = onPoints ? data->GetNumberOfPoints() : data->GetNumberOfCells();
   if (array->GetNumberOfTuples() != expected)
   {
-    std::ostringstream message;
-    message << "The " << describeArray(array) << " has " << array->GetNumberOfTuples()
-            << " tuples, but the " << what << " has " << expected
-            << (onPoints ? " points" : " cells") << "; there must be one for each";
-    throw Failure(message.str());
+    fail("The ", describeArray(array), " has ", array->GetNumberOfTuples(), " tuples, but the ",
+      what, " has ", expected, onPoints ? " points" : " cells", "; there must be one for each");
   }
 }
 
@@ -39,22 +35,10 @@ void requireComponent(const std::string& name, int component, int count)
   {
     return;
   }
-  std::ostringstream message;
-  message << "Component is " << component << ", but the " << name << " has " << count
-          << (count == 1 ? " component" : " components") << "; it must be ";
-  if (count <= mostColours)
-  {
-    message << "-1 (luminance)" << (count == 1 ? " or 0" : " or an index from 0 to ");
-  }
-  else
-  {
-    message << "an index from 0 to ";
-  }
-  if (count > 1)
-  {
-    message << count - 1;
-  }
-  throw Failure(message.str());
+  const std::string indices = count == 1 ? "0" : "an index from 0 to " + std::to_string(count - 1);
+  fail("Component is ", component, ", but the ", name, " has ", count,
+    count == 1 ? " component" : " components", "; it must be ",
+    count <= mostColours ? "-1 (luminance) or " : "", indices);
 }
 
 bool needsWhite(const DensityRules& rules, int components)
@@ -65,33 +49,27 @@ bool needsWhite(const DensityRules& rules, int components)
 
 void throwInvalidDensity(const std::string& name, const DensitySummary& summary, bool hasBlanks)
 {
-  std::ostringstream message;
-  message << "The " << name << " has ";
+  const std::string has = "The " + name + " has ";
   if (summary.NotFinite > 0)
   {
-    message << summary.NotFinite << (summary.NotFinite == 1 ? " value that is" : " values that are")
-            << " NaN or infinite, the first at index " << summary.FirstNotFinite
-            << "; every value must be finite";
+    fail(has, summary.NotFinite, summary.NotFinite == 1 ? " value that is" : " values that are",
+      " NaN or infinite, the first at index ", summary.FirstNotFinite,
+      "; every value must be finite");
   }
-  else if (summary.Negative > 0)
+  if (summary.Negative > 0)
   {
     // The remedy first: ParaView's list of messages shows about 90 characters of a line.
-    message << summary.Negative << (summary.Negative == 1 ? " negative value" : " negative values")
-            << "; NegativeValues = Clamp takes them as 0, for a density must not be negative (the "
-               "first at index "
-            << summary.FirstNegative << ")";
+    fail(has, summary.Negative, summary.Negative == 1 ? " negative value" : " negative values",
+      "; NegativeValues = Clamp takes them as 0, for a density must not be negative (the first at "
+      "index ",
+      summary.FirstNegative, ")");
   }
-  else if (std::isinf(summary.Total))
+  if (std::isinf(summary.Total))
   {
-    message << "a total mass past the largest double; its values must be smaller";
+    fail(has, "a total mass past the largest double; its values must be smaller");
   }
-  else
-  {
-    message << "a total mass of zero"
-            << (hasBlanks ? " (duplicate and blanked ghosts carry none)" : "")
-            << "; at least one value must be positive";
-  }
-  throw Failure(message.str());
+  fail(has, "a total mass of zero", hasBlanks ? " (duplicate and blanked ghosts carry none)" : "",
+    "; at least one value must be positive");
 }
 
 } // namespace RectifiedTransport

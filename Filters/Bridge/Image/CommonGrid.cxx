@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -127,25 +126,21 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
 {
   const Sides a = sidesOf(first.Grid, first.Grid.Direction());
   const Sides b = sidesOf(other.Grid, first.Grid.Direction());
-  std::ostringstream message;
   if (axesOf(a) != axesOf(b))
   {
-    message << first.Name << " has " << axesOf(a) << ", " << other.Name << " has " << axesOf(b)
-            << "; all must have the same number of dimensions, along the same axes";
-    throw Failure(message.str());
+    fail(first.Name, " has ", axesOf(a), ", ", other.Name, " has ", axesOf(b),
+      "; all must have the same number of dimensions, along the same axes");
   }
   if (!haveSameDirection(first.Grid, other.Grid))
   {
-    message << first.Name << " and " << other.Name
-            << " have different direction matrices; all must have the same one, up to "
-            << directionTolerance << " in each element (Resample To Image makes it so)";
-    throw Failure(message.str());
+    fail(first.Name, " and ", other.Name,
+      " have different direction matrices; all must have the same one, up to ", directionTolerance,
+      " in each element (Resample To Image makes it so)");
   }
   if (!hasInverse(first.Grid))
   {
-    message << first.Name << " has a direction matrix without an inverse, and its geometry is not "
-            << "that of " << other.Name << "; give axes of one point a direction of their own";
-    throw Failure(message.str());
+    fail(first.Name, " has a direction matrix without an inverse, and its geometry is not that of ",
+      other.Name, "; give axes of one point a direction of their own");
   }
   const double longest = std::max(longestOf(a), longestOf(b));
   for (std::size_t i = 0; i < 3; ++i)
@@ -153,17 +148,13 @@ void requireAlike(const NamedGrid& first, const NamedGrid& other)
     const char axis = "xyz"[i];
     if (a[i].IsAxis && a[i].Spacing * b[i].Spacing < 0.0)
     {
-      message << "Along " << axis << " the spacing of " << first.Name << " is " << a[i].Spacing
-              << " and that of " << other.Name << " is " << b[i].Spacing
-              << "; both must have the same sign";
-      throw Failure(message.str());
+      fail("Along ", axis, " the spacing of ", first.Name, " is ", a[i].Spacing, " and that of ",
+        other.Name, " is ", b[i].Spacing, "; both must have the same sign");
     }
     if (!a[i].IsAxis && std::abs(a[i].Low - b[i].Low) > planeTolerance * longest)
     {
-      message << first.Name << " lies at " << axis << " = " << a[i].Low << ", " << other.Name
-              << " at " << axis << " = " << b[i].Low
-              << "; images that are flat along an axis must lie in one plane";
-      throw Failure(message.str());
+      fail(first.Name, " lies at ", axis, " = ", a[i].Low, ", ", other.Name, " at ", axis, " = ",
+        b[i].Low, "; images that are flat along an axis must lie in one plane");
     }
   }
 }
@@ -251,11 +242,8 @@ ImageGrid commonGrid(const std::vector<NamedGrid>& grids, const int dimensions[3
     unions[i] = uniteSides(all, i);
     if (!(unions[i].Cells <= most) && dimensions[i] == 0)
     {
-      std::ostringstream message;
-      message << "The box of all inputs at the finest spacing has " << unions[i].Cells
-              << " cells along "
-              << "xyz"[i] << "; give " << property << " of at most " << MaximumResolution;
-      throw Failure(message.str());
+      fail("The box of all inputs at the finest spacing has ", unions[i].Cells, " cells along ",
+        "xyz"[i], "; give ", property, " of at most ", MaximumResolution);
     }
     const double cells = std::min(unions[i].Cells, most);
     sides[i].Low = unions[i].Sign * unions[i].Low;

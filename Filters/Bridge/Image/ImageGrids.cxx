@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -27,10 +26,7 @@ namespace
 
 [[noreturn]] void failValues(const char* property, const int values[3], const std::string& rule)
 {
-  std::ostringstream message;
-  message << property << " is " << values[0] << " " << values[1] << " " << values[2]
-          << "; it must be " << rule;
-  throw Failure(message.str());
+  fail(property, " is ", values[0], " ", values[1], " ", values[2], "; it must be ", rule);
 }
 
 } // namespace
@@ -98,13 +94,11 @@ void requireCells(const ImageGrid& grid)
   }
   if (!grid.HasCells())
   {
-    std::ostringstream message;
-    message << "The image's spacing is (" << grid.Spacing()[0] << ", " << grid.Spacing()[1] << ", "
-            << grid.Spacing()[2]
-            << "); origin, spacing and direction must be finite, and every axis of more than one "
-               "point needs a spacing that is not 0 and a direction of its own, none so large or "
-               "small that a corner of the image or a cell's measure is no number";
-    throw Failure(message.str());
+    fail("The image's spacing is (", grid.Spacing()[0], ", ", grid.Spacing()[1], ", ",
+      grid.Spacing()[2],
+      "); origin, spacing and direction must be finite, and every axis of more than one point "
+      "needs a spacing that is not 0 and a direction of its own, none so large or small that a "
+      "corner of the image or a cell's measure is no number");
   }
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace RectifiedTransport
 {
@@ -33,22 +32,18 @@ ImageGrid solidGrid(const std::array<double, 6>& bounds, int resolution, double 
   const double grown = longest * (1.0 + 2.0 * padding);
   if (!std::isfinite(4.0 * grown))
   {
-    std::ostringstream message;
-    message << "Padding is " << padding << " and the input's longest side " << longest
-            << "; the box around it must have finite sides";
-    throw Failure(message.str());
+    fail("Padding is ", padding, " and the input's longest side ", longest,
+      "; the box around it must have finite sides");
   }
   const double width = grown / resolution;
   // Narrower cells are not resolved by coordinates in double precision.
   constexpr double smallest = 1e-12;
   if (!(width >= std::max(smallest * farthest, std::numeric_limits<double>::min())))
   {
-    std::ostringstream message;
-    message << "Resolution is " << resolution << ", which makes cells of " << width
-            << " for coordinates of up to " << farthest
-            << "; cells must be at least 1e-12 of that: lower Resolution, or move the surface "
-               "nearer to the origin";
-    throw Failure(message.str());
+    fail("Resolution is ", resolution, ", which makes cells of ", width,
+      " for coordinates of up to ", farthest,
+      "; cells must be at least 1e-12 of that: lower Resolution, or move the surface nearer to the "
+      "origin");
   }
   std::array<int, 6> extent{};
   Eigen::Vector3d corner;

@@ -85,31 +85,20 @@ void visitCorners(const std::vector<DensityBlock>& blocks, const MassCells& cell
     {
       Vector3d x;
       data->GetPoint(notFinite, x.data());
-      throw Failure("Point " + std::to_string(notFinite) + " of the " + block.Name + " is at " +
-        describe(x) + "; the coordinates of all points of cells must be finite");
+      fail("Point ", notFinite, " of the ", block.Name, " is at ", describe(x),
+        "; the coordinates of all points of cells must be finite");
     }
   }
 }
 
-struct Bounds
-{
-  Vector3d Low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d High = Vector3d::Constant(-std::numeric_limits<double>::infinity());
-
-  void Add(const Vector3d& x)
-  {
-    this->Low = this->Low.cwiseMin(x);
-    this->High = this->High.cwiseMax(x);
-  }
-  Vector3d Lengths() const { return this->High - this->Low; }
-};
+using Bounds = Eigen::AlignedBox3d;
 
 // The eigenvectors of the points' covariance, by growing eigenvalue.
 Eigen::Matrix3d principalAxes(const std::vector<DensityBlock>& blocks, const MassCells& cells,
   const Bounds& bounds, Progress& progress)
 {
-  const Vector3d middle = 0.5 * (bounds.Low + bounds.High);
-  const double unit = bounds.Lengths().maxCoeff();
+  const Vector3d middle = 0.5 * (bounds.min() + bounds.max());
+  const double unit = bounds.sizes().maxCoeff();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   Vector3d first = Vector3d::Zero();
   double count = 0.0;
@@ -142,36 +131,34 @@ struct Frame
 
 [[noreturn]] void failFlat(int dimension, bool areClosedLines, double off, double length)
 {
-  std::ostringstream message;
-  message << "The input's cells are "
-          << (dimension == 1      ? "lines"
-                 : areClosedLines ? "closed lines that lie in no plane"
-                                  : "faces that lie in no plane")
-          << (dimension == 2 ? "" : " that are not on one straight line") << ": points are " << off
-          << " off, with a longest side of " << length << "; "
-          << (areClosedLines      ? "they must lie in one plane"
-                 : dimension == 2 ? "they must lie in one plane, as a slice does (Sample Surface "
-                                    "takes curved surfaces that are disks)"
-                                  : "they must lie on one, or closed ones in a plane, around "
-                                    "regions (Triangle Strips joins "
-                                    "the segments of a slice)");
-  throw Failure(message.str());
+  fail("The input's cells are ",
+    dimension == 1     ? "lines that are not on one straight line"
+      : areClosedLines ? "closed lines that lie in no plane"
+                       : "faces that lie in no plane",
+    ": points are ", off, " off, with a longest side of ", length, "; ",
+    areClosedLines ? "they must lie in one plane"
+      : dimension == 2
+      ? "they must lie in one plane, as a slice does (Sample Surface takes curved "
+        "surfaces that are disks)"
+      : "they must lie on one, or closed ones in a plane, around regions (Triangle "
+        "Strips joins the segments of a slice)");
 }
 
 Frame frameOf(const std::vector<DensityBlock>& blocks, const MassCells& cells, Progress& progress)
 {
   const int dimension = cells.Dimension;
   Frame frame;
-  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.Add(x); });
-  const Vector3d lengths = frame.Box.Lengths();
+  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.extend(x); });
+  const Vector3d lengths = frame.Box.sizes();
   const double longest = lengths.maxCoeff();
   if (!std::isfinite(longest) || !(longest > 0.0))
   {
-    throw Failure(longest == 0.0
-        ? std::string(
-            "The cells of the input are all at one place; they must have a length, area or volume")
-        : "The cells of the input reach from " + describe(frame.Box.Low) + " to " +
-          describe(frame.Box.High) + "; a side must not be past the largest double");
+    if (longest == 0.0)
+    {
+      fail("The cells of the input are all at one place; they must have a length, area or volume");
+    }
+    fail("The cells of the input reach from ", describe(frame.Box.min()), " to ",
+      describe(frame.Box.max()), "; a side must not be past the largest double");
   }
   const auto isFlat = [&](const Vector3d& sides) {
     return (sides.array() <= flatness * longest).count() >= 3 - dimension;
@@ -186,8 +173,8 @@ Frame frameOf(const std::vector<DensityBlock>& blocks, const MassCells& cells, P
   frame.Axes = axesAround(direction, main);
   frame.Box = Bounds();
   const Eigen::Matrix3d toFrame = frame.Axes.transpose();
-  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.Add(toFrame * x); });
-  Vector3d sides = frame.Box.Lengths();
+  visitCorners(blocks, cells, progress, [&](const Vector3d& x) { frame.Box.extend(toFrame * x); });
+  Vector3d sides = frame.Box.sizes();
   if (!isFlat(sides))
   {
     std::sort(sides.data(), sides.data() + 3);
@@ -215,21 +202,21 @@ ImageGrid meshGrid(const std::vector<DensityBlock>& blocks, const MassCells& cel
   const int dimension = cells.Dimension;
   Frame frame = frameOf(blocks, cells, progress);
   // Flat axes are those of the shortest sides.
-  Vector3d sides = frame.Box.Lengths();
+  Vector3d sides = frame.Box.sizes();
   double box[6];
   for (int flat = dimension; flat < 3; ++flat)
   {
     Eigen::Index shortest = 0;
     sides.minCoeff(&shortest);
     sides[shortest] = std::numeric_limits<double>::infinity();
-    const double middle = 0.5 * (frame.Box.Low[shortest] + frame.Box.High[shortest]);
-    frame.Box.Low[shortest] = middle;
-    frame.Box.High[shortest] = middle;
+    const double middle = 0.5 * (frame.Box.min()[shortest] + frame.Box.max()[shortest]);
+    frame.Box.min()[shortest] = middle;
+    frame.Box.max()[shortest] = middle;
   }
   for (Eigen::Index a = 0; a < 3; ++a)
   {
-    box[2 * a] = frame.Box.Low[a];
-    box[2 * a + 1] = frame.Box.High[a];
+    box[2 * a] = frame.Box.min()[a];
+    box[2 * a + 1] = frame.Box.max()[a];
   }
   const ImageGrid straight = gridWithResolution(gridOfBox(box), resolution, "DensityResolution");
   return { straight.Extent(), frame.Axes * straight.Origin(), straight.Spacing(), frame.Axes,

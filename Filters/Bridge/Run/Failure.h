@@ -3,6 +3,7 @@
 #ifndef RectifiedTransport_Failure_h
 #define RectifiedTransport_Failure_h
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +21,15 @@ public:
   {
   }
 };
+
+// Throws a Failure with these values as text, one after the other.
+template <class... Values>
+[[noreturn]] void fail(const Values&... values)
+{
+  std::ostringstream message;
+  (message << ... << values);
+  throw Failure(message.str());
+}
 
 } // namespace RectifiedTransport
 
