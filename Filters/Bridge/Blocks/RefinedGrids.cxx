@@ -2,6 +2,7 @@
 #include "Bridge/Blocks/RefinedGrids.h"
 
 #include "Bridge/Run/Failure.h"
+#include "Core/Geometry/LatticePart.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAMRBox.h"
@@ -23,7 +24,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,8 +128,8 @@ std::array<bool, 3> flatAxes(int description)
   return { false, false, false };
 }
 
-template <class Number>
-std::string textOf(const std::array<Number, 3>& counts)
+template <class Counts>
+std::string textOf(const Counts& counts)
 {
   return std::to_string(counts[0]) + " x " + std::to_string(counts[1]) + " x " +
     std::to_string(counts[2]);
@@ -157,62 +157,45 @@ int refinementOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int fine
     if (!(coarse[a] > 0.0 && ratio < most && common >= 1.0 &&
           std::abs(ratio - common) < tolerance * common))
     {
-      std::ostringstream text;
-      text << "The overlapping AMR has the spacing " << coarse[a] << " of level " << level
-           << ", but " << fine[a] << " of level " << finer << " along axis " << a
-           << "; spacings must be positive, and a level's a whole multiple of the finer one's, the "
-              "same along all axes";
-      throw Failure(text.str());
+      fail("The overlapping AMR has the spacing ", coarse[a], " of level ", level, ", but ",
+        fine[a], " of level ", finer, " along axis ", a,
+        "; spacings must be positive, and a level's a whole multiple of the finer one's, the same "
+        "along all axes");
     }
   }
   return std::max(static_cast<int>(common), 1);
 }
 
-// Cells of a level along its axes, from the first to the last one, 0 along axes without any.
-struct Cells
-{
-  std::array<std::int64_t, 3> First{};
-  std::array<std::int64_t, 3> Last{};
-
-  bool AreNone() const
-  {
-    return this->Last[0] < this->First[0] || this->Last[1] < this->First[1] ||
-      this->Last[2] < this->First[2];
-  }
-};
-
 // Files and programs give flat boxes a cell across the plane, or none.
-Cells cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
+LatticePart<3> cellsOf(vtkOverlappingAMR* grids, unsigned int level, unsigned int block)
 {
   std::array<int, 3> low;
   std::array<int, 3> high;
   grids->GetAMRBox(level, block).GetDimensions(low.data(), high.data());
   const std::array<bool, 3> isFlat = flatAxes(grids->GetGridDescription());
-  Cells cells;
+  LatticePart<3> cells{ {}, {} };
   for (std::size_t a = 0; a < 3; ++a)
   {
-    cells.First[a] = isFlat[a] ? 0 : low[a];
-    cells.Last[a] = isFlat[a] ? 0 : high[a];
+    cells.Low[a] = isFlat[a] ? 0 : low[a];
+    cells.Cells[a] = isFlat[a] ? 1 : std::int64_t{ high[a] } - low[a] + 1;
   }
   return cells;
 }
 
 // The grid's cells are marked by their places in the box.
-void requireCellsOfBox(
-  BlockGrid* grid, const Cells& box, int description, unsigned int level, unsigned int block)
+void requireCellsOfBox(BlockGrid* grid, const LatticePart<3>& box, int description,
+  unsigned int level, unsigned int block)
 {
   std::array<int, 3> points;
   grid->GetDimensions(points.data());
-  std::array<std::int64_t, 3> counts;
   bool isFilled = vtkStructuredData::GetDataDescription(points.data()) == description;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    counts[a] = box.Last[a] - box.First[a] + 1;
-    isFilled = isFilled && counts[a] == std::max(points[a] - 1, 1);
+    isFilled = isFilled && box.Cells[a] == std::max(points[a] - 1, 1);
   }
   if (!isFilled)
   {
-    throw Failure("The overlapping AMR has " + textOf(counts) + " cells in the box of " +
+    throw Failure("The overlapping AMR has " + textOf(box.Cells) + " cells in the box of " +
       nameOf(level, block) + ", but a grid of " + textOf(points) +
       " points there; all grids must have the cells of their boxes, and "
       "lie along the axes of the grid description");
@@ -226,7 +209,7 @@ std::int64_t coarsened(std::int64_t cell, int ratio)
 
 struct Block
 {
-  Cells Own;
+  LatticePart<3> Own;
   BlockGrid* Grid; // none where it lies on another rank
 };
 
@@ -265,7 +248,7 @@ std::vector<Block> blocksOf(
     }
   }
   std::sort(blocks.begin(), blocks.end(),
-    [](const Block& a, const Block& b) { return a.Own.First[0] < b.Own.First[0]; });
+    [](const Block& a, const Block& b) { return a.Own.Low[0] < b.Own.Low[0]; });
   return blocks;
 }
 
@@ -287,15 +270,10 @@ vtkSmartPointer<vtkUnsignedCharArray> ownFlags(BlockGrid* grid)
 }
 
 // Marks the cells of a block that are among some of its level.
-void mark(const Block& block, const Cells& covered, Flags& flags)
+void mark(const Block& block, const LatticePart<3>& covered, Flags& flags)
 {
-  Cells common;
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    common.First[a] = std::max(covered.First[a], block.Own.First[a]) - block.Own.First[a];
-    common.Last[a] = std::min(covered.Last[a], block.Own.Last[a]) - block.Own.First[a];
-  }
-  if (!block.Grid || common.AreNone())
+  const LatticePart<3> common = covered.And(block.Own);
+  if (!block.Grid || common.IsEmpty())
   {
     return;
   }
@@ -305,14 +283,12 @@ void mark(const Block& block, const Cells& covered, Flags& flags)
   {
     return; // an error of whoever reads them
   }
-  const std::int64_t width = block.Own.Last[0] - block.Own.First[0] + 1;
-  const std::int64_t height = block.Own.Last[1] - block.Own.First[1] + 1;
-  for (std::int64_t z = common.First[2]; z <= common.Last[2]; ++z)
+  for (std::int64_t z = common.Low[2]; z < common.End(2); ++z)
   {
-    for (std::int64_t y = common.First[1]; y <= common.Last[1]; ++y)
+    for (std::int64_t y = common.Low[1]; y < common.End(1); ++y)
     {
-      unsigned char* row = own->GetPointer((z * height + y) * width);
-      for (std::int64_t x = common.First[0]; x <= common.Last[0]; ++x)
+      unsigned char* row = own->GetPointer(block.Own.NumberOf({ common.Low[0], y, z }));
+      for (std::int64_t x = 0; x < common.Cells[0]; ++x)
       {
         row[x] |= vtkDataSetAttributes::REFINEDCELL;
       }
@@ -328,20 +304,20 @@ void findRefined(
   std::int64_t widest = 0;
   for (const Block& block : coarse)
   {
-    widest = std::max(widest, block.Own.Last[0] - block.Own.First[0]);
+    widest = std::max(widest, block.Own.Cells[0] - 1);
   }
   for (const Block& child : fine)
   {
-    Cells covered;
-    for (std::size_t a = 0; a < 3; ++a)
+    LatticePart<3> covered{ {}, {} };
+    for (int a = 0; a < 3; ++a)
     {
-      covered.First[a] = coarsened(child.Own.First[a], ratio);
-      covered.Last[a] = coarsened(child.Own.Last[a], ratio);
+      covered.Low[a] = coarsened(child.Own.Low[a], ratio);
+      covered.Cells[a] = coarsened(child.Own.End(a) - 1, ratio) - covered.Low[a] + 1;
     }
-    const std::int64_t first = covered.First[0] - widest;
+    const std::int64_t first = covered.Low[0] - widest;
     auto block = std::lower_bound(coarse.begin(), coarse.end(), first,
-      [](const Block& one, std::int64_t cell) { return one.Own.First[0] < cell; });
-    for (; block != coarse.end() && block->Own.First[0] <= covered.Last[0]; ++block)
+      [](const Block& one, std::int64_t cell) { return one.Own.Low[0] < cell; });
+    for (; block != coarse.end() && block->Own.Low[0] < covered.End(0); ++block)
     {
       mark(*block, covered, flags);
     }

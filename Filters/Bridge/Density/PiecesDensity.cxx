@@ -55,52 +55,33 @@ std::uint64_t joinFingerprints(
 // The number in a whole image of a value of a part of it.
 std::int64_t indexIn(const ImageGrid& whole, const ImageGrid& part, std::int64_t index)
 {
-  const std::array<int, 3> of = part.NumberOfValues();
-  const std::array<int, 3> all = whole.NumberOfValues();
-  std::int64_t number = 0;
-  std::int64_t step = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const int low = part.Extent()[2 * axis] - whole.Extent()[2 * axis];
-    number += (index % of[axis] + low) * step;
-    index /= of[axis];
-    step *= all[axis];
-  }
-  return number;
+  const int owner = part.IsOnPoints() ? vtkDataObject::POINT : vtkDataObject::CELL;
+  return tuplesOf(whole.Extent(), owner, whole.Extent())
+    .NumberOf(tuplesOf(part.Extent(), owner, whole.Extent()).CellOf(index));
 }
 
 // The values of a box, by the numbers of the whole grid.
-template <int Dimension>
+template <int D>
 class BoxOfDensity final : public DensityValues
 {
 public:
-  BoxOfDensity(std::unique_ptr<DensityImage> box, const GridSize<Dimension>& size,
-    const GridSize<Dimension>& low, const GridSize<Dimension>& high)
+  BoxOfDensity(
+    std::unique_ptr<DensityImage> box, const GridSize<D>& whole, const LatticePart<D>& part)
     : Box(std::move(box))
-    , Size(size)
-    , Low(low)
-    , High(high)
+    , Whole{ {}, whole }
+    , Part(part)
   {
   }
 
   void Read(std::int64_t first, std::int64_t count, double* values) const override
   {
-    std::int64_t number = 0;
-    std::int64_t cells = 1;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      number += (first % this->Size[axis] - this->Low[axis]) * cells;
-      first /= this->Size[axis];
-      cells *= this->High[axis] - this->Low[axis];
-    }
-    this->Box->Values()->Read(number, count, values);
+    this->Box->Values()->Read(this->Part.NumberOf(this->Whole.CellOf(first)), count, values);
   }
 
 private:
   const std::unique_ptr<DensityImage> Box;
-  const GridSize<Dimension> Size;
-  const GridSize<Dimension> Low;
-  const GridSize<Dimension> High;
+  const LatticePart<D> Whole;
+  const LatticePart<D> Part;
 };
 
 } // namespace
@@ -223,9 +204,9 @@ std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
   const GridSize<D>& low, const GridSize<D>& high) const
 {
   const ImageGrid& grid = this->Density.Grid();
+  LatticePart<D> part{ low, {} };
   Extent extent = grid.Extent();
-  bool hasCells = true;
-  std::size_t axis = 0;
+  int axis = 0;
   for (std::size_t a = 0; a < 3; ++a)
   {
     if (!grid.IsAxis(a))
@@ -235,10 +216,10 @@ std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
     const int start = extent[2 * a];
     extent[2 * a] = start + static_cast<int>(low[axis]);
     extent[2 * a + 1] = start + static_cast<int>(high[axis]) - (grid.IsOnPoints() ? 1 : 0);
-    hasCells = hasCells && low[axis] < high[axis];
+    part.Cells[axis] = high[axis] - low[axis];
     ++axis;
   }
-  if (!hasCells)
+  if (part.IsEmpty())
   {
     extent = { 0, -1, 0, -1, 0, -1 };
   }
@@ -250,7 +231,7 @@ std::shared_ptr<const DensityValues> PiecesDensity::Boxes<D>::Gather(
   const SerialExecutor serial;
   Progress progress{ Context(serial) };
   box->SetWhite(this->Density.White(), progress);
-  return std::make_shared<BoxOfDensity<D>>(std::move(box), grid.Size<D>(), low, high);
+  return std::make_shared<BoxOfDensity<D>>(std::move(box), grid.Size<D>(), part);
 }
 
 vtkSmartPointer<vtkImageData> PiecesDensity::ImageIn(const Extent& extent) const

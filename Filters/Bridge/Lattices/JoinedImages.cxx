@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Lattices/JoinedImages.h"
 
-#include "Bridge/Image/DefaultArray.h"
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Ranks/TupleBoxes.h"
 #include "Bridge/Run/Memory.h"
 
 #include "vtkDataArray.h"
@@ -25,8 +25,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-using Extent = std::array<int, 6>;
 
 struct Part
 {
@@ -125,60 +123,32 @@ std::optional<std::vector<Part>> partsOf(
   return parts;
 }
 
-// The numbers of values along the axes of an extent, and of a place among them.
-struct Lattice
-{
-  Lattice(const Extent& extent, const ImageGrid& like)
-    : First{ extent[0], extent[2], extent[4] }
-  {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      const std::int64_t points = std::int64_t{ extent[2 * a + 1] } - extent[2 * a] + 1;
-      this->Size[a] = like.IsOnPoints() || !like.IsAxis(a) ? points : points - 1;
-    }
-  }
-  double Count() const
-  {
-    return static_cast<double>(this->Size[0]) * static_cast<double>(this->Size[1]) *
-      static_cast<double>(this->Size[2]);
-  }
-  std::int64_t IndexOf(const std::array<std::int64_t, 3>& place) const
-  {
-    return place[0] - this->First[0] +
-      this->Size[0] * (place[1] - this->First[1] + this->Size[1] * (place[2] - this->First[2]));
-  }
-
-  std::array<std::int64_t, 3> First;
-  std::array<std::int64_t, 3> Size;
-};
-
 // Calls visit(from, to, count) for runs of values of a part with mass that are no ghosts, until it
-// returns false. Returns whether it never did.
+// returns false. They go to the values `all`. Returns whether it never did.
 template <class Visit>
-bool visitRuns(const Part& part, const Lattice& all, const ImageGrid& like, const Visit& visit)
+bool visitRuns(const Part& part, int owner, const TupleBox& all, const Visit& visit)
 {
   if (!part.Array)
   {
     return true;
   }
-  const bool onPoints = like.IsOnPoints();
-  const Lattice own(part.Place, like);
+  const bool onPoints = owner == vtkDataObject::POINT;
+  const TupleBox own = tuplesOf(part.Place, owner, part.Place);
   const unsigned char* flags = !onPoints && !part.Flags.empty()
     ? part.Flags.data()
-    : ghostFlags(
-        part.Image, onPoints ? vtkDataObject::POINT : vtkDataObject::CELL, part.Name.c_str());
+    : ghostFlags(part.Image, owner, part.Name.c_str());
   const unsigned char mask = onPoints ? ghostPoint : ghostCell;
-  for (std::int64_t k = 0; k < own.Size[2]; ++k)
+  for (std::int64_t k = own.Low[2]; k < own.End(2); ++k)
   {
-    for (std::int64_t j = 0; j < own.Size[1]; ++j)
+    for (std::int64_t j = own.Low[1]; j < own.End(1); ++j)
     {
-      const std::int64_t from = own.Size[0] * (j + own.Size[1] * k);
-      const std::int64_t to = all.IndexOf({ own.First[0], own.First[1] + j, own.First[2] + k });
-      for (std::int64_t i = 0; i < own.Size[0];)
+      const std::int64_t from = own.NumberOf({ own.Low[0], j, k });
+      const std::int64_t to = all.NumberOf({ own.Low[0], j, k });
+      for (std::int64_t i = 0; i < own.Cells[0];)
       {
         const bool isGhost = flags && (flags[from + i] & mask);
         std::int64_t end = i + 1;
-        while (end < own.Size[0] && isGhost == (flags && (flags[from + end] & mask)))
+        while (end < own.Cells[0] && isGhost == (flags && (flags[from + end] & mask)))
         {
           ++end;
         }
@@ -194,26 +164,27 @@ bool visitRuns(const Part& part, const Lattice& all, const ImageGrid& like, cons
 }
 
 // Which values of the lattice a part has given; false where cells overlap or points differ.
-bool findGiven(const std::vector<Part>& parts, const Lattice& all, const ImageGrid& like,
+bool findGiven(const std::vector<Part>& parts, int owner, const TupleBox& all,
   std::vector<vtkIdType>& given, std::vector<std::int32_t>& giver)
 {
+  const bool onPoints = owner == vtkDataObject::POINT;
   for (std::size_t t = 0; t < parts.size(); ++t)
   {
     const Part& part = parts[t];
     const bool apart =
-      visitRuns(part, all, like, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
+      visitRuns(part, owner, all, [&](std::int64_t from, std::int64_t to, std::int64_t count) {
         for (std::int64_t i = 0; i < count; ++i)
         {
-          std::int32_t& owner = giver[static_cast<std::size_t>(to + i)];
+          std::int32_t& first = giver[static_cast<std::size_t>(to + i)];
           vtkIdType& source = given[static_cast<std::size_t>(to + i)];
-          if (owner < 0)
+          if (first < 0)
           {
-            owner = static_cast<std::int32_t>(t);
+            first = static_cast<std::int32_t>(t);
             source = static_cast<vtkIdType>(from + i);
             continue;
           }
-          const vtkDataArray* other = parts[static_cast<std::size_t>(owner)].Array;
-          for (int c = 0; like.IsOnPoints() && c < other->GetNumberOfComponents(); ++c)
+          const vtkDataArray* other = parts[static_cast<std::size_t>(first)].Array;
+          for (int c = 0; onPoints && c < other->GetNumberOfComponents(); ++c)
           {
             const double a = const_cast<vtkDataArray*>(other)->GetComponent(source, c);
             const double b = part.Array->GetComponent(static_cast<vtkIdType>(from + i), c);
@@ -222,7 +193,7 @@ bool findGiven(const std::vector<Part>& parts, const Lattice& all, const ImageGr
               return false;
             }
           }
-          if (!like.IsOnPoints())
+          if (!onPoints)
           {
             return false;
           }
@@ -248,24 +219,24 @@ bool allHave(const std::vector<Part>& parts, int owner, vtkDataArray* array)
 }
 
 // Zero where no part has a value.
-void joinArray(const std::vector<Part>& parts, int owner, vtkDataArray* like, const Lattice& all,
-  const ImageGrid& grid, vtkDataSetAttributes* output)
+void joinArray(const std::vector<Part>& parts, int owner, vtkDataArray* like, const TupleBox& all,
+  vtkDataSetAttributes* output)
 {
-  const double bytes = all.Count() * like->GetNumberOfComponents() * like->GetDataTypeSize();
+  const double bytes =
+    static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize();
   const std::string purpose =
     "the array " + std::string(like->GetName()) + " of images that are joined";
   requireMemory(purpose, bytes);
   const auto joined = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
   joined->SetName(like->GetName());
   joined->SetNumberOfComponents(like->GetNumberOfComponents());
-  withMemory(
-    purpose, bytes, [&]() { joined->SetNumberOfTuples(static_cast<vtkIdType>(all.Count())); });
+  withMemory(purpose, bytes, [&]() { joined->SetNumberOfTuples(all.Count()); });
   joined->Fill(0.0);
   // The first image that has a value gives it.
   for (auto part = parts.rbegin(); part != parts.rend(); ++part)
   {
     vtkDataArray* from = part->Image->GetAttributes(owner)->GetArray(like->GetName());
-    visitRuns(*part, all, grid, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
+    visitRuns(*part, owner, all, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
       joined->InsertTuples(static_cast<vtkIdType>(to), static_cast<vtkIdType>(count),
         static_cast<vtkIdType>(first), from);
       return true;
@@ -288,41 +259,39 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   {
     return nullptr;
   }
-  Extent whole = parts->front().Place;
   double values = 0.0;
+  TupleBox points{};
   for (const Part& part : *parts)
   {
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      whole[2 * a] = std::min(whole[2 * a], part.Place[2 * a]);
-      whole[2 * a + 1] = std::max(whole[2 * a + 1], part.Place[2 * a + 1]);
-    }
-    values += Lattice(part.Place, lattice).Count();
+    values += numberOfValues(gridOf(part.Image, onPoints));
+    points = points.With(tuplesOf(part.Place, vtkDataObject::POINT, part.Place));
   }
+  const Extent whole = extentOf(points, vtkDataObject::POINT, parts->front().Place);
+  const ImageGrid grid{ whole, lattice.Origin(), lattice.Spacing(), lattice.Direction(), onPoints };
   constexpr double mostEmpty = 8.0;
-  const Lattice all(whole, lattice);
-  if (all.Count() > mostEmpty * values)
+  if (numberOfValues(grid) > mostEmpty * values)
   {
     return nullptr;
   }
+  const int ofDensity = onPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
+  const TupleBox all = tuplesOf(whole, ofDensity, whole);
   std::vector<vtkIdType> given;
   std::vector<std::int32_t> giver;
   withMemory("the lattice of images that are joined",
-    all.Count() * (sizeof(vtkIdType) + sizeof(std::int32_t)), [&]() {
+    numberOfValues(grid) * (sizeof(vtkIdType) + sizeof(std::int32_t)), [&]() {
       given.resize(static_cast<std::size_t>(all.Count()));
       giver.assign(static_cast<std::size_t>(all.Count()), -1);
     });
-  if (!findGiven(*parts, all, lattice, given, giver))
+  if (!findGiven(*parts, ofDensity, all, given, giver))
   {
     return nullptr;
   }
   auto joined = vtkSmartPointer<vtkImageData>::New();
-  applyGrid({ whole, lattice.Origin(), lattice.Spacing(), lattice.Direction(), onPoints }, joined);
+  applyGrid(grid, joined);
+  const auto first = std::find_if(
+    parts->begin(), parts->end(), [](const Part& part) { return part.Array != nullptr; });
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    const ImageGrid grid = lattice.WithValuesOn(owner == vtkDataObject::POINT);
-    const auto first = std::find_if(
-      parts->begin(), parts->end(), [](const Part& part) { return part.Array != nullptr; });
     vtkDataSetAttributes* from = first->Image->GetAttributes(owner);
     for (int i = 0; i < from->GetNumberOfArrays(); ++i)
     {
@@ -331,7 +300,8 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
         array != from->GetArray(vtkDataSetAttributes::GhostArrayName()) &&
         allHave(*parts, owner, array))
       {
-        joinArray(*parts, owner, array, Lattice(whole, grid), grid, joined->GetAttributes(owner));
+        joinArray(
+          *parts, owner, array, tuplesOf(whole, owner, whole), joined->GetAttributes(owner));
       }
     }
   }
@@ -344,7 +314,7 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
                                           : int{ vtkDataSetAttributes::HIDDENCELL });
     std::transform(giver.begin(), giver.end(), flags->GetPointer(0),
       [hidden](std::int32_t owner) { return owner < 0 ? hidden : static_cast<unsigned char>(0); });
-    attributesOf(joined, onPoints)->AddArray(flags);
+    joined->GetAttributes(ofDensity)->AddArray(flags);
   }
   return joined;
 }
