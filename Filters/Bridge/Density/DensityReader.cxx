@@ -103,55 +103,15 @@ void readTuples(const Tuples& begin, int components, std::int64_t count, const D
   }
 }
 
-// The largest of components [First, End) of the tuples whose flags have no bit of the mask; flags
-// may be null.
-struct LargestOf
-{
-  int First;
-  int End;
-  const unsigned char* Flags;
-  unsigned char Mask;
-
-  template <class Tuples>
-  LargestValue operator()(const Tuples& begin, std::int64_t firstTuple, std::int64_t count) const
-  {
-    LargestValue largest;
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      if (this->Flags && (this->Flags[i] & this->Mask))
-      {
-        continue;
-      }
-      for (int c = this->First; c < this->End; ++c)
-      {
-        const double value = static_cast<double>(begin(i, c));
-        if (value > largest.Value && value <= std::numeric_limits<double>::max())
-        {
-          largest = { value, 1, firstTuple + i, largest.Value };
-        }
-        else if (value == largest.Value)
-        {
-          ++largest.Count;
-        }
-        else if (value > largest.Next && value < largest.Value)
-        {
-          largest.Next = value;
-        }
-      }
-    }
-    return largest;
-  }
-};
-
 // A reader of arrays whose tuples `Tuples` visits in runs, see BlockOfTuples.
 template <class Tuples>
 class TupleReader final : public DensityReader
 {
 public:
-  TupleReader(const Tuples& tuples, int components, const DensityRules& rules)
+  template <class ArrayT>
+  TupleReader(ArrayT* array, const DensityRules& rules)
     : DensityReader(rules)
-    , Run(tuples)
-    , Components(components)
+    , Run(array)
   {
   }
 
@@ -165,19 +125,41 @@ public:
 
   LargestValue Largest(std::int64_t first, std::int64_t count) const override
   {
-    const int component = this->Rules.Component;
-    const LargestOf largest{ std::max(component, 0),
-      component < 0 ? this->Components : component + 1, this->Flags ? this->Flags + first : nullptr,
-      this->Mask };
     LargestValue found;
-    this->Run.VisitTuples(
-      first, count, [&](const auto& begin, int) { found = largest(begin, first, count); });
+    this->Run.VisitTuples(first, count, [&](const auto& begin, int components) {
+      const int component = this->Rules.Component;
+      const int end = component < 0 ? components : component + 1;
+      LargestValue largest;
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        if (this->Flags && (this->Flags[first + i] & this->Mask))
+        {
+          continue;
+        }
+        for (int c = std::max(component, 0); c < end; ++c)
+        {
+          const double value = static_cast<double>(begin(i, c));
+          if (value > largest.Value && value <= std::numeric_limits<double>::max())
+          {
+            largest = { value, 1, first + i, largest.Value };
+          }
+          else if (value == largest.Value)
+          {
+            ++largest.Count;
+          }
+          else if (value > largest.Next && value < largest.Value)
+          {
+            largest.Next = value;
+          }
+        }
+      }
+      found = largest;
+    });
     return found;
   }
 
 private:
   Tuples Run;
-  int Components;
 };
 
 // Contiguous tuples. Their number of components is a compile-time constant up to 4, so that the
@@ -259,19 +241,13 @@ struct MakeReader
   template <class T>
   void operator()(vtkAOSDataArrayTemplate<T>* array)
   {
-    this->Make(BlockOfTuples<T>(array), array->GetNumberOfComponents());
+    this->Reader = std::make_unique<TupleReader<BlockOfTuples<T>>>(array, this->Rules);
   }
 
   template <class ArrayT>
   void operator()(ArrayT* array)
   {
-    this->Make(RangeOfTuples<ArrayT>(array), array->GetNumberOfComponents());
-  }
-
-  template <class Tuples>
-  void Make(const Tuples& tuples, int components)
-  {
-    this->Reader = std::make_unique<TupleReader<Tuples>>(tuples, components, this->Rules);
+    this->Reader = std::make_unique<TupleReader<RangeOfTuples<ArrayT>>>(array, this->Rules);
   }
 };
 

@@ -31,36 +31,36 @@ using Eigen::Vector3d;
 constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
 
 // The edges of a cell from its first corner.
-struct Edges
+using Edges = std::array<Vector3d, 3>;
+
+Edges noEdges()
 {
-  std::array<Vector3d, 3> Along{ Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero() };
-};
+  return { Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero() };
+}
 
 Edges edgesOf(const BoxCorners& corners, int dimension)
 {
-  Edges edges;
+  Edges edges = noEdges();
   for (int a = 0; a < dimension; ++a)
   {
-    edges.Along[static_cast<std::size_t>(a)] = corners[1 << a] - corners[0];
+    edges[static_cast<std::size_t>(a)] = corners[1 << a] - corners[0];
   }
   return edges;
 }
 
 struct Sums
 {
-  std::array<Vector3d, 3> Edges{ Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero() };
+  Edges Along = noEdges();
   std::int64_t Cells = 0;
-  std::int64_t Misfits = 0;
 };
 
 Sums sumOf(Sums a, const Sums& b)
 {
   for (std::size_t i = 0; i < 3; ++i)
   {
-    a.Edges[i] += b.Edges[i];
+    a.Along[i] += b.Along[i];
   }
   a.Cells += b.Cells;
-  a.Misfits += b.Misfits;
   return a;
 }
 
@@ -72,16 +72,16 @@ bool addEdges(const Edges& edges, const Edges& like, int dimension, Sums& sums)
   int found = 0;
   for (int a = 0; a < dimension; ++a)
   {
-    const Vector3d& edge = edges.Along[static_cast<std::size_t>(a)];
+    const Vector3d& edge = edges[static_cast<std::size_t>(a)];
     for (int b = 0; b < dimension; ++b)
     {
       const auto axis = static_cast<std::size_t>(b);
-      const Vector3d& other = like.Along[axis];
+      const Vector3d& other = like[axis];
       const double along = edge.dot(other) / other.squaredNorm();
       const Vector3d forward = along < 0.0 ? Vector3d(-edge) : edge;
       if ((forward - other).norm() <= rough * other.norm())
       {
-        sums.Edges[axis] += forward;
+        sums.Along[axis] += forward;
         found |= 1 << b;
       }
     }
@@ -131,7 +131,7 @@ bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spa
   std::array<Vector3d, 3> units;
   for (std::size_t e = 0; e < static_cast<std::size_t>(dimension); ++e)
   {
-    units[e] = sums.Edges[e].normalized();
+    units[e] = sums.Along[e].normalized();
   }
   std::array<bool, 3> isPlaced{ false, false, false };
   for (int n = 0; n < dimension; ++n)
@@ -162,7 +162,7 @@ bool setAxes(const Sums& sums, int dimension, LatticeFrame& frame, Vector3d& spa
     constexpr double straight = 1e-9;
     const bool isStraight = (unit - Vector3d::Unit(column)).norm() <= straight;
     frame.Axes.col(column) = isStraight ? Vector3d(Vector3d::Unit(column)) : unit;
-    spacing[column] = sums.Edges[edge].norm() / static_cast<double>(sums.Cells);
+    spacing[column] = sums.Along[edge].norm() / static_cast<double>(sums.Cells);
     isPlaced[edge] = true;
     frame.IsAxis[axis] = true;
   }
@@ -270,7 +270,6 @@ std::optional<LatticeFrame> LatticeFrame::Of(
       ++part.Cells;
       if (!corners.Read(cell) || !addEdges(edgesOf(corners, dimension), *like, dimension, part))
       {
-        ++part.Misfits;
         misfits = true; // the others need no look
       }
       return !misfits;
@@ -278,7 +277,7 @@ std::optional<LatticeFrame> LatticeFrame::Of(
     sumOf);
   LatticeFrame frame;
   Vector3d edge = Vector3d::Zero();
-  if (sums.Misfits > 0 || !setAxes(sums, dimension, frame, edge))
+  if (misfits || !setAxes(sums, dimension, frame, edge))
   {
     return std::nullopt;
   }
