@@ -34,7 +34,6 @@ struct vtkDensityAlgorithm::vtkInternals
 {
   FlowCache Cache;
   std::map<int, DensityInput> Inputs; // by their numbers
-  bool IsAnnouncing = false;          // the run that follows gives the warnings
 };
 
 //------------------------------------------------------------------------------
@@ -112,13 +111,7 @@ DensityChoice vtkDensityAlgorithm::GetDensityChoice(int arrayIndex)
   choice.FindArray = [this, arrayIndex](vtkDataSet* data, int& association) {
     return this->FindDensityArray(data, arrayIndex, association);
   };
-  choice.Warn = [this](const std::string& text) {
-    if (!this->Internals->IsAnnouncing)
-    {
-      this->WarnOnFirstRank(text);
-    }
-  };
-  choice.WarnOfValues = [this](const std::string& text) { this->WarnOnFirstRank(text); };
+  choice.Warn = [this](const std::string& text) { this->WarnOnFirstRank(text); };
   return choice;
 }
 
@@ -160,20 +153,11 @@ ImageGrid vtkDensityAlgorithm::AnnouncedDensityGrid(
 ImageGrid vtkDensityAlgorithm::FindDensityGrid(vtkDataObject* data, int arrayIndex, int number)
 {
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
-  bool& isAnnouncing = this->Internals->IsAnnouncing;
-  isAnnouncing = true;
-  try
-  {
-    requireExtents(data, "input"); // of data that come, those of all inputs are looked at
-    const auto density = this->ReadDensity(data, progress, arrayIndex, number);
-    isAnnouncing = false;
-    return density ? density->Grid() : ImageGrid();
-  }
-  catch (...)
-  {
-    isAnnouncing = false;
-    throw;
-  }
+  requireExtents(data, "input"); // of data that come, those of all inputs are looked at
+  DensityChoice choice = this->GetDensityChoice(arrayIndex);
+  choice.Warn = [](const std::string&) {}; // the run that follows gives the warnings
+  const auto density = this->Internals->Inputs[number].Read(choice, data, progress);
+  return density ? density->Grid() : ImageGrid();
 }
 
 //------------------------------------------------------------------------------

@@ -95,7 +95,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   const std::vector<DensityBlock>& own, const Ranks& ranks, Progress& progress)
 {
   DataContent content = contentOf(own);
-  if (onAllRanks(ranks, this->HasBlocks && content.IsSameAs(this->Content, progress)))
+  if (onAllRanks(ranks, content.IsSameAs(this->Content, progress)))
   {
     return this->Blocks;
   }
@@ -107,15 +107,7 @@ const std::vector<DensityBlock>& GatheredBlocks::Gather(
   }
   content.Keep(progress);
   this->Content = std::move(content);
-  this->HasBlocks = true;
   return this->Blocks;
-}
-
-vtkSmartPointer<vtkDataObject> gatherOnFirst(
-  vtkDataObject* own, GatheredKind kind, const Ranks& ranks)
-{
-  const vtkSmartPointer<vtkDataObject> all = gatherAny(own, kind, ranks);
-  return ranks.Own() == 0 ? all : nullptr;
 }
 
 GatheredInputs::GatheredInputs(
@@ -129,8 +121,8 @@ GatheredInputs::GatheredInputs(
       vtkInformation* input = inputs[port]->GetInformationObject(i);
       vtkNew<vtkInformation> copy;
       copy->Copy(input);
-      const auto data = gatherOnFirst(vtkDataObject::GetData(input), kind, ranks);
-      copy->Set(vtkDataObject::DATA_OBJECT(), data);
+      const auto all = gatherAny(vtkDataObject::GetData(input), kind, ranks);
+      copy->Set(vtkDataObject::DATA_OBJECT(), ranks.Own() == 0 ? all.Get() : nullptr);
       vector->Append(copy);
     }
     this->Made.push_back(vector);

@@ -15,7 +15,6 @@
 #include <vector>
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkDataObject;
 class vtkInformationVector;
 VTK_ABI_NAMESPACE_END
 
@@ -36,7 +35,6 @@ public:
 
 private:
   DataContent Content; // of this rank's blocks
-  bool HasBlocks = false;
   std::vector<DensityBlock> Blocks;
 };
 
@@ -48,14 +46,11 @@ enum class GatheredKind
 };
 
 // The data of all ranks on the first rank; nullptr on the others and if no rank has data. Data that
-// are whole on every rank stay as they are. Collective. Throws Failure and std::bad_alloc.
-vtkSmartPointer<vtkDataObject> gatherOnFirst(
-  vtkDataObject* own, GatheredKind kind, const Ranks& ranks);
-
+// are whole on every rank stay as they are.
 class GatheredInputs
 {
 public:
-  // The kind of the data of each port. Collective, as gatherOnFirst.
+  // The kind of the data of each port. Collective. Throws Failure and std::bad_alloc.
   GatheredInputs(
     vtkInformationVector** inputs, const std::map<int, GatheredKind>& kinds, const Ranks& ranks);
 

@@ -252,7 +252,7 @@ std::unique_ptr<InputDensity> DensityInput::Read(
   if (density)
   {
     // Once for each change of a density: what does not change it may run the filter, too.
-    density->SetListener([this, warn = choice.WarnOfValues](const std::vector<std::string>& lines,
+    density->SetListener([this, warn = choice.Warn](const std::vector<std::string>& lines,
                            const InputDensity::Content& content) {
       const InputDensity::Content before = std::exchange(this->Told, content);
       if (content != before || content[0] == 0)

@@ -30,9 +30,8 @@ struct DensityChoice
   std::string ArrayName; // empty for the default array
   // The array of a data set; sets its association. nullptr for none.
   std::function<vtkAbstractArray*(vtkDataSet*, int& association)> FindArray;
-  // Receive warnings about the data, and about values that are probably not meant.
+  // Receives warnings about the data and about values that are probably not meant.
   std::function<void(const std::string&)> Warn;
-  std::function<void(const std::string&)> WarnOfValues;
 };
 
 // Whether a density may have this field association.
