@@ -39,17 +39,6 @@ void samplePart(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
 
 } // namespace
 
-vtkSmartPointer<vtkImageData> imageIn(vtkImageData* image, const Extent& extent)
-{
-  const auto part = vtkSmartPointer<vtkImageData>::New();
-  if (!isEmpty(extent))
-  {
-    part->ShallowCopy(image);
-    part->Crop(extent.data());
-  }
-  return part;
-}
-
 void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,
   ConstPointSpan<3> particles, Progress& progress, vtkPointData* output)
 {
@@ -170,7 +159,13 @@ LowestValue DensityImage::FindClamped(Progress& progress) const
 
 vtkSmartPointer<vtkImageData> DensityImage::ImageIn(const Extent& extent) const
 {
-  return imageIn(this->Input, extent);
+  const auto part = vtkSmartPointer<vtkImageData>::New();
+  if (!isEmpty(extent))
+  {
+    part->ShallowCopy(this->Input);
+    part->Crop(extent.data());
+  }
+  return part;
 }
 
 void DensityImage::SampleArrays(const Extent& /*extent*/, ConstPointSpan<3> particles,

@@ -35,9 +35,6 @@ public:
   void SetWhite(double white, Progress& progress);
   LowestValue FindClamped(Progress& progress) const;
 
-protected:
-  vtkImageData* Image() const { return this->Input; }
-
 private:
   std::uint64_t Fingerprint(Progress& progress) const override;
   void FindBlanks(vtkImageData* image);
@@ -53,9 +50,6 @@ private:
   const unsigned char* HiddenPoints = nullptr;
   std::vector<unsigned char> CombinedFlags; // of both, from BlankCellsOfHiddenPoints on
 };
-
-// The part of an image in an extent.
-vtkSmartPointer<vtkImageData> imageIn(vtkImageData* image, const Extent& extent);
 
 // Gives particles in a part of an image on a grid the values of the arrays of the part.
 void sampleImage(vtkImageData* part, const ImageGrid& grid, const Extent& extent,

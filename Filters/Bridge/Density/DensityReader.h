@@ -50,7 +50,6 @@ public:
     this->Flags = flags;
     this->Mask = mask;
   }
-  bool HasBlanks() const { return this->Flags != nullptr; }
 
   // The largest value of the component, or of all components (luminance), in cells that are not
   // blank.
