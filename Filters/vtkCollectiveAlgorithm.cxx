@@ -8,7 +8,7 @@
 #include "Bridge/Pipeline/OutputInformation.h"
 #include "Bridge/Pipeline/RequestedTimes.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Ranks/SameProperties.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/ExceptionBarrier.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/InputExtents.h"

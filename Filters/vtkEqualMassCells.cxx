@@ -6,7 +6,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
-#include "Bridge/Ranks/DistributedImage.h"
+#include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"

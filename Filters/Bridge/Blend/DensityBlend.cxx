@@ -13,7 +13,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Splat/DistributedSplat.h"
-#include "Bridge/Splat/MassSplat.h"
 #include "Core/Flow/WeightedMean.h"
 #include "Core/Geometry/LengthScale.h"
 #include "Core/Parallel/ExactSum.h"

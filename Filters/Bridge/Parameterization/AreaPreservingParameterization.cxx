@@ -4,7 +4,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Core/Parameterization/AreaPreservingMap.h"
 

@@ -169,8 +169,8 @@ PointMasses::PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& pro
     this->Sizes = this->Sum;
     return;
   }
-  this->Array = newArray<vtkDoubleArray>("Mass", 1, count);
-  ReadMasses read(ghosts, this->Array->GetPointer(0), count);
+  this->Masses = newArray<vtkDoubleArray>("Mass", 1, count);
+  ReadMasses read(ghosts, this->Masses->GetPointer(0), count);
   using Dispatch = vtkArrayDispatch::Dispatch;
   if (!array)
   {

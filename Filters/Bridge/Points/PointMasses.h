@@ -40,13 +40,14 @@ public:
   PointMasses(vtkPointSet* points, vtkDataArray* array, Progress& progress);
 
   // One mass a point; nullptr if each is 1.
-  const double* Values() const { return this->Array ? this->Array->GetPointer(0) : nullptr; }
+  vtkDoubleArray* Array() const { return this->Masses; }
+  const double* Values() const { return this->Masses ? this->Masses->GetPointer(0) : nullptr; }
   double Total() const { return this->Sum; }
   // The sum of the absolute values.
   double TotalSize() const { return this->Sizes; }
 
 private:
-  vtkSmartPointer<vtkDoubleArray> Array;
+  vtkSmartPointer<vtkDoubleArray> Masses;
   double Sum = 0.0;
   double Sizes = 0.0;
 };

@@ -2,8 +2,8 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 
 #include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Run/WholeInputs.h"
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkArrayDispatch.h"

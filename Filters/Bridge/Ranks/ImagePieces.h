@@ -15,6 +15,7 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
+class vtkInformation;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -62,6 +63,11 @@ private:
   Extent WholeExtent{ 0, -1, 0, -1, 0, -1 };
   std::array<double, 15> Geometry{}; // origin, spacing, direction
 };
+
+// If the first rank has an image and the others have none: gives each rank the extent that is
+// requested of its output, with all arrays, and the field data to all; announces the whole extent.
+// Collective.
+void distributeImage(vtkImageData* image, vtkInformation* output, const Ranks& ranks);
 
 } // namespace RectifiedTransport
 

@@ -10,7 +10,9 @@
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkDataObject;
 class vtkInformation;
+class vtkObject;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
@@ -20,6 +22,14 @@ namespace RectifiedTransport
 // and `rule` ends it. Returns the text; empty if no rank has one. Collective.
 std::string requireSameOnRanks(const Ranks& ranks, const std::string& own, const std::string& what,
   const std::string& rule = "it must be of one type on all");
+
+// Throws Failure if a property that PrintSelf prints after Threading is not the same on all ranks.
+// Collective.
+void requireSameProperties(vtkObject* filter, const Ranks& ranks);
+
+// Whether all ranks have the same data, or none has any: one data set, not parts of one. `data` may
+// be nullptr. Collective.
+bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 
 // The part of an image that this rank outputs. A single rank outputs all of it. Otherwise, if all
 // ranks have announced the whole extent, it is the requested part, with at least a layer of cells;

@@ -118,19 +118,6 @@ std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& f
 } // namespace
 
 //------------------------------------------------------------------------------
-bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks)
-{
-  std::vector<vtkDataObject*> own;
-  if (data)
-  {
-    own.push_back(data);
-  }
-  const std::vector<std::uint64_t> all = gatherValues(ranks, sampledFingerprint(own));
-  return std::all_of(
-    all.begin(), all.end(), [&all](std::uint64_t there) { return there == all.front(); });
-}
-
-//------------------------------------------------------------------------------
 void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

@@ -29,11 +29,6 @@ namespace RectifiedTransport
 {
 
 class RankRun;
-class Ranks;
-
-// Whether all ranks have the same data, or none has any: one data set, not parts of one. `data` may
-// be nullptr. Collective.
-bool areSameOnRanks(vtkDataObject* data, const Ranks& ranks);
 
 // For one filter. Remembers the last comparison with other ranks, so that data that do not change
 // are compared once.

@@ -10,31 +10,27 @@
 namespace RectifiedTransport
 {
 
-namespace
-{
-
-std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType> keyOf(vtkPointSet* sites)
-{
-  return { sites->GetPoints(), sites->GetPoints()->GetMTime() };
-}
-
 // The modification time of the data set itself: its GetMTime() includes its points.
-std::uint64_t timeOf(vtkPointSet* sites)
+SiteLabels::Stamp SiteLabels::StampOf(vtkPointSet* sites)
 {
-  return static_cast<std::uint64_t>(sites->vtkObject::GetMTime());
+  return { sites->GetPoints(), sites->GetPoints()->GetMTime(), sites->vtkObject::GetMTime() };
 }
-
-} // namespace
 
 bool SiteLabels::IsFor(vtkPointSet* sites, const Settings& settings) const
 {
-  return this->Kept.Labels && this->Of == settings && this->Stamp.IsOf(keyOf(sites), timeOf(sites));
+  const Stamp now = StampOf(sites);
+  return this->Kept.Labels && this->Of == settings && now.HasPointsOf(this->Sites) &&
+    now.SetTime == this->Sites.SetTime;
 }
 
 bool SiteLabels::UpdateStamp(vtkPointSet* sites, Progress& progress)
 {
-  return this->Stamp.Update(keyOf(sites), timeOf(sites),
-    [&]() { return fingerprint({ sites->GetPoints()->GetData() }, progress); });
+  const Stamp before = std::exchange(this->Sites, {}); // none is kept if fingerprint() throws
+  Stamp now = StampOf(sites);
+  now.Bits = fingerprint({ sites->GetPoints()->GetData() }, progress);
+  this->Sites = now;
+  return now.HasPointsOf(before) &&
+    (now.SetTime == before.SetTime || (now.Bits != 0 && now.Bits == before.Bits));
 }
 
 } // namespace RectifiedTransport

@@ -5,7 +5,6 @@
 #define RectifiedTransport_SiteLabels_h
 
 #include "Bridge/Density/ContentHash.h"
-#include "Bridge/SiteCells/DataStamp.h"
 #include "Bridge/VTKCompatibility.h"
 #include "Core/Flow/FlowOptions.h"
 #include "Core/Geometry/ImageGrid.h"
@@ -21,7 +20,6 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
-#include <utility>
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPointSet;
@@ -92,11 +90,27 @@ public:
   }
 
 private:
+  // Identifies sites. Programs that write into an array often call Modified() only on the data set;
+  // but hosts such as ParaView also make a new data set of the same points at every run. Where only
+  // the time of the data set differs, the hashes are compared.
+  struct Stamp
+  {
+    vtkSmartPointer<vtkPoints> Points;
+    vtkMTimeType PointsTime = 0;
+    vtkMTimeType SetTime = 0;
+    std::uint64_t Bits = 0; // the hash of the coordinates; 0 if there is none
+
+    bool HasPointsOf(const Stamp& other) const
+    {
+      return this->Points == other.Points && this->PointsTime == other.PointsTime;
+    }
+  };
+  static Stamp StampOf(vtkPointSet* sites);
   // Returns whether the sites are those of the last call.
   bool UpdateStamp(vtkPointSet* sites, Progress& progress);
 
   Division Kept;
-  DataStamp<std::pair<vtkSmartPointer<vtkPoints>, vtkMTimeType>> Stamp;
+  Stamp Sites;
   Settings Of{};
 };
 

@@ -5,7 +5,6 @@
 
 #include "Bridge/Points/DoubleTuples.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Splat/MassSplat.h"
 #include "Core/Geometry/Dispatch.h"
 #include "Core/Parallel/KeySort.h"
 #include "Core/Parallel/LargeBuffer.h"

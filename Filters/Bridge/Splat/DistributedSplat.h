@@ -3,17 +3,11 @@
 #ifndef RectifiedTransport_DistributedSplat_h
 #define RectifiedTransport_DistributedSplat_h
 
-#include "Bridge/Points/SplatTarget.h"
 #include "Bridge/Ranks/TupleBoxes.h"
-#include "Bridge/VTKCompatibility.h"
+#include "Bridge/Splat/MassSplat.h"
 #include "Core/Parallel/Progress.h"
 
 #include <cstdint>
-
-VTK_ABI_NAMESPACE_BEGIN
-class vtkDataArray;
-class vtkDoubleArray;
-VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {

@@ -69,12 +69,6 @@ void requireFiniteDensity(
   }
 }
 
-std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
-  Progress& progress, vtkDoubleArray* cells)
-{
-  return splatAll<double>({ points, nullptr, massEach }, target, progress, cells);
-}
-
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells)
 {

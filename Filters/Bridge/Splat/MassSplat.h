@@ -3,10 +3,10 @@
 #ifndef RectifiedTransport_MassSplat_h
 #define RectifiedTransport_MassSplat_h
 
-#include "Bridge/Points/SplatTarget.h"
 #include "Bridge/VTKCompatibility.h"
-#include "Core/Geometry/Points.h"
+#include "Core/Geometry/ImageGrid.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Splat/Splat.h"
 
 #include <cstdint>
 
@@ -18,20 +18,27 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+// The grid and the options of a splat.
+struct SplatTarget
+{
+  const ImageGrid& Geometry;
+  SplatOptions Options;
+  bool DivideByVolume; // densities, else masses
+
+  // The factor of the masses.
+  double Scale() const { return this->DivideByVolume ? 1.0 / this->Geometry.CellMeasure() : 1.0; }
+};
+
 // Throws Failure if the density of a cell that holds all of `mass` would not be finite; `what` is
 // the subject of the message, `rule` completes "make the masses smaller, ...".
 void requireFiniteDensity(
   double mass, const SplatTarget& target, const char* what, const char* rule);
 
 // Writes the values of the cells (or dual cells) of the target's geometry into `cells`, one
-// component and a tuple for each. Coordinates are finite. Runs as the current stage. Returns how
-// many points are outside the domain (see SplatReport). Throws Failure if memory is short, and
-// Cancelled.
-std::int64_t splatPoints(ConstPointSpan<3> points, double massEach, const SplatTarget& target,
-  Progress& progress, vtkDoubleArray* cells);
-
-// The same for an array of points and one mass for each; `massEach` if `masses` is nullptr. Points
-// of a type other than double and float are copied.
+// component and a tuple for each, of an array of points and one mass for each; `massEach` if
+// `masses` is nullptr. Coordinates are finite; those of a type other than double and float are
+// copied. Runs as the current stage. Returns how many points are outside the domain (see
+// SplatReport). Throws Failure if memory is short, and Cancelled.
 std::int64_t splatPoints(vtkDataArray* points, const double* masses, double massEach,
   const SplatTarget& target, Progress& progress, vtkDoubleArray* cells);
 

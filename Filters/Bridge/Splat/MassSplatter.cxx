@@ -11,14 +11,22 @@
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
-#include "Bridge/Splat/MassSplat.h"
-#include "Bridge/Splat/SplatOnRanks.h"
+#include "Bridge/Splat/DistributedSplat.h"
 #include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/RankOrder.h"
+#include "Core/Parallel/RankShare.h"
 
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <vector>
 
 namespace RectifiedTransport
 {
@@ -68,6 +76,120 @@ void requireFinite(double sizes, const SplatTarget& target)
   requireFiniteDensity(sizes, target, "The points' masses",
     target.DivideByVolume ? "the cells larger, or switch DivideByVolume off"
                           : "so that the sum of their sizes is a double");
+}
+
+// The points that count, and the masses of all points of the set.
+struct SplatInput
+{
+  const DistributedPoints& Points;
+  const PointMasses& Masses;
+  const SplatTarget& Target;
+};
+
+struct SplatResult
+{
+  std::int64_t Outside; // of the points of all ranks
+  double TotalMass;     // that the whole image holds
+};
+
+// The tuples of an image, x fastest, that a rank sums up, and the layers of it that hold them.
+struct TupleRange
+{
+  TupleBox Layers;
+  std::int64_t First; // from the layers' first one on
+  std::int64_t Count;
+};
+
+// Whole chunks, as even shares as may be.
+TupleRange rangeOf(const TupleBox& whole, int ranks, int rank)
+{
+  std::size_t slowest = 2;
+  while (slowest > 0 && whole.Cells[slowest] == 1)
+  {
+    --slowest;
+  }
+  const std::int64_t count = whole.Count();
+  const std::int64_t layer = count / whole.Cells[slowest];
+  const RankShare chunks((count + splatSumChunk - 1) / splatSumChunk, ranks, rank);
+  const std::int64_t first = std::min(count, chunks.First * splatSumChunk);
+  const std::int64_t last = std::min(count, (chunks.First + chunks.Count) * splatSumChunk);
+  TupleRange range{ whole, first % layer, last - first };
+  range.Layers.Low[slowest] += first / layer;
+  range.Layers.Cells[slowest] = last > first ? (last - 1) / layer + 1 - first / layer : 0;
+  return range;
+}
+
+double inOrder(
+  const DistributedPoints& points, const double* masses, const Ranks& ranks, Progress& progress)
+{
+  if (onAllRanks(ranks, masses == nullptr))
+  {
+    return static_cast<double>(points.All());
+  }
+  const std::int64_t count = points.Counted().Count();
+  const RankOrder order(count, points.Keys(), PointMasses::Chunk, ranks, progress);
+  const std::vector<double> share =
+    order.Bring([=](std::int64_t i) { return masses ? masses[i] : 1.0; });
+  const double total = sumChunks(share.data(), order.Count(), PointMasses::Chunk, ranks);
+  if (!std::isfinite(total))
+  {
+    std::ostringstream message;
+    message << "The points' masses sum to " << total << "; the sum must be a double";
+    throw Failure(message.str());
+  }
+  return total;
+}
+
+SplatResult splatHere(const SplatInput& input, Progress& progress, vtkDoubleArray* cells)
+{
+  constexpr double endOfSplat = 0.95;
+  Progress work(progress.Stage());
+  work.BeginStage(endOfSplat);
+  const std::int64_t outside = splatPoints(input.Points.Set()->GetPoints()->GetData(),
+    input.Masses.Values(), 1.0, input.Target, work, cells);
+  work.BeginStage(1.0);
+  return { outside,
+    input.Target.Options.Boundary == SplatBoundary::Renormalize
+      ? input.Masses.Total()
+      : splatMassIn(cells, input.Target, work) };
+}
+
+// Writes the wanted cells: the splat of distributed points and its total mass, bitwise as on one
+// rank. As the work of the current stage.
+SplatResult splatOnRanks(const SplatInput& input, const TupleBox& whole, const TupleBox& wanted,
+  Progress& progress, vtkDoubleArray* cells)
+{
+  const Ranks& ranks = progress.Group();
+  if (!ranks.AreSeveral())
+  {
+    return splatHere(input, progress, cells);
+  }
+  vtkDoubleArray* given = input.Masses.Array();
+  const vtkSmartPointer<vtkDataArray> counted = given ? input.Points.TuplesOf(given) : nullptr;
+  const double* masses = given ? vtkDoubleArray::SafeDownCast(counted)->GetPointer(0) : nullptr;
+  const auto places = input.Points.TuplesOf(input.Points.Set()->GetPoints()->GetData());
+  const auto splat = [&](const TupleBox& box, vtkDoubleArray* to) {
+    return splatDistributed(
+      places, masses, 1.0, input.Points.Keys(), input.Target, box, progress, to);
+  };
+  if (input.Target.Options.Boundary == SplatBoundary::Renormalize)
+  {
+    const double total = inOrder(input.Points, masses, ranks, progress);
+    return { splat(wanted, cells), total };
+  }
+  // What is dropped is known from the cells only: all of them, wanted or not.
+  std::vector<TupleBox> held;
+  for (int rank = 0; rank < ranks.Count(); ++rank)
+  {
+    held.push_back(rangeOf(whole, ranks.Count(), rank).Layers);
+  }
+  const TupleRange own = rangeOf(whole, ranks.Count(), ranks.Own());
+  const auto values =
+    newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(own.Layers.Count()));
+  const std::int64_t outside = splat(own.Layers, values);
+  const double sum = sumChunks(values->GetPointer(0) + own.First, own.Count, splatSumChunk, ranks);
+  exchangeBoxes(held, wanted, ranks, values, cells);
+  return { outside, input.Target.DivideByVolume ? sum * input.Target.Geometry.CellMeasure() : sum };
 }
 
 } // namespace
@@ -138,20 +260,16 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
   Extent wanted = extentToGive(grid.Extent(), target.Output, ranks);
   output->SetExtent(wanted.data());
   requireCells(cells);
-  double sizes = 0.0;
-  for (const double there : gatherValues(ranks, given.TotalSize()))
-  {
-    sizes += there;
-  }
+  const std::vector<double> sizes = gatherValues(ranks, given.TotalSize());
   const SplatTarget splatTarget{ cells, this->Splat, this->DivideByVolume };
-  requireFinite(sizes, splatTarget);
+  requireFinite(std::accumulate(sizes.begin(), sizes.end(), 0.0), splatTarget);
 
   const int owner = this->OnPoints ? vtkDataObject::POINT : vtkDataObject::CELL;
   const TupleBox box = tuplesOf(wanted, owner, grid.Extent());
   const auto density = newArray<vtkDoubleArray>("Density", 1, static_cast<vtkIdType>(box.Count()));
   progress.BeginStage(1.0);
-  const RankSplat splat = splatOnRanks({ counted, given, splatTarget },
-    { tuplesOf(grid.Extent(), owner, grid.Extent()), box }, progress, density);
+  const SplatResult splat = splatOnRanks({ counted, given, splatTarget },
+    tuplesOf(grid.Extent(), owner, grid.Extent()), box, progress, density);
   output->GetAttributes(owner)->SetScalars(density);
   addFieldValue(output, "TotalMass", splat.TotalMass);
   return { grid, counted.All(), splat.Outside };

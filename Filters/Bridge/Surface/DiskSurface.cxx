@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string>
 
 namespace RectifiedTransport
@@ -196,6 +197,29 @@ std::string DiskSurface::RepairWarning() const
     add(counted(repairs.MergedPoints, "point", " merged with others at their places"));
   }
   return "The input surface was repaired: " + message;
+}
+
+ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress)
+{
+  constexpr double bytesOfPoint = 1350.0;
+  const std::int64_t points = disk.NumberOfPoints();
+  try
+  {
+    return withMemory("the conformal map of " + std::to_string(points) + " points",
+      bytesOfPoint * static_cast<double>(points),
+      [&]() { return mapConformally(disk, corners, progress.Stage()); });
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw Failure(std::string("The input surface ") + error.what());
+  }
+}
+
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles)
+{
+  return std::to_string(collapsed) + " of " + std::to_string(triangles) +
+    " triangles have all points on one side of the square and so no area there; subdivide the "
+    "surface, or give Corners between these points";
 }
 
 } // namespace RectifiedTransport

@@ -7,6 +7,7 @@
 #include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parallel/LargeBuffer.h"
 #include "Core/Parallel/Progress.h"
+#include "Core/Parameterization/ConformalMap.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -98,6 +99,13 @@ private:
   LargeBuffer<vtkIdType> InputCells; // of triangles; empty if they are the input's
   std::optional<RepairedDisk> Mesh;
 };
+
+// The conformal map of a disk, with the errors of a run. Runs as the current stage. Throws Failure
+// and Cancelled.
+ConformalMap mapDisk(const DiskMesh& disk, const SquareCorners& corners, Progress& progress);
+
+// A warning about triangles that have no area in the map.
+std::string collapsedWarning(std::int64_t collapsed, std::int64_t triangles);
 
 } // namespace RectifiedTransport
 

@@ -7,7 +7,6 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
-#include "Bridge/Surface/DiskConformalMap.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
