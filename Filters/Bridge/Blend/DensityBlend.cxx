@@ -316,7 +316,6 @@ void DensityBlend::WriteParticles(const std::vector<BlendInput>& inputs, const I
   double massEach, Progress& progress, double end, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
   points->SetData(this->Means);
   output->SetPoints(points);
   for (std::size_t i = 0; i < inputs.size(); ++i)

@@ -6,6 +6,9 @@
 
 #include "vtkCellArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 
 namespace RectifiedTransport
 {
@@ -32,6 +35,24 @@ vtkSmartPointer<vtkCellArray> newParticleCells(
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
+}
+
+void setParticles(
+  vtkPolyData* output, vtkDataArray* points, vtkIdType pointsEach, Progress& progress)
+{
+  const auto cells =
+    newParticleCells(points->GetNumberOfTuples() / pointsEach, pointsEach, progress);
+  vtkNew<vtkPoints> made;
+  made->SetData(points);
+  output->SetPoints(made);
+  if (pointsEach > 1)
+  {
+    output->SetLines(cells);
+  }
+  else
+  {
+    output->SetVerts(cells);
+  }
 }
 
 } // namespace RectifiedTransport

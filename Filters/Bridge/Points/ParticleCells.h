@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vtkCells of particles: each has its own range of consecutive points.
+// The points and vtkCells of particles: each has its own range of consecutive points.
 #ifndef RectifiedTransport_ParticleCells_h
 #define RectifiedTransport_ParticleCells_h
 
@@ -11,14 +11,19 @@
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkCellArray;
+class vtkDataArray;
+class vtkPolyData;
 VTK_ABI_NAMESPACE_END
 
 namespace RectifiedTransport
 {
 
-// Runs as the current stage. Throws Failure and Cancelled.
+// They run as the current stage and throw Failure and Cancelled.
 vtkSmartPointer<vtkCellArray> newParticleCells(
   vtkIdType count, vtkIdType pointsEach, Progress& progress);
+// Sets the points of particles, and their cells: vertices, or lines of several points.
+void setParticles(
+  vtkPolyData* output, vtkDataArray* points, vtkIdType pointsEach, Progress& progress);
 
 } // namespace RectifiedTransport
 

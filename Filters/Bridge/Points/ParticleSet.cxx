@@ -8,12 +8,9 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -86,21 +83,24 @@ PointSpan<3> ParticleSet<D>::PhysicalSeeds()
   return { this->SeedPosition->GetPointer(0), this->NumberOfParticles };
 }
 
-// The mean of particle(i).
+// Calls write(i) for every particle, which returns the squared distance that it moved, in units of
+// the scale. Returns the mean squared displacement.
 template <int D>
-template <class Particle>
-double ParticleSet<D>::MeanOverParticles(Progress& progress, const Particle& particle) const
+template <class Write>
+double ParticleSet<D>::WriteEach(
+  const LengthScale& scale, Progress& progress, double end, const Write& write) const
 {
-  const std::int64_t count = this->NumberOfParticles;
   const std::int64_t chunk = std::max<std::int64_t>(1, 4096 / this->Times);
-  const auto total = sumExactly<ExactSum>(
-    progress, count, chunk, [&particle](std::int64_t first, std::int64_t last, ExactSum& sum) {
+  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
+  const auto total = sumExactly<ExactSum>(progress, this->NumberOfParticles, chunk,
+    [&write](std::int64_t first, std::int64_t last, ExactSum& sum) {
       for (std::int64_t i = first; i < last; ++i)
       {
-        sum.Add(particle(i));
+        sum.Add(write(i));
       }
     });
-  return sumOverRanks(progress.Group(), total).Value() / static_cast<double>(this->AllParticles);
+  return scale.CostFromUnits(
+    sumOverRanks(progress.Group(), total).Value() / static_cast<double>(this->AllParticles));
 }
 
 template <int D>
@@ -128,15 +128,6 @@ void ParticleSet<D>::ToPhysical(
 }
 
 template <int D>
-void ParticleSet<D>::SetPoints(vtkPolyData* output)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetData(std::exchange(this->Points, nullptr));
-  output->SetPoints(points);
-}
-
-template <int D>
 double ParticleSet<D>::WriteParticles(
   double totalMass, Progress& progress, double end, vtkPolyData* output)
 {
@@ -154,8 +145,7 @@ double ParticleSet<D>::WriteParticles(
   const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
-  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
-  const double squares = this->MeanOverParticles(progress, [&](std::int64_t i) {
+  const double cost = this->WriteEach(scale, progress, end, [&](std::int64_t i) {
     double index[D];
     std::copy_n(seeds + i * D, D, index); // in 3D the same memory as the physical seed
     double* seed = physicalSeeds + i * 3;
@@ -171,10 +161,8 @@ double ParticleSet<D>::WriteParticles(
     return scale.SquaredDistanceInUnits(x, seed);
   });
 
-  const double cost = scale.CostFromUnits(squares);
   progress.BeginStage(end);
-  output->SetVerts(newParticleCells(count, 1, progress));
-  this->SetPoints(output);
+  setParticles(output, std::exchange(this->Points, nullptr), 1, progress);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
   data->AddArray(std::exchange(this->SeedPosition, nullptr));
@@ -201,8 +189,7 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
   const double share = totalMass / static_cast<double>(this->AllParticles);
   const LengthScale scale(this->Geometry);
 
-  progress.BeginStage(progress.StageEnd() + partOfPoints * (end - progress.StageEnd()));
-  const double squares = this->MeanOverParticles(progress, [&](std::int64_t i) {
+  const double cost = this->WriteEach(scale, progress, end, [&](std::int64_t i) {
     const double* index = seeds + i * D;
     double seed[3];
     this->ToPhysicalSeed(i, index, seed);
@@ -216,10 +203,8 @@ double ParticleSet<D>::WritePaths(double totalMass, const std::vector<double>& t
     return scale.SquaredDistanceInUnits(points + ((i + 1) * each - 1) * 3, seed);
   });
 
-  const double cost = scale.CostFromUnits(squares);
   progress.BeginStage(end);
-  output->SetLines(newParticleCells(count, each, progress));
-  this->SetPoints(output);
+  setParticles(output, std::exchange(this->Points, nullptr), each, progress);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
   data->AddArray(timeArray);

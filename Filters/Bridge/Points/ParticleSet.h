@@ -23,6 +23,8 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
+class LengthScale;
+
 // Positions of particles, each at one time or at several along a path. In 3D index and physical
 // coordinates share memory.
 template <int D>
@@ -59,12 +61,12 @@ public:
     double end, vtkPolyData* output);
 
 private:
-  template <class Particle>
-  double MeanOverParticles(Progress& progress, const Particle& particle) const;
+  template <class Write>
+  double WriteEach(
+    const LengthScale& scale, Progress& progress, double end, const Write& write) const;
   void ToPhysicalSeed(std::int64_t particle, const double* index, double* seed) const;
   void ToPhysical(
     const double* index, const double* indexSeed, const double* seed, double* x) const;
-  void SetPoints(vtkPolyData* output);
 
   const ImageGrid& Geometry;
   std::int64_t NumberOfParticles;

@@ -5,9 +5,8 @@
 #include "Bridge/Ranks/CommonArrays.h"
 #include "Bridge/Ranks/PlaceOwners.h"
 #include "Core/Parallel/Progress.h"
-#include "Core/Parallel/RankExchange.h"
+#include "Core/Parallel/Ranks.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
@@ -54,22 +53,6 @@ std::vector<std::int64_t> countOfEach(const std::vector<int>& owner, const Ranks
   for (const int rank : owner)
   {
     ++counts[static_cast<std::size_t>(rank)];
-  }
-  return counts;
-}
-
-// How many particles each rank sends here, of those that this rank sends to each.
-std::vector<std::int64_t> exchangeCounts(const std::vector<std::int64_t>& sent, const Ranks& ranks)
-{
-  std::vector<std::vector<std::int64_t>> parts;
-  for (const std::int64_t count : sent)
-  {
-    parts.push_back({ count });
-  }
-  std::vector<std::int64_t> counts;
-  for (const std::vector<std::int64_t>& count : exchangeValues(ranks, std::move(parts)))
-  {
-    counts.push_back(count.front());
   }
   return counts;
 }
@@ -126,8 +109,6 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   vtkSmartPointer<vtkDataArray> places = particles->GetPoints()->GetData();
   const std::vector<int> owner = findOwners(places, points, owners, progress);
   const std::vector<std::int64_t> sent = countOfEach(owner, ranks);
-  const std::vector<std::int64_t> counts = exchangeCounts(sent, ranks);
-  const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
   vtkNew<vtkPolyData> arrays;
   arrays->GetPointData()->ShallowCopy(particles->GetPointData());
   arrays->GetCellData()->ShallowCopy(particles->GetCellData());
@@ -138,12 +119,15 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
   std::vector<Bytes> parts = pack(places, points, owner, sent);
   places = nullptr;
   parts = ranks.Exchange(std::move(parts));
+  const std::int64_t size = 3 * points * made->GetDataTypeSize();
+  std::vector<std::int64_t> counts; // of the particles that each rank sent here
+  for (const Bytes& part : parts)
+  {
+    counts.push_back(static_cast<std::int64_t>(part.size()) / size);
+  }
+  const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
   made->SetNumberOfTuples(static_cast<vtkIdType>(all * points));
   unpack(std::move(parts), points, counts, made);
-  vtkNew<vtkPoints> moved;
-  moved->SetDataType(made->GetDataType());
-  moved->SetData(made);
-  particles->SetPoints(moved);
   for (const ArrayKind& kind : kinds)
   {
     const std::int64_t each = kind.Owner == vtkDataObject::POINT ? points : 1;
@@ -153,15 +137,7 @@ void moveToOwners(vtkPolyData* particles, std::int64_t points, const PlaceOwners
     unpack(
       std::move(parts), each, counts, kind.Make(particles, static_cast<vtkIdType>(all * each)));
   }
-  const auto cells = newParticleCells(static_cast<vtkIdType>(all), points, progress);
-  if (points > 1)
-  {
-    particles->SetLines(cells);
-  }
-  else
-  {
-    particles->SetVerts(cells);
-  }
+  setParticles(particles, made, points, progress);
 }
 
 } // namespace RectifiedTransport

@@ -81,7 +81,6 @@ public:
       }
     });
     vtkNew<vtkPoints> moved;
-    moved->SetDataTypeToDouble();
     moved->SetData(this->Points);
     output->SetPoints(moved);
   }

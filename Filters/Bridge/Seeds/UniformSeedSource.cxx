@@ -9,11 +9,7 @@
 #include "Core/Parallel/RankShare.h"
 #include "Core/Seeds/UnitSeeds.h"
 
-#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
-#include "vtkNew.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,11 +89,7 @@ void fillBox(
     }
   });
   progress.BeginStage(1.0);
-  vtkNew<vtkPoints> pointSet;
-  pointSet->SetDataTypeToDouble();
-  pointSet->SetData(coordinates);
-  output->SetPoints(pointSet);
-  output->SetVerts(newParticleCells(count, 1, progress));
+  setParticles(output, coordinates, 1, progress);
 }
 
 } // namespace

@@ -14,13 +14,10 @@
 #include "Core/Parameterization/AreaPreservingMap.h"
 #include "Core/SurfaceSampling/SurfaceSamples.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <Eigen/Geometry>
@@ -51,10 +48,10 @@ Eigen::Vector3d normalOf(const DiskMesh& disk, std::int64_t triangle)
   return (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
 }
 
-// The points with vertices, SeedId, Mass, CellId and Normal.
-void writeParticles(const SurfaceInput& input, const DiskSurface& surface,
-  const LargeBuffer<PlaceOnTriangle>& places, double totalMass, Progress& progress,
-  vtkPolyData* output)
+// The arrays SeedId, Mass, CellId and Normal. Returns the points.
+vtkSmartPointer<vtkDoubleArray> writeParticles(const SurfaceInput& input,
+  const DiskSurface& surface, const LargeBuffer<PlaceOnTriangle>& places, double totalMass,
+  Progress& progress, vtkPolyData* output)
 {
   const std::int64_t count = places.size();
   auto points = newArray<vtkDoubleArray>("Points", 3, count);
@@ -88,15 +85,12 @@ void writeParticles(const SurfaceInput& input, const DiskSurface& surface,
       cell[i] = input.InputCellOf(surface.InputCellOf(place.Triangle));
     }
   });
-  vtkNew<vtkPoints> made;
-  made->SetDataTypeToDouble();
-  made->SetData(points);
-  output->SetPoints(made);
   vtkPointData* data = output->GetPointData();
   data->AddArray(ids);
   data->AddArray(masses);
   data->AddArray(cells);
   data->SetNormals(normals);
+  return points;
 }
 
 class PlacesOnSurface : public SampledPlaces
@@ -212,9 +206,10 @@ SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const Surfa
     [&]() { return sampleSurface(disk, map, masses.Values(), options, progress.Stage()); });
 
   progress.BeginStage(ends[4]);
-  writeParticles(given, surface, samples.Places, masses.Total(), progress, output);
+  const vtkSmartPointer<vtkDoubleArray> points =
+    writeParticles(given, surface, samples.Places, masses.Total(), progress, output);
   progress.BeginStage(ends[5]);
-  output->SetVerts(newParticleCells(static_cast<vtkIdType>(samples.Places.size()), 1, progress));
+  setParticles(output, points, 1, progress);
   sampleArrays({ { surface.Triangulated() }, "input surface", true },
     PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
