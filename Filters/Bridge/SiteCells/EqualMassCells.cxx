@@ -88,14 +88,20 @@ SiteCells<D> placeSites(vtkPointSet* sites, const ImageGrid& grid, Progress& pro
     });
 }
 
-// label(labels) writes them.
+// The kept labels, or those that label(labels) writes.
 template <int D, class Label>
-vtkSmartPointer<SiteIdArray> makeLabels(const ImageGrid& grid, double bytes, const Label& label)
+SiteIdArray* updateLabels(vtkPointSet* sites, const SiteLabels::Settings& settings, double bytes,
+  SiteLabels& kept, Progress& progress, const Label& label)
 {
-  auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
-  withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes,
-    [&]() { label(labels->GetPointer(0)); });
-  return labels;
+  const ImageGrid& grid = settings.Grid;
+  const auto make = [&]() -> SiteLabels::Division {
+    progress.BeginStage(0.95);
+    auto labels = newArray<SiteIdArray>("SiteId", 1, static_cast<vtkIdType>(grid.NumberOfCells()));
+    withMemory("labels of " + describeSize<D>(grid.Size<D>()) + " pixels", bytes,
+      [&]() { label(labels->GetPointer(0)); });
+    return { labels, nullptr };
+  };
+  return kept.Update(sites, settings, progress, make).Labels;
 }
 
 // Adds the arrays of the sites' cells to the sites' point data; measure(statistics) fills them and
@@ -164,15 +170,22 @@ void writeOutlines(SiteCellOutlines<D> outlines, vtkPolyData* output)
   output->GetCellData()->SetScalars(moveToArray<SiteIdArray>("SiteId", outlines.SiteIds));
 }
 
-std::string sumsOf(vtkIdType count)
+// Writes the labels, what measure(statistics) measures of the sites' cells, and their outlines.
+template <int D, class Measure>
+void writeCells(const ImageGrid& grid, SiteIdArray* labels, vtkIdType sites, Progress& progress,
+  const EqualMassCells::Outputs& outputs, const Measure& measure)
 {
-  return "the sums of the " + std::to_string(count) + " cells";
-}
-
-template <int D>
-double bytesOfSums(vtkIdType count)
-{
-  return static_cast<double>(count) * 2.0 * (D + 2) * sizeof(double);
+  outputs.Labels->GetCellData()->SetScalars(labels);
+  progress.BeginStage(0.98);
+  const double bytes = static_cast<double>(sites) * 2.0 * (D + 2) * sizeof(double);
+  const auto withSums = [&](const SiteCellStatistics& statistics) {
+    return withMemory("the sums of the " + std::to_string(sites) + " cells", bytes,
+      [&]() { return measure(statistics); });
+  };
+  addStatistics(sites, withSums, outputs);
+  progress.BeginStage(1.0);
+  writeOutlines<D>(
+    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
 }
 
 template <int D>
@@ -182,30 +195,14 @@ std::int64_t divide(const EqualMassCells& cells, vtkPointSet* sites, const Image
   progress.BeginStage(0.01);
   const SiteCells<D> placed = placeSites<D>(sites, grid, progress);
   progress.BeginStage(0.02);
-  SiteIdArray* labels = kept
-                          .Update(sites, { grid, false, cells.Flow }, progress,
-                            [&]() -> SiteLabels::Division {
-                              progress.BeginStage(0.95);
-                              return { makeLabels<D>(grid, bytesOfLabelling<D>(grid),
-                                         [&](std::int64_t* values) {
-                                           placed.Label(values, cells.Flow, progress.Stage());
-                                         }),
-                                nullptr };
-                            })
-                          .Labels;
-  outputs.Labels->GetCellData()->SetScalars(labels);
-  progress.BeginStage(0.98);
-  const auto count = static_cast<vtkIdType>(placed.NumberOfSites());
-  const auto measure = [&](const SiteCellStatistics& statistics) {
-    return withMemory(sumsOf(count), bytesOfSums<D>(count), [&]() {
+  SiteIdArray* labels =
+    updateLabels<D>(sites, { grid, false, cells.Flow }, bytesOfLabelling<D>(grid), kept, progress,
+      [&](std::int64_t* values) { placed.Label(values, cells.Flow, progress.Stage()); });
+  writeCells<D>(grid, labels, static_cast<vtkIdType>(placed.NumberOfSites()), progress, outputs,
+    [&](const SiteCellStatistics& statistics) {
       return measureSiteCells<D>(
         placed, labels->GetPointer(0), cells.Norm, statistics, progress.Stage());
     });
-  };
-  addStatistics(count, measure, outputs);
-  progress.BeginStage(1.0);
-  writeOutlines<D>(
-    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
   return placed.NumberOutside();
 }
 
@@ -239,35 +236,18 @@ EqualMassCells::Report divideMass(const EqualMassCells& cells, vtkPointSet* site
     }
   });
   progress.BeginStage(0.07);
-  const SiteLabels::Settings settings{ grid, false, cells.Flow, true,
-    kept.HashOf(density, progress) };
   SiteIdArray* labels =
-    kept
-      .Update(sites, settings, progress,
-        [&]() -> SiteLabels::Division {
-          progress.BeginStage(0.95);
-          return { makeLabels<D>(grid, bytesOfLabellingByMass<D>(grid),
-                     [&](std::int64_t* values) {
-                       placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
-                     }),
-            nullptr };
-        })
-      .Labels;
-  outputs.Labels->GetCellData()->SetScalars(labels);
-  progress.BeginStage(0.98);
+    updateLabels<D>(sites, { grid, false, cells.Flow, true, kept.HashOf(density, progress) },
+      bytesOfLabellingByMass<D>(grid), kept, progress, [&](std::int64_t* values) {
+        placed.Label(flow.Transport<D>(), values, cells.Flow, progress.Stage());
+      });
   EqualMassCells::Report report{ placed.NumberOutside(), 0 };
-  const auto measure = [&](const SiteCellStatistics& statistics) {
-    return withMemory(sumsOf(count), bytesOfSums<D>(count), [&]() {
-      const double cost = measureSiteCells<D>(
-        placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, progress.Stage());
-      report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
-      return cost;
-    });
-  };
-  addStatistics(count, measure, outputs);
-  progress.BeginStage(1.0);
-  writeOutlines<D>(
-    outlineSiteCells<D>(grid, labels->GetPointer(0), progress.Stage()), outputs.Outlines);
+  writeCells<D>(grid, labels, count, progress, outputs, [&](const SiteCellStatistics& statistics) {
+    const double cost = measureSiteCells<D>(
+      placed, labels->GetPointer(0), flow.TotalMass(), cells.Norm, statistics, progress.Stage());
+    report.WithoutMass = std::count(statistics.Mass, statistics.Mass + count, 0.0);
+    return cost;
+  });
   return report;
 }
 
