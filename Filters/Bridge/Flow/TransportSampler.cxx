@@ -4,6 +4,7 @@
 #include "Bridge/Density/CostModel.h"
 #include "Bridge/Density/InputDensity.h"
 #include "Bridge/Density/TableChoice.h"
+#include "Bridge/Points/GhostFlags.h"
 #include "Bridge/Points/ParticleSet.h"
 #include "Bridge/Points/SeedInput.h"
 #include "Bridge/Ranks/ParticleExchange.h"
@@ -175,8 +176,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   if (given)
   {
     progress.BeginStage(ends[1]);
-    report.SeedsMoved = readSeeds<D>(
-      given, "input Seeds", grid, progress, particles.Seeds(), particles.PhysicalSeeds());
+    report.SeedsMoved = readSeeds<D>(given, CountedPoints(given->GetNumberOfPoints(), nullptr, 0),
+      "input Seeds", grid, progress, particles.Seeds(), particles.PhysicalSeeds());
   }
   else
   {

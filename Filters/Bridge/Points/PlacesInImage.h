@@ -38,10 +38,6 @@ public:
       }
     }
   }
-  PlacesInImage(const ImageGrid& grid, ConstPointSpan<3> places)
-    : PlacesInImage(grid, grid.Extent(), places)
-  {
-  }
 
   std::int64_t Count() const override { return this->Places.size(); }
   SampledPlace Find(std::int64_t place) const override

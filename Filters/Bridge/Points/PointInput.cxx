@@ -68,13 +68,6 @@ vtkPointSet* pointSetOf(vtkInformationVector* port)
     vtkDataObject::GetData(port), "The input", "a vtkPointSet, as Extract Surface makes one of it");
 }
 
-void findBounds(vtkPointSet* points, double bounds[6])
-{
-  const SerialExecutor serial;
-  Progress all{ Context(serial) };
-  findBounds(points, all, bounds);
-}
-
 std::array<double, 6> boundsOfAll(const Ranks& ranks, const std::array<double, 6>& own)
 {
   std::array<double, 6> all = own;

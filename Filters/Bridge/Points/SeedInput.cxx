@@ -35,51 +35,38 @@ bool placeSeed(const ImageGrid& grid, const double* x, double* index, double* se
 } // namespace
 
 template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
-  Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
-{
-  std::atomic<std::int64_t> moved{ 0 };
-  visitPoints(points, what, progress, [&](std::int64_t i, const double* x) {
-    if (placeSeed<D>(grid, x, indexSeeds[i], physicalSeeds[i]))
-    {
-      ++moved;
-    }
-  });
-  return moved;
-}
-
-template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds)
 {
+  std::atomic<std::int64_t> moved{ 0 };
+  const auto place = [&](const double* x, std::int64_t number, double* seed) {
+    if (placeSeed<D>(grid, x, indexSeeds[number], seed))
+    {
+      ++moved;
+    }
+  };
   if (counted.Count() == points->GetNumberOfPoints())
   {
-    return readSeeds<D>(points, what, grid, progress, indexSeeds, physicalSeeds);
+    visitPoints(points, what, progress,
+      [&](std::int64_t i, const double* x) { place(x, i, physicalSeeds[i]); });
+    return moved;
   }
   visitPoints(points, what, progress,
     [&](std::int64_t i, const double* x) { std::copy_n(x, 3, physicalSeeds[i]); });
   constexpr std::int64_t grain = std::int64_t{ 1 } << 13;
-  std::atomic<std::int64_t> moved{ 0 };
   progress.For(counted.Count(), grain, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t number = first; number < last; ++number)
     {
       double* seed = physicalSeeds[counted.Point(number)];
       const double x[3] = { seed[0], seed[1], seed[2] };
-      if (placeSeed<D>(grid, x, indexSeeds[number], seed))
-      {
-        ++moved;
-      }
+      place(x, number, seed);
     }
   });
   return moved;
 }
 
-template std::int64_t readSeeds<1>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<1>, PointSpan<3>);
-template std::int64_t readSeeds<2>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<2>, PointSpan<3>);
-template std::int64_t readSeeds<3>(
-  vtkPointSet*, const std::string&, const ImageGrid&, Progress&, PointSpan<3>, PointSpan<3>);
+template std::int64_t readSeeds<1>(vtkPointSet*, const CountedPoints&, const std::string&,
+  const ImageGrid&, Progress&, PointSpan<1>, PointSpan<3>);
 template std::int64_t readSeeds<2>(vtkPointSet*, const CountedPoints&, const std::string&,
   const ImageGrid&, Progress&, PointSpan<2>, PointSpan<3>);
 template std::int64_t readSeeds<3>(vtkPointSet*, const CountedPoints&, const std::string&,

@@ -16,16 +16,11 @@ namespace RectifiedTransport
 
 class CountedPoints;
 
-// Writes the points of a set in index space, clamped to the domain, and in physical space
-// (coordinates inside stay bitwise the same). Returns how many were moved by more than a millionth
-// of the domain's size, the error of single precision. Throws Failure for coordinates that are not
-// finite, naming the input as `what`, and Cancelled.
-template <int D>
-std::int64_t readSeeds(vtkPointSet* points, const std::string& what, const ImageGrid& grid,
-  Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);
-
-// The same for the points that are not ghosts: `indexSeeds` in the order of their numbers,
-// `physicalSeeds` for all points. Ghosts keep their coordinates and are not counted.
+// Writes the points of a set that are not ghosts in index space, clamped to the domain, in the
+// order of their numbers; and all points in physical space (coordinates inside stay bitwise the
+// same). Ghosts keep their coordinates. Returns how many were moved by more than a millionth of the
+// domain's size, the error of single precision. Throws Failure for coordinates that are not finite,
+// naming the input as `what`, and Cancelled.
 template <int D>
 std::int64_t readSeeds(vtkPointSet* points, const CountedPoints& counted, const std::string& what,
   const ImageGrid& grid, Progress& progress, PointSpan<D> indexSeeds, PointSpan<3> physicalSeeds);
