@@ -12,8 +12,8 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -22,7 +22,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <string>
@@ -54,10 +53,8 @@ std::int64_t gatherBlocks(
     return 0;
   }
   std::int64_t others = 0;
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  for (vtkDataObject* leaf : vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes))
   {
-    vtkDataObject* leaf = leaves->GetCurrentDataObject();
     if (vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf))
     {
       blocks.push_back(leaf);
@@ -201,18 +198,12 @@ int vtkTransportBlend::RequestInformation(
       }
     }
   }
-  for (const NamedGrid& grid : grids)
+  const bool areKnown = std::none_of(
+    grids.begin(), grids.end(), [](const NamedGrid& grid) { return grid.Grid.IsEmpty(); });
+  if (areKnown && !grids.empty())
   {
-    if (grid.Grid.IsEmpty())
-    {
-      return 1;
-    }
+    announceDensity(commonGrid(grids, this->Dimensions), outputVector->GetInformationObject(0));
   }
-  if (grids.empty())
-  {
-    return 1;
-  }
-  announceDensity(commonGrid(grids, this->Dimensions), outputVector->GetInformationObject(0));
   return 1;
 }
 

@@ -114,17 +114,7 @@ vtkDataArray* requireMasses(vtkPointSet* points, vtkAbstractArray* found, const 
     throw Failure(
       text + " is not numeric; the input has " + listArrays(points->GetPointData(), "point"));
   }
-  const int components = array->GetNumberOfComponents();
-  if (components != 1)
-  {
-    throw Failure(text + " has " + std::to_string(components) + " components; it must have 1");
-  }
-  if (array->GetNumberOfTuples() != points->GetNumberOfPoints())
-  {
-    throw Failure(text + " has " + std::to_string(array->GetNumberOfTuples()) +
-      " values, but there are " + std::to_string(points->GetNumberOfPoints()) +
-      " points; there must be one for each");
-  }
+  requireScalars(array, text, points->GetNumberOfPoints(), "points");
   return array;
 }
 

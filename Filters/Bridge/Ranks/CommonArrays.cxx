@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iomanip>
 #include <sstream>
 
 namespace RectifiedTransport
@@ -15,25 +16,6 @@ namespace RectifiedTransport
 
 namespace
 {
-
-constexpr char separator = '\0';
-
-void write(std::ostream& os, const std::string& text)
-{
-  os << text << separator;
-}
-
-std::string readText(std::istream& is)
-{
-  std::string text;
-  std::getline(is, text, separator);
-  return text;
-}
-
-int readNumber(std::istream& is)
-{
-  return std::stoi(readText(is));
-}
 
 std::vector<ArrayKind> kindsOf(vtkDataSet* data)
 {
@@ -68,16 +50,13 @@ Bytes describe(const std::vector<ArrayKind>& kinds)
   std::ostringstream os;
   for (const ArrayKind& kind : kinds)
   {
-    for (const int number : { kind.Owner, kind.Type, kind.Components, kind.Attribute,
-           static_cast<int>(kind.ComponentNames.size()) })
-    {
-      write(os, std::to_string(number));
-    }
-    write(os, kind.Name);
+    os << kind.Owner << ' ' << kind.Type << ' ' << kind.Components << ' ' << kind.Attribute << ' '
+       << kind.ComponentNames.size() << ' ' << std::quoted(kind.Name);
     for (const std::string& name : kind.ComponentNames)
     {
-      write(os, name);
+      os << ' ' << std::quoted(name);
     }
+    os << '\n';
   }
   const std::string text = os.str();
   return Bytes(text.begin(), text.end());
@@ -87,18 +66,14 @@ std::vector<ArrayKind> kindsFrom(const Bytes& bytes)
 {
   std::istringstream is(std::string(bytes.begin(), bytes.end()));
   std::vector<ArrayKind> kinds;
-  while (is.peek() != std::istringstream::traits_type::eof())
+  std::size_t names = 0;
+  for (ArrayKind kind; is >> kind.Owner >> kind.Type >> kind.Components >> kind.Attribute >>
+       names >> std::quoted(kind.Name);)
   {
-    ArrayKind kind;
-    kind.Owner = readNumber(is);
-    kind.Type = readNumber(is);
-    kind.Components = readNumber(is);
-    kind.Attribute = readNumber(is);
-    const int names = readNumber(is);
-    kind.Name = readText(is);
-    for (int i = 0; i < names; ++i)
+    kind.ComponentNames.resize(names);
+    for (std::string& name : kind.ComponentNames)
     {
-      kind.ComponentNames.push_back(readText(is));
+      is >> std::quoted(name);
     }
     kinds.push_back(kind);
   }

@@ -261,13 +261,7 @@ vtkSmartPointer<vtkPointSet> countedPoints(vtkPointSet* given, const Ranks& rank
   own->SetPoints(points);
   own->GetPointData()->CopyAllOn();
   own->GetPointData()->CopyAllocate(set->GetPointData(), count);
-  vtkNew<vtkIdList> places;
-  places->SetNumberOfIds(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    places->SetId(i, i);
-  }
-  own->GetPointData()->CopyData(set->GetPointData(), kept, places);
+  own->GetPointData()->CopyData(set->GetPointData(), kept);
   own->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   own->GetFieldData()->ShallowCopy(set->GetFieldData());
   return own;

@@ -228,7 +228,6 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
 {
   const std::vector<vtkIdType> becomes = pointsToKeep(all, parts);
   vtkNew<vtkIdList> kept;
-  vtkNew<vtkIdList> places;
   std::vector<vtkIdType> newPoints(becomes.size());
   for (std::size_t i = 0; i < becomes.size(); ++i)
   {
@@ -236,7 +235,6 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
     if (becomes[i] == old)
     {
       newPoints[i] = kept->GetNumberOfIds();
-      places->InsertNextId(newPoints[i]);
       kept->InsertNextId(old);
     }
     else
@@ -255,7 +253,7 @@ vtkSmartPointer<vtkPolyData> joinSurface(vtkPolyData* all, const std::vector<Dat
   joined->SetStrips(withPoints(all->GetStrips(), newPoints));
   joined->GetPointData()->CopyAllOn();
   joined->GetPointData()->CopyAllocate(all->GetPointData(), kept->GetNumberOfIds());
-  joined->GetPointData()->CopyData(all->GetPointData(), kept, places);
+  joined->GetPointData()->CopyData(all->GetPointData(), kept);
   joined->GetCellData()->PassData(all->GetCellData());
   joined->GetFieldData()->ShallowCopy(all->GetFieldData());
   return joined;

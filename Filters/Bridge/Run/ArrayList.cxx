@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/ArrayList.h"
 
+#include "Bridge/Run/Failure.h"
+
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 
@@ -19,6 +21,22 @@ std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owne
     }
   }
   return list.empty() ? "no " + owner + " arrays" : list + " (" + owner + ")";
+}
+
+void requireScalars(
+  vtkDataArray* array, const std::string& title, vtkIdType count, const std::string& owners)
+{
+  const int components = array->GetNumberOfComponents();
+  if (components != 1)
+  {
+    throw Failure(title + " has " + std::to_string(components) + " components; it must have 1");
+  }
+  if (array->GetNumberOfTuples() != count)
+  {
+    throw Failure(title + " has " + std::to_string(array->GetNumberOfTuples()) +
+      " values, but there are " + std::to_string(count) + " " + owners +
+      "; there must be one for each");
+  }
 }
 
 } // namespace RectifiedTransport

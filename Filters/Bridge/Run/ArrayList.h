@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The names of the arrays of an input, for messages.
+// The arrays of an input: their names for messages, and what is asked of them.
 #ifndef RectifiedTransport_ArrayList_h
 #define RectifiedTransport_ArrayList_h
 
 #include "Bridge/VTKCompatibility.h"
 
+#include "vtkType.h"
+
 #include <string>
 
 VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
 class vtkDataSetAttributes;
 VTK_ABI_NAMESPACE_END
 
@@ -16,6 +19,11 @@ namespace RectifiedTransport
 
 // "a, b (point)", or "no point arrays": the numeric arrays. `owner` is "point" or "cell".
 std::string listArrays(vtkDataSetAttributes* attributes, const std::string& owner);
+
+// Throws Failure unless an array has one component and a value for each of `count` points or cells,
+// which `owners` names. `title` begins the message.
+void requireScalars(
+  vtkDataArray* array, const std::string& title, vtkIdType count, const std::string& owners);
 
 } // namespace RectifiedTransport
 

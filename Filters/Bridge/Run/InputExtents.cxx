@@ -4,13 +4,12 @@
 #include "Bridge/Run/Failure.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
 #include "vtkExplicitStructuredGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformationVector.h"
 #include "vtkRectilinearGrid.h"
-#include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 
 #include <array>
@@ -86,11 +85,9 @@ void requireExtents(vtkDataObject* data, const std::string& name)
     requireExtent(data, first);
     return;
   }
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  for (const auto leaf : vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes))
   {
-    requireExtent(leaves->GetCurrentDataObject(),
-      "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of " + name);
+    requireExtent(leaf, "Block " + std::to_string(leaf.GetFlatIndex()) + " of " + name);
   }
 }
 

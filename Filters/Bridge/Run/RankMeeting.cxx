@@ -13,7 +13,6 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <list>
 #include <map>
@@ -257,14 +256,6 @@ private:
 };
 
 } // namespace
-
-std::chrono::duration<double> rankTimeout()
-{
-  constexpr double usual = 120.0;
-  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
-  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
-  return Seconds(seconds > 0.0 ? seconds : usual);
-}
 
 void meetRanks(const std::string& filter, bool withData, Seconds longest)
 {

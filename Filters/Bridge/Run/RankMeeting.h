@@ -9,9 +9,6 @@
 namespace RectifiedTransport
 {
 
-// RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds, else 120 s.
-std::chrono::duration<double> rankTimeout();
-
 // Waits until all ranks have arrived here for the same filter. `withData`: to make its data; else
 // earlier, for example in REQUEST_INFORMATION. Throws Failure, or FailedElsewhere on the ranks that
 // need not report it, if a rank does not arrive within `longest`, and at once if it waits here for

@@ -17,13 +17,24 @@
 #include <vector>
 #endif
 
+#include <cstdlib>
+
 namespace RectifiedTransport
 {
 
-#if VTK_MODULE_ENABLE_VTK_ParallelMPI
-
 namespace
 {
+
+// RECTIFIEDTRANSPORT_RANK_TIMEOUT in seconds, else 120 s.
+std::chrono::duration<double> rankTimeout()
+{
+  constexpr double usual = 120.0;
+  const char* given = std::getenv("RECTIFIEDTRANSPORT_RANK_TIMEOUT");
+  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
+  return std::chrono::duration<double>(seconds > 0.0 ? seconds : usual);
+}
+
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
 
 constexpr int exchangeTag = 52719;  // of no other messages in ParaView or VTK
 constexpr long long much = 1 << 24; // bytes
@@ -132,27 +143,18 @@ MpiRun::Arrivals MpiRun::Announce(
 
 void MpiRun::CollectReports(const std::string& message) const
 {
-  const int ranks = this->Count();
-  const auto length = static_cast<vtkIdType>(message.size());
-  std::vector<vtkIdType> lengths(static_cast<std::size_t>(ranks));
-  std::vector<vtkIdType> offsets(lengths.size());
+  const auto length = static_cast<long long>(message.size());
+  std::vector<long long> lengths(static_cast<std::size_t>(this->Count()));
   this->Controller->AllGather(&length, lengths.data(), 1);
-  vtkIdType all = 0;
-  for (std::size_t rank = 0; rank < lengths.size(); ++rank)
+  const std::vector<Bytes> reports =
+    this->GatherAtOnce(Bytes(message.begin(), message.end()), lengths);
+  const auto first = std::find_if(
+    reports.begin(), reports.end(), [](const Bytes& report) { return !report.empty(); });
+  if (first != reports.end())
   {
-    offsets[rank] = all;
-    all += lengths[rank];
-  }
-  std::string text(static_cast<std::size_t>(std::max<vtkIdType>(1, all)), '\0');
-  this->Controller->AllGatherV(message.data(), &text[0], length, lengths.data(), offsets.data());
-  for (std::size_t rank = 0; rank < lengths.size() && this->Report.empty(); ++rank)
-  {
-    if (lengths[rank] > 0)
-    {
-      this->Report = (rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") +
-        text.substr(
-          static_cast<std::size_t>(offsets[rank]), static_cast<std::size_t>(lengths[rank]));
-    }
+    const auto rank = first - reports.begin();
+    this->Report = (rank > 0 ? "Rank " + std::to_string(rank) + ": " : "") +
+      std::string(first->begin(), first->end());
   }
 }
 
@@ -277,6 +279,15 @@ std::unique_ptr<RankRun> meet(
   return std::make_unique<MpiRun>(mpiController());
 }
 
+#else
+
+std::unique_ptr<RankRun> meet(const std::string&, bool, std::chrono::duration<double>)
+{
+  return nullptr; // without MPI there is one rank
+}
+
+#endif
+
 } // namespace
 
 std::unique_ptr<RankRun> RankRun::Begin(const std::string& filter, int piece, int pieces)
@@ -292,13 +303,9 @@ std::unique_ptr<RankRun> RankRun::TryBegin(const std::string& filter)
 std::unique_ptr<RankRun> RankRun::TryBegin(
   const std::string& filter, std::chrono::duration<double> longest)
 {
-  if (!haveSeveralRanks())
-  {
-    return nullptr;
-  }
   try
   {
-    return meet(filter, false, longest);
+    return haveSeveralRanks() ? meet(filter, false, longest) : nullptr;
   }
   catch (const Failure&)
   {
@@ -309,24 +316,5 @@ std::unique_ptr<RankRun> RankRun::TryBegin(
     return nullptr;
   }
 }
-
-#else
-
-std::unique_ptr<RankRun> RankRun::Begin(const std::string&, int, int)
-{
-  return nullptr;
-}
-
-std::unique_ptr<RankRun> RankRun::TryBegin(const std::string&)
-{
-  return nullptr;
-}
-
-std::unique_ptr<RankRun> RankRun::TryBegin(const std::string&, std::chrono::duration<double>)
-{
-  return nullptr;
-}
-
-#endif
 
 } // namespace RectifiedTransport

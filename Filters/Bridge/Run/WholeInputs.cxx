@@ -9,15 +9,14 @@
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -33,15 +32,9 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 {
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    if (leaves->GetCurrentDataObject() == data)
-    {
-      return true;
-    }
-  }
-  return false;
+  const auto leaves = vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes);
+  return std::any_of(
+    leaves.begin(), leaves.end(), [data](vtkDataObject* leaf) { return leaf == data; });
 }
 
 // `what` begins the message.

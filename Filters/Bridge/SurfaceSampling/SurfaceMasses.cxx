@@ -116,20 +116,9 @@ SurfaceDensity::SurfaceDensity(
       "; it has " + listArrays(surface->GetPointData(), "point") + " and " +
       listArrays(surface->GetCellData(), "cell"));
   }
-  const int components = this->Values->GetNumberOfComponents();
-  if (components != 1)
-  {
-    throw Failure(
-      titleOf(this->Values) + " has " + std::to_string(components) + " components; it must have 1");
-  }
-  const vtkIdType expected = onPoints ? surface->GetNumberOfPoints() : surface->GetNumberOfCells();
-  if (this->Values->GetNumberOfTuples() != expected)
-  {
-    throw Failure(titleOf(this->Values) + " has " +
-      std::to_string(this->Values->GetNumberOfTuples()) + " values, but there are " +
-      std::to_string(expected) + (onPoints ? " points" : " cells") +
-      "; there must be one for each");
-  }
+  requireScalars(this->Values, titleOf(this->Values),
+    onPoints ? surface->GetNumberOfPoints() : surface->GetNumberOfCells(),
+    onPoints ? "points" : "cells");
 }
 
 SurfaceMasses::SurfaceMasses(
