@@ -58,23 +58,14 @@
 #ifndef vtkAreaPreservingParameterization_h
 #define vtkAreaPreservingParameterization_h
 
-#include "vtkCollectiveAlgorithm.h"
-
-#include <memory> // for std::unique_ptr
-
-namespace RectifiedTransport
-{
-struct CornerSettings;
-} // namespace RectifiedTransport
+#include "vtkDiskAlgorithm.h"
 
 VTK_ABI_NAMESPACE_BEGIN
-class vtkPolyData;
-
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkAreaPreservingParameterization : public vtkCollectiveAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkAreaPreservingParameterization : public vtkDiskAlgorithm
 {
 public:
   static vtkAreaPreservingParameterization* New();
-  vtkTypeMacro(vtkAreaPreservingParameterization, vtkCollectiveAlgorithm);
+  vtkTypeMacro(vtkAreaPreservingParameterization, vtkDiskAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -95,37 +86,10 @@ public:
   vtkBooleanMacro(Polish, bool);
   ///@}
 
-  ///@{
-  /**
-   * The points of the surface's boundary that become the corners of the unit square: four point
-   * ids. The first goes to (0,0), the others, in the order of the boundary, to (1,0), (1,1) and
-   * (0,1). By default there are none, and the corners are chosen automatically. The count is at
-   * most 1000000.
-   */
-  void SetNumberOfCorners(int count);
-  int GetNumberOfCorners();
-  void ClearCorners() { this->SetNumberOfCorners(0); }
-  ///@}
-
-  ///@{
-  /**
-   * One of the corners. The list grows as needed, with -1 for corners that are not set.
-   */
-  void SetCorner(int index, vtkIdType point);
-  vtkIdType GetCorner(int index);
-  ///@}
-
-  /**
-   * The surface with texture coordinates.
-   */
-  vtkPolyData* GetOutput();
-
 protected:
   vtkAreaPreservingParameterization();
   ~vtkAreaPreservingParameterization() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -133,8 +97,6 @@ protected:
   bool Polish;
 
 private:
-  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
-
   vtkAreaPreservingParameterization(const vtkAreaPreservingParameterization&) = delete;
   void operator=(const vtkAreaPreservingParameterization&) = delete;
 };

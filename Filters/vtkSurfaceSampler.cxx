@@ -34,40 +34,12 @@ vtkSurfaceSampler::vtkSurfaceSampler()
   , Tolerance(0.01)
   , TableLookup(INTERPOLATED)
   , FlowMaps(FLOW_MAPS_AUTO)
-  , Corners(std::make_unique<CornerSettings>())
 {
-  this->SetNumberOfInputPorts(1);
-  this->SetNumberOfOutputPorts(1);
-  this->SetPortPolicy(0, PORT_GATHERED_SURFACE);
   this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, "");
 }
 
 //------------------------------------------------------------------------------
 vtkSurfaceSampler::~vtkSurfaceSampler() = default;
-
-//------------------------------------------------------------------------------
-void vtkSurfaceSampler::SetNumberOfCorners(int count)
-{
-  changeCorners(this, [=]() { return this->Corners->Resize(count); });
-}
-
-//------------------------------------------------------------------------------
-int vtkSurfaceSampler::GetNumberOfCorners()
-{
-  return this->Corners->Number();
-}
-
-//------------------------------------------------------------------------------
-void vtkSurfaceSampler::SetCorner(int index, vtkIdType point)
-{
-  changeCorners(this, [=]() { return this->Corners->Set(index, point); });
-}
-
-//------------------------------------------------------------------------------
-vtkIdType vtkSurfaceSampler::GetCorner(int index)
-{
-  return static_cast<vtkIdType>(this->Corners->At(index));
-}
 
 //------------------------------------------------------------------------------
 const char* vtkSurfaceSampler::GetSeedPatternAsString()
@@ -91,26 +63,6 @@ const char* vtkSurfaceSampler::GetTableLookupAsString()
 const char* vtkSurfaceSampler::GetFlowMapsAsString()
 {
   return choiceText(FlowMapsTexts, this->FlowMaps);
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkSurfaceSampler::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkSurfaceSampler::FillInputPortInformation(int, vtkInformation* info)
-{
-  SurfaceInput::Require(info);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkSurfaceSampler::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -145,7 +97,7 @@ int vtkSurfaceSampler::RequestData(
 {
   SurfaceSampler sampler{};
   sampler.Flow = flowOptionsOf(*this);
-  sampler.Corners = *this->Corners;
+  sampler.Corners = this->GetCorners();
   sampler.NumberOfParticles = this->NumberOfParticles;
   sampler.Resolution = this->Resolution;
   sampler.Pattern = seedPattern("SeedPattern", this->SeedPattern);
@@ -176,7 +128,6 @@ void vtkSurfaceSampler::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "SeedPattern: " << this->GetSeedPatternAsString() << "\n";
   os << indent << "RandomSeed: " << this->RandomSeed << "\n";
-  this->Corners->Print(os, indent);
   printFlowOptions(*this, os, indent);
 }
 VTK_ABI_NAMESPACE_END

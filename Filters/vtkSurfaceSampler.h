@@ -64,24 +64,21 @@
 #ifndef vtkSurfaceSampler_h
 #define vtkSurfaceSampler_h
 
-#include "vtkCollectiveAlgorithm.h"
-
-#include <memory> // for std::unique_ptr
+#include "vtkDiskAlgorithm.h"
 
 namespace RectifiedTransport
 {
-struct CornerSettings;
 class SurfaceDensity;
 } // namespace RectifiedTransport
 
 VTK_ABI_NAMESPACE_BEGIN
 class vtkPolyData;
 
-class VTKRECTIFIEDTRANSPORT_EXPORT vtkSurfaceSampler : public vtkCollectiveAlgorithm
+class VTKRECTIFIEDTRANSPORT_EXPORT vtkSurfaceSampler : public vtkDiskAlgorithm
 {
 public:
   static vtkSurfaceSampler* New();
-  vtkTypeMacro(vtkSurfaceSampler, vtkCollectiveAlgorithm);
+  vtkTypeMacro(vtkSurfaceSampler, vtkDiskAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
@@ -173,26 +170,6 @@ public:
 
   ///@{
   /**
-   * The points of the surface's boundary that become the corners of the unit square: four point
-   * ids. The first goes to (0,0), the others, in the order of the boundary, to (1,0), (1,1) and
-   * (0,1). By default there are none, and the corners are chosen automatically. The count is at
-   * most 1000000.
-   */
-  void SetNumberOfCorners(int count);
-  int GetNumberOfCorners();
-  void ClearCorners() { this->SetNumberOfCorners(0); }
-  ///@}
-
-  ///@{
-  /**
-   * One of the corners. The list grows as needed, with -1 for corners that are not set.
-   */
-  void SetCorner(int index, vtkIdType point);
-  vtkIdType GetCorner(int index);
-  ///@}
-
-  ///@{
-  /**
    * How the velocity field of the flow (equation 12) is integrated. Multistep (default): a graded
    * Adams-Bashforth-Moulton method of order 3, with one velocity a step. RungeKutta4 (the paper's
    * Algorithm 2, with the correct limit of the velocity at t = 1) and Euler: uniform steps.
@@ -254,17 +231,10 @@ public:
   const char* GetFlowMapsAsString();
   ///@}
 
-  /**
-   * The particles.
-   */
-  vtkPolyData* GetOutput();
-
 protected:
   vtkSurfaceSampler();
   ~vtkSurfaceSampler() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -280,8 +250,6 @@ protected:
 
 private:
   RectifiedTransport::SurfaceDensity FindDensity(vtkPolyData* surface);
-
-  std::unique_ptr<RectifiedTransport::CornerSettings> Corners;
 
   vtkSurfaceSampler(const vtkSurfaceSampler&) = delete;
   void operator=(const vtkSurfaceSampler&) = delete;

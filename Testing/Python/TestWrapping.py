@@ -29,6 +29,7 @@ class Wrapping(unittest.TestCase):
 
     def test_abstract_classes_have_no_instances(self):
         for base in (rectifiedtransport.vtkDensityAlgorithm,
+                     rectifiedtransport.vtkDiskAlgorithm,
                      rectifiedtransport.vtkTransportAlgorithm):
             with self.assertRaises((TypeError, NotImplementedError)):
                 base()

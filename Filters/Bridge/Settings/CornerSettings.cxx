@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Settings/CornerSettings.h"
 
+#include "Bridge/Run/Failure.h"
+
 #include <algorithm>
 #include <ostream>
 #include <stdexcept>

@@ -3,12 +3,10 @@
 #ifndef RectifiedTransport_CornerSettings_h
 #define RectifiedTransport_CornerSettings_h
 
-#include "Bridge/Run/Failure.h"
 #include "Core/Mesh/RepairedDisk.h"
 #include "Core/Parameterization/SquareCorners.h"
 
 #include "vtkIndent.h"
-#include "vtkObject.h"
 
 #include <cstdint>
 #include <iosfwd>
@@ -38,23 +36,6 @@ struct CornerSettings
   SquareCorners Of(const RepairedDisk& disk) const;
   void Print(std::ostream& os, vtkIndent indent) const;
 };
-
-// Sets the corners of an object by change(), which returns whether anything changed.
-template <class Change>
-void changeCorners(vtkObject* object, const Change& change)
-{
-  try
-  {
-    if (change())
-    {
-      object->Modified();
-    }
-  }
-  catch (const Failure& failure)
-  {
-    vtkErrorWithObjectMacro(object, << failure.what());
-  }
-}
 
 } // namespace RectifiedTransport
 
