@@ -52,18 +52,6 @@ const char* vtkBlueNoiseRelaxation::GetMethodAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkBlueNoiseRelaxation::SetDensityConnection(vtkAlgorithmOutput* density)
-{
-  this->SetInputConnection(1, density);
-}
-
-//------------------------------------------------------------------------------
-void vtkBlueNoiseRelaxation::SetDensityData(vtkDataObject* density)
-{
-  this->SetInputData(1, density);
-}
-
-//------------------------------------------------------------------------------
 vtkPointSet* vtkBlueNoiseRelaxation::GetOutput()
 {
   return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));

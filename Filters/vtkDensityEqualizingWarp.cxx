@@ -39,18 +39,6 @@ vtkDensityEqualizingWarp::vtkDensityEqualizingWarp()
 vtkDensityEqualizingWarp::~vtkDensityEqualizingWarp() = default;
 
 //------------------------------------------------------------------------------
-void vtkDensityEqualizingWarp::SetDensityConnection(vtkAlgorithmOutput* density)
-{
-  this->SetInputConnection(1, density);
-}
-
-//------------------------------------------------------------------------------
-void vtkDensityEqualizingWarp::SetDensityData(vtkDataObject* density)
-{
-  this->SetInputData(1, density);
-}
-
-//------------------------------------------------------------------------------
 vtkPointSet* vtkDensityEqualizingWarp::GetOutput()
 {
   return vtkPointSet::SafeDownCast(this->GetOutputDataObject(0));

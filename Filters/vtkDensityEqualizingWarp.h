@@ -67,12 +67,12 @@ public:
   /**
    * Set the density (input 1), as the output of another filter.
    */
-  void SetDensityConnection(vtkAlgorithmOutput* density);
+  void SetDensityConnection(vtkAlgorithmOutput* density) { this->SetInputConnection(1, density); }
 
   /**
    * The same, as a data object.
    */
-  void SetDensityData(vtkDataObject* density);
+  void SetDensityData(vtkDataObject* density) { this->SetInputData(1, density); }
 
   /**
    * The moved points, with the vtkCells and attribute data of the input.

@@ -74,18 +74,6 @@ const char* vtkEqualMassCells::GetMeasureAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkEqualMassCells::SetDomainConnection(vtkAlgorithmOutput* domain)
-{
-  this->SetInputConnection(1, domain);
-}
-
-//------------------------------------------------------------------------------
-void vtkEqualMassCells::SetDomainData(vtkDataObject* domain)
-{
-  this->SetInputData(1, domain);
-}
-
-//------------------------------------------------------------------------------
 vtkImageData* vtkEqualMassCells::GetLabels()
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));

@@ -186,12 +186,12 @@ public:
   /**
    * Set the domain (input 1, optional), as the output of another filter.
    */
-  void SetDomainConnection(vtkAlgorithmOutput* domain);
+  void SetDomainConnection(vtkAlgorithmOutput* domain) { this->SetInputConnection(1, domain); }
 
   /**
    * The same, as a data object.
    */
-  void SetDomainData(vtkDataObject* domain);
+  void SetDomainData(vtkDataObject* domain) { this->SetInputData(1, domain); }
 
   ///@{
   /**

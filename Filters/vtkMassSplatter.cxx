@@ -79,18 +79,6 @@ const char* vtkMassSplatter::GetBoundaryAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkMassSplatter::SetReferenceConnection(vtkAlgorithmOutput* reference)
-{
-  this->SetInputConnection(1, reference);
-}
-
-//------------------------------------------------------------------------------
-void vtkMassSplatter::SetReferenceData(vtkDataObject* reference)
-{
-  this->SetInputData(1, reference);
-}
-
-//------------------------------------------------------------------------------
 vtkImageData* vtkMassSplatter::GetOutput()
 {
   return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));

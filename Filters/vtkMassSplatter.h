@@ -184,12 +184,15 @@ public:
    * Set the image that gives the output its geometry (input 1, optional), as the output of another
    * filter.
    */
-  void SetReferenceConnection(vtkAlgorithmOutput* reference);
+  void SetReferenceConnection(vtkAlgorithmOutput* reference)
+  {
+    this->SetInputConnection(1, reference);
+  }
 
   /**
    * The same, as a data object.
    */
-  void SetReferenceData(vtkDataObject* reference);
+  void SetReferenceData(vtkDataObject* reference) { this->SetInputData(1, reference); }
 
   /**
    * The density.

@@ -52,18 +52,6 @@ vtkTransportInterpolator::vtkTransportInterpolator()
 vtkTransportInterpolator::~vtkTransportInterpolator() = default;
 
 //------------------------------------------------------------------------------
-void vtkTransportInterpolator::SetTargetConnection(vtkAlgorithmOutput* target)
-{
-  this->SetInputConnection(1, target);
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportInterpolator::SetTargetData(vtkDataObject* target)
-{
-  this->SetInputData(1, target);
-}
-
-//------------------------------------------------------------------------------
 void vtkTransportInterpolator::SetInputArrayToProcess(
   int idx, int port, int connection, int fieldAssociation, const char* name)
 {

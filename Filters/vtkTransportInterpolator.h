@@ -52,12 +52,12 @@ public:
   /**
    * Set the target (input 1), as the output of another filter.
    */
-  void SetTargetConnection(vtkAlgorithmOutput* target);
+  void SetTargetConnection(vtkAlgorithmOutput* target) { this->SetInputConnection(1, target); }
 
   /**
    * The same, as a data object.
    */
-  void SetTargetData(vtkDataObject* target);
+  void SetTargetData(vtkDataObject* target) { this->SetInputData(1, target); }
 
   using vtkAlgorithm::SetInputArrayToProcess;
   /**

@@ -60,18 +60,6 @@ const char* vtkTransportQuality::GetTablesAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportQuality::SetDensityConnection(vtkAlgorithmOutput* density)
-{
-  this->SetInputConnection(1, density);
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportQuality::SetDensityData(vtkDataObject* density)
-{
-  this->SetInputData(1, density);
-}
-
-//------------------------------------------------------------------------------
 vtkTable* vtkTransportQuality::GetOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(0));

@@ -50,18 +50,6 @@ const char* vtkTransportSampler::GetSeedPatternAsString()
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportSampler::SetSeedsConnection(vtkAlgorithmOutput* seeds)
-{
-  this->SetInputConnection(1, seeds);
-}
-
-//------------------------------------------------------------------------------
-void vtkTransportSampler::SetSeedsData(vtkDataObject* seeds)
-{
-  this->SetInputData(1, seeds);
-}
-
-//------------------------------------------------------------------------------
 vtkPolyData* vtkTransportSampler::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));

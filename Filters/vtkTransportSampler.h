@@ -156,12 +156,12 @@ public:
   /**
    * Set the seeds (input 1), as the output of another filter. nullptr: no seeds.
    */
-  void SetSeedsConnection(vtkAlgorithmOutput* seeds);
+  void SetSeedsConnection(vtkAlgorithmOutput* seeds) { this->SetInputConnection(1, seeds); }
 
   /**
    * The same, as a data object.
    */
-  void SetSeedsData(vtkDataObject* seeds);
+  void SetSeedsData(vtkDataObject* seeds) { this->SetInputData(1, seeds); }
 
   /**
    * The particles or their paths.
