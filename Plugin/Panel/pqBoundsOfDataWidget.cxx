@@ -78,8 +78,8 @@ void pqBoundsOfDataWidget::takeVisible()
   if (!box.IsValid())
   {
     // Without a colon: ParaView's list of messages leaves out what stands before one.
-    vtkGenericWarningMacro(<< "The active view shows no data but these seeds. Show the data, or "
-                              "choose them by the arrow beside the button");
+    vtkGenericWarningMacro(<< "Show the data in the active view first, or choose them by the arrow "
+                              "beside the button. The view shows no data but these seeds");
     return;
   }
   double bounds[6];
