@@ -12,8 +12,8 @@
 #include "Core/Parallel/Progress.h"
 #include "Core/Parallel/RankExchange.h"
 
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkCompositeDataSetRange.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -22,6 +22,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <string>
@@ -53,8 +54,10 @@ std::int64_t gatherBlocks(
     return 0;
   }
   std::int64_t others = 0;
-  for (vtkDataObject* leaf : vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes))
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
+    vtkDataObject* leaf = leaves->GetCurrentDataObject();
     if (vtkDataSet::SafeDownCast(leaf) || vtkHyperTreeGrid::SafeDownCast(leaf))
     {
       blocks.push_back(leaf);

@@ -4,12 +4,13 @@
 #include "Bridge/Run/Failure.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkCompositeDataSetRange.h"
 #include "vtkExplicitStructuredGrid.h"
 #include "vtkImageData.h"
 #include "vtkInformationVector.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
 #include "vtkStructuredGrid.h"
 
 #include <array>
@@ -85,9 +86,11 @@ void requireExtents(vtkDataObject* data, const std::string& name)
     requireExtent(data, first);
     return;
   }
-  for (const auto leaf : vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes))
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
   {
-    requireExtent(leaf, "Block " + std::to_string(leaf.GetFlatIndex()) + " of " + name);
+    requireExtent(leaves->GetCurrentDataObject(),
+      "Block " + std::to_string(leaves->GetCurrentFlatIndex()) + " of " + name);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Bridge/Run/SampledFingerprint.h"
 
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkCompositeDataSetRange.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
@@ -10,6 +10,7 @@
 #include "vtkHyperTreeGrid.h"
 #include "vtkImageData.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -120,9 +121,10 @@ bool addData(vtkDataObject* data, Mixer& mixer)
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
     bool hasAny = false;
-    for (vtkDataObject* leaf : vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes))
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
     {
-      hasAny = addData(leaf, mixer) || hasAny;
+      hasAny = addData(leaves->GetCurrentDataObject(), mixer) || hasAny;
     }
     return hasAny;
   }

@@ -9,14 +9,15 @@
 #include "Core/Parallel/RankExchange.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkCompositeDataSetRange.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -32,9 +33,15 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 bool isLeafOf(vtkCompositeDataSet* composite, vtkDataObject* data)
 {
-  const auto leaves = vtk::Range(composite, vtk::CompositeDataSetOptions::SkipEmptyNodes);
-  return std::any_of(
-    leaves.begin(), leaves.end(), [data](vtkDataObject* leaf) { return leaf == data; });
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    if (leaves->GetCurrentDataObject() == data)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 // `what` begins the message.
