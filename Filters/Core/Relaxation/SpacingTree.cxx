@@ -197,28 +197,6 @@ void SpacingTree<Dimension>::FindConstrained()
 }
 
 template <int Dimension>
-template <class IsUpper>
-std::int64_t SpacingTree<Dimension>::LeafIn(std::int64_t root, const IsUpper& isUpper) const
-{
-  const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
-  while (box->First >= 0)
-  {
-    int child = 0;
-    int half = 1;
-    for (int axis = 0; axis < Dimension; ++axis)
-    {
-      if (this->IsHalved(axis, box->Depth))
-      {
-        child += isUpper(axis, *box) ? half : 0;
-        half *= 2;
-      }
-    }
-    box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
-  }
-  return -1 - box->First;
-}
-
-template <int Dimension>
 std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
 {
   std::int64_t widest = -1;
@@ -238,10 +216,25 @@ std::int64_t SpacingTree<Dimension>::WidestLeafAt(const Node& node) const
     {
       continue;
     }
-    const std::int64_t leaf = this->LeafIn(root, [&](int axis, const Box& box) {
-      const std::int64_t middle = box.Low[axis] + this->Width(axis, box.Depth + 1);
-      return node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
-    });
+    const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
+    while (box->First >= 0)
+    {
+      int child = 0;
+      int half = 1;
+      for (int axis = 0; axis < Dimension; ++axis)
+      {
+        if (!this->IsHalved(axis, box->Depth))
+        {
+          continue;
+        }
+        const std::int64_t middle = box->Low[axis] + this->Width(axis, box->Depth + 1);
+        const bool isUpper = node[axis] > middle || (node[axis] == middle && (side >> axis & 1));
+        child += isUpper ? half : 0;
+        half *= 2;
+      }
+      box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+    }
+    const std::int64_t leaf = -1 - box->First;
     if (widest < 0 || this->LeafBox(leaf).Depth < this->LeafBox(widest).Depth)
     {
       widest = leaf;
@@ -299,12 +292,26 @@ typename SpacingTree<Dimension>::Place SpacingTree<Dimension>::Locate(
     place.At[axis] = std::min(roots - static_cast<double>(at), 1.0);
     root = root * this->Roots[axis] + at;
   }
-  place.Leaf = this->LeafIn(root, [&place](int axis, const Box&) {
-    const double twice = 2.0 * place.At[axis];
-    const bool isUpper = twice >= 1.0;
-    place.At[axis] = isUpper ? twice - 1.0 : twice;
-    return isUpper;
-  });
+  const Box* box = &this->Boxes[static_cast<std::size_t>(root)];
+  while (box->First >= 0)
+  {
+    int child = 0;
+    int half = 1;
+    for (int axis = 0; axis < Dimension; ++axis)
+    {
+      if (!this->IsHalved(axis, box->Depth))
+      {
+        continue;
+      }
+      const double twice = 2.0 * place.At[axis];
+      const bool isUpper = twice >= 1.0;
+      place.At[axis] = isUpper ? twice - 1.0 : twice;
+      child += isUpper ? half : 0;
+      half *= 2;
+    }
+    box = &this->Boxes[static_cast<std::size_t>(box->First + child)];
+  }
+  place.Leaf = -1 - box->First;
   return place;
 }
 

@@ -92,9 +92,6 @@ private:
   {
     return this->Boxes[static_cast<std::size_t>(this->LeafBoxes[static_cast<std::size_t>(leaf)])];
   }
-  // The leaf of a root. isUpper(axis, box) says in which half of a box along an axis it is.
-  template <class IsUpper>
-  std::int64_t LeafIn(std::int64_t root, const IsUpper& isUpper) const;
   // The widest leaf that touches a node.
   std::int64_t WidestLeafAt(const Node& node) const;
   // Multilinear interpolation of one entry of the data.
