@@ -251,6 +251,7 @@ Input drawDisk(RandomSource& random, std::vector<vtkIdType>& boundary)
   if (random.Chance(0.02))
   {
     input.Condition = State::Empty;
+    input.Describe("none of");
   }
   else
   {
