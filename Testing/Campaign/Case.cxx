@@ -275,9 +275,7 @@ private:
   {
     const std::vector<std::string> wrong = this->Properties.OutOfRange();
     const State ofInputs = this->Expect();
-    // Numbers that are too large for the memory are no error if there is nothing to do.
-    const State expected =
-      wrong.empty() || !this->ArePlain ? ofInputs : worse(ofInputs, State::Faulty);
+    const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {
       this->Print("  message: " + text);
