@@ -21,6 +21,7 @@ RANKS = 3
 MESSAGES = {
     "spacing": "The images of the ranks are not parts of one: the spacing is 1 1 1 on rank 0, but "
                "1 1 2 on rank 1",
+    "nameless": "The density array has no name; on several ranks it must have one",
     "association": "The density is the cell array Density on rank 0, but the point array Density on "
                    "rank 1; it must be the same array on all",
     "type": "The density array 'Density' has not the same type and number of components on all "
@@ -58,6 +59,7 @@ POINT_MESSAGES = {
 GATHERED = {
     "sample mesh not a number": "has 1 value that is NaN or infinite",
     "map mesh not a number": "has 1 value that is NaN or infinite",
+    "sample mesh nameless": "The density array has no name; on several ranks it must have one",
     "sample mesh type": "The density is no image on rank 0, but an image on rank 1",
     "cells not finite": "has 1 point that is NaN or infinite",
     "relaxation not a number": "has 1 value that is NaN or infinite",

@@ -56,6 +56,15 @@ vtkDataArray* requireArray(
   return array;
 }
 
+// Of a density on several ranks.
+void requireName(vtkDataArray* array)
+{
+  if (!array->GetName())
+  {
+    throw Failure("The density array has no name; on several ranks it must have one");
+  }
+}
+
 constexpr const char* inputImage = "input image";
 
 std::unique_ptr<InputDensity> readImage(const DensityChoice& choice, vtkImageData* image)
@@ -82,10 +91,7 @@ std::unique_ptr<InputDensity> readPieces(
     vtkDataArray* array = requireArray(choice, image, inputImage, association);
     const bool onPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
     requireTuples(array, image, onPoints, inputImage);
-    if (!array->GetName())
-    {
-      throw Failure("The density array has no name; on several ranks it must have one");
-    }
+    requireName(array);
     chosen = (onPoints ? "the point array " : "the cell array ") + std::string(array->GetName());
   }
   const std::string common =
@@ -156,9 +162,23 @@ FoundArray findArray(const DensityChoice& choice, const std::vector<DensityBlock
   return findIn(static_cast<std::size_t>(most - dimensions.begin()));
 }
 
+// That of another block, by its name or, if it has none, by how the first one was chosen.
+vtkDataArray* arrayLike(const FoundArray& found, const DensityChoice& choice, vtkDataSet* data)
+{
+  const bool onPoints = found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  if (const char* name = found.Array->GetName())
+  {
+    return attributesOf(data, onPoints)->GetArray(name);
+  }
+  int association = 0;
+  vtkDataArray* array = vtkDataArray::SafeDownCast(choice.FindArray(data, association));
+  return array && !array->GetName() && association == found.Association ? array : nullptr;
+}
+
 // Sets the arrays of the blocks and leaves out those that cannot carry mass: of fewer dimensions
 // than the blocks with the array, and those of more dimensions without it.
-DensityBlocks chooseArrays(const DensityChoice& choice, const std::vector<DensityBlock>& blocks)
+DensityBlocks chooseArrays(
+  const DensityChoice& choice, const std::vector<DensityBlock>& blocks, const Ranks& ranks)
 {
   std::vector<int> dimensions;
   for (const DensityBlock& block : blocks)
@@ -172,7 +192,10 @@ DensityBlocks chooseArrays(const DensityChoice& choice, const std::vector<Densit
                   "Splat Mass makes one of points");
   }
   const FoundArray found = findArray(choice, blocks, dimensions);
-  const char* name = found.Array->GetName();
+  if (ranks.AreSeveral())
+  {
+    requireName(found.Array);
+  }
   DensityBlocks chosen{ {}, found.Association == vtkDataObject::FIELD_ASSOCIATION_POINTS,
     dimensions[found.Block] };
   std::int64_t all = 0; // blocks of as many dimensions or more
@@ -184,9 +207,7 @@ DensityBlocks chooseArrays(const DensityChoice& choice, const std::vector<Densit
       continue;
     }
     DensityBlock block = blocks[b];
-    block.Array = b == found.Block ? found.Array
-      : name                       ? attributesOf(block.Data, chosen.OnPoints)->GetArray(name)
-                                   : nullptr;
+    block.Array = b == found.Block ? found.Array : arrayLike(found, choice, block.Data);
     ++all;
     without += block.Array ? 0 : 1;
     if (dimensions[b] == chosen.Dimension)
@@ -203,9 +224,11 @@ DensityBlocks chooseArrays(const DensityChoice& choice, const std::vector<Densit
   }
   if (without > 0)
   {
+    const char* name = found.Array->GetName();
     choice.Warn(std::to_string(without) + " of " + std::to_string(all) +
-      " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array '" +
-      (name ? name : "") + "' and carry no mass");
+      " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array " +
+      (name ? std::string("'") + name + "'" : "of active scalars without a name") +
+      " and carry no mass");
   }
   return chosen;
 }
@@ -279,8 +302,8 @@ std::unique_ptr<InputDensity> DensityInput::ReadBlocks(
   {
     return nullptr;
   }
-  auto density =
-    this->Resampled.Read(chooseArrays(choice, blocks), choice.Resolution, choice.Rules, progress);
+  auto density = this->Resampled.Read(
+    chooseArrays(choice, blocks, ranks), choice.Resolution, choice.Rules, progress);
   for (const std::string& warning : this->Resampled.Warnings())
   {
     choice.Warn(warning);

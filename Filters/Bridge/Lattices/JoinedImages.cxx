@@ -218,14 +218,15 @@ bool allHave(const std::vector<Part>& parts, int owner, vtkDataArray* array)
   });
 }
 
-// Zero where no part has a value.
-void joinArray(const std::vector<Part>& parts, int owner, vtkDataArray* like, const TupleBox& all,
-  vtkDataSetAttributes* output)
+// Of the arrays arrayOf(part), of the kind of `like`. Zero where no part has a value.
+template <class ArrayOf>
+vtkSmartPointer<vtkDataArray> joinArrays(const std::vector<Part>& parts, int owner,
+  vtkDataArray* like, const TupleBox& all, const ArrayOf& arrayOf)
 {
   const double bytes =
     static_cast<double>(all.Count()) * like->GetNumberOfComponents() * like->GetDataTypeSize();
-  const std::string purpose =
-    "the array " + std::string(like->GetName()) + " of images that are joined";
+  const std::string name = like->GetName() ? like->GetName() : "without a name";
+  const std::string purpose = "the array " + name + " of images that are joined";
   requireMemory(purpose, bytes);
   const auto joined = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
   joined->SetName(like->GetName());
@@ -235,14 +236,14 @@ void joinArray(const std::vector<Part>& parts, int owner, vtkDataArray* like, co
   // The first image that has a value gives it.
   for (auto part = parts.rbegin(); part != parts.rend(); ++part)
   {
-    vtkDataArray* from = part->Image->GetAttributes(owner)->GetArray(like->GetName());
+    vtkDataArray* from = arrayOf(*part);
     visitRuns(*part, owner, all, [&](std::int64_t first, std::int64_t to, std::int64_t count) {
       joined->InsertTuples(static_cast<vtkIdType>(to), static_cast<vtkIdType>(count),
         static_cast<vtkIdType>(first), from);
       return true;
     });
   }
-  output->AddArray(joined);
+  return joined;
 }
 
 } // namespace
@@ -293,15 +294,23 @@ vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks
   for (const int owner : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkDataSetAttributes* from = first->Image->GetAttributes(owner);
+    vtkDataSetAttributes* to = joined->GetAttributes(owner);
+    const TupleBox tuples = tuplesOf(whole, owner, whole);
     for (int i = 0; i < from->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = from->GetArray(i);
-      if (array && array->GetName() &&
+      if (array && array == first->Array && owner == ofDensity)
+      {
+        to->SetScalars(
+          joinArrays(*parts, owner, array, tuples, [](const Part& part) { return part.Array; }));
+      }
+      else if (array && array->GetName() &&
         array != from->GetArray(vtkDataSetAttributes::GhostArrayName()) &&
         allHave(*parts, owner, array))
       {
-        joinArray(
-          *parts, owner, array, tuplesOf(whole, owner, whole), joined->GetAttributes(owner));
+        to->AddArray(joinArrays(*parts, owner, array, tuples, [&](const Part& part) {
+          return part.Image->GetAttributes(owner)->GetArray(array->GetName());
+        }));
       }
     }
   }

@@ -16,9 +16,10 @@ VTK_ABI_NAMESPACE_END
 namespace RectifiedTransport
 {
 
-// One image with the arrays that all images with mass have, at least one. What no image covers is
-// hidden. nullptr if a block is no image, if the images do not lie on one lattice, if most of its
-// box is empty, if cells overlap, or if shared points have two values. Such blocks are resampled.
+// One image with the arrays that all images with mass have; the density is its active scalars. What
+// no image covers is hidden. nullptr if a block is no image, if the images do not lie on one
+// lattice, if most of its box is empty, if cells overlap, or if shared points have two values. Such
+// blocks are resampled.
 vtkSmartPointer<vtkImageData> joinImages(const std::vector<DensityBlock>& blocks, bool onPoints);
 
 } // namespace RectifiedTransport

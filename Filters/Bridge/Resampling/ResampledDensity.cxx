@@ -185,7 +185,7 @@ std::unique_ptr<InputDensity> ResampledDensity::Read(
   }
   else
   {
-    array = attributesOf(this->Image, blocks.OnPoints)->GetArray(array->GetName());
+    array = attributesOf(this->Image, blocks.OnPoints)->GetScalars();
   }
   return std::make_unique<DensityImage>(this->Image, array, blocks.OnPoints, rules);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How arrays become densities: numeric types, memory layouts, components, colour, alpha, inversion.
+#include "BlocksTest.h"
 #include "TestData.h"
 
+#include "vtkAppendFilter.h"
 #include "vtkBitArray.h"
 #include "vtkCharArray.h"
 #include "vtkFloatArray.h"
@@ -218,11 +220,53 @@ void checkClamp(Checks& checks)
     sampleCoordinates(sampler) == pointsOf([&](vtkIdType i) { return std::max(0.0, mixed(i)); }));
 }
 
+// Blocks whose densities are active scalars without a name.
+void checkNamelessBlocks(Checks& checks)
+{
+  for (const bool cells : { true, false })
+  {
+    for (const bool areMeshes : { false, true })
+    {
+      const auto blocksOf = [&](const char* name) {
+        auto blocks = makeTiles(makeImage(9, 7, 5, cells, bumpy), 3);
+        for (unsigned int b = 0; b < 2; ++b)
+        {
+          if (areMeshes)
+          {
+            vtkNew<vtkAppendFilter> append;
+            append->AddInputData(blocks->GetBlock(b));
+            append->Update();
+            blocks->SetBlock(b, append->GetOutput());
+          }
+          auto* set = vtkDataSet::SafeDownCast(blocks->GetBlock(b));
+          set->GetAttributes(cells ? vtkDataObject::CELL : vtkDataObject::POINT)
+            ->GetScalars()
+            ->SetName(name);
+        }
+        return blocks;
+      };
+      std::vector<Values> found;
+      for (const char* name : { "Density", static_cast<const char*>(nullptr) })
+      {
+        vtkNew<vtkTransportSampler> sampler;
+        sampler->SetInputDataObject(blocksOf(name));
+        sampler->SetNumberOfParticles(100);
+        Messages messages(sampler);
+        sampler->Update();
+        CHECK(checks, messages.Errors.empty() && messages.Warnings.empty());
+        found.push_back(coordinates(sampler->GetOutput()));
+      }
+      CHECK(checks, found[0].size() == 300);
+      CHECK_NEAR(checks, largestDifference(found[0], found[1]), 0.0, 0.0);
+    }
+  }
+}
+
 } // namespace
 
 int TestSamplerArrays(int, char*[])
 {
   return runChecks({ checkTypes, checkColours<vtkUnsignedCharArray>, checkColours<vtkFloatArray>,
     checkColours<vtkSOADataArrayTemplate<short>>, checkColours<vtkIntArray>, checkWhite, checkGreys,
-    checkWhitePaper, checkChoice, checkOnlyArray, checkClamp });
+    checkWhitePaper, checkChoice, checkOnlyArray, checkClamp, checkNamelessBlocks });
 }
