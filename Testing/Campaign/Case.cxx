@@ -273,9 +273,13 @@ private:
 
   void Judge(const Outcome& outcome, Findings& findings)
   {
-    const std::vector<std::string> wrong = this->Properties.OutOfRange();
+    const std::vector<Setting> wrong = this->Properties.OutOfRange();
     const State ofInputs = this->Expect();
-    const State expected = wrong.empty() || !this->ArePlain ? ofInputs : State::Faulty;
+    const bool areTooLarge = std::all_of(
+      wrong.begin(), wrong.end(), [](const Setting& setting) { return setting.IsTooLarge; });
+    const State expected = wrong.empty() || !this->ArePlain ? ofInputs
+      : areTooLarge                                         ? worse(ofInputs, State::Faulty)
+                                                            : State::Faulty;
     for (const std::string& text : outcome.Errors)
     {
       this->Print("  message: " + text);
@@ -295,10 +299,10 @@ private:
     if (failed && !wrong.empty() && ofInputs == State::Sound)
     {
       findings.That(std::any_of(wrong.begin(), wrong.end(),
-                      [&](const std::string& name) {
-                        return outcome.Errors[0].find(name) != std::string::npos;
+                      [&](const Setting& setting) {
+                        return outcome.Errors[0].find(setting.Name) != std::string::npos;
                       }),
-        "the error names " + wrong[0]);
+        "the error names " + wrong[0].Name);
     }
     if (!failed && !outcome.IsEmpty && this->ArePlain)
     {

@@ -23,6 +23,7 @@ struct Setting
   std::string Text; // of the value
   std::function<void(vtkAlgorithm*)> Apply;
   bool InRange = true;
+  bool IsTooLarge = false; // for the memory: an error only where there is something to do
 };
 
 class Settings
@@ -41,23 +42,26 @@ public:
   // `used` of the properties are set, one in 70 of them to what is not allowed.
   template <class T, class Value>
   void Draw(const char* name, void (T::*set)(Value), std::initializer_list<Value> inside,
-    std::initializer_list<Value> outside, double used = 0.5)
+    std::initializer_list<Value> outside, double used = 0.5,
+    std::initializer_list<Value> tooLarge = {})
   {
     if (!this->Random.Chance(used))
     {
       return;
     }
     const bool inRange = outside.size() == 0 || !this->Random.Chance(0.015);
-    const Value value = this->Random.Of(inRange ? inside : outside);
+    const bool isTooLarge = !inRange && tooLarge.size() > 0 && this->Random.Chance(0.5);
+    const Value value = this->Random.Of(isTooLarge ? tooLarge : inRange ? inside : outside);
     this->Add(
       name, std::to_string(value),
-      [set, value](vtkAlgorithm* filter) { (static_cast<T*>(filter)->*set)(value); }, inRange);
+      [set, value](vtkAlgorithm* filter) { (static_cast<T*>(filter)->*set)(value); }, inRange,
+      isTooLarge);
   }
 
   void Add(const std::string& name, const std::string& text,
-    std::function<void(vtkAlgorithm*)> apply, bool inRange = true)
+    std::function<void(vtkAlgorithm*)> apply, bool inRange = true, bool isTooLarge = false)
   {
-    this->All.push_back({ name, text, std::move(apply), inRange });
+    this->All.push_back({ name, text, std::move(apply), inRange, isTooLarge });
   }
 
   void Apply(vtkAlgorithm* filter) const
@@ -79,10 +83,10 @@ public:
     return odd;
   }
 
-  // The properties whose last value is out of range.
-  std::vector<std::string> OutOfRange() const
+  // The last values of properties where they are out of range.
+  std::vector<Setting> OutOfRange() const
   {
-    std::vector<std::string> names;
+    std::vector<Setting> found;
     for (std::size_t i = 0; i < this->All.size(); ++i)
     {
       bool last = true;
@@ -92,10 +96,10 @@ public:
       }
       if (last && !this->All[i].InRange)
       {
-        names.push_back(this->All[i].Name);
+        found.push_back(this->All[i]);
       }
     }
-    return names;
+    return found;
   }
 
   std::string Describe(std::size_t from = 0) const

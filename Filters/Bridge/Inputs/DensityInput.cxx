@@ -227,8 +227,7 @@ DensityBlocks chooseArrays(
     const char* name = found.Array->GetName();
     choice.Warn(std::to_string(without) + " of " + std::to_string(all) +
       " blocks of the input have no " + (chosen.OnPoints ? "point" : "cell") + " array " +
-      (name ? std::string("'") + name + "'" : "of active scalars without a name") +
-      " and carry no mass");
+      (name ? std::string("'") + name + "'" : "without a name") + " and carry no mass");
   }
   return chosen;
 }
