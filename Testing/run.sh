@@ -100,6 +100,8 @@ run_tests()
   local folder="$1"
   shift
   say "Tests of $folder"
+  # As on a fresh system: it hides what a test does not flush.
+  unset PYTHONUNBUFFERED
   with_display ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@" < /dev/null
 }
 

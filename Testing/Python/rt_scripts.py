@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scripts of ParaView that run in the process of a test: starting another one takes longer than most."""
 import contextlib
+import ctypes
 import os
 import runpy
 import sys
@@ -11,16 +12,22 @@ from unittest import mock
 from paraview import simple
 
 
+def flush():
+    """pvpython's sys.stdout writes into the buffer of C, which its own flush leaves as it is."""
+    sys.stdout.flush()
+    ctypes.CDLL(None).fflush(None)
+
+
 @contextlib.contextmanager
 def redirected(number, file):
     """What Python and C++ write to a descriptor of this process goes to a file."""
-    sys.stdout.flush()
+    flush()
     kept = os.dup(number)
     os.dup2(file.fileno(), number)
     try:
         yield
     finally:
-        sys.stdout.flush()
+        flush()
         os.dup2(kept, number)
         os.close(kept)
         file.seek(0)
