@@ -130,9 +130,11 @@ def write_all(folder, done):
     from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
     window = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)
+    lines = os.dup(1)  # among which are none that writers print
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
     def say(*what):
-        os.write(1, (json.dumps(what) + "\n").encode())
+        os.write(lines, (json.dumps(what) + "\n").encode())
 
     for name, make in cases(simple).items():
         made = make()
