@@ -330,7 +330,8 @@ void vtkCollectiveAlgorithm::WarnOnFirstRank(const std::string& text)
 bool vtkCollectiveAlgorithm::IsLaterPiece(
   vtkInformation* request, vtkInformationVector* outputVector)
 {
-  if (this->Run || this->GetNumberOfInputPorts() == 0 || this->Whole->HasPieces())
+  if (this->Run || this->GetNumberOfInputPorts() == 0 || this->GetNumberOfOutputPorts() == 0 ||
+    this->Whole->HasPieces())
   {
     return false;
   }

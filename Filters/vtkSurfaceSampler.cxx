@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceSampler.h"
 
+#include "Bridge/Inputs/OptionalArray.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Settings/CornerSettings.h"
@@ -68,27 +69,13 @@ const char* vtkSurfaceSampler::GetFlowMapsAsString()
 //------------------------------------------------------------------------------
 SurfaceDensity vtkSurfaceSampler::FindDensity(vtkPolyData* surface)
 {
-  vtkInformation* choice = this->GetInputArrayInformation(0);
-  int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS &&
-    association != vtkDataObject::FIELD_ASSOCIATION_CELLS &&
-    association != vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS)
-  {
-    throw Failure("The field association of the density array is " + std::to_string(association) +
-      "; it must be 0 (points), 1 (cells) or 3 (points, then cells)");
-  }
-  const char* given = choice->Get(vtkDataObject::FIELD_NAME());
-  const std::string name = given ? given : "";
-  if (name.empty() && (given || !choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())))
+  const OptionalArray density =
+    findOptionalArray(this->GetInputArrayInformation(0), surface, "density array");
+  if (!density.IsChosen)
   {
     return {};
   }
-  vtkAbstractArray* found = this->GetInputAbstractArrayToProcess(0, surface, association);
-  if (!found && name == "None")
-  {
-    return {};
-  }
-  return { surface, found, association == vtkDataObject::FIELD_ASSOCIATION_POINTS, name };
+  return { surface, density.Array, density.OnPoints, density.Name };
 }
 
 //------------------------------------------------------------------------------

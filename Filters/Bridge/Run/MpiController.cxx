@@ -27,6 +27,15 @@ bool isPieceOfRanks(int piece, int pieces)
     piece == mpiController()->GetLocalProcessId();
 }
 
+DataPiece pieceOfRank()
+{
+  if (!haveSeveralRanks())
+  {
+    return { 0, 1 };
+  }
+  return { mpiController()->GetLocalProcessId(), mpiController()->GetNumberOfProcesses() };
+}
+
 #else
 
 bool haveSeveralRanks()
@@ -37,6 +46,11 @@ bool haveSeveralRanks()
 bool isPieceOfRanks(int, int)
 {
   return false;
+}
+
+DataPiece pieceOfRank()
+{
+  return { 0, 1 };
 }
 
 #endif

@@ -20,6 +20,16 @@ bool haveSeveralRanks();
 // Whether there are several ranks, as many pieces as ranks, and the requested piece is this rank's.
 bool isPieceOfRanks(int piece, int pieces);
 
+// One of several pieces of data.
+struct DataPiece
+{
+  int Number;
+  int Count;
+};
+
+// The piece of this rank: all data if there is one.
+DataPiece pieceOfRank();
+
 } // namespace RectifiedTransport
 
 #endif

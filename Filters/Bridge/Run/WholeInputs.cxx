@@ -67,6 +67,16 @@ void requireWholeExtent(vtkInformation* input, const std::string& what)
   }
 }
 
+// A writer, which has no outputs, takes the piece of its rank.
+DataPiece requestedPiece(vtkInformation* request, vtkInformationVector* outputs)
+{
+  vtkInformation* output =
+    outputs->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
+  return output ? DataPiece{ output->Get(Pipeline::UPDATE_PIECE_NUMBER()),
+                    output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) }
+                : pieceOfRank();
+}
+
 bool isTimeRequested(vtkInformationVector* outputs)
 {
   for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
@@ -121,15 +131,13 @@ std::string differenceOf(const Ranks& ranks, const std::vector<std::uint64_t>& f
 void WholeInputs::Record(vtkAlgorithm* filter, vtkInformation* request,
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* output =
-    outputVector->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
-  const int pieces = output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
-  if (pieces == 1 && this->IsIteratingOverBlocks(filter, inputVector))
+  const DataPiece piece = requestedPiece(request, outputVector);
+  if (piece.Count == 1 && this->IsIteratingOverBlocks(filter, inputVector))
   {
     return; // a request of the executive itself
   }
-  this->Piece = output->Get(Pipeline::UPDATE_PIECE_NUMBER());
-  this->NumberOfPieces = pieces;
+  this->Piece = piece.Number;
+  this->NumberOfPieces = piece.Count;
   this->Iterates = false;
   this->Composites.assign(static_cast<std::size_t>(filter->GetNumberOfInputPorts()), {});
   for (std::size_t port = 0; port < this->Composites.size(); ++port)

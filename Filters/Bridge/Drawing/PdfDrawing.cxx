@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Drawing/PdfDrawing.h"
+
+#include "Bridge/Drawing/DecimalText.h"
+#include "Bridge/Drawing/OutputFile.h"
+
+#include "vtkNew.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkZLibDataCompressor.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <initializer_list>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int Decimals = 4; // of millimetres
+constexpr double PointsPerMillimetre = 72.0 / 25.4;
+constexpr double CircleHandle = 0.55228; // of a quarter of the unit circle as a Bezier curve
+constexpr std::size_t ContentSize = std::size_t{ 1 } << 20;
+
+void append(
+  std::string& text, std::initializer_list<double> values, const char* operation, int decimals)
+{
+  for (const double value : values)
+  {
+    appendDecimal(text, value, decimals);
+    text += ' ';
+  }
+  text += operation;
+  text += '\n';
+}
+
+std::string unitDisc()
+{
+  constexpr double h = CircleHandle;
+  std::string text;
+  append(text, { 1, 0 }, "m", 5);
+  append(text, { 1, h, h, 1, 0, 1 }, "c", 5);
+  append(text, { -h, 1, -1, h, -1, 0 }, "c", 5);
+  append(text, { -1, -h, -h, -1, 0, -1 }, "c", 5);
+  append(text, { h, -1, 1, -h, 1, 0 }, "c", 5);
+  return text + "f\n";
+}
+
+std::string reference(std::size_t object)
+{
+  return std::to_string(object) + " 0 R ";
+}
+
+std::string opacityName(std::size_t opacity)
+{
+  return "/Opacity" + std::to_string(opacity);
+}
+
+} // namespace
+
+void PdfDrawing::Begin(const PagePoint& size, double strokeWidth)
+{
+  this->Size = size;
+  this->File.Write("%PDF-1.4\n%\xE2\xE3\xCF\xD3\n"); // the second line marks a binary file
+  this->Disc = this->NewObject();
+  this->WriteStream(
+    this->Disc, "/Type /XObject /Subtype /Form /BBox [-1 -1 1 1] /Resources << >>", unitDisc());
+  append(this->Text, { PointsPerMillimetre, 0, 0, PointsPerMillimetre, 0, 0 }, "cm",
+    6); // from millimetres to points
+  append(this->Text, { strokeWidth }, "w 1 J 1 j", Decimals);
+}
+
+void PdfDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
+{
+  this->UseColour(colour, false);
+  this->Text += "q ";
+  append(this->Text, { radius, 0, 0, radius, centre[0], centre[1] }, "cm /Disc Do Q", Decimals);
+  this->Flush();
+}
+
+void PdfDrawing::FillPolygon(const PagePath& corners, Colour colour)
+{
+  this->UseColour(colour, false);
+  this->AppendPath(corners);
+  this->Text += "f\n";
+  this->Flush();
+}
+
+void PdfDrawing::Stroke(const PagePath& path, bool isClosed, Colour colour)
+{
+  this->UseColour(colour, true);
+  this->AppendPath(path);
+  this->Text += isClosed ? "s\n" : "S\n";
+  this->Flush();
+}
+
+void PdfDrawing::End()
+{
+  this->WriteContent();
+  std::string states;
+  for (std::size_t opacity = 0; opacity < this->Opacities.size(); ++opacity)
+  {
+    if (this->Opacities[opacity])
+    {
+      std::string value;
+      appendDecimal(value, static_cast<double>(opacity) / 255.0, Decimals);
+      states += opacityName(opacity) + " << /ca " + value + " /CA " + value + " >>\n";
+    }
+  }
+  const std::size_t pages = this->NewObject();
+  const std::size_t page = this->NewObject();
+  std::string contents;
+  for (const std::size_t content : this->Contents)
+  {
+    contents += reference(content);
+  }
+  std::string size;
+  append(size, { 0, 0, PointsPerMillimetre * this->Size[0], PointsPerMillimetre * this->Size[1] },
+    "", Decimals);
+  this->WriteObject(page,
+    "<< /Type /Page /Parent " + reference(pages) + "/MediaBox [" + size +
+      "]\n/Resources << /XObject << /Disc " + reference(this->Disc) + ">> /ExtGState <<\n" +
+      states + ">> >>\n/Contents [" + contents + "] >>");
+  this->WriteObject(pages, "<< /Type /Pages /Count 1 /Kids [" + reference(page) + "] >>");
+  const std::size_t root = this->NewObject();
+  this->WriteObject(root, "<< /Type /Catalog /Pages " + reference(pages) + ">>");
+  this->WriteTable(root);
+}
+
+std::size_t PdfDrawing::NewObject()
+{
+  this->Offsets.push_back(0);
+  return this->Offsets.size();
+}
+
+void PdfDrawing::WriteObject(std::size_t number, std::string_view text)
+{
+  this->Offsets[number - 1] = this->File.Size();
+  this->File.Write(std::to_string(number) + " 0 obj\n");
+  this->File.Write(text);
+  this->File.Write("\nendobj\n");
+}
+
+void PdfDrawing::WriteStream(std::size_t number, const std::string& entries, std::string_view data)
+{
+  vtkNew<vtkZLibDataCompressor> compressor;
+  vtkNew<vtkUnsignedCharArray> packed;
+  packed->SetNumberOfValues(
+    static_cast<vtkIdType>(compressor->GetMaximumCompressionSpace(data.size())));
+  const std::size_t size = compressor->Compress(reinterpret_cast<const unsigned char*>(data.data()),
+    data.size(), packed->GetPointer(0), static_cast<std::size_t>(packed->GetNumberOfValues()));
+  std::string text =
+    "<< " + entries + " /Filter /FlateDecode /Length " + std::to_string(size) + " >>\nstream\n";
+  text.append(reinterpret_cast<const char*>(packed->GetPointer(0)), size);
+  text += "\nendstream";
+  this->WriteObject(number, text);
+}
+
+void PdfDrawing::WriteTable(std::size_t root)
+{
+  const std::int64_t table = this->File.Size();
+  const std::string count = std::to_string(this->Offsets.size() + 1);
+  std::string text = "xref\n0 " + count + "\n0000000000 65535 f \n";
+  for (const std::int64_t offset : this->Offsets)
+  {
+    char entry[32]; // 20 bytes, as the format demands
+    std::snprintf(entry, sizeof(entry), "%010lld 00000 n \n", static_cast<long long>(offset));
+    text += entry;
+  }
+  text += "trailer\n<< /Size " + count + " /Root " + reference(root) + ">>\nstartxref\n" +
+    std::to_string(table) + "\n%%EOF\n";
+  this->File.Write(text);
+}
+
+void PdfDrawing::UseColour(Colour colour, bool ofStrokes)
+{
+  if (colour.Opacity != this->Opacity)
+  {
+    this->Text += opacityName(colour.Opacity) + " gs\n";
+    this->Opacity = colour.Opacity;
+    this->Opacities.set(colour.Opacity);
+  }
+  Colour& current = ofStrokes ? this->StrokeColour : this->FillColour;
+  current.Opacity = colour.Opacity;
+  if (colour == current)
+  {
+    return;
+  }
+  current = colour;
+  const double red = colour.Red / 255.0;
+  const double green = colour.Green / 255.0;
+  const double blue = colour.Blue / 255.0;
+  if (red == green && green == blue) // printed with black ink alone
+  {
+    append(this->Text, { red }, ofStrokes ? "G" : "g", Decimals);
+  }
+  else
+  {
+    append(this->Text, { red, green, blue }, ofStrokes ? "RG" : "rg", Decimals);
+  }
+}
+
+void PdfDrawing::AppendPath(const PagePath& path)
+{
+  const char* operation = "m";
+  for (const PagePoint& point : path)
+  {
+    append(this->Text, { point[0], point[1] }, operation, Decimals);
+    operation = "l";
+  }
+}
+
+void PdfDrawing::Flush()
+{
+  if (this->Text.size() >= ContentSize)
+  {
+    this->WriteContent();
+  }
+}
+
+void PdfDrawing::WriteContent()
+{
+  this->Contents.push_back(this->NewObject());
+  this->WriteStream(this->Contents.back(), "", this->Text);
+  this->Text.clear();
+}
+
+} // namespace RectifiedTransport

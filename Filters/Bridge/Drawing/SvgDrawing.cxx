@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Drawing/SvgDrawing.h"
+
+#include "Bridge/Drawing/DecimalText.h"
+#include "Bridge/Drawing/OutputFile.h"
+
+#include <cstddef>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+constexpr int Decimals = 4; // of millimetres
+constexpr std::size_t BufferSize = std::size_t{ 1 } << 16;
+
+void appendHexadecimal(std::string& text, std::uint8_t value)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  text += digits[value / 16];
+  text += digits[value % 16];
+}
+
+void appendAttribute(std::string& text, const char* name, double value)
+{
+  text += ' ';
+  text += name;
+  text += "=\"";
+  appendDecimal(text, value, Decimals);
+  text += '"';
+}
+
+} // namespace
+
+void SvgDrawing::Begin(const PagePoint& size, double strokeWidth)
+{
+  this->Height = size[1];
+  this->StrokeWidth = strokeWidth;
+  std::string& text = this->Text;
+  text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"";
+  appendDecimal(text, size[0], Decimals);
+  text += "mm\" height=\"";
+  appendDecimal(text, size[1], Decimals);
+  text += "mm\" viewBox=\"0 0 ";
+  appendDecimal(text, size[0], Decimals);
+  text += ' ';
+  appendDecimal(text, size[1], Decimals);
+  text += "\">\n";
+}
+
+void SvgDrawing::FillDisc(const PagePoint& centre, double radius, Colour colour)
+{
+  this->EnterGroup(Group::Fills);
+  this->Text += "<circle";
+  appendAttribute(this->Text, "cx", centre[0]);
+  appendAttribute(this->Text, "cy", this->Height - centre[1]);
+  appendAttribute(this->Text, "r", radius);
+  this->AppendColour("fill", colour);
+  this->Text += "/>\n";
+  this->Flush();
+}
+
+void SvgDrawing::FillPolygon(const PagePath& corners, Colour colour)
+{
+  this->EnterGroup(Group::Fills);
+  this->Text += "<polygon";
+  this->AppendPoints(corners);
+  this->AppendColour("fill", colour);
+  this->Text += "/>\n";
+  this->Flush();
+}
+
+void SvgDrawing::Stroke(const PagePath& path, bool isClosed, Colour colour)
+{
+  this->EnterGroup(Group::Strokes);
+  this->Text += isClosed ? "<polygon" : "<polyline";
+  this->AppendPoints(path);
+  this->AppendColour("stroke", colour);
+  this->Text += "/>\n";
+  this->Flush();
+}
+
+void SvgDrawing::End()
+{
+  this->EnterGroup(Group::None);
+  this->Text += "</svg>\n";
+  this->File.Write(this->Text);
+}
+
+void SvgDrawing::EnterGroup(Group group)
+{
+  if (group == this->Open)
+  {
+    return;
+  }
+  if (this->Open != Group::None)
+  {
+    this->Text += "</g>\n";
+  }
+  if (group == Group::Fills)
+  {
+    this->Text += "<g fill=\"#000000\" stroke=\"none\">\n";
+  }
+  if (group == Group::Strokes)
+  {
+    this->Text += "<g fill=\"none\" stroke=\"#000000\" stroke-linecap=\"round\" "
+                  "stroke-linejoin=\"round\"";
+    appendAttribute(this->Text, "stroke-width", this->StrokeWidth);
+    this->Text += ">\n";
+  }
+  this->Open = group;
+}
+
+void SvgDrawing::AppendColour(const std::string& paint, Colour colour)
+{
+  if (colour.Red + colour.Green + colour.Blue > 0)
+  {
+    this->Text += " " + paint + "=\"#";
+    for (const std::uint8_t value : { colour.Red, colour.Green, colour.Blue })
+    {
+      appendHexadecimal(this->Text, value);
+    }
+    this->Text += '"';
+  }
+  if (colour.Opacity < 255)
+  {
+    appendAttribute(this->Text, (paint + "-opacity").c_str(), colour.Opacity / 255.0);
+  }
+}
+
+void SvgDrawing::AppendPoints(const PagePath& points)
+{
+  this->Text += " points=\"";
+  for (const PagePoint& point : points)
+  {
+    appendDecimal(this->Text, point[0], Decimals);
+    this->Text += ',';
+    appendDecimal(this->Text, this->Height - point[1], Decimals);
+    this->Text += ' ';
+  }
+  this->Text.back() = '"';
+}
+
+void SvgDrawing::Flush()
+{
+  if (this->Text.size() >= BufferSize)
+  {
+    this->File.Write(this->Text);
+    this->Text.clear();
+  }
+}
+
+} // namespace RectifiedTransport

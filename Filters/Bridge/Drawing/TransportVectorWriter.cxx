@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bridge/Drawing/TransportVectorWriter.h"
+
+#include "Bridge/Drawing/Drawing.h"
+#include "Bridge/Drawing/PageLayout.h"
+#include "Bridge/Drawing/ShapeColours.h"
+#include "Bridge/Points/DotRadius.h"
+#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Run/ArrayList.h"
+#include "Bridge/Run/Memory.h"
+#include "Bridge/Run/PropertyCheck.h"
+
+#include "vtkDataArray.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace RectifiedTransport
+{
+
+namespace
+{
+
+std::string titleOf(const char* property, vtkAbstractArray* array)
+{
+  return std::string(property) + " '" + (array->GetName() ? array->GetName() : "") + "'";
+}
+
+// One of the data sets while it is drawn.
+class Layer
+{
+public:
+  Layer(const DrawnData& data, vtkScalarsToColors* table, Progress& progress)
+    : Shapes(data.Shapes)
+    , Points(data.Shapes.Data()->GetPoints()->GetData(), progress)
+  {
+    if (data.Colours)
+    {
+      this->Colours = ShapeColours(data.Colours, data.HasColoursOnPoints, table);
+    }
+    if (data.Radii)
+    {
+      this->Radii.emplace(data.Radii, progress);
+    }
+  }
+
+  const double* At(vtkIdType point) const { return this->Points.data() + 3 * point; }
+  // In units of the data.
+  double RadiusAt(vtkIdType point) const
+  {
+    return this->Radii ? this->Radii->data()[point] : this->Radius;
+  }
+  bool NeedsRadius() const { return !this->Radii; }
+
+  const PolyDataShapes& Shapes;
+  DoubleTuples Points;
+  ShapeColours Colours;
+  std::optional<DoubleTuples> Radii;
+  double Radius = 0.0;
+};
+
+// Where shapes lie, and of what kind they are.
+struct Extent
+{
+  DrawnBounds Points;
+  DrawnBounds All; // with the dots' radii
+  bool HasStrokes = false;
+  std::int64_t Dots = 0; // without a radius of their own
+};
+
+void requireFinite(const double* point, vtkIdType number)
+{
+  if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+  {
+    fail("The input has a point that is NaN or infinite, at index ", number,
+      "; all coordinates must be finite");
+  }
+}
+
+void requireRadius(double radius, vtkIdType number)
+{
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+  {
+    fail("RadiusArray has the value ", radius, " at index ", number,
+      "; every radius must be finite and not negative");
+  }
+}
+
+bool isStroked(const Layer& layer, const Shape& shape)
+{
+  return shape.Kind == ShapeKind::Line ||
+    (shape.Kind == ShapeKind::Polygon && !layer.Colours.AreGiven());
+}
+
+// Those without a radius of their own.
+LargeBuffer<double> dotsOf(const std::vector<Layer>& layers, std::int64_t count, Progress& progress)
+{
+  LargeBuffer<double> dots = withMemory("the places of " + std::to_string(count) + " dots",
+    3.0 * sizeof(double) * static_cast<double>(count),
+    [&]() { return LargeBuffer<double>(3 * count); });
+  double* next = dots.data();
+  for (const Layer& layer : layers)
+  {
+    layer.Shapes.ForEach(progress, [&](const Shape& shape) {
+      if (shape.Kind == ShapeKind::Dot && layer.NeedsRadius())
+      {
+        next = std::copy_n(layer.At(shape.Points[0]), 3, next);
+      }
+    });
+  }
+  return dots;
+}
+
+void include(const Layer& layer, const Shape& shape, Extent& extent)
+{
+  extent.HasStrokes = extent.HasStrokes || isStroked(layer, shape);
+  const bool isDot = shape.Kind == ShapeKind::Dot;
+  extent.Dots += isDot && layer.NeedsRadius() ? 1 : 0;
+  for (vtkIdType i = 0; i < shape.Count; ++i)
+  {
+    const vtkIdType number = shape.Points[i];
+    const double* point = layer.At(number);
+    requireFinite(point, number);
+    const double radius = isDot ? layer.RadiusAt(number) : 0.0;
+    if (isDot)
+    {
+      requireRadius(radius, number);
+    }
+    extent.Points.Include(point);
+    extent.All.Include(point, radius);
+  }
+}
+
+Extent extentOf(const std::vector<Layer>& layers, Progress& progress)
+{
+  Extent extent;
+  for (const Layer& layer : layers)
+  {
+    layer.Shapes.ForEach(progress, [&](const Shape& shape) { include(layer, shape, extent); });
+  }
+  return extent;
+}
+
+// Of dots that are all at one place.
+double radiusWithoutNeighbours(const DrawnBounds& points)
+{
+  constexpr double share = 0.01; // of the longest side
+  const double longest = std::max({ points.Length(0), points.Length(1), points.Length(2) });
+  return longest > 0.0 ? share * longest : 1.0;
+}
+
+class LayerPainter
+{
+public:
+  LayerPainter(const Layer& layer, const PageLayout& layout, Drawing& drawing)
+    : Painted(layer)
+    , Layout(layout)
+    , Page(drawing)
+  {
+  }
+
+  void Paint(const Shape& shape)
+  {
+    const Colour colour = this->Painted.Colours.Of(shape);
+    if (shape.Kind == ShapeKind::Dot)
+    {
+      const double radius = this->Layout.Scale() * this->Painted.RadiusAt(shape.Points[0]);
+      if (radius > 0.0)
+      {
+        this->Page.FillDisc(this->Place(shape.Points[0]), radius, colour);
+      }
+      return;
+    }
+    this->Path.clear();
+    for (vtkIdType i = 0; i < shape.Count; ++i)
+    {
+      this->Path.push_back(this->Place(shape.Points[i]));
+    }
+    if (shape.Kind == ShapeKind::Line)
+    {
+      this->PaintLine(shape, colour);
+    }
+    else if (this->Painted.Colours.AreGiven())
+    {
+      this->Page.FillPolygon(this->Path, colour);
+    }
+    else
+    {
+      this->Page.Stroke(this->Path, true, colour);
+    }
+  }
+
+private:
+  PagePoint Place(vtkIdType point) const { return this->Layout.At(this->Painted.At(point)); }
+
+  // With colours on points each segment has its own.
+  void PaintLine(const Shape& line, Colour colour)
+  {
+    if (!this->Painted.Colours.AreOnPoints())
+    {
+      this->Page.Stroke(this->Path, false, colour);
+      return;
+    }
+    for (vtkIdType i = 0; i + 1 < line.Count; ++i)
+    {
+      const Shape segment{ ShapeKind::Line, line.Points + i, 2, line.Cell };
+      const auto first = this->Path.begin() + i;
+      this->Segment.assign(first, first + 2);
+      this->Page.Stroke(this->Segment, false, this->Painted.Colours.Of(segment));
+    }
+  }
+
+  const Layer& Painted;
+  const PageLayout& Layout;
+  Drawing& Page;
+  PagePath Path;
+  PagePath Segment;
+};
+
+// VTK's own colours over the values of all data sets.
+vtkSmartPointer<vtkScalarsToColors> tableOf(const std::vector<DrawnData>& data)
+{
+  constexpr int component = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (const DrawnData& drawn : data)
+  {
+    auto* array = vtkDataArray::SafeDownCast(drawn.Colours);
+    if (array && !areColours(array))
+    {
+      double range[2];
+      array->GetFiniteRange(range, array->GetNumberOfComponents() == 1 ? component : -1);
+      least = std::min(least, range[0]);
+      greatest = std::max(greatest, range[1]);
+    }
+  }
+  const auto table = vtkSmartPointer<vtkLookupTable>::New();
+  if (least <= greatest)
+  {
+    table->SetTableRange(least, greatest);
+  }
+  table->SetVectorModeToMagnitude();
+  table->Build();
+  return table;
+}
+
+void requireTuples(vtkAbstractArray* array, const char* property, vtkIdType count, bool ofPoints)
+{
+  if (array->GetNumberOfTuples() != count)
+  {
+    fail(titleOf(property, array), " has ", array->GetNumberOfTuples(), " tuples, but there are ",
+      count, ofPoints ? " points" : " cells", "; there must be one for each");
+  }
+}
+
+} // namespace
+
+void TransportVectorWriter::Check() const
+{
+  const auto require = [](const char* property, double value, bool isLarge, const char* rule) {
+    requireThat(std::isfinite(value) && isLarge, property, value, rule);
+  };
+  require("Width", this->Width, this->Width > 0.0, "more than 0 (millimetres)");
+  require("PageMargin", this->PageMargin, this->PageMargin >= 0.0, "0 or more (millimetres)");
+  require("LineWidth", this->LineWidth, this->LineWidth > 0.0, "more than 0 (millimetres)");
+  require("PointRadius", this->PointRadius, this->PointRadius >= 0.0,
+    "more than 0, or 0 for a radius from the spacing");
+}
+
+void TransportVectorWriter::Run(
+  const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const
+{
+  std::int64_t shapes = 0;
+  vtkSmartPointer<vtkScalarsToColors> table = this->LookupTable;
+  for (const DrawnData& drawn : data)
+  {
+    shapes += drawn.Shapes.Count();
+    vtkPolyData* own = drawn.Shapes.Data();
+    if (drawn.Colours)
+    {
+      requireTuples(drawn.Colours, "ColorArray",
+        drawn.HasColoursOnPoints ? own->GetNumberOfPoints() : own->GetNumberOfCells(),
+        drawn.HasColoursOnPoints);
+      table = table ? table : tableOf(data);
+    }
+    if (drawn.Radii)
+    {
+      requireScalars(
+        drawn.Radii, titleOf("RadiusArray", drawn.Radii), own->GetNumberOfPoints(), "points");
+    }
+  }
+
+  std::vector<Layer> layers;
+  layers.reserve(data.size());
+  progress.BeginStage(0.1, 2 * shapes);
+  for (const DrawnData& drawn : data)
+  {
+    layers.emplace_back(drawn, table, progress);
+  }
+  progress.BeginStage(0.2, 2 * shapes);
+  Extent extent = extentOf(layers, progress);
+  if (extent.Dots > 0)
+  {
+    double radius = this->PointRadius;
+    if (radius == 0.0)
+    {
+      const LargeBuffer<double> dots = dotsOf(layers, extent.Dots, progress);
+      progress.BeginStage(0.5);
+      radius = radiusOfDots({ dots.data(), extent.Dots }, progress.Stage());
+      radius = radius > 0.0 ? radius : radiusWithoutNeighbours(extent.Points);
+    }
+    for (Layer& layer : layers)
+    {
+      layer.Radius = radius;
+    }
+    progress.BeginStage(0.6, shapes);
+    extent = extentOf(layers, progress);
+  }
+  if (extent.Points.IsEmpty())
+  {
+    fail("The input has no points; there is nothing to draw");
+  }
+  const double strokeMargin = extent.HasStrokes ? 0.5 * this->LineWidth : 0.0;
+  const double margin = this->PageMargin + strokeMargin;
+  if (!(2.0 * margin < this->Width))
+  {
+    fail("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
+      extent.HasStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
+  }
+  const PageLayout layout(extent.Points.LongestAxes(), extent.All, { this->Width, margin });
+  const double longest = std::max(layout.Size()[0], layout.Size()[1]);
+  if (longest > drawing.LongestSide())
+  {
+    fail("The page is ", layout.Size()[0], " x ", layout.Size()[1], " mm with Width ", this->Width,
+      "; no side may be longer than ", drawing.LongestSide(),
+      " mm in this format: Width must be at most ", this->Width * drawing.LongestSide() / longest);
+  }
+
+  drawing.Begin(layout.Size(), this->LineWidth);
+  progress.BeginStage(1.0, shapes);
+  for (const Layer& layer : layers)
+  {
+    LayerPainter painter(layer, layout, drawing);
+    layer.Shapes.ForEach(progress, [&](const Shape& shape) { painter.Paint(shape); });
+  }
+  drawing.End();
+}
+
+} // namespace RectifiedTransport

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws a vtkPolyData, or several on one page: the worker of vtkTransportVectorWriter.
+#ifndef RectifiedTransport_TransportVectorWriter_h
+#define RectifiedTransport_TransportVectorWriter_h
+
+#include "Bridge/Drawing/PolyDataShapes.h"
+#include "Bridge/VTKCompatibility.h"
+#include "Core/Parallel/Progress.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkAbstractArray;
+class vtkDataArray;
+class vtkScalarsToColors;
+VTK_ABI_NAMESPACE_END
+
+namespace RectifiedTransport
+{
+
+class Drawing;
+class DrawnBounds;
+class PageLayout;
+class ShapeColours;
+
+// One of the data sets on a page. What is later lies on top.
+struct DrawnData
+{
+  PolyDataShapes Shapes;
+  vtkAbstractArray* Colours; // nullptr: black
+  bool HasColoursOnPoints;
+  vtkDataArray* Radii; // of the points; nullptr: PointRadius
+};
+
+// The members are the properties of that class.
+struct TransportVectorWriter
+{
+  double Width;
+  double PageMargin;
+  double PointRadius;
+  double LineWidth;
+  vtkScalarsToColors* LookupTable; // nullptr: VTK's colours over the range of the values
+
+  // Throws Failure for values out of range.
+  void Check() const;
+
+  // Throws Failure, Cancelled and std::bad_alloc.
+  void Run(const std::vector<DrawnData>& data, Drawing& drawing, Progress& progress) const;
+};
+
+} // namespace RectifiedTransport
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportPDFWriter.h"
+
+#include "Bridge/Drawing/PdfDrawing.h"
+
+#include "vtkObjectFactory.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportPDFWriter);
+
+//------------------------------------------------------------------------------
+vtkTransportPDFWriter::vtkTransportPDFWriter() = default;
+
+//------------------------------------------------------------------------------
+vtkTransportPDFWriter::~vtkTransportPDFWriter() = default;
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RectifiedTransport::Drawing> vtkTransportPDFWriter::NewDrawing(
+  RectifiedTransport::OutputFile& file) const
+{
+  return std::make_unique<RectifiedTransport::PdfDrawing>(file);
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportPDFWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+VTK_ABI_NAMESPACE_END

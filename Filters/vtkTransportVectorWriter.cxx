@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportVectorWriter.h"
+
+#include "Bridge/Blocks/DensityBlocks.h"
+#include "Bridge/Drawing/Drawing.h"
+#include "Bridge/Drawing/OutputFile.h"
+#include "Bridge/Drawing/TransportVectorWriter.h"
+#include "Bridge/Inputs/OptionalArray.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/ArrayList.h"
+#include "Bridge/Run/Failure.h"
+#include "Bridge/Run/InputBlock.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkScalarsToColors.h"
+
+#include <string>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+using namespace RectifiedTransport;
+
+namespace
+{
+
+// The array that is chosen for all blocks, in one of them; counts the blocks that have it.
+vtkAbstractArray* arrayOf(const OptionalArray& found, int& count)
+{
+  count += found.Array || !found.IsChosen ? 1 : 0;
+  return found.Array;
+}
+
+void requireArray(int count, const char* property, const std::string& name, vtkPolyData* data)
+{
+  if (count == 0)
+  {
+    fail("The input has no ", property, " '", name, "'; it has ",
+      listArrays(data->GetPointData(), "point"), " and ", listArrays(data->GetCellData(), "cell"));
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkTransportVectorWriter::vtkTransportVectorWriter()
+  : FileName(nullptr)
+  , Width(100.0)
+  , PageMargin(0.0)
+  , PointRadius(0.0)
+  , LineWidth(0.25)
+  , LookupTable(nullptr)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(0);
+  this->SetPortPolicy(0, PORT_GATHERED_DENSITY);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportVectorWriter::~vtkTransportVectorWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetLookupTable(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkCxxSetObjectMacro(vtkTransportVectorWriter, LookupTable, vtkScalarsToColors);
+
+//------------------------------------------------------------------------------
+int vtkTransportVectorWriter::Write()
+{
+  this->Modified(); // also without a change
+  return this->GetExecutive()->Update();
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportVectorWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportVectorWriter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    throw Failure("FileName is empty; it must be the file to write");
+  }
+  const TransportVectorWriter writer{ this->Width, this->PageMargin, this->PointRadius,
+    this->LineWidth, this->LookupTable };
+  writer.Check();
+  AlgorithmProgress progress(this, this->Threading);
+
+  std::vector<DrawnData> data;
+  int withColours = 0;
+  int withRadii = 0;
+  const std::vector<DensityBlock> blocks = densityBlocks(vtkDataObject::GetData(inputVector[0]));
+  for (const DensityBlock& block : blocks)
+  {
+    auto* shapes = requireBlock<vtkPolyData>(
+      block.Data, "The input", "a vtkPolyData, as Extract Surface makes one of it");
+    const OptionalArray colours =
+      findOptionalArray(this->GetInputArrayInformation(0), shapes, "ColorArray");
+    const OptionalArray radii =
+      findOptionalArray(this->GetInputArrayInformation(1), shapes, "RadiusArray");
+    data.push_back({ PolyDataShapes(shapes, "input"), arrayOf(colours, withColours),
+      colours.OnPoints, vtkDataArray::SafeDownCast(arrayOf(radii, withRadii)) });
+    if (&block == &blocks.back())
+    {
+      requireArray(withColours, "ColorArray", colours.Name, shapes);
+      requireArray(withRadii, "RadiusArray", radii.Name, shapes);
+    }
+  }
+
+  OutputFile file(this->FileName);
+  const std::unique_ptr<Drawing> drawing = this->NewDrawing(file);
+  writer.Run(data, *drawing, progress);
+  file.Close();
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportVectorWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Width: " << this->Width << "\n";
+  os << indent << "PageMargin: " << this->PageMargin << "\n";
+  os << indent << "PointRadius: " << this->PointRadius << "\n";
+  os << indent << "LineWidth: " << this->LineWidth << "\n";
+  os << indent << "LookupTable: " << (this->LookupTable ? "set" : "(none)") << "\n";
+}
+VTK_ABI_NAMESPACE_END

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Display/vtkSMVectorWriterInitializationHelper.h"
+
+#include "vtkClientServerInterpreter.h"
+#include "vtkClientServerInterpreterInitializer.h"
+#include "vtkObjectFactory.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
+
+#include <string>
+
+vtkStandardNewMacro(vtkSMVectorWriterInitializationHelper);
+
+namespace
+{
+
+// In the active view, where it is visible; else nullptr.
+vtkSMPVRepresentationProxy* representationOf(vtkSMProxy* writer)
+{
+  vtkSMPropertyHelper input(writer, "Input", true);
+  vtkSMProxySelectionModel* active =
+    writer->GetSessionProxyManager()->GetSelectionModel("ActiveView");
+  auto* view = active ? vtkSMViewProxy::SafeDownCast(active->GetCurrentProxy()) : nullptr;
+  auto* producer = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  if (!view || !producer)
+  {
+    return nullptr;
+  }
+  auto* found = vtkSMPVRepresentationProxy::SafeDownCast(
+    view->FindRepresentation(producer, static_cast<int>(input.GetOutputPort())));
+  return found && vtkSMPropertyHelper(found, "Visibility", true).GetAsInt() ? found : nullptr;
+}
+
+bool showsPlainCircles(vtkSMProxy* representation)
+{
+  const auto is = [representation](const char* property, const char* text) {
+    const char* value = vtkSMPropertyHelper(representation, property, true).GetAsString();
+    return value && std::string(value) == text;
+  };
+  return is("Representation", "Point Gaussian") && is("ShaderPreset", "Plain circle") &&
+    !vtkSMPropertyHelper(representation, "ScaleByArray", true).GetAsInt();
+}
+
+} // namespace
+
+void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
+  vtkSMProxy* writer, vtkPVXMLElement*, vtkMTimeType time)
+{
+  vtkSMPVRepresentationProxy* shown = representationOf(writer);
+  const auto isFree = [writer, time](const char* name) {
+    vtkSMProperty* property = writer->GetProperty(name);
+    return property && property->GetMTime() <= time;
+  };
+  if (shown && isFree("ColorArray") && isFree("LookupTable") && shown->GetUsingScalarColoring())
+  {
+    vtkSMPropertyHelper colours(shown, "ColorArrayName");
+    vtkSMPropertyHelper(writer, "ColorArray")
+      .SetInputArrayToProcess(
+        colours.GetInputArrayAssociation(), colours.GetInputArrayNameToProcess());
+    vtkSMPropertyHelper(writer, "LookupTable")
+      .Set(vtkSMPropertyHelper(shown, "LookupTable").GetAsProxy());
+  }
+  if (shown && isFree("PointRadius") && showsPlainCircles(shown))
+  {
+    vtkSMPropertyHelper(writer, "PointRadius")
+      .Set(vtkSMPropertyHelper(shown, "GaussianRadius").GetAsDouble());
+  }
+}
+
+namespace
+{
+
+vtkObjectBase* newHelper(void*)
+{
+  return vtkSMVectorWriterInitializationHelper::New();
+}
+
+void addHelper(vtkClientServerInterpreter* interpreter)
+{
+  interpreter->AddNewInstanceFunction("vtkSMVectorWriterInitializationHelper", newHelper);
+}
+
+// When the plugin's library is loaded. ParaView makes helpers by the names of their classes.
+const bool isRegistered = []() {
+  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(addHelper);
+  return true;
+}();
+
+} // namespace
