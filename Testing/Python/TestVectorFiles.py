@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Save Data to SVG and PDF: what librsvg and poppler draw of the files is what the data are."""
+import glob
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from PIL import Image
+from rt_testing import OUTPUT, SOURCE, load_plugin, main, need_display, output_of, producer
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+simple = load_plugin()
+RESOLUTION = 254  # dots per inch: 10 pixels are a millimetre
+DRAW = {
+    "svg": ("rsvg-convert", "-d", str(RESOLUTION), "-p", str(RESOLUTION), "-b", "white", "-o"),
+    "pdf": ("pdftocairo", "-png", "-singlefile", "-r", str(RESOLUTION)),
+}
+HAVE_READERS = all(shutil.which(command[0]) for command in DRAW.values())
+
+
+def photograph(name="raccoon.png"):
+    return simple.PNGSeriesReader(FileNames=[os.path.join(SOURCE, "Testing", "Data", name)])
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData())
+
+
+class VectorFiles(unittest.TestCase):
+    def setUp(self):
+        simple.ResetSession()
+        load_plugin()
+        self.folder = tempfile.mkdtemp(dir=OUTPUT)
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def save(self, source, extension, **properties):
+        path = os.path.join(self.folder, "drawing." + extension)
+        simple.SaveData(path, proxy=source, **properties)
+        self.assertEqual(os.listdir(self.folder), ["drawing." + extension])
+        return path
+
+    def drawn(self, source, extension, **properties):
+        """The picture of a file, as rows from the top of RGB."""
+        path = self.save(source, extension, **properties)
+        picture = os.path.join(self.folder, "picture.png")
+        command = DRAW[extension]
+        if extension == "svg":
+            subprocess.run([*command, picture, path], check=True)
+        else:
+            subprocess.run([*command, path, picture[:-4]], check=True)
+        with Image.open(picture) as image:
+            pixels = np.asarray(image.convert("RGB")).astype(float)
+        os.remove(path)
+        os.remove(picture)
+        return pixels
+
+    def text(self, source, **properties):
+        with open(self.save(source, "svg", **properties), encoding="utf-8") as file:
+            return file.read()
+
+    @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
+    def test_photograph(self):
+        """20,000 dots, black and in the photograph's colours: as much ink in each block as the dots have."""
+        sampler = simple.SampleDensity(photograph(), NumberOfParticles=20000, InvertDensity=1)
+        data = output_of(sampler)
+        points = points_of(data)[:, :2]
+        radius = 2.5
+        low, high = points.min(axis=0) - radius, points.max(axis=0) + radius
+        unit = 1200 / (high - low)[0]  # pixels: the page is 120 mm wide
+        block = 40
+        at = (unit * (points - low) / block).astype(int)
+        size = np.ceil(unit * (high - low) / block).astype(int)
+        area = np.zeros(size[::-1])
+        np.add.at(area, (at[:, 1], at[:, 0]), np.pi * (unit * radius) ** 2)
+        expected = area / block ** 2
+        colours = vtk_to_numpy(data.GetPointData().GetArray("PNGImage")).astype(float)
+        for extension in DRAW:
+            with self.subTest(extension):
+                black = self.drawn(sampler, extension, Width=120, PointRadius=radius)
+                self.assertAlmostEqual(black.shape[1], 1200, delta=1)
+                self.assertAlmostEqual(black.shape[0], unit * (high - low)[1], delta=1.5)
+                ink = 1 - black[::-1].mean(axis=2) / 255  # rows from the bottom
+                rows, columns = (n // block for n in ink.shape)
+                blocks = ink[:rows * block, :columns * block].reshape(
+                    rows, block, columns, block).mean(axis=(1, 3))
+                expect = expected[:rows, :columns]
+                apart = blocks - expect
+                free = expect < 0.6  # where dots do not overlap much
+                self.assertGreater(free.mean(), 0.4)
+                self.assertLess(np.abs(apart[free].mean()), 0.02)
+                self.assertLess(np.abs(apart[free]).mean(), 0.05)
+                coloured = self.drawn(sampler, extension, Width=120, PointRadius=radius,
+                                      ColorArray=["POINTS", "PNGImage"])
+                centre = (unit * (points - low)).astype(int)
+                found = coloured[np.clip(coloured.shape[0] - 1 - centre[:, 1], 0, None),
+                                 centre[:, 0]]
+                alike = np.abs(found - colours).max(axis=1) < 12
+                self.assertGreater(alike.mean(), 0.9)  # of others a later dot covers the centre
+
+    @unittest.skipUnless(HAVE_READERS, "needs librsvg2-bin and poppler-utils")
+    def test_polygons_and_lines(self):
+        """The silhouette of a sphere from triangles in their colours; paths; an outline in millimetres."""
+        sphere = simple.Elevation(simple.Sphere(ThetaResolution=32, PhiResolution=32),
+                                  LowPoint=[-0.5, 0, 0], HighPoint=[0.5, 0, 0])
+        for extension in DRAW:
+            with self.subTest(extension):
+                filled = self.drawn(sphere, extension, ColorArray=["POINTS", "Elevation"])
+                self.assertAlmostEqual(filled.shape[1], 1000, delta=1)
+                inside = (filled < 250).any(axis=2).mean()
+                self.assertAlmostEqual(inside, np.pi / 4, delta=0.02)
+                self.assertGreater(filled[500, 20, 0], 200)   # from red
+                self.assertGreater(filled[500, -20, 2], 200)  # to blue
+                outlined = self.drawn(sphere, extension, LineWidth=0.1)
+                self.assertGreater(outlined.mean(), 150)
+                box = self.drawn(simple.Plane(), extension, LineWidth=10)
+                self.assertLess(np.abs(np.array(box.shape[:2]) - 1000).max(), 2)
+                dark = (box < 128).all(axis=2)
+                self.assertAlmostEqual(dark[500].sum(), 200, delta=4)  # twice 10 mm
+                self.assertTrue(dark[500, :98].all() and not dark[500, 102:898].any())
+
+    def test_view(self):
+        """At first a file is as the active view shows the data: colours, and the radius of plain circles."""
+        sampler = simple.SampleDensity(photograph(), NumberOfParticles=500)
+        self.assertNotIn('fill="#', self.text(sampler).split("stroke=\"none\">")[1])
+        view = simple.CreateRenderView()
+        shown = simple.Show(sampler, view, "GeometryRepresentation")
+        shown.SetRepresentationType("Point Gaussian")
+        shown.ShaderPreset = "Plain circle"
+        shown.GaussianRadius = 8
+        simple.ColorBy(shown, ("POINTS", "SeedId"))
+        text = self.text(sampler)
+        self.assertGreater(len(set(re.findall(r' fill="#(\w{6})"/', text))), 100)
+        size = float(re.search(r'width="100mm".* r="([\d.]+)"', text, re.DOTALL)[1])
+        bounds = output_of(sampler).GetBounds()
+        self.assertAlmostEqual(size, 8 * 100 / (bounds[1] - bounds[0] + 16), places=3)
+        self.assertIn(' r="50"', self.text(sampler, PointRadius=1e9))  # what is given holds
+        simple.Hide(sampler, view)
+        self.assertNotIn('fill="#', self.text(sampler).split("stroke=\"none\">")[1])
+
+    def test_blocks(self):
+        """One page for what is grouped: outlines, and the sites on top."""
+        seeds = simple.UniformSeeds(NumberOfPoints=12)
+        cells = simple.EqualMassCells(seeds, Resolution=64)
+        cells.UpdatePipeline()
+        group = simple.GroupDatasets(Input=[simple.OutputPort(cells, 2), seeds])
+        text = self.text(group)
+        self.assertEqual(text.count("<circle"), 12)
+        self.assertGreater(text.count("<poly"), 12)
+        self.assertLess(text.rfind("<poly"), text.find("<circle"))
+
+    def test_series(self):
+        """A file for each time."""
+        reader = photograph("ascent.png")
+        small = simple.ExtractSubset(reader, VOI=[0, 31, 0, 31, 0, 0])
+        other = simple.ExtractSubset(reader, VOI=[100, 131, 0, 31, 0, 0])
+        morph = simple.MorphDensities(Input=small, Target=other, PublishTime=1, NumberOfTimeSteps=3)
+        morph.UpdatePipeline()
+        for extension in DRAW:
+            path = os.path.join(self.folder, "step." + extension)
+            simple.SaveData(path, proxy=simple.OutputPort(morph, 1), Writetimestepsasfileseries=1)
+            files = sorted(glob.glob(path.replace("step", "step_*")))
+            self.assertEqual([os.path.basename(file) for file in files],
+                             ["step_%d.%s" % (i, extension) for i in range(3)])
+            contents = set()
+            for file in files:
+                with open(file, "rb") as opened:
+                    contents.add(opened.read())
+            self.assertEqual(len(contents), 3)
+
+    def test_nothing_to_draw(self):
+        """No file of nothing, and no earlier one lost."""
+        path = os.path.join(self.folder, "drawing.svg")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("earlier")
+        simple.SaveData(path, proxy=producer(simple, vtkPolyData()))
+        with open(path, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "earlier")
+
+
+if __name__ == "__main__":
+    need_display()
+    main()
