@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/FirstDisplay.h"
 
+#include "Display/DotDisplay.h"
+
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
@@ -30,18 +32,6 @@ namespace
 
 constexpr const char* qualitativeColours = "Brewer Qualitative Set3";
 
-// The number of axes along which the data have an extent.
-int dimensionOf(vtkPVDataInformation* data)
-{
-  const double* bounds = data->GetBounds();
-  int dimension = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    dimension += bounds[2 * axis] < bounds[2 * axis + 1] ? 1 : 0;
-  }
-  return dimension;
-}
-
 bool isGiven(vtkPVXMLElement* element, const char* attribute, int& value)
 {
   return element->GetScalarAttribute(attribute, &value) != 0;
@@ -61,7 +51,8 @@ bool applies(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port)
     return false;
   }
   return !isGiven(element, "dimension", value) ||
-    dimensionOf(producer->GetDataInformation(static_cast<unsigned int>(port))) == value;
+    dimensionOf(producer->GetDataInformation(static_cast<unsigned int>(port))->GetBounds()) ==
+    value;
 }
 
 std::vector<vtkPVXMLElement*> elementsOf(vtkSMSourceProxy* producer)
@@ -173,10 +164,20 @@ void setProperty(vtkSMProxy* proxy, const char* name, const char* text)
   vtkSMPropertyHelper(proxy, name).Set(values.data(), static_cast<unsigned int>(values.size()));
 }
 
+bool showsDots(vtkPVXMLElement* element)
+{
+  const char* type = element->GetAttribute("type");
+  return type && std::string(type) == "Dots";
+}
+
 void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
   vtkSMPVRepresentationProxy* representation)
 {
-  if (const char* type = element->GetAttribute("type"))
+  if (showsDots(element))
+  {
+    showDots(producer, port, representation);
+  }
+  else if (const char* type = element->GetAttribute("type"))
   {
     representation->SetRepresentationType(type);
   }
@@ -209,6 +210,7 @@ public:
     this->Port = port;
     this->Representation = representation;
     this->Remember(elementFor(producer, port));
+    this->HasDots = this->Applied && showsDots(this->Applied);
     producer->AddObserver(vtkCommand::UpdateEvent, this);
     producer->AddObserver(vtkCommand::UpdateDataEvent, this);
   }
@@ -226,6 +228,10 @@ public:
       {
         this->Representation->RescaleTransferFunctionToDataRange();
       }
+      if (this->Applied && showsDots(this->Applied) && !std::exchange(this->HasDots, true))
+      {
+        showDots(producer, this->Port, this->Representation);
+      }
       return;
     }
     vtkPVXMLElement* element = elementFor(producer, this->Port);
@@ -239,7 +245,8 @@ public:
 private:
   void Change(vtkPVXMLElement* element)
   {
-    this->Representation->SetRepresentationType(element->GetAttribute("type"));
+    this->Representation->SetRepresentationType(
+      showsDots(element) ? typeOfDots : element->GetAttribute("type"));
     const char* array = element->GetAttribute("array");
     this->IsColoured = array != nullptr;
     if (array || this->Applied->GetAttribute("array"))
@@ -267,6 +274,7 @@ private:
 
   int Port = 0;
   bool IsColoured = false; // by an array whose range is not known yet
+  bool HasDots = false;    // set up, once there were data
   vtkWeakPointer<vtkSMPVRepresentationProxy> Representation;
   vtkPVXMLElement* Applied = nullptr; // of the proxy's definition, which stays
   std::string Type;

@@ -4,8 +4,8 @@
 //   <FirstDisplay port="0" dimension="3" property="OutputPaths" value="1" type="Wireframe"
 //     array="Time" categories="1"> <Set property="LineWidth" values="2"/> </FirstDisplay>
 // port, dimension (of the data) and property with value say when it applies, each if given. type is
-// the type of the representation. array colours it, by categories if they are 1; an empty name
-// colours by none.
+// the type of the representation, or Dots (see DotDisplay.h). array colours it, by categories if
+// they are 1; an empty name colours by none.
 #ifndef RectifiedTransport_FirstDisplay_h
 #define RectifiedTransport_FirstDisplay_h
 

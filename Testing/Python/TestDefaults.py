@@ -4,7 +4,7 @@ import os
 import re
 import unittest
 
-from rt_proxies import instance, page_rows, proxies
+from rt_proxies import instance, page_rows, proxies, written_files
 from rt_testing import SOURCE, main
 
 
@@ -45,7 +45,7 @@ def header_comment(class_name, name):
     found = re.search(pattern % name, header, re.DOTALL)
     if found:
         return " ".join(re.sub(r"^ *\* ?", "", found.group(1), flags=re.MULTILINE).split())
-    base = re.search(r'#include "(vtkTransportBlend|vtk\w*Algorithm)\.h"', header).group(1)
+    base = re.search(r'#include "(vtkTransportBlend|vtkTransportVectorWriter|vtk\w*Algorithm)\.h"', header).group(1)
     return header_comment(base, name)
 
 
@@ -59,10 +59,10 @@ def says_default(comment, text):
 
 class Defaults(unittest.TestCase):
     def each_value(self):
-        for proxy in proxies():
+        for proxy in proxies() + written_files():
             for name, prop in proxy.properties.items():
                 if prop.is_value:
-                    yield self.subTest(proxy=proxy.label, property=name), proxy, prop
+                    yield self.subTest(proxy=proxy.class_name, property=name), proxy, prop
 
     def test_constructor(self):
         for case, proxy, prop in self.each_value():
@@ -131,7 +131,7 @@ class Defaults(unittest.TestCase):
                 self.assertEqual(page_rows(proxy)[prop.name][0], "none")
 
     def test_page_has_nothing_else(self):
-        for proxy in proxies():
+        for proxy in proxies() + written_files():
             self.assertLessEqual(set(page_rows(proxy)), set(proxy.properties))
 
 

@@ -4,7 +4,9 @@ import os
 import tempfile
 import unittest
 
-from rt_testing import (OUTPUT, density_image, load_plugin, main, need_display, points_in,
+import numpy as np
+from PIL import Image
+from rt_testing import (OUTPUT, SOURCE, density_image, load_plugin, main, need_display, points_in,
                         producer)
 
 simple = load_plugin()
@@ -47,6 +49,102 @@ class FirstDisplay(unittest.TestCase):
         solid = simple.SolidDensity(simple.Sphere(), Resolution=12)
         self.assert_like(self.shown(solid), "Volume", "Density")
 
+    def picture(self):
+        """The view's pixels, as rows of RGB."""
+        path = os.path.join(OUTPUT, "first-display.png")
+        simple.SaveScreenshot(path, self.view, ImageResolution=[600, 450])
+        with Image.open(path) as image:
+            return np.asarray(image.convert("RGB")).astype(float)
+
+    def background(self, colour):
+        self.view.UseColorPaletteForBackground = 0
+        self.view.Background = [colour] * 3
+
+    def photograph(self, **properties):
+        path = os.path.join(SOURCE, "Testing", "Data", "raccoon.png")
+        return simple.SampleDensity(simple.PNGSeriesReader(FileNames=[path]), InvertDensity=1,
+                                    **properties)
+
+    def test_flat_particles_are_a_picture_at_once(self):
+        """Plain circles, dark on light and light on dark, as large as is right for the ink: the picture
+        has the tones of the photograph. That follows the background."""
+        self.view.OrientationAxesVisibility = 0
+        self.background(1)
+        sampler = self.photograph()
+        shown = self.shown(sampler)
+        self.assert_like(shown, "Point Gaussian", "")
+        self.assertEqual(shown.ShaderPreset, "Plain circle")
+        self.view.CameraParallelProjection = 1
+        simple.ResetCamera(self.view)
+        low, high = (np.array(sampler.GetDataInformation().GetBounds()).reshape(3, 2)[:2].T)
+        self.view.CameraFocalPoint = [*(low + high) / 2, 0]
+        self.view.CameraPosition = [*(low + high) / 2, 1000]
+        self.view.CameraParallelScale = (high - low)[1] / 2
+        dark = 1 - self.picture().mean(axis=2) / 255
+        with Image.open(os.path.join(SOURCE, "Testing", "Data", "raccoon.png")) as image:
+            ink = 1 - np.asarray(image.convert("L").resize((600, 450))).astype(float) / 255
+
+        def blocks(values):
+            return values.reshape(15, 30, 20, 30).mean(axis=(1, 3)).ravel()
+        self.assertGreater(np.corrcoef(blocks(dark), blocks(ink))[0, 1], 0.98)
+        self.assertAlmostEqual(dark.mean() / ink.mean(), 0.75, delta=0.1)
+        self.background(0)
+        light = self.picture().mean(axis=2) / 255
+        self.assertLess(np.abs(light - dark).mean(), 0.02)
+        self.background(1)
+        self.assertLess(np.abs(1 - self.picture().mean(axis=2) / 255 - dark).mean(), 0.01)
+
+    def test_palette_is_followed(self):
+        shown = self.shown(self.photograph(NumberOfParticles=100))
+        for palette, colour in (("WhiteBackground", 0), ("BlackBackground", 1), ("BlueGrayBackground", 1)):
+            simple.LoadPalette(palette)
+            self.assertEqual(list(shown.DiffuseColor), [colour] * 3, palette)
+            self.assertEqual(list(shown.AmbientColor), [colour] * 3, palette)
+        shown.DiffuseColor = shown.AmbientColor = [1, 0, 0]
+        simple.LoadPalette("WhiteBackground")
+        self.assertEqual(list(shown.DiffuseColor), [1, 0, 0])
+        simple.LoadPalette("BlueGrayBackground")
+
+    def test_radius_follows_the_spacing(self):
+        """Half the distance of neighbours, again where there are more particles; not that of a user, and
+        not while they move."""
+        seeds = simple.UniformSeeds(Bounds=[0, 8, 0, 8, 0, 0], NumberOfPoints=64, Pattern="Lattice")
+        shown = self.shown(seeds)
+        self.assertAlmostEqual(shown.GaussianRadius, 0.5)
+        seeds.NumberOfPoints = 1024
+        seeds.UpdatePipeline()
+        self.assertAlmostEqual(shown.GaussianRadius, 0.125)
+        seeds.Bounds = [0, 80, 0, 80, 0, 0]
+        seeds.UpdatePipeline()
+        self.assertAlmostEqual(shown.GaussianRadius, 1.25)
+        shown.GaussianRadius = 0.7
+        seeds.NumberOfPoints = 64
+        seeds.UpdatePipeline()
+        self.assertEqual(shown.GaussianRadius, 0.7)
+
+        sampler = self.photograph(NumberOfParticles=500)
+        shown = self.shown(sampler)
+        radius = shown.GaussianRadius
+        sampler.FlowTime = 0.5
+        sampler.UpdatePipeline()
+        self.assertEqual(shown.GaussianRadius, radius)
+
+    def test_particles_in_space_are_spheres(self):
+        shown = self.shown(simple.UniformSeeds(Dimension=3, NumberOfPoints=512, Pattern="Lattice"))
+        self.assert_like(shown, "Point Gaussian", "")
+        self.assertEqual(shown.ShaderPreset, "Sphere")
+        self.assertAlmostEqual(shown.GaussianRadius, 1 / 16)
+
+    def test_particles_without_a_spacing(self):
+        """One alone, all at one place, none: each is shown without an error."""
+        for count in (1, 5, 0):
+            points = points_in(density_image((5, 4)), count)
+            for i in range(count):
+                points.GetPoints().SetPoint(i, 1, 1, 0)
+            relaxed = simple.RelaxBlueNoise(producer(simple, points), Density=self.image(2),
+                                            MaximumIterations=0)
+            self.assertGreater(self.shown(relaxed).GaussianRadius, 0)
+
     def test_paths_are_lines(self):
         sampler = simple.SampleDensity(self.image(2), NumberOfParticles=20, OutputPaths=1)
         self.assert_like(self.shown(sampler), "Wireframe", "Time")
@@ -63,6 +161,7 @@ class FirstDisplay(unittest.TestCase):
         sampler.UpdatePipeline()
         self.assertEqual(shown.Representation, "Point Gaussian")
         self.assertNotEqual(shown.ColorArrayName[1], "Time")
+        self.assertEqual(shown.ShaderPreset, "Plain circle")
         shown.Representation = "Points"
         sampler.OutputPaths = 1
         sampler.UpdatePipeline()

@@ -37,6 +37,7 @@ BRIDGE = {
     "Ranks": RUN | {"Image", "Points"},
     "Settings": RUN,
     "Surface": RUN | {"Points"},
+    "Drawing": RUN | {"Points"},
     "Density": RUN | {"Image", "Points", "Settings", "Ranks"},
     "Blocks": BLOCKS,
     "Meshes": BLOCKS | {"Blocks"},

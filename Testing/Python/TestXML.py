@@ -3,10 +3,11 @@
 names and with the classes."""
 import os
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 from rt_filters import FILTERS, PROPERTIES, Property, by_label
-from rt_proxies import instance, proxies
+from rt_proxies import instance, proxies, written_files
 from rt_testing import SOURCE, connect_inputs, density_image, digest, main
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
@@ -104,6 +105,26 @@ class XML(unittest.TestCase):
         for proxy in proxies():
             for name, prop in proxy.properties.items():
                 yield self.subTest(proxy=proxy.label, property=name), proxy, prop
+
+    def test_writers(self):
+        """A writer of ParaView's menu has every property of what makes its file."""
+        files = written_files()
+        self.assertEqual([proxy.class_name for proxy in files],
+                         ["vtkTransportSVGWriter", "vtkTransportPDFWriter"])
+        path = os.path.join(SOURCE, "Plugin", "VectorWriters.xml")
+        writers = {writer.find("SubProxy/Proxy").get("proxyname"): writer for writer in
+                   ElementTree.parse(path).getroot().findall("ProxyGroup/WriterProxy[@class]")}
+        for proxy in files:
+            with self.subTest(proxy.class_name):
+                writer = writers[proxy.element.get("name")]
+                self.assertEqual(writer.get("supports_parallel"), "1")
+                exposed = [e.get("name") for e in writer.findall(
+                    "SubProxy/ExposedProperties/Property")]
+                self.assertEqual(set(exposed), set(proxy.properties) - {"DrawnInput"})
+                for prop in proxy.properties.values():
+                    if prop.command:
+                        self.assertTrue(prop.documentation)
+                        self.assertTrue(hasattr(instance(proxy), prop.command))
 
     def test_panel_widgets(self):
         """Names that ParaView or this plugin knows: ParaView takes no notice of others."""

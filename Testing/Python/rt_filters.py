@@ -9,9 +9,11 @@ import re
 from typing import NamedTuple
 
 POINTS = {"view": "RenderView", "type": "Point Gaussian"}
-PARTICLES = [("RepresentationType", POINTS)]
+DOTS = {"type": "Dots"}
+PARTICLES = [("RepresentationType", POINTS), ("FirstDisplay", DOTS)]
 VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density"})
-BLEND = [("View", {"type": "None", "port": "1"}), ("RepresentationType", {**POINTS, "port": "1"}),
+BLEND = [("View", {"type": "None", "port": "1"}),
+         *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
          ("FirstDisplay", {"port": "0", **VOLUME[1]})]
 
 
@@ -65,10 +67,10 @@ FILTERS = [
            refused=("NumberOfSteps", 0, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
            saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12),
-           shown=[*PARTICLES,
+           shown=[PARTICLES[0],
                   ("FirstDisplay", {"property": "OutputPaths", "value": "1", "type": "Wireframe",
                                     "array": "Time"}),
-                  ("FirstDisplay", {"property": "OutputPaths", "value": "0", "type": "Point Gaussian"})]),
+                  ("FirstDisplay", {"property": "OutputPaths", "value": "0", **DOTS})]),
     Filter("Transport Map", "vtkTransportMap", {"Input": "density"}, refused=("NumberOfSteps", 0, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
                       Integrator="Adaptive", Tolerance=0.5),

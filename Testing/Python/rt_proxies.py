@@ -46,12 +46,12 @@ class Property:
 
 class Proxy:
     """A concrete proxy: its own element, and with what it takes over its properties by name, its
-    output ports and its groups."""
+    output ports and its groups. Its page has the name of its label."""
 
     def __init__(self, menu, elements):
         self.element = elements[-1]
         self.menu = menu
-        self.label = self.element.get("label")
+        self.label = self.element.get("label", "Vector Files")
         self.class_name = self.element.get("class")
         every = [e for element in elements for e in element]
         self.properties = {e.get("name"): Property(e) for e in every if e.tag.endswith("Property")}
@@ -59,7 +59,7 @@ class Proxy:
         self.groups = [e for e in every if e.tag == "PropertyGroup"]
 
 
-def proxies():
+def concrete(in_menu):
     elements = {}
     for path in sorted(glob.glob(os.path.join(SOURCE, "Plugin", "*.xml"))):
         for group in ElementTree.parse(path).getroot():
@@ -70,8 +70,18 @@ def proxies():
         base = element.get("base_proxygroup"), element.get("base_proxyname")
         return (chain(elements[base]) if base[0] else []) + [element]
 
-    return [Proxy(group, chain(element))
-            for (group, _), element in elements.items() if not group.startswith("internal")]
+    return [Proxy(group, chain(element)) for (group, _), element in elements.items()
+            if in_menu(group) and element.get("class")]
+
+
+def proxies():
+    """The filters and sources."""
+    return concrete(lambda group: group in ("filters", "sources"))
+
+
+def written_files():
+    """What the writers of ParaView's menu make files with."""
+    return concrete(lambda group: group == "internal_writers")
 
 
 def instance(proxy):

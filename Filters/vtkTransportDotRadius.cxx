@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransportDotRadius.h"
+
+#include "Bridge/Points/DotRadius.h"
+#include "Bridge/Points/DoubleTuples.h"
+#include "Bridge/Points/GhostFlags.h"
+#include "Bridge/Points/PointInput.h"
+#include "Bridge/Ranks/DistributedPoints.h"
+#include "Bridge/Run/AlgorithmProgress.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+VTK_ABI_NAMESPACE_BEGIN
+vtkStandardNewMacro(vtkTransportDotRadius);
+
+using namespace RectifiedTransport;
+
+namespace
+{
+
+// The coordinates of those that are finite.
+std::vector<double> placesOf(const DistributedPoints& points, AlgorithmProgress& progress)
+{
+  std::vector<double> places;
+  const std::int64_t count = points.Counted().Count();
+  if (count > 0)
+  {
+    places.reserve(3 * static_cast<std::size_t>(count));
+    const DoubleTuples given(points.Set()->GetPoints()->GetData(), points.Counted(), progress);
+    for (const double* point = given.data(); point != given.data() + 3 * count; point += 3)
+    {
+      if (std::all_of(point, point + 3, [](double x) { return std::isfinite(x); }))
+      {
+        places.insert(places.end(), point, point + 3);
+      }
+    }
+  }
+  return places;
+}
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkTransportDotRadius::vtkTransportDotRadius()
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+  this->SetPortPolicy(0, PORT_PARTITIONED_POINTS);
+}
+
+//------------------------------------------------------------------------------
+vtkTransportDotRadius::~vtkTransportDotRadius() = default;
+
+//------------------------------------------------------------------------------
+vtkTable* vtkTransportDotRadius::GetOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDotRadius::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDotRadius::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTransportDotRadius::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  AlgorithmProgress progress(this, this->Threading, this->GetRanks());
+  const DistributedPoints points(pointSetOf(inputVector[0]), ghostPoint, this->GetRanks());
+  if (points.All() == 0)
+  {
+    return 1;
+  }
+  progress.BeginStage(0.1, points.Counted().Count());
+  const std::vector<double> places = placesOf(points, progress);
+  progress.BeginStage(1.0);
+  vtkNew<vtkDoubleArray> column;
+  column->SetName("DotRadius");
+  column->InsertNextValue(radiusOfDots(
+    { places.data(), static_cast<std::int64_t>(places.size() / 3) }, progress.Stage()));
+  vtkTable::GetData(outputVector)->AddColumn(column);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTransportDotRadius::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
+VTK_ABI_NAMESPACE_END

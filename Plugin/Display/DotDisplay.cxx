@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Display/DotDisplay.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkNew.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMPVRepresentationProxy.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMViewProxy.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace RectifiedTransport
+{
+
+int dimensionOf(const double bounds[6])
+{
+  int dimension = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    dimension += bounds[2 * axis] < bounds[2 * axis + 1] ? 1 : 0;
+  }
+  return dimension;
+}
+
+namespace
+{
+
+using Rgb = std::array<double, 3>;
+
+constexpr Rgb black = { 0.0, 0.0, 0.0 };
+constexpr Rgb white = { 1.0, 1.0, 1.0 };
+
+Rgb colourOf(vtkSMProxy* proxy, const char* property)
+{
+  Rgb colour = black;
+  vtkSMPropertyHelper(proxy, property, true).Get(colour.data(), 3);
+  return colour;
+}
+
+vtkSMProxy* paletteOf(vtkSMProxy* proxy)
+{
+  return proxy->GetSessionProxyManager()->GetProxy("settings", "ColorPalette");
+}
+
+// Black or white, whichever the background is less.
+Rgb colourOn(vtkSMProxy* view)
+{
+  vtkSMProxy* palette = paletteOf(view);
+  const bool isOfPalette =
+    palette && vtkSMPropertyHelper(view, "UseColorPaletteForBackground", true).GetAsInt() != 0;
+  const Rgb background =
+    isOfPalette ? colourOf(palette, "BackgroundColor") : colourOf(view, "Background");
+  // Luminance of Rec. 709.
+  return 0.2126 * background[0] + 0.7152 * background[1] + 0.0722 * background[2] > 0.5 ? black
+                                                                                        : white;
+}
+
+// On the server, where the data are; 0 where there is none.
+double radiusOf(vtkSMSourceProxy* producer, int port)
+{
+  const auto proxy = vtkSmartPointer<vtkSMProxy>::Take(
+    producer->GetSessionProxyManager()->NewProxy("internal_filters", "TransportDotRadius"));
+  auto* measure = vtkSMSourceProxy::SafeDownCast(proxy);
+  if (!measure)
+  {
+    return 0.0;
+  }
+  vtkSMPropertyHelper(measure, "Input").Set(producer, static_cast<unsigned int>(port));
+  measure->UpdateVTKObjects();
+  measure->UpdatePipeline();
+  vtkPVArrayInformation* radius =
+    measure->GetDataInformation(0)->GetArrayInformation("DotRadius", vtkDataObject::ROW);
+  return radius ? radius->GetComponentRange(0)[0] : 0.0;
+}
+
+// What the radius depends on.
+struct Spread
+{
+  explicit Spread(vtkPVDataInformation* data)
+    : Count(data->GetNumberOfPoints())
+  {
+    data->GetBounds(this->Bounds.data());
+  }
+
+  // Particles that move keep their size, unless it is quite wrong for where they are.
+  bool IsLike(const Spread& other) const
+  {
+    constexpr double factor = 2.0;
+    const double own = this->LongestSide();
+    const double others = other.LongestSide();
+    return this->Count == other.Count && own <= factor * others && others <= factor * own;
+  }
+
+  double LongestSide() const
+  {
+    double longest = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      longest = std::max(longest, this->Bounds[2 * axis + 1] - this->Bounds[2 * axis]);
+    }
+    return longest;
+  }
+
+  vtkTypeInt64 Count;
+  std::array<double, 6> Bounds{};
+};
+
+class DotFollower : public vtkCommand
+{
+public:
+  vtkTypeMacro(DotFollower, vtkCommand);
+
+  static DotFollower* New() { return new DotFollower; }
+
+  void Follow(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation)
+  {
+    this->Port = port;
+    this->Producer = producer;
+    this->Representation = representation;
+    this->View = vtkSMViewProxy::FindView(representation);
+    const Spread spread(this->Data());
+    this->IsFlat = dimensionOf(spread.Bounds.data()) < 3;
+    vtkSMPropertyHelper(representation, "ShaderPreset")
+      .Set(this->IsFlat ? "Plain circle" : "Sphere");
+    if (this->IsFlat)
+    {
+      representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
+      this->UseColour();
+    }
+    this->UseRadius(spread);
+    representation->UpdateVTKObjects();
+
+    producer->AddObserver(vtkCommand::UpdateDataEvent, this);
+    if (this->IsFlat && this->View)
+    {
+      this->View->AddObserver(vtkCommand::PropertyModifiedEvent, this);
+      if (vtkSMProxy* palette = paletteOf(this->View))
+      {
+        palette->AddObserver(vtkCommand::PropertyModifiedEvent, this);
+      }
+    }
+  }
+
+  void Execute(vtkObject*, unsigned long event, void* data) override
+  {
+    if (!this->Representation || !this->Producer || !this->View)
+    {
+      return;
+    }
+    if (event == vtkCommand::UpdateDataEvent)
+    {
+      this->FollowData();
+    }
+    else if (data &&
+      std::string(static_cast<const char*>(data)).find("Background") != std::string::npos)
+    {
+      this->FollowBackground();
+    }
+  }
+
+private:
+  vtkPVDataInformation* Data()
+  {
+    return this->Producer->GetDataInformation(static_cast<unsigned int>(this->Port));
+  }
+
+  void FollowData()
+  {
+    const Spread spread(this->Data());
+    vtkSMPropertyHelper radius(this->Representation, "GaussianRadius");
+    if (radius.GetAsDouble() == this->Radius && !spread.IsLike(this->Known))
+    {
+      this->UseRadius(spread);
+      this->Representation->UpdateVTKObjects();
+    }
+  }
+
+  void FollowBackground()
+  {
+    if (colourOf(this->Representation, "DiffuseColor") == this->Colour)
+    {
+      this->UseColour();
+      this->Representation->UpdateVTKObjects();
+    }
+  }
+
+  void UseRadius(const Spread& spread)
+  {
+    this->Known = spread;
+    const double radius = spread.Count > 0 ? radiusOf(this->Producer, this->Port) : 0.0;
+    // A view of a single place is 1 wide.
+    this->Radius = radius > 0.0 ? radius : 0.05;
+    vtkSMPropertyHelper(this->Representation, "GaussianRadius").Set(this->Radius);
+  }
+
+  void UseColour()
+  {
+    this->Colour = colourOn(this->View);
+    for (const char* property : { "AmbientColor", "DiffuseColor" })
+    {
+      vtkSMPropertyHelper(this->Representation, property).Set(this->Colour.data(), 3);
+    }
+  }
+
+  int Port = 0;
+  bool IsFlat = false;
+  vtkWeakPointer<vtkSMSourceProxy> Producer;
+  vtkWeakPointer<vtkSMPVRepresentationProxy> Representation;
+  vtkWeakPointer<vtkSMViewProxy> View;
+  Spread Known{ vtkSmartPointer<vtkPVDataInformation>::New() };
+  // What was set here; if the values are others, they are the user's.
+  double Radius = 0.0;
+  Rgb Colour = black;
+};
+
+} // namespace
+
+void showDots(vtkSMSourceProxy* producer, int port, vtkSMPVRepresentationProxy* representation)
+{
+  representation->SetRepresentationType(typeOfDots);
+  vtkNew<DotFollower> follower;
+  follower->Follow(producer, port, representation);
+}
+
+} // namespace RectifiedTransport
