@@ -73,7 +73,7 @@ DataPiece requestedPiece(vtkInformation* request, vtkInformationVector* outputs)
   vtkInformation* output =
     outputs->GetInformationObject(std::max(0, request->Get(Pipeline::FROM_OUTPUT_PORT())));
   return output ? DataPiece{ output->Get(Pipeline::UPDATE_PIECE_NUMBER()),
-                    output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) }
+    output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) }
                 : pieceOfRank();
 }
 
