@@ -114,9 +114,9 @@ void requireSameNumber(std::size_t inputs, const Ranks& ranks)
 //------------------------------------------------------------------------------
 vtkTransportBlend::vtkTransportBlend(bool blocksAreInputs)
   : Dimensions{ 0, 0, 0 }
-  , ParticlesPerCell(1)
+  , ParticlesPerCell(0)
   , MassMode(MASS_LINEAR)
-  , Kernel(CLOUD_IN_CELL)
+  , Kernel(TRIANGULAR_SHAPED_CLOUD)
   , Radius(1.0)
   , BlocksAreInputs(blocksAreInputs)
 {
@@ -160,13 +160,15 @@ int vtkTransportBlend::FillOutputPortInformation(int port, vtkInformation* info)
 //------------------------------------------------------------------------------
 RectifiedTransport::BlendSettings vtkTransportBlend::GetBlendSettings()
 {
-  requireThat(
-    this->ParticlesPerCell >= 1, "ParticlesPerCell", this->ParticlesPerCell, "at least 1");
+  requireThat(this->ParticlesPerCell >= 0, "ParticlesPerCell", this->ParticlesPerCell,
+    "at least 1, or 0 for Auto");
   requireChoice("MassMode", this->MassMode, MassModeTexts);
   BlendSettings settings{};
   settings.Tables = tableSetting(this->Tables);
   std::copy_n(this->Dimensions, 3, settings.Dimensions);
-  settings.ParticlesPerCell = this->ParticlesPerCell;
+  // With fewer, surfaces of solids have terraces; with more, pictures are hardly better.
+  constexpr int autoParticles = 4;
+  settings.ParticlesPerCell = this->ParticlesPerCell > 0 ? this->ParticlesPerCell : autoParticles;
   settings.Mode = static_cast<RectifiedTransport::MassMode>(this->MassMode);
   settings.Flow = this->GetFlowOptions();
   settings.Splat = splatOptions(this->Kernel, this->Radius);

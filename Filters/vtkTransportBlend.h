@@ -96,8 +96,9 @@ public:
   ///@{
   /**
    * The number of particles in each cell of the output's grid, scaled to the unit box: at least 1,
-   * default 1. If it is 4, 9 ... in 2D or 8, 27 ... in 3D, the particles are the centres of a finer
-   * grid, else a fixed low-discrepancy set.
+   * or 0 (default) for Auto, which is 4. If it is 4, 9 ... in 2D or 8, 27 ... in 3D, the particles
+   * are the centres of a finer grid, else a fixed low-discrepancy set. With one, and CloudInCell,
+   * even parts of the output have stripes, and solids spikes. Time and memory grow with it.
    */
   vtkSetMacro(ParticlesPerCell, int);
   vtkGetMacro(ParticlesPerCell, int);
@@ -120,8 +121,8 @@ public:
   ///@{
   /**
    * How the mass of a particle is spread over the image's cells (or dual cells) around it.
-   * CloudInCell (default): linearly over 2 cells along each axis. NearestCell: into the cell that
-   * contains the point (on a face, the upper cell). TriangularShapedCloud: quadratically over 3
+   * CloudInCell: linearly over 2 cells along each axis. NearestCell: into the cell that contains
+   * the point (on a face, the upper cell). TriangularShapedCloud (default): quadratically over 3
    * cells. Gaussian: as a Gaussian of the given Radius.
    */
   vtkSetMacro(Kernel, int);

@@ -164,7 +164,7 @@ int vtkTransportInterpolator::RequestData(
     this->NumberOfTimeSteps, "from 2 to 1000000");
   const double parameter = this->FindParameter(request, outputVector);
   BlendSettings settings = this->GetBlendSettings();
-  settings.AddCost = true;
+  settings.ComparesEnds = true;
   AlgorithmProgress progress(this, this->Threading, this->GetRanks());
   static const char* const names[] = { "Source", "Target" };
   std::vector<BlendInput> inputs = this->ReadInputs(inputVector, names, progress);

@@ -12,9 +12,10 @@
  * and box. The density of the source is input array 0 (SetInputArrayToProcess(0, 0, ...)), that of
  * the target input array 1 (SetInputArrayToProcess(1, 1, ...)). The outputs are those of
  * vtkTransportBlend; the particles also have `SourcePosition` and `TargetPosition` (3 components
- * each, physical). Both outputs have the field data `TransportCost`: the mean of |TargetPosition -
- * SourcePosition|^2 over the mass, in squared physical units. It does not depend on Parameter. It
- * is an upper bound on W2^2 between the densities, each divided by its mass.
+ * each, physical) and `Displacement`, from the first to the second (active vectors). Both outputs
+ * have the field data `TransportCost`: the mean of |Displacement|^2 over the mass, in squared
+ * physical units. It does not depend on Parameter. It is an upper bound on W2^2 between the
+ * densities, each divided by its mass.
  *
  * Parameter 0 gives the source and 1 the target, up to the resolution of the kernel and the number
  * of particles. Cost and memory: see vtkTransportBlend. The maps are kept: a change of Parameter or

@@ -34,6 +34,13 @@ inline std::function<double(vtkIdType)> otherDensity(int nx, int ny, int nz = 1)
   };
 }
 
+// As many particles as cells, each spread over few of them.
+inline void setSimplest(vtkTransportBlend* blend)
+{
+  blend->SetParticlesPerCell(1);
+  blend->SetKernelToCloudInCell();
+}
+
 inline vtkSmartPointer<vtkTransportInterpolator> makeMorph(
   vtkImageData* source, vtkImageData* target, double parameter = 0.5)
 {
@@ -41,6 +48,7 @@ inline vtkSmartPointer<vtkTransportInterpolator> makeMorph(
   morph->SetInputData(source);
   morph->SetTargetData(target);
   morph->SetParameter(parameter);
+  setSimplest(morph);
   return morph;
 }
 
@@ -48,6 +56,7 @@ inline vtkSmartPointer<vtkTransportBarycenter> makeBarycenter(
   const std::vector<vtkImageData*>& images, const Values& weights = {})
 {
   auto barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
+  setSimplest(barycenter);
   for (vtkImageData* image : images)
   {
     barycenter->AddInputDataObject(image);

@@ -79,7 +79,8 @@ class Morph(Blend):
         morph = self.morph()
         self.assertEqual(list(morph.DensityArray), ["CELLS", "Density"])
         self.assertEqual(list(morph.TargetArray), ["CELLS", "Density"])
-        self.assertEqual((morph.Parameter, morph.ParticlesPerCell), (0.5, 1))
+        self.assertEqual((morph.Parameter, morph.ParticlesPerCell), (0.5, 0))
+        self.assertEqual(morph.Kernel, "TriangularShapedCloud")
         self.assertEqual(list(morph.GetProperty("MassMode").GetAvailable()),
                          ["Linear", "Geometric", "Source", "Normalize"])
         self.assertEqual(list(morph.GetProperty("Kernel").GetAvailable()),
@@ -94,7 +95,7 @@ class Morph(Blend):
         self.assertEqual(morph["Particles"].Port, 1)
         self.assertEqual(list(morph.CellData.keys()), ["Density"])
         self.assertEqual(set(morph["Particles"].PointData.keys()),
-                         {"SourcePosition", "TargetPosition", "Mass"})
+                         {"SourcePosition", "TargetPosition", "Displacement", "Mass"})
         image = morph.GetDataInformation()
         self.assertEqual(list(image.GetExtent()), [0, 12, 0, 10, 0, 0])
         self.assertEqual(morph.FieldData["TotalMass"].GetNumberOfComponents(), 1)
@@ -328,7 +329,7 @@ class Barycenter(Blend):
 
     def test_particles(self):
         particles = particles_of(self.barycenter())
-        self.assertEqual(particles.GetNumberOfPoints(), 120)
+        self.assertEqual(particles.GetNumberOfPoints(), 4 * 120)
         self.assertEqual(particles.GetPointData().GetNumberOfArrays(), 1)
 
 

@@ -261,23 +261,29 @@ def warp_runs():
 
 def blend_runs():
     morph, barycenter = rt.vtkTransportInterpolator, rt.vtkTransportBarycenter
+    yield "morph by default", morph, [image(), image(seed=5)], {}
+    simplest = dict(ParticlesPerCell=1, Kernel=0)
     for shape in ((200,), (61, 47), (23, 17, 19)):
         yield f"morph {len(shape)}D", morph, [image(shape), image(shape, seed=5)], dict(
-            Parameter=0.3)
+            simplest, Parameter=0.3)
     for mode in range(4):
-        yield f"morph mass {mode}", morph, [image(), image(seed=5)], dict(MassMode=mode)
+        yield f"morph mass {mode}", morph, [image(), image(seed=5)], dict(
+            simplest, MassMode=mode)
     for kernel, name in enumerate(KERNELS):
         yield f"morph {name}", morph, [image(), image((50, 60), seed=5, origin=(3, 3, 3))], dict(
             Kernel=kernel, ParticlesPerCell=kernel + 1, Radius=1.5)
     yield "morph of other values", morph, [image(cells=False), image(seed=2)], dict(
-        Dimensions=(40, 0, 0))
-    yield "morph Adaptive", morph, [image(), image(seed=5)], dict(Integrator=3)
+        simplest, Dimensions=(40, 0, 0))
+    yield "morph Adaptive", morph, [image(), image(seed=5)], dict(
+        simplest, Integrator=3)
     inputs = [image(seed=s) for s in range(3)]
-    yield "barycenter 2D", barycenter, [inputs], dict(Weights=[1, 2, 0.5])
+    yield "barycenter 2D", barycenter, [inputs], dict(
+        simplest, Weights=[1, 2, 0.5])
     blocks = vtkMultiBlockDataSet()
     for k in range(3):
         blocks.SetBlock(k, image((23, 17, 19), seed=k))
-    yield "barycenter of blocks 3D", barycenter, [blocks], dict(Weights=[1, 0, 3])
+    yield "barycenter of blocks 3D", barycenter, [blocks], dict(
+        simplest, Weights=[1, 0, 3])
 
 
 def splat_runs():

@@ -33,8 +33,10 @@ NOT_COMPARED = {
     ("particles", "cgns"): "neither vertices nor lines are written",
     ("particles", "csv"): "rows are those of the field data where there are no others",
     ("particles", "e"): "points of no cell are not written, and lines not read",
+    ("particles", "pdf"): "GDAL's reader reads no drawing",
     ("particles", "stl"): "triangles alone",
     ("surface", "csv"): "rows are cells where the arrays are theirs",
+    ("surface", "pdf"): "GDAL's reader reads no drawing",
 }
 
 

@@ -158,12 +158,13 @@ class XML(unittest.TestCase):
                 self.assertIsNone(prop.element.get("override"))
 
     def test_choices(self):
-        for case, _, prop in self.each_property():
+        for case, proxy, prop in self.each_property():
             with case:
                 if prop.texts:
                     expected = {str(i): text for i, text in enumerate(PROPERTIES[prop.name].choices)}
                     self.assertEqual(prop.texts, expected)
-                    self.assertEqual(prop.default, "0")
+                    self.assertEqual(prop.texts[prop.default], by_label(proxy.label).defaults.get(
+                        prop.name, prop.texts["0"]))
 
     def test_commands(self):
         for case, proxy, prop in self.each_property():

@@ -15,6 +15,7 @@ VOLUME = ("FirstDisplay", {"dimension": "3", "type": "Volume", "array": "Density
 BLEND = [("View", {"type": "None", "port": "1"}),
          *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
          ("FirstDisplay", {"port": "0", **VOLUME[1]})]
+SMOOTH = {"Kernel": "TriangularShapedCloud"}
 
 
 class Filter(NamedTuple):
@@ -34,6 +35,7 @@ class Filter(NamedTuple):
     saved: dict = {}       # values that are no defaults and have to come back from a state
     shown: list = []       # hints of how an output is shown at first, where it is not as ParaView shows all
     always_shown: tuple = ()     # properties that mean something else here than PROPERTIES has them mean
+    defaults: dict = {}          # choices that are not the first one here
     slow_at_highest: tuple = ()  # properties that take 10 GB at their highest value
     gives_table: bool = False
     on_ranks: bool = True  # whether ParaView offers it on servers of several processes
@@ -92,10 +94,11 @@ FILTERS = [
            refused=("Parameter", 2, 0.5),
            saved=dict(Parameter=0.25, MassMode="Geometric", Kernel="Gaussian", Radius=2,
                       ParticlesPerCell=2, Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7),
-           shown=BLEND),
+           shown=BLEND, defaults=SMOOTH),
     Filter("Density Barycenter", "vtkTransportBarycenter",
-           {"Input": "densities"}, outputs=["Density", "Particles"], refused=("ParticlesPerCell", 0, 1),
-           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1), shown=BLEND),
+           {"Input": "densities"}, outputs=["Density", "Particles"], refused=("ParticlesPerCell", -1, 1),
+           saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1), shown=BLEND,
+           defaults=SMOOTH),
     Filter("Splat Mass", "vtkMassSplatter",
            {"Input": "points"}, {"Reference": "image"},
            refused=("Radius", 0, 1), quick=dict(Dimensions=[8, 7, 6]),

@@ -65,8 +65,8 @@ std::array<std::int64_t, 3> cellsOf(const ImageGrid& geometry)
 
 void requireMemoryFor(double particles, std::size_t inputs)
 {
-  // Positions for each input and their mean, masses and vertices.
-  const double each = 24.0 * static_cast<double>(inputs + 1) + 24.0;
+  // Positions for each input and their mean, displacements, masses and vertices.
+  const double each = 24.0 * static_cast<double>(inputs + 2) + 24.0;
   std::ostringstream purpose;
   purpose.precision(20);
   purpose << particles << " particles (see ParticlesPerCell and Dimensions)";
@@ -135,7 +135,9 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   const std::size_t newMaps = this->MatchMaps(inputs, pivot, progress);
   if (newMaps > 0)
   {
-    this->Means = this->Masses = this->Density = nullptr; // releases memory for the tables
+    // Releases memory for the tables.
+    this->Means = this->Masses = this->Density = this->Displacements = nullptr;
+    this->Ends = {};
   }
   const double maps =
     stageEnds({ static_cast<double>(newMaps) * Cost::flow(settings.Flow, geometry.Dimension()),
@@ -149,19 +151,23 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   requireFiniteDensity(mass, target, "The particles' masses", "or the cells larger");
   const double massEach = mass / static_cast<double>(count);
   double cost = 0.0;
-  if (settings.AddCost)
+  if (settings.ComparesEnds)
   {
     progress.BeginStage(maps + partOfCost * (1.0 - maps));
-    cost = this->CostBetweenEnds(geometry, count, progress);
+    cost = this->CompareEnds(geometry, count, progress);
   }
   const double particles = maps + partOfParticles * (1.0 - maps);
+  if (settings.ComparesEnds)
+  {
+    output.Particles->GetPointData()->SetVectors(this->Displacements);
+  }
   this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
   progress.BeginStage(1.0);
   this->WriteDensity(target, massEach, wanted, progress, output.Density);
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
   {
-    if (settings.AddCost)
+    if (settings.ComparesEnds)
     {
       addFieldValue(part, "TransportCost", cost);
     }
@@ -267,9 +273,10 @@ void DensityBlend::TakeMeans(const std::vector<BlendInput>& inputs, Progress& pr
     [&](std::int64_t first, std::int64_t last) { writeWeightedMean(parts, first, last, means); });
 }
 
-// The mean of |y - x|^2 over the positions x and y of all particles in the two inputs. As the work
-// of the current stage, but where the maps are those of the last call.
-double DensityBlend::CostBetweenEnds(
+// Takes the displacements y - x of the particles between their positions x and y in the two inputs.
+// Returns the mean of |y - x|^2 over all of them. As the work of the current stage, but where the
+// maps are those of the last call.
+double DensityBlend::CompareEnds(
   const ImageGrid& geometry, std::int64_t particles, Progress& progress)
 {
   const std::array<vtkDoubleArray*, 2> ends = { this->Maps[0].Positions(),
@@ -281,6 +288,8 @@ double DensityBlend::CostBetweenEnds(
   const std::int64_t count = ends[0]->GetNumberOfTuples();
   const ConstPointSpan<3> from(ends[0]->GetPointer(0), count);
   const ConstPointSpan<3> to(ends[1]->GetPointer(0), count);
+  this->Displacements = newArray<vtkDoubleArray>("Displacement", 3, count);
+  const PointSpan<3> displacements(this->Displacements->GetPointer(0), count);
   const LengthScale scale(geometry);
   constexpr std::int64_t grain = std::int64_t{ 1 } << 12;
   const auto own = sumExactly<ExactSum>(
@@ -288,6 +297,10 @@ double DensityBlend::CostBetweenEnds(
       for (std::int64_t i = first; i < last; ++i)
       {
         sum.Add(scale.SquaredDistanceInUnits(to[i], from[i]));
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          displacements[i][axis] = to[i][axis] - from[i][axis];
+        }
       }
     });
   const ExactSum squares = sumOverRanks(progress.Group(), own);

@@ -57,7 +57,7 @@ struct BlendSettings
   FlowOptions Flow;
   TableSetting Tables;
   SplatOptions Splat;
-  bool AddCost = false; // of two inputs: TransportCost
+  bool ComparesEnds = false; // of two inputs: gives TransportCost and Displacement
 };
 
 // The outputs of vtkTransportBlend: the density on port 0, the particles on port 1.
@@ -85,7 +85,7 @@ private:
     const LinearizedMapSettings& settings, Progress& progress);
   std::int64_t MakeMaps(const std::vector<BlendInput>& inputs,
     const LinearizedMapSettings& settings, FlowCache& tables, Progress& progress, double end);
-  double CostBetweenEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
+  double CompareEnds(const ImageGrid& geometry, std::int64_t particles, Progress& progress);
   void TakeMeans(const std::vector<BlendInput>& inputs, Progress& progress);
   double TotalMass(const std::vector<BlendInput>& inputs, MassMode mode) const;
   void WriteParticles(const std::vector<BlendInput>& inputs, const ImageGrid& geometry,
@@ -95,9 +95,10 @@ private:
     vtkImageData* output);
 
   std::vector<LinearizedMap> Maps;
-  // The arrays of the last CostBetweenEnds.
+  // The arrays of the last CompareEnds.
   std::array<vtkWeakPointer<vtkDoubleArray>, 2> Ends;
   double EndsCost = 0.0;
+  vtkSmartPointer<vtkDoubleArray> Displacements;
   vtkSmartPointer<vtkCellArray> Vertices; // reused while the number of particles is the same
   // The arrays of the last output, reused if they have no other owner: the system clears new
   // memory, and that takes as long as all other work after the maps.

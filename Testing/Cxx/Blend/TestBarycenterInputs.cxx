@@ -48,6 +48,7 @@ void checkComposite(Checks& checks)
   blocks->SetBlock(2, inner);
   blocks->SetBlock(5, in.C);
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   setWeights(barycenter, weights);
   barycenter->SetInputDataObject(blocks);
   CHECK(checks, runDensity(barycenter) == expected);
@@ -107,6 +108,7 @@ void checkDownstream(Checks& checks)
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(blocks);
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   barycenter->SetInputConnection(producer->GetOutputPort());
   Messages messages(barycenter);
   vtkNew<vtkContourFilter> contour;
@@ -180,6 +182,7 @@ void checkErrors(Checks& checks)
   vtkNew<vtkTable> table;
   auto blocks = makeBlocks({ table, table });
   barycenter = vtkSmartPointer<vtkTransportBarycenter>::New();
+  setSimplest(barycenter);
   barycenter->SetInputDataObject(blocks);
   ErrorTest(checks, barycenter)
     .Expect("The inputs have no image, mesh or grid, but 2 blocks of another type", __LINE__);

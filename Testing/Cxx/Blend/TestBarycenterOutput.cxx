@@ -119,6 +119,7 @@ void checkMass(Checks& checks)
 void checkList(Checks& checks)
 {
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   Messages messages(barycenter);
   CHECK(checks, barycenter->GetNumberOfWeights() == 0 && barycenter->GetWeight(0) == 0.0);
   barycenter->SetWeight(2, 4.0);

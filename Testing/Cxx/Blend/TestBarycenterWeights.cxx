@@ -9,6 +9,7 @@ namespace
 void checkList(Checks& checks)
 {
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   CHECK(checks, barycenter->GetNumberOfWeights() == 0 && barycenter->GetWeight(0) == 0.0);
   barycenter->SetWeight(2, 5.0);
   barycenter->SetWeight(0, 3.0);
@@ -38,6 +39,7 @@ void checkList(Checks& checks)
 void checkBelow(Checks& checks)
 {
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   barycenter->SetWeight(0, 3.0);
   Messages messages(barycenter);
   barycenter->SetWeight(-1, 2.0);

@@ -55,8 +55,8 @@ void checkProperties(Checks& checks)
   test.ExpectNone(30, __LINE__);
   morph->PublishTimeOff();
   morph->SetNumberOfTimeSteps(2);
-  morph->SetParticlesPerCell(0);
-  test.Expect("ParticlesPerCell is 0; it must be at least 1", __LINE__);
+  morph->SetParticlesPerCell(-1);
+  test.Expect("ParticlesPerCell is -1; it must be at least 1, or 0 for Auto", __LINE__);
   morph->SetParticlesPerCell(1);
   for (const int wrong : { -1, 4 })
   {

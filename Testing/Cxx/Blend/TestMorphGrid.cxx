@@ -188,6 +188,7 @@ void checkUpstream(Checks& checks)
   vtkNew<vtkRTAnalyticSource> target;
   target->SetWholeExtent(0, 20, -3, 4, 5, 11);
   vtkNew<vtkTransportInterpolator> morph;
+  setSimplest(morph);
   morph->SetInputConnection(source->GetOutputPort());
   morph->SetTargetConnection(target->GetOutputPort());
   morph->SetNegativeValuesToClamp();

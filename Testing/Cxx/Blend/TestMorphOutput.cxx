@@ -6,6 +6,8 @@
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+#include <functional>
 #include <set>
 
 namespace
@@ -331,8 +333,15 @@ void checkArrays(Checks& checks)
       CHECK(checks, size == 1 && points[0] == i);
     }
     CHECK(checks, particles->GetPoints()->GetDataType() == VTK_DOUBLE);
-    CHECK(checks, particles->GetPointData()->GetNumberOfArrays() == 3);
-    for (const char* name : { "SourcePosition", "TargetPosition", "Mass" })
+    CHECK(checks, particles->GetPointData()->GetNumberOfArrays() == 4);
+    vtkDataArray* ways = particles->GetPointData()->GetVectors();
+    CHECK(checks, ways && ways == pointArray(particles, "Displacement"));
+    Values expected = particleValues(morph, "TargetPosition");
+    const Values from = particleValues(morph, "SourcePosition");
+    std::transform(
+      expected.begin(), expected.end(), from.begin(), expected.begin(), std::minus<>());
+    CHECK(checks, particleValues(morph, "Displacement") == expected);
+    for (const char* name : { "SourcePosition", "TargetPosition", "Displacement", "Mass" })
     {
       vtkDataArray* array = pointArray(particles, name);
       CHECK(checks, array && array->GetNumberOfTuples() == count);

@@ -163,6 +163,7 @@ void checkInputs(Checks& checks, bool hasSteps)
   target->Times = { 0.5, 2.0 };
   source->HasSteps = target->HasSteps = hasSteps;
   vtkNew<vtkTransportInterpolator> morph;
+  setSimplest(morph);
   morph->SetInputConnection(source->GetOutputPort());
   morph->SetTargetConnection(target->GetOutputPort());
   morph->PublishTimeOn();
@@ -203,6 +204,7 @@ void checkBarycenter(Checks& checks)
   vtkNew<TimedDensity> second;
   second->Times = { 0.5, 2.0 };
   vtkNew<vtkTransportBarycenter> barycenter;
+  setSimplest(barycenter);
   barycenter->AddInputConnection(first->GetOutputPort());
   barycenter->AddInputConnection(second->GetOutputPort());
   CHECK(checks, publishedTimes(barycenter) == Values({ 0.5, 2.0, 4.0, 6.0, 9.0 }));

@@ -103,6 +103,7 @@ void checkFilters(Checks& checks)
   }
 
   vtkNew<vtkTransportInterpolator> morph;
+  morph->SetParticlesPerCell(1);
   morph->SetInputData(density());
   morph->SetTargetData(makeImage(side, side - 7, 8, false, bumpy));
   expectTheSame(
