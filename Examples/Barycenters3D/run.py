@@ -28,7 +28,8 @@ def main():
         example.result(solid)
     voxels = watch.lap()
     # With the default of 32 steps one particle ends beside a solid, and the filter warns.
-    mean = simple.DensityBarycenter(Input=solids, Kernel="Gaussian", NumberOfSteps=48)
+    mean = simple.DensityBarycenter(Input=solids, ParticlesPerCell=1, Kernel="Gaussian",
+                                    NumberOfSteps=48)
     step, last = arguments.panel, arguments.rows - 1
     picture = np.full((arguments.rows * step, arguments.rows * step, 3), 255, np.uint8)
     times = []

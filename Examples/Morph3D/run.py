@@ -28,7 +28,8 @@ def morph(names, options):
             solid = example.producer(shapes.cubed(density, options.resolution))
         took("solid of " + name)
         solids.append(solid)
-    between = simple.MorphDensities(solids[0], Target=solids[1], Kernel=options.kernel)
+    between = simple.MorphDensities(solids[0], Target=solids[1], ParticlesPerCell=1,
+                                    Kernel=options.kernel)
     pictures = []
     for t in np.linspace(0, 1, options.frames):
         watch.lap()

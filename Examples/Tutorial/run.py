@@ -111,13 +111,12 @@ def compare_two_fields(pixels):
     moments = [simple.XMLImageDataReader(registrationName=name, FileName=[path])
                for name, path in zip(("Earlier", "Later"), PLUME)]
     morph = simple.MorphDensities(moments[0], registrationName="Between", Target=moments[1],
-                                  Parameter=0, NumberOfSteps=48)
+                                  Parameter=0, ParticlesPerCell=1, Kernel="CloudInCell",
+                                  NumberOfSteps=48)
     particles = simple.OutputPort(morph, 1)
-    ways = simple.Calculator(registrationName="Ways", Input=particles, ResultArrayName="Way",
-                             Function="TargetPosition-SourcePosition")
-    arrows = simple.Glyph(registrationName="Arrows", Input=ways, GlyphType="Arrow")
-    arrows.OrientationArray = ["POINTS", "Way"]
-    arrows.ScaleArray = ["POINTS", "Way"]
+    arrows = simple.Glyph(registrationName="Arrows", Input=particles, GlyphType="Arrow")
+    arrows.OrientationArray = ["POINTS", "Displacement"]
+    arrows.ScaleArray = ["POINTS", "Displacement"]
     arrows.ScaleFactor = 1
     arrows.GlyphMode = "Every Nth Point"
     arrows.Stride = 611
@@ -131,7 +130,7 @@ def compare_two_fields(pixels):
         example.paint(shown, colour)
         shown.Opacity = 0.25
     shown = simple.Show(arrows, view)
-    colours = example.colour_by(shown, view, ("POINTS", "Way", "Magnitude"), "Viridis")
+    colours = example.colour_by(shown, view, ("POINTS", "Displacement", "Magnitude"), "Viridis")
     legend = simple.GetScalarBar(colours, view)
     legend.Title, legend.ComponentTitle = "way, m", ""
     legend.TitleColor = legend.LabelColor = [0, 0, 0]

@@ -88,6 +88,22 @@ class Morph(Blend):
         self.assertTrue(morph.GetProperty("Parameter").SMProperty.GetAnimateable())
         np.testing.assert_array_equal(run(morph), morph_of(*self.images[:2]))
 
+    def test_no_stripes(self):
+        """Even parts stay even by default, between an even density and a disc on a faint ground; not with
+        a particle a cell that is spread over two."""
+        y, x = np.mgrid[:96, :96] / 96
+        disc = 0.2 + 1.0 * ((x - 0.5) ** 2 + (y - 0.5) ** 2 < 0.04)
+        inputs = [producer(simple, density_image((96, 96), values=values.ravel()))
+                  for values in (np.ones((96, 96)), disc)]
+
+        def unevenness(**properties):
+            morph = simple.MorphDensities(inputs[0], Target=inputs[1], **properties)
+            values = run(morph).reshape(96, 96)[40:56, 40:56]
+            around = sum(np.roll(values, step, axis) for step in (-1, 1) for axis in (0, 1)) / 4
+            return (values - around)[1:-1, 1:-1].std() / values.mean()
+        self.assertLess(unevenness(), 0.006)
+        self.assertGreater(unevenness(ParticlesPerCell=1, Kernel="CloudInCell"), 0.03)
+
     def test_outputs(self):
         morph = self.morph()
         morph.UpdatePipeline()
