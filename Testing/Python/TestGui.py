@@ -82,7 +82,7 @@ class Gui(unittest.TestCase):
         return ElementTree.parse(state).getroot()
 
     def test_first_stippling(self):
-        """The README's six clicks, on a photograph that ParaView itself opens."""
+        """The README's clicks, on a photograph that ParaView itself opens: at once a picture in dots."""
         photograph = os.path.join(SOURCE, "Testing", "Data", "raccoon.png")
         saved = self.state_after("gui-first-stippling.png", *first_stippling(photograph),
                                  script_text="# %s")
@@ -92,6 +92,17 @@ class Gui(unittest.TestCase):
                     for prop in found["TransportSampler"].iter("Property")
                     if prop.get("name") == "InvertDensity"]
         self.assertEqual(inverted, ["1"])
+        shown = found["GeometryRepresentation"]
+        values = {prop.get("name"): [e.get("value") for e in prop.findall("Element")]
+                  for prop in shown.iter("Property")}
+        self.assertEqual(values["Representation"], ["Point Gaussian"])
+        self.assertEqual(values["ShaderPreset"], ["3"])  # Plain circle
+        self.assertEqual(values["DiffuseColor"], ["0", "0", "0"])  # the background is white
+        with Image.open(os.path.join(OUTPUT, "gui-first-stippling.png")) as picture:
+            view = picture.convert("L").crop((320, 210, 1130, 710))
+        self.assertEqual(view.getextrema(), (0, 255))
+        dark = sum(view.histogram()[:128]) / (view.width * view.height)
+        self.assertTrue(0.1 < dark < 0.6, dark)
 
     def test_tutorial(self):
         """Its states open in the window, with their data and their views."""

@@ -37,7 +37,7 @@ def open_state(path):
 
 
 def first_stippling(photograph):
-    """A photograph is opened, and the README's six clicks follow."""
+    """A photograph is opened, and the README's clicks follow, up to a picture."""
     return (("menubar/menu_File", "activate", "actionFileOpen"),
             ("FileOpenDialog", "filesSelected", photograph),
             ("pqSelectReaderDialog/listWidget", "currentChanged", "/1|0"),  # PNG Series Reader
@@ -46,7 +46,6 @@ def first_stippling(photograph):
             choose("Filters", "TransportSampler"),
             tick("InvertDensity"),
             APPLY,
-            ("variableToolbar/displayColor/Variables", "set_string", "Solid Color"),
             ("MainControlsToolbar/1QToolButton12", "activate", ""),  # palettes
             ("/LoadPaletteMenu", "activate", "White Background"),
             ("cameraToolbar/1QToolButton3", "activate", ""))  # Zoom Closest To Data
