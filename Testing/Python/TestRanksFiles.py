@@ -46,9 +46,20 @@ class RanksFiles(unittest.TestCase):
                 "three": run(3, "three", "two-image.pvti", "two-cells.pvti", "whole.vti",
                              "whole.raw"),
                 "two of three": run(2, "none", "three-image.pvti", "three-cells.pvti")}
-            cls.alone = run(1, "none", "two-image.pvti", "three-image.pvti", "two-cells.pvti",
+            cls.alone = run(1, "alone", "two-image.pvti", "three-image.pvti", "two-cells.pvti",
                             "two-sample.pvtp", "three-sample.pvtp", "two-map.pvti",
                             "three-map.pvti")
+            cls.drawings = {}
+            for name in ("alone", "two", "three"):
+                with open(os.path.join(folder, name + "-drawing.svg"), encoding="utf-8") as file:
+                    cls.drawings[name] = sorted(file)
+
+    def test_drawings(self):
+        """All dots are in one file, in the order of the ranks that have them."""
+        alone = self.drawings["alone"]
+        self.assertEqual(sum("<circle" in line for line in alone), 400)
+        self.assertEqual(self.drawings["two"], alone)
+        self.assertEqual(self.drawings["three"], alone)
 
     def same(self, ranks, name, expected):
         """An output on ranks is that of one rank."""

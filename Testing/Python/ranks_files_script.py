@@ -57,6 +57,7 @@ def main(path, folder, name, *files):
                                  ("map.pvti", field)):
                 simple.SaveData(os.path.join(folder, "%s-%s" % (name, kind)), proxy=output,
                                 **INLINE)
+            simple.SaveData(os.path.join(folder, name + "-drawing.svg"), proxy=sample)
             cells = simple.PointDatatoCellData(Input=image)
             simple.SaveData(os.path.join(folder, name + "-cells.pvti"), proxy=cells, **INLINE)
     with open("%s.%d" % (path, RANK), "wb") as file:
