@@ -261,7 +261,7 @@ class RanksErrors(unittest.TestCase):
         for name in (*("morph " + name for name in RIGHT), *RIGHT_BLENDS):
             with self.subTest(name):
                 self.assertEqual(self.errors(name), [[]] * RANKS)
-                self.assertEqual(sum(self.points(name)), 6 * 5 * 12)
+                self.assertEqual(sum(self.points(name)), 4 * 6 * 5 * 12)
                 self.assertEqual(sum(rank[name][2] for rank in self.given), 6 * 5 * 12)
         for name in ("morph none has any", "morph abort"):
             self.assertEqual([rank[name] for rank in self.given], [[0, [], 0]] * RANKS)
