@@ -24,8 +24,8 @@ using Blend = vtkTransportBlend;
 
 void drawBlend(Settings& settings)
 {
-  settings.Draw<Blend, int>("ParticlesPerCell", &Blend::SetParticlesPerCell, { 1, 2, 3, 4, 8 },
-    { 0, -1, std::numeric_limits<int>::min() });
+  settings.Draw<Blend, int>("ParticlesPerCell", &Blend::SetParticlesPerCell, { 0, 1, 2, 3, 4, 8 },
+    { -1, std::numeric_limits<int>::min() });
   settings.Draw<Blend, int>("MassMode", &Blend::SetMassMode, { 0, 1, 2, 3 }, { -1, 4 });
   settings.Draw<Blend, int>("Kernel", &Blend::SetKernel, { 0, 1, 2, 3 }, { -1, 4 });
   settings.Draw<Blend, double>("Radius", &Blend::SetRadius, { 1e-300, 0.3, 1.0, 2.5 },
@@ -92,7 +92,8 @@ void checkBlend(vtkAlgorithm* filter, const Inputs& inputs, const std::vector<do
   requireVertices(particles, findings);
   const bool onPoints = image->GetPointData()->GetArray("Density") != nullptr;
   const vtkIdType values = onPoints ? image->GetNumberOfPoints() : image->GetNumberOfCells();
-  findings.That(count == values * blend->GetParticlesPerCell(), "ParticlesPerCell");
+  const int each = blend->GetParticlesPerCell() > 0 ? blend->GetParticlesPerCell() : 4;
+  findings.That(count == values * each, "ParticlesPerCell");
   vtkDataArray* density = requireDensity(image, onPoints, findings);
   vtkDataArray* mass = requireArray(particles->GetPointData(), "Mass", 1, count, findings);
   const double total = requireField(image, "TotalMass", findings);
