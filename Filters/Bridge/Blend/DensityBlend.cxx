@@ -63,10 +63,10 @@ std::array<std::int64_t, 3> cellsOf(const ImageGrid& geometry)
   return grid;
 }
 
-void requireMemoryFor(double particles, std::size_t inputs)
+void requireMemoryFor(double particles, std::size_t inputs, bool withDisplacements)
 {
   // Positions for each input and their mean, displacements, masses and vertices.
-  const double each = 24.0 * static_cast<double>(inputs + 2) + 24.0;
+  const double each = 24.0 * static_cast<double>(inputs + (withDisplacements ? 2 : 1)) + 24.0;
   std::ostringstream purpose;
   purpose.precision(20);
   purpose << particles << " particles (see ParticlesPerCell and Dimensions)";
@@ -123,7 +123,7 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   const Ranks& ranks = progress.Group();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
   const double all = numberOfValues(geometry) * settings.ParticlesPerCell;
-  requireMemoryFor(all / ranks.Count(), inputs.size());
+  requireMemoryFor(all / ranks.Count(), inputs.size(), settings.ComparesEnds);
   requireCells(geometry);
   const auto count = static_cast<std::int64_t>(all);
   const LinearizedMapSettings pivot{ cellsOf(geometry), settings.ParticlesPerCell, settings.Flow,
@@ -155,12 +155,9 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   {
     progress.BeginStage(maps + partOfCost * (1.0 - maps));
     cost = this->CompareEnds(geometry, count, progress);
-  }
-  const double particles = maps + partOfParticles * (1.0 - maps);
-  if (settings.ComparesEnds)
-  {
     output.Particles->GetPointData()->SetVectors(this->Displacements);
   }
+  const double particles = maps + partOfParticles * (1.0 - maps);
   this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
   progress.BeginStage(1.0);
   this->WriteDensity(target, massEach, wanted, progress, output.Density);
