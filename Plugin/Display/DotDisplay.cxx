@@ -31,6 +31,12 @@ int dimensionOf(const double bounds[6])
   return dimension;
 }
 
+std::string typeOf(vtkSMProxy* representation)
+{
+  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
+  return type ? type : "";
+}
+
 namespace
 {
 
@@ -131,23 +137,19 @@ public:
     this->IsFlat = dimensionOf(spread.Bounds.data()) < 3;
     vtkSMPropertyHelper(representation, "ShaderPreset")
       .Set(this->IsFlat ? "Plain circle" : "Sphere");
-    if (this->IsFlat)
-    {
-      representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
-      this->UseColour();
-    }
     this->UseRadius(spread);
-    representation->UpdateVTKObjects();
-
     producer->AddObserver(vtkCommand::UpdateDataEvent, this);
     if (this->IsFlat && this->View)
     {
+      representation->SetScalarColoring(nullptr, vtkDataObject::POINT);
+      this->UseColour();
       this->View->AddObserver(vtkCommand::PropertyModifiedEvent, this);
       if (vtkSMProxy* palette = paletteOf(this->View))
       {
         palette->AddObserver(vtkCommand::PropertyModifiedEvent, this);
       }
     }
+    representation->UpdateVTKObjects();
   }
 
   void Execute(vtkObject*, unsigned long event, void* data) override
@@ -177,7 +179,8 @@ private:
   {
     const Spread spread(this->Data());
     vtkSMPropertyHelper radius(this->Representation, "GaussianRadius");
-    if (radius.GetAsDouble() == this->Radius && !spread.IsLike(this->Known))
+    if (typeOf(this->Representation) == typeOfDots && radius.GetAsDouble() == this->Radius &&
+      !spread.IsLike(this->Known))
     {
       this->UseRadius(spread);
       this->Representation->UpdateVTKObjects();

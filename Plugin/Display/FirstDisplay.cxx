@@ -166,7 +166,7 @@ void setProperty(vtkSMProxy* proxy, const char* name, const char* text)
 
 bool showsDots(vtkPVXMLElement* element)
 {
-  const char* type = element->GetAttribute("type");
+  const char* type = element ? element->GetAttribute("type") : nullptr;
   return type && std::string(type) == "Dots";
 }
 
@@ -190,12 +190,6 @@ void apply(vtkPVXMLElement* element, vtkSMSourceProxy* producer, int port,
   representation->UpdateVTKObjects();
 }
 
-std::string typeOf(vtkSMProxy* representation)
-{
-  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
-  return type ? type : "";
-}
-
 // Follows the producer's properties, which say what the next data will be. Colours take their range
 // from these data once they are there; a type cannot be changed while the view updates.
 class Follower : public vtkCommand
@@ -210,7 +204,7 @@ public:
     this->Port = port;
     this->Representation = representation;
     this->Remember(elementFor(producer, port));
-    this->HasDots = this->Applied && showsDots(this->Applied);
+    this->HasDots = showsDots(this->Applied);
     producer->AddObserver(vtkCommand::UpdateEvent, this);
     producer->AddObserver(vtkCommand::UpdateDataEvent, this);
   }
@@ -228,7 +222,7 @@ public:
       {
         this->Representation->RescaleTransferFunctionToDataRange();
       }
-      if (this->Applied && showsDots(this->Applied) && !std::exchange(this->HasDots, true))
+      if (showsDots(this->Applied) && !std::exchange(this->HasDots, true))
       {
         showDots(producer, this->Port, this->Representation);
       }

@@ -2,9 +2,8 @@
 #include "Display/vtkSMDensityArrayDomain.h"
 
 #include "Bridge/Image/IdNames.h"
+#include "Display/ClassByName.h"
 
-#include "vtkClientServerInterpreter.h"
-#include "vtkClientServerInterpreterInitializer.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkObjectFactory.h"
@@ -97,20 +96,6 @@ int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useU
 namespace
 {
 
-vtkObjectBase* newDomain(void*)
-{
-  return vtkSMDensityArrayDomain::New();
-}
-
-void addDomain(vtkClientServerInterpreter* interpreter)
-{
-  interpreter->AddNewInstanceFunction("vtkSMDensityArrayDomain", newDomain);
-}
-
-// When the plugin's library is loaded. ParaView makes domains by the names of their classes.
-const bool isRegistered = []() {
-  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(addDomain);
-  return true;
-}();
+const bool isRegistered = RectifiedTransport::registerClass<vtkSMDensityArrayDomain>();
 
 } // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Display/vtkSMVectorWriterInitializationHelper.h"
 
-#include "vtkClientServerInterpreter.h"
-#include "vtkClientServerInterpreterInitializer.h"
+#include "Display/ClassByName.h"
+
 #include "vtkObjectFactory.h"
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMProperty.h"
@@ -75,20 +75,7 @@ void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
 namespace
 {
 
-vtkObjectBase* newHelper(void*)
-{
-  return vtkSMVectorWriterInitializationHelper::New();
-}
-
-void addHelper(vtkClientServerInterpreter* interpreter)
-{
-  interpreter->AddNewInstanceFunction("vtkSMVectorWriterInitializationHelper", newHelper);
-}
-
-// When the plugin's library is loaded. ParaView makes helpers by the names of their classes.
-const bool isRegistered = []() {
-  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(addHelper);
-  return true;
-}();
+const bool isRegistered =
+  RectifiedTransport::registerClass<vtkSMVectorWriterInitializationHelper>();
 
 } // namespace

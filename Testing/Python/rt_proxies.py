@@ -59,7 +59,8 @@ class Proxy:
         self.groups = [e for e in every if e.tag == "PropertyGroup"]
 
 
-def concrete(in_menu):
+def concrete(*groups):
+    """The proxies in some groups that have a class."""
     elements = {}
     for path in sorted(glob.glob(os.path.join(SOURCE, "Plugin", "*.xml"))):
         for group in ElementTree.parse(path).getroot():
@@ -71,17 +72,17 @@ def concrete(in_menu):
         return (chain(elements[base]) if base[0] else []) + [element]
 
     return [Proxy(group, chain(element)) for (group, _), element in elements.items()
-            if in_menu(group) and element.get("class")]
+            if group in groups and element.get("class")]
 
 
 def proxies():
     """The filters and sources."""
-    return concrete(lambda group: group in ("filters", "sources"))
+    return concrete("filters", "sources")
 
 
 def written_files():
     """What the writers of ParaView's menu make files with."""
-    return concrete(lambda group: group == "internal_writers")
+    return concrete("internal_writers")
 
 
 def instance(proxy):

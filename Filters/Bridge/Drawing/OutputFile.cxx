@@ -36,7 +36,7 @@ OutputFile::OutputFile(const std::string& name)
 
 OutputFile::~OutputFile()
 {
-  if (this->Stream.is_open() || !this->IsClosed)
+  if (!this->IsClosed)
   {
     this->Stream.close();
     std::error_code ignored;

@@ -25,6 +25,15 @@ void DrawnBounds::Include(const double* point, double radius)
   }
 }
 
+void DrawnBounds::Include(const DrawnBounds& other, double radius)
+{
+  if (!other.IsEmpty())
+  {
+    this->Include(other.Lower.data(), radius);
+    this->Include(other.Upper.data(), radius);
+  }
+}
+
 std::array<std::size_t, 2> DrawnBounds::LongestAxes() const
 {
   std::size_t shortest = 2;

@@ -17,6 +17,8 @@ class DrawnBounds
 public:
   DrawnBounds();
   void Include(const double* point, double radius = 0.0);
+  // Other bounds, and what lies around them up to this distance.
+  void Include(const DrawnBounds& other, double radius);
 
   bool IsEmpty() const { return this->Lower[0] > this->Upper[0]; }
   double From(std::size_t axis) const { return this->Lower[axis]; }

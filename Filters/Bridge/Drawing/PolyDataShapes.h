@@ -53,26 +53,22 @@ public:
     const vtkIdType lines = data->GetNumberOfVerts();
     const vtkIdType polygons = lines + data->GetNumberOfLines();
     const vtkIdType strips = polygons + data->GetNumberOfPolys();
-    this->OfCells(data->GetPolys(), polygons, progress, [&](Shape cell) {
-      cell.Kind = ShapeKind::Polygon;
-      visit(cell);
-    });
-    this->OfCells(data->GetStrips(), strips, progress, [&](const Shape& strip) {
+    this->OfCells(data->GetPolys(), polygons, ShapeKind::Polygon, progress, visit);
+    const auto visitStrip = [&](const Shape& strip) {
       for (vtkIdType i = 0; i + 2 < strip.Count; ++i)
       {
-        visit(Shape{ ShapeKind::Polygon, strip.Points + i, 3, strip.Cell });
+        visit(Shape{ strip.Kind, strip.Points + i, 3, strip.Cell });
       }
-    });
-    this->OfCells(data->GetLines(), lines, progress, [&](Shape cell) {
-      cell.Kind = ShapeKind::Line;
-      visit(cell);
-    });
-    this->OfCells(data->GetVerts(), 0, progress, [&](const Shape& cell) {
+    };
+    this->OfCells(data->GetStrips(), strips, ShapeKind::Polygon, progress, visitStrip);
+    this->OfCells(data->GetLines(), lines, ShapeKind::Line, progress, visit);
+    const auto visitVertices = [&](const Shape& cell) {
       for (vtkIdType i = 0; i < cell.Count; ++i)
       {
         this->Dot(cell.Points[i], cell.Cell, visit);
       }
-    });
+    };
+    this->OfCells(data->GetVerts(), 0, ShapeKind::Dot, progress, visitVertices);
     for (vtkIdType point = 0; !this->HasCells && point < data->GetNumberOfPoints(); ++point)
     {
       this->Dot(point, -1, visit);
@@ -82,7 +78,8 @@ public:
 
 private:
   template <class Visit>
-  void OfCells(vtkCellArray* cells, vtkIdType cell, Progress& progress, const Visit& visit) const
+  void OfCells(vtkCellArray* cells, vtkIdType cell, ShapeKind kind, Progress& progress,
+    const Visit& visit) const
   {
     if (!cells)
     {
@@ -91,7 +88,7 @@ private:
     const auto iterator = vtkSmartPointer<vtkCellArrayIterator>::Take(cells->NewIterator());
     for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
     {
-      Shape shape{ ShapeKind::Dot, nullptr, 0, cell++ };
+      Shape shape{ kind, nullptr, 0, cell++ };
       iterator->GetCurrentCell(shape.Count, shape.Points);
       if (!this->GhostCells || !(this->GhostCells[shape.Cell] & ghostCell))
       {

@@ -69,9 +69,10 @@ public:
 struct Extent
 {
   DrawnBounds Points;
-  DrawnBounds All; // with the dots' radii
+  DrawnBounds Dots;              // without a radius of their own
+  DrawnBounds Rest;              // with the others' radii
+  std::int64_t NumberOfDots = 0; // of Dots
   bool HasStrokes = false;
-  std::int64_t Dots = 0; // without a radius of their own
 };
 
 void requireFinite(const double* point, vtkIdType number)
@@ -121,19 +122,21 @@ void include(const Layer& layer, const Shape& shape, Extent& extent)
 {
   extent.HasStrokes = extent.HasStrokes || isStroked(layer, shape);
   const bool isDot = shape.Kind == ShapeKind::Dot;
-  extent.Dots += isDot && layer.NeedsRadius() ? 1 : 0;
   for (vtkIdType i = 0; i < shape.Count; ++i)
   {
     const vtkIdType number = shape.Points[i];
     const double* point = layer.At(number);
     requireFinite(point, number);
-    const double radius = isDot ? layer.RadiusAt(number) : 0.0;
-    if (isDot)
-    {
-      requireRadius(radius, number);
-    }
     extent.Points.Include(point);
-    extent.All.Include(point, radius);
+    if (isDot && layer.NeedsRadius())
+    {
+      extent.Dots.Include(point);
+      ++extent.NumberOfDots;
+      continue;
+    }
+    const double radius = isDot ? layer.RadiusAt(number) : 0.0;
+    requireRadius(radius, number);
+    extent.Rest.Include(point, radius);
   }
 }
 
@@ -305,22 +308,21 @@ void TransportVectorWriter::Run(
   }
   progress.BeginStage(0.2, 2 * shapes);
   Extent extent = extentOf(layers, progress);
-  if (extent.Dots > 0)
+  if (extent.NumberOfDots > 0)
   {
     double radius = this->PointRadius;
     if (radius == 0.0)
     {
-      const LargeBuffer<double> dots = dotsOf(layers, extent.Dots, progress);
+      const LargeBuffer<double> dots = dotsOf(layers, extent.NumberOfDots, progress);
       progress.BeginStage(0.5);
-      radius = radiusOfDots({ dots.data(), extent.Dots }, progress.Stage());
+      radius = radiusOfDots({ dots.data(), extent.NumberOfDots }, progress.Stage());
       radius = radius > 0.0 ? radius : radiusWithoutNeighbours(extent.Points);
     }
     for (Layer& layer : layers)
     {
       layer.Radius = radius;
     }
-    progress.BeginStage(0.6, shapes);
-    extent = extentOf(layers, progress);
+    extent.Rest.Include(extent.Dots, radius);
   }
   if (extent.Points.IsEmpty())
   {
@@ -333,7 +335,7 @@ void TransportVectorWriter::Run(
     fail("Width is ", this->Width, "; it must be more than ", 2.0 * margin,
       extent.HasStrokes ? ", twice PageMargin and the LineWidth" : ", twice PageMargin");
   }
-  const PageLayout layout(extent.Points.LongestAxes(), extent.All, { this->Width, margin });
+  const PageLayout layout(extent.Points.LongestAxes(), extent.Rest, { this->Width, margin });
   const double longest = std::max(layout.Size()[0], layout.Size()[1]);
   if (longest > drawing.LongestSide())
   {
