@@ -22,10 +22,17 @@ vtkAreaPreservingParameterization::vtkAreaPreservingParameterization()
   : Resolution(512)
   , Polish(true)
 {
+  this->SetNumberOfOutputPorts(2);
 }
 
 //------------------------------------------------------------------------------
 vtkAreaPreservingParameterization::~vtkAreaPreservingParameterization() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkAreaPreservingParameterization::GetFlat()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
 
 //------------------------------------------------------------------------------
 int vtkAreaPreservingParameterization::RequestData(
@@ -43,8 +50,9 @@ int vtkAreaPreservingParameterization::RequestData(
   {
     return 1;
   }
-  const ParameterizationReport report =
-    parameterization.Run(input.Get(), progress, vtkPolyData::GetData(outputVector));
+  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
+  const ParameterizationReport report = parameterization.Run(input.Get(), progress, output);
+  layFlat(output, vtkPolyData::GetData(outputVector, 1));
   for (const std::string& warning : report.Warnings())
   {
     vtkWarningMacro(<< warning);

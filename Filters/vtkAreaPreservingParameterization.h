@@ -5,8 +5,9 @@
  *
  * Input: a vtkPolyData, or a vtkUnstructuredGrid or vtkStructuredGrid of polygons. Its polygons and
  * triangle strips form a disk: one component with one boundary, without holes and handles, such as
- * a surface that was cut open. Output: the same surface with coordinates in the unit square for
- * every point. Each triangle's share of the square equals its share of the surface.
+ * a surface that was cut open. Outputs: the same surface with coordinates in the unit square for
+ * every point, and the surface laid flat in that square. Each triangle's share of the square equals
+ * its share of the surface.
  *
  * The method is that of Section 5.4 of Do, Coeurjolly, Memari and Bonneel, "Linear-Time Transport
  * with Rectified Flows", ACM Transactions on Graphics 44(4), 2025, doi:10.1145/3731147. A conformal
@@ -14,7 +15,8 @@
  * the points with it. The flow moves only the points; triangles stay straight between them. Polish
  * then corrects the areas: 95 % of the area within 3 %, no triangle flipped.
  *
- * The output is a vtkPolyData with the points, cells and data of the input in their order, and
+ * Output 0, Surface, is a vtkPolyData with the points, cells and data of the input in their order,
+ * and
  *
  * - point data `AreaPreserving` (2 components, float, active texture coordinates),
  *   `AreaPreservingExact` (the same in double) and `Conformal` (2 components, double): all in
@@ -27,6 +29,10 @@
  * - field data `AreaDistortionRMS` (the root mean square of the deviation of AreaDistortion from 1,
  *   weighted by area), `AngleDistortionMean` (weighted by area) and `FlippedCount`.
  *
+ * Output 1, Flat, has the same cells and data, and points (u, v, 0) by AreaPreservingExact. Normals
+ * and tangents are those of the surface; their arrays are kept, but are not active, so that they do
+ * not shade the flat mesh.
+ *
  * The figures are those of AreaPreservingExact. The arrays replace arrays of the same names.
  * Polygons of more than three points and strips are cut into triangles with the cell data of the
  * polygon; global ids of cells are then dropped. Lines and vertices pass unchanged.
@@ -36,9 +42,9 @@
  * a warning that counts them. A cut whose points are duplicated stays a cut. Polygons with
  * inconsistent orientation are mapped with the orientation that most of the area has. A closed
  * surface, several components or boundaries, handles, and edges of more than two triangles are
- * errors that say which. An input without points gives an empty output.
+ * errors that say which. An input without points gives empty outputs.
  *
- * With several MPI ranks the surface is gathered on rank 0, which has the output.
+ * With several MPI ranks the surface is gathered on rank 0, which has the outputs.
  *
  * Cost: O(points^1.5) for the conformal map, O(points + Resolution^2) for the rest. Memory: up to
  * 1350 bytes a point, and 40 bytes a cell of the grid.
@@ -51,6 +57,7 @@
  * map->SetInputConnection(reader->GetOutputPort());
  * map->Update();
  * vtkDataArray* coordinates = map->GetOutput()->GetPointData()->GetTCoords();
+ * vtkPolyData* flat = map->GetFlat();
  * \endcode
  *
  * @sa vtkDensityEqualizingWarp vtkSolidDensity
@@ -85,6 +92,11 @@ public:
   vtkGetMacro(Polish, bool);
   vtkBooleanMacro(Polish, bool);
   ///@}
+
+  /**
+   * Output 1: the surface in the unit square. Output 0 is GetOutput.
+   */
+  vtkPolyData* GetFlat();
 
 protected:
   vtkAreaPreservingParameterization();

@@ -96,6 +96,7 @@ int vtkSMDensityArrayDomain::SetDefaultValues(vtkSMProperty* property, bool useU
 namespace
 {
 
-const bool isRegistered = RectifiedTransport::registerClass<vtkSMDensityArrayDomain>();
+const bool isRegistered =
+  RectifiedTransport::registerClass<vtkSMDensityArrayDomain>("vtkSMDensityArrayDomain");
 
 } // namespace

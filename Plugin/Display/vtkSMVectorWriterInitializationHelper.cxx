@@ -75,7 +75,7 @@ void vtkSMVectorWriterInitializationHelper::PostInitializeProxy(
 namespace
 {
 
-const bool isRegistered =
-  RectifiedTransport::registerClass<vtkSMVectorWriterInitializationHelper>();
+const bool isRegistered = RectifiedTransport::registerClass<vtkSMVectorWriterInitializationHelper>(
+  "vtkSMVectorWriterInitializationHelper");
 
 } // namespace

@@ -136,6 +136,25 @@ void checkAreas(vtkPolyData* output, vtkDataArray* distortions, Findings& findin
   findings.Near(covered, total, 1e-6, "the covered area");
 }
 
+// The surface in the square.
+void checkFlat(vtkPolyData* output, vtkPolyData* flat, Findings& findings)
+{
+  vtkDataArray* positions = output->GetPointData()->GetArray("AreaPreservingExact");
+  const vtkIdType points = output->GetNumberOfPoints();
+  bool isFlat = positions && flat->GetNumberOfPoints() == points;
+  for (vtkIdType i = 0; isFlat && i < points; ++i)
+  {
+    double x[3];
+    flat->GetPoint(i, x);
+    isFlat =
+      x[0] == positions->GetComponent(i, 0) && x[1] == positions->GetComponent(i, 1) && x[2] == 0.0;
+  }
+  findings.That(isFlat, "the points of Flat");
+  findings.That(flat->GetPolys() == output->GetPolys(), "the triangles of Flat");
+  requirePassed(output->GetPointData(), flat->GetPointData(), {}, findings);
+  requirePassed(output->GetCellData(), flat->GetCellData(), {}, findings);
+}
+
 void checkParameterization(vtkAlgorithm* filter, const Inputs& inputs, Findings& findings)
 {
   auto* output = Parameterization::SafeDownCast(filter)->GetOutput();
@@ -185,6 +204,7 @@ void checkParameterization(vtkAlgorithm* filter, const Inputs& inputs, Findings&
   findings.That(requireField(output, "AreaDistortionRMS", findings) >= 0.0, "AreaDistortionRMS");
   findings.That(
     requireField(output, "AngleDistortionMean", findings) >= 1.0 - 1e-9, "AngleDistortionMean");
+  checkFlat(output, Parameterization::SafeDownCast(filter)->GetFlat(), findings);
   if (inputs[0][0].Condition == State::Sound)
   {
     checkAreas(output, areas, findings);

@@ -406,6 +406,8 @@ def digests():
             count = outputs[0].GetNumberOfElements(
                 vtkDataObject.ROW if outputs[0].IsA("vtkTable") else vtkDataObject.POINT)
             assert count > 0, name
+            if filter_class is rt.vtkAreaPreservingParameterization:
+                del outputs[1:]  # which shares its arrays, and has AreaPreservingExact as points
             found[name] = Digest(*outputs).text()
             ran.add(filter_class.__name__)
     assert ran == {filter_.class_name for filter_ in FILTERS}, ran

@@ -6,6 +6,8 @@ import unittest
 
 import numpy as np
 from PIL import Image
+from rt_checkerboard import (RECTANGLE, SQUARE, is_checkered, look_at, parameterized, picture,
+                             tones)
 from rt_testing import (OUTPUT, SOURCE, density_image, load_plugin, main, need_display, points_in,
                         producer)
 
@@ -184,6 +186,73 @@ class FirstDisplay(unittest.TestCase):
                 outlines = self.shown(cells, 2)
                 self.assert_like(outlines, "Feature Edges" if dimension == 3 else "Surface", "")
                 self.assertEqual(list(outlines.AmbientColor), [0, 0, 0])
+
+    def checkered(self, box, view=None):
+        view = view or self.view
+        found = tones(picture(simple, view, "first-checkerboard.png"), view, box)
+        return is_checkered(found)
+
+    def test_map_of_a_surface_is_a_checkerboard(self):
+        """Its squares are where the coordinates say, also under the colours of an array; Surface has
+        none, and a texture replaces them."""
+        mapped = parameterized(simple)
+        shown = self.shown(mapped)
+        look_at(self.view, RECTANGLE)
+        self.assert_like(shown, "Checkerboard", "")
+        self.assertTrue(self.checkered(RECTANGLE))
+        simple.ColorBy(shown, ("CELLS", "Flipped"))
+        self.assertTrue(self.checkered(RECTANGLE))
+        shown.Representation = "Surface"
+        self.assertFalse(self.checkered(RECTANGLE))
+        shown.Representation = "Checkerboard"
+        shown.Texture = simple.CreateTexture(os.path.join(SOURCE, "Testing", "Data", "raccoon.png"))
+        self.assertFalse(self.checkered(RECTANGLE))
+        shown.Texture = None
+        self.assertTrue(self.checkered(RECTANGLE))
+        mapped.Corners = [4, 24, 20, 0]  # the square is turned: the lower left becomes dark
+        self.assertFalse(self.checkered(RECTANGLE))
+
+    def test_flat_surface_has_edges(self):
+        shown = self.shown(parameterized(simple), 1)
+        look_at(self.view, SQUARE)
+        self.assert_like(shown, "Checkerboard With Edges", "")
+        found = tones(picture(simple, self.view, "first-flat.png"), self.view, SQUARE)
+        i, j = np.indices(found.shape)
+        crossed = (i + j) % 6 == 5  # dark squares, by the diagonals of the mesh
+        between = found[~crossed & ((i + j) % 2 == 1)]
+        self.assertLess(found[crossed].max(), between.min() - 10)
+        self.assertTrue(is_checkered(np.where(crossed, between.mean(), found)))
+
+    def test_checkerboard_in_states(self):
+        """It comes back from a state, a Python state and a trace."""
+        from paraview import smstate, smtrace
+        simple.SetActiveView(self.view)
+        smtrace.start_trace()
+        simple.Show(parameterized(simple), self.view)
+        look_at(self.view, RECTANGLE)
+        trace = smtrace.stop_trace()
+        script = smstate.get_state()
+        with tempfile.TemporaryDirectory(dir=OUTPUT) as folder:
+            path = os.path.join(folder, "state.pvsm")
+            simple.SaveState(path)
+            for load in (lambda: simple.LoadState(path), lambda: exec(script, {}),
+                         lambda: exec(trace, {})):
+                simple.ResetSession()
+                load()
+                self.view = simple.GetActiveView()
+                look_at(self.view, RECTANGLE)  # a trace has no camera
+                self.assertTrue(self.checkered(RECTANGLE))
+
+    def test_checkerboard_without_coordinates(self):
+        """Is the surface."""
+        plane = simple.Plane(Origin=[0, 0, 0], Point1=[3, 0, 0], Point2=[0, 1, 0])
+        bare = simple.Clean(simple.ExtractSurface(simple.AppendDatasets(plane)))
+        bare = simple.PassArrays(bare, PointDataArrays=[], CellDataArrays=[])
+        shown = self.shown(bare)
+        look_at(self.view, RECTANGLE)
+        plain = picture(simple, self.view, "first-plain.png")
+        shown.Representation = "Checkerboard"
+        self.assertTrue((picture(simple, self.view, "first-bare.png") == plain).all())
 
     def test_a_choice_is_kept(self):
         """Only what is shown for the first time is set up."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A real client on a real server of one process: a filter that fails reports it
-and has an empty output; the client goes on. Nothing may hang."""
+and has an empty output; the client goes on. Nothing may hang. The server draws a checkerboard."""
 import os
 import re
 import sys
@@ -24,6 +24,7 @@ class Server(unittest.TestCase):
         for filter_ in tested:
             self.assertIn("%s is %s" % filter_.refused[:2], log_text)
         self.assertNotIn("outside the whole extent", log_text)
+        self.assertIn("CHECKERED True", printed)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import os
 import sys
 
 from paraview import simple
+from rt_checkerboard import RECTANGLE, is_checkered, look_at, parameterized, picture, tones
 from rt_filters import FILTERS
 from rt_proxies import proxies
 
@@ -54,4 +55,10 @@ for filter_ in FILTERS:
         check(filter_.name, filter_.make(simple, SOURCES, **{
             name: value for name, value in SHORT.items() if name in PROPERTIES[filter_.label]}),
             *filter_.refused)
+view = simple.CreateView("RenderView")
+view.RemoteRenderThreshold = 0  # the server draws
+simple.Show(parameterized(simple), view)
+look_at(view, RECTANGLE)
+pixels = picture(simple, view, "server-checkerboard.png")
+print("CHECKERED", is_checkered(tones(pixels, view, RECTANGLE)))
 simple.Disconnect()

@@ -8,9 +8,12 @@
 #include "Core/Parameterization/AreaPreservingMap.h"
 
 #include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -25,6 +28,8 @@ namespace
 
 // A deviation of 95 % of the area that is worth a warning; the goal is 3 %.
 constexpr double AcceptableDeviation = 0.05;
+
+constexpr const char* exactName = "AreaPreservingExact";
 
 // By the points of the output; 0 0 for those that no triangle with area has.
 template <class ArrayT>
@@ -195,7 +200,7 @@ ParameterizationReport AreaPreservingParameterization::Run(
   data->PassData(triangles->GetPointData());
   data->AddArray(
     coordinatesArray<vtkDoubleArray>("Conformal", surface, conformal.Square.Positions));
-  data->AddArray(coordinatesArray<vtkDoubleArray>("AreaPreservingExact", surface, map.Positions));
+  data->AddArray(coordinatesArray<vtkDoubleArray>(exactName, surface, map.Positions));
   data->AddArray(coordinatesArray<vtkFloatArray>("AreaPreserving", surface, map.Positions));
   data->SetActiveTCoords("AreaPreserving"); // SetTCoords would remove the input's
   addFieldValue(output, "AreaDistortionRMS", figures.AreaRootMeanSquare);
@@ -203,6 +208,28 @@ ParameterizationReport AreaPreservingParameterization::Run(
   addFieldValue(output, "FlippedCount", static_cast<double>(figures.Flipped));
   return { disk.NumberOfTriangles(), countCollapsed(disk, conformal.Square.Corners), figures,
     this->Polish, surface.IsRepaired() ? surface.RepairWarning() : "" };
+}
+
+void layFlat(vtkPolyData* surface, vtkPolyData* flat)
+{
+  const double* next =
+    vtkDoubleArray::SafeDownCast(surface->GetPointData()->GetArray(exactName))->GetPointer(0);
+  const vtkIdType count = surface->GetNumberOfPoints();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  for (vtkIdType i = 0; i < count; ++i, next += 2)
+  {
+    points->SetPoint(i, next[0], next[1], 0.0);
+  }
+  flat->ShallowCopy(surface);
+  flat->SetPoints(points);
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(flat->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(flat->GetCellData()) })
+  {
+    data->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
+    data->SetActiveAttribute(-1, vtkDataSetAttributes::TANGENTS);
+  }
 }
 
 } // namespace RectifiedTransport

@@ -47,6 +47,9 @@ struct AreaPreservingParameterization
   ParameterizationReport Run(vtkPolyData* surface, Progress& progress, vtkPolyData* output) const;
 };
 
+// Makes a surface that Run has made lie in the unit square. It shares all arrays but the points.
+void layFlat(vtkPolyData* surface, vtkPolyData* flat);
+
 } // namespace RectifiedTransport
 
 #endif
