@@ -34,6 +34,19 @@ selected = servermanager.ProxyManager().GetSelectionModel('ActiveSources')
 selected.Select(photograph.SMProxy, 2)
 """
 
+# Half a sphere, from the side of its pole.
+OPEN_DOME = """
+from paraview.simple import *
+assert %r
+dome = Sphere(registrationName='Dome', EndPhi=90, ThetaResolution=48, PhiResolution=24)
+view = GetActiveViewOrCreate('RenderView')
+view.UseColorPaletteForBackground = 0
+view.Background = [0, 0, 1]
+Show(dome, view)
+ResetCamera(view)
+SetActiveSource(dome)
+"""
+
 PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
 # In the dialog that asks for the second input: the first source, and OK.
 DENSITY = (("SelectInputDialog/buttonFrame/Density", "set_boolean", "true"),
@@ -183,6 +196,26 @@ class Gui(unittest.TestCase):
                  if prop.get("name") == "Input" for element in prop.findall("Proxy")
                  if element.get("value") == cells}
         self.assertEqual(shown, {"0", "2"})
+
+    def test_map_of_a_surface(self):
+        """A checkerboard on the surface; the square is there, too, but is not shown."""
+        saved = self.state_after("gui-map.png", choose("Filters", "AreaPreservingParameterization"),
+                                 APPLY, script_text=OPEN_DOME)
+        found = {proxy.get("type"): proxy for proxy in saved.iter("Proxy") if proxy.get("type")}
+        mapped = found["AreaPreservingParameterization"].get("id")
+        shown = {}
+        for proxy in saved.iter("Proxy"):
+            values = {prop.get("name"): prop for prop in proxy.iter("Property")}
+            source = values["Input"].find("Proxy") if "Representation" in values else None
+            if source is not None and source.get("value") == mapped:
+                shown[source.get("output_port")] = values["Representation"].find("Element").get("value")
+        self.assertEqual(shown, {"0": "Checkerboard"})
+        with Image.open(os.path.join(OUTPUT, "gui-map.png")) as picture:
+            view = picture.convert("RGB").crop((400, 250, 1050, 650))
+        red = view.getchannel("R").histogram()  # of the background 0
+        dark, light = sum(red[40:130]), sum(red[130:])
+        self.assertGreater(dark + light, 0.2 * view.width * view.height)
+        self.assertTrue(0.6 < light / dark < 1.6, (light, dark))
 
     def test_optional_inputs(self):
         """They are chosen on the panel, and taken away there."""
