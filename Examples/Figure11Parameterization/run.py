@@ -16,6 +16,7 @@ from paraview import simple
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 SQUARES = 24  # of the checkerboard along a side
 PRESET = "Cool to Warm"
@@ -59,37 +60,44 @@ def row(name, words, triangles, points, map_, seconds):
             "%.2f" % seconds if seconds else ""]
 
 
+def flat_output(maps, polish):
+    """The mesh in the square. A copy, whose arrays another run leaves."""
+    example.result(maps, Polish=polish)
+    plane = vtkPolyData()
+    plane.ShallowCopy(maps.GetClientSideObject().GetOutputDataObject(1))
+    return plane
+
+
 def measure(name, mesh, resolution):
-    """Rows of the table, the mesh with its maps, and the one of the flow alone."""
+    """Rows of the table, the mesh with its maps, and the mesh laid flat by the flow alone and with the
+    polish."""
     source = example.producer(mesh)
     maps = simple.AreaPreservingParameterization(source, Resolution=resolution)
     # The filter warns of triangles that the flow alone turns over; the table counts them.
     warns = maps.GetClientSideObject().AddObserver("WarningEvent", lambda *_: None)
     clock = time.perf_counter()
-    alone = example.result(maps, Polish=0)
+    alone = flat_output(maps, 0)
     middle = time.perf_counter()
-    alone = disks.coordinates(alone, "AreaPreservingExact")
     maps.GetClientSideObject().RemoveObserver(warns)
     again = time.perf_counter()
-    made = example.result(maps, Polish=1)
+    kept = flat_output(maps, 1)
     end = time.perf_counter()
+    made = example.result(maps)
     points, triangles = disks.points(made), disks.triangles(made)
     conformal = disks.coordinates(made, "Conformal")
     corners = disks.corners(conformal)
     label = "%s (%d)" % (name, len(triangles))
     rows = [row(label, "Tutte", triangles, points, tutte(triangles, points, conformal, corners), 0),
             row("", "conformal", triangles, points, conformal, 0),
-            row("", "flow alone", triangles, points, alone, middle - clock),
-            row("", "and polish", triangles, points, disks.coordinates(made, "AreaPreservingExact"),
-                end - again)]
+            row("", "flow alone", triangles, points, disks.points(alone)[:, :2], middle - clock),
+            row("", "and polish", triangles, points, disks.points(kept)[:, :2], end - again)]
     simple.Delete(maps)
     simple.Delete(source)
-    return rows, made, alone
+    return rows, made, alone, kept
 
 
-def flat(mesh, map_, preset, values, limits, pixels):
-    """The picture of a mesh laid flat by a map, coloured by values of its triangles."""
-    plane = disks.laid_flat(mesh, map_)
+def flat(plane, preset, values, limits, pixels):
+    """The picture of a mesh laid flat, coloured by values of its triangles."""
     colour = numpy_to_vtk(values, deep=1)
     colour.SetName("Colour")
     plane.GetCellData().SetScalars(colour)
@@ -111,12 +119,13 @@ def flat(mesh, map_, preset, values, limits, pixels):
     return picture
 
 
-def pictures_of(mesh, alone, pose, pixels):
+def pictures_of(mesh, alone, kept, pose, pixels):
     """Rows of pictures: the maps with the triangles' areas, and on the surface."""
-    conformal, kept = (disks.coordinates(mesh, name) for name in ("Conformal", "AreaPreservingExact"))
+    conformal = disks.laid_flat(mesh, disks.coordinates(mesh, "Conformal"))
 
-    def quotient(map_):
-        return disks.distortion(disks.triangles(mesh), disks.points(mesh), map_)[0]
+    def quotient(plane):
+        return disks.distortion(disks.triangles(mesh), disks.points(mesh),
+                                disks.points(plane)[:, :2])[0]
 
     factor = np.log10(np.maximum(quotient(conformal), 1e-9))
     spread = max(np.abs(np.quantile(factor, (0.02, 0.98))).max(), 0.01)
@@ -124,9 +133,9 @@ def pictures_of(mesh, alone, pose, pixels):
     words = "%s, area \u00b1{:.0f} %%".format(100 * LIMIT)
     times = ("%.1f" if spread < 1 else "%.0f") % 10 ** spread
     return [[("conformal, area \u00d7 or / " + times,
-              flat(mesh, conformal, PRESET, factor, (-spread, spread), pixels)),
-             (words % "flow alone", flat(mesh, alone, PRESET, quotient(alone), limits, pixels)),
-             (words % "flow and polish", flat(mesh, kept, PRESET, quotient(kept), limits, pixels))],
+              flat(conformal, PRESET, factor, (-spread, spread), pixels)),
+             (words % "flow alone", flat(alone, PRESET, quotient(alone), limits, pixels)),
+             (words % "flow and polish", flat(kept, PRESET, quotient(kept), limits, pixels))],
             [("surface", disks.lit(mesh, pose, pixels)),
              ("conformal", disks.textured(mesh, "Conformal", SQUARES, pose, pixels)),
              ("areas kept", disks.textured(mesh, "AreaPreserving", SQUARES, pose, pixels))]]
@@ -145,11 +154,11 @@ def main():
     paths = []
     for name in arguments.surfaces:
         mesh, pose = disks.read(name)
-        added, made, alone = measure(example.stem(name), mesh, arguments.resolution)
+        added, *made = measure(example.stem(name), mesh, arguments.resolution)
         rows += added
         paths.append(figures.write_montage(
             arguments, "figure11-%s.png" % example.stem(name),
-            pictures_of(made, alone, pose, arguments.panel)))
+            pictures_of(*made, pose, arguments.panel)))
     figures.table(
         "The deviation from 1 of a triangle's share of the square by that of the surface, weighted "
         "by area.\nAngles: the mean quotient of the singular values. Seconds: with the conformal map.",
