@@ -226,7 +226,8 @@ class FirstDisplay(unittest.TestCase):
     def test_checkerboard_in_states(self):
         """It comes back from a state, a Python state and a trace."""
         from paraview import smstate, smtrace
-        simple.SetActiveView(self.view)
+        simple.ResetSession()  # of other tests' views
+        self.view = simple.CreateView("RenderView")
         smtrace.start_trace()
         simple.Show(parameterized(simple), self.view)
         look_at(self.view, RECTANGLE)
