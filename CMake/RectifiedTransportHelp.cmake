@@ -69,12 +69,13 @@ function (paraview_client_generate_help)
   file(GLOB sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/Documentation/*.md"
     "${PROJECT_SOURCE_DIR}/Documentation/Images/*.png"
-    "${PROJECT_SOURCE_DIR}/Plugin/*.xml")
+    "${CMAKE_CURRENT_BINARY_DIR}/xml/*.xml")
   set(script "${PROJECT_SOURCE_DIR}/Plugin/Help/make_help.py")
   set(compiled "${help_OUTPUT_DIR}/${help_NAME}.qch")
   add_custom_command(
     OUTPUT "${compiled}"
-    COMMAND "${Python3_EXECUTABLE}" "${script}" "${PROJECT_SOURCE_DIR}" "${help_OUTPUT_DIR}"
+    COMMAND "${Python3_EXECUTABLE}" "${script}" "${PROJECT_SOURCE_DIR}"
+            "${CMAKE_CURRENT_BINARY_DIR}/xml" "${help_OUTPUT_DIR}"
     COMMAND "${CMAKE_COMMAND}" -E env QT_QPA_PLATFORM=offscreen
             "${RectifiedTransport_QHELPGENERATOR}" "${help_OUTPUT_DIR}/${help_NAME}.qhp" -s
             -o "${compiled}"

@@ -142,10 +142,11 @@ def write_project(folder, pages, pictures):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("source", help="the project's folder")
+    parser.add_argument("plugin", help="the folder of the plugin's XML, with its entities in it")
     parser.add_argument("output", help="the folder of the pages, made anew")
     arguments = parser.parse_args()
     documentation = os.path.join(arguments.source, "Documentation")
-    pages = filter_pages(os.path.join(arguments.source, "Plugin")) + background_pages(documentation)
+    pages = filter_pages(arguments.plugin) + background_pages(documentation)
     names = {page.source: page.name for page in pages}
 
     shutil.rmtree(arguments.output, ignore_errors=True)

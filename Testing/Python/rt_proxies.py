@@ -59,11 +59,22 @@ class Proxy:
         self.groups = [e for e in every if e.tag == "PropertyGroup"]
 
 
+def parse(path):
+    """The root of one of the plugin's XML files, with its entities in it as in the built plugin."""
+    texts = []
+    for name in (path, os.path.join(SOURCE, "Plugin", "TransportCommon.ent")):
+        with open(name, encoding="utf-8") as file:
+            texts.append(file.read())
+    xml, entities = texts
+    return ElementTree.fromstring(
+        xml.replace('SYSTEM "TransportCommon.ent"', "[%s]" % entities))
+
+
 def concrete(*groups):
     """The proxies in some groups that have a class."""
     elements = {}
     for path in sorted(glob.glob(os.path.join(SOURCE, "Plugin", "*.xml"))):
-        for group in ElementTree.parse(path).getroot():
+        for group in parse(path):
             for element in group:
                 elements[group.get("name"), element.get("name")] = element
 

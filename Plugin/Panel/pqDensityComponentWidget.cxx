@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pqDensityComponentWidget.h"
+
+#include "pqApplicationCore.h"
+#include "pqCoreUtilities.h"
+#include "pqServerManagerModel.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkSMArrayListDomain.h"
+#include "vtkSMProperty.h"
+#include "vtkSMProxy.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMUncheckedPropertyHelper.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+
+namespace
+{
+
+vtkSMProperty* inputOf(vtkSMProperty* array)
+{
+  auto* list =
+    array ? vtkSMArrayListDomain::SafeDownCast(array->FindDomain("vtkSMArrayListDomain")) : nullptr;
+  return list ? list->GetRequiredProperty("Input") : nullptr;
+}
+
+// Of the first input, where there are several; nullptr where the array is not known yet.
+vtkPVArrayInformation* chosenArray(vtkSMProperty* array)
+{
+  vtkSMProperty* input = inputOf(array);
+  if (!input)
+  {
+    return nullptr;
+  }
+  vtkSMUncheckedPropertyHelper choice(array);
+  vtkSMUncheckedPropertyHelper inputs(input);
+  auto* source = inputs.GetNumberOfElements() > 0
+    ? vtkSMSourceProxy::SafeDownCast(inputs.GetAsProxy(0))
+    : nullptr;
+  const char* name = choice.GetNumberOfElements() > 4 ? choice.GetAsString(4) : nullptr;
+  vtkPVDataInformation* data =
+    source && name ? source->GetDataInformation(inputs.GetOutputPort(0)) : nullptr;
+  if (!data)
+  {
+    return nullptr;
+  }
+  const int association = choice.GetAsInt(3);
+  return association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS
+    ? data->GetArrayInformation(name, vtkDataObject::FIELD_ASSOCIATION_POINTS)
+    : data->GetArrayInformation(name, association);
+}
+
+} // namespace
+
+pqDensityComponentWidget::pqDensityComponentWidget(
+  vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parentObject)
+  : Superclass(proxy, parentObject)
+  , List(new QComboBox(this))
+{
+  this->setProperty(property);
+  this->setChangeAvailableAsChangeFinished(true);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(this->List);
+  this->List->setObjectName("ComboBox");
+  QObject::connect(this->List, SIGNAL(currentIndexChanged(int)), this, SLOT(take(int)));
+  vtkSMProperty* array = proxy->GetProperty("DensityArray");
+  for (vtkSMProperty* source : { array, inputOf(array) })
+  {
+    if (source)
+    {
+      pqCoreUtilities::connect(
+        source, vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(updateList()));
+      pqCoreUtilities::connect(source, vtkCommand::ModifiedEvent, this, SLOT(updateList()));
+    }
+  }
+  // The arrays of an input are known once it is updated.
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    SIGNAL(dataUpdated(pqPipelineSource*)), this, SLOT(updateList()));
+  this->updateList();
+  this->addPropertyLink(this, "component", SIGNAL(componentChanged()), property);
+}
+
+void pqDensityComponentWidget::setComponent(int component)
+{
+  if (component != this->Component)
+  {
+    this->Component = component;
+    this->updateList();
+    Q_EMIT this->componentChanged();
+  }
+}
+
+void pqDensityComponentWidget::updateList()
+{
+  const QSignalBlocker blocker(this->List);
+  this->List->clear();
+  this->List->addItem(tr("Luminance"), -1);
+  vtkPVArrayInformation* array = chosenArray(this->proxy()->GetProperty("DensityArray"));
+  const int count = array ? array->GetNumberOfComponents() : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const QString name = array->GetComponentName(i);
+    this->List->addItem(name.isEmpty() ? QString::number(i) : name, i);
+  }
+  if (this->List->findData(this->Component) < 0)
+  {
+    this->List->addItem(tr("%1 (not in the array)").arg(this->Component), this->Component);
+  }
+  this->List->setCurrentIndex(this->List->findData(this->Component));
+}
+
+void pqDensityComponentWidget::take(int row)
+{
+  if (row >= 0)
+  {
+    this->setComponent(this->List->itemData(row).toInt());
+  }
+}
