@@ -43,7 +43,8 @@ if (RectifiedTransport_BUILD_PANEL)
       "Install them, or turn it off.")
   endif ()
   # No widget includes the headers of all that ParaView's client is made of.
-  set(panel_libraries ParaView::pqComponents ParaView::pqCore ParaView::pqWidgets ParaView::qttesting)
+  set(panel_libraries ParaView::pqApplicationComponents ParaView::pqComponents ParaView::pqCore
+    ParaView::pqWidgets ParaView::qttesting)
   foreach (library IN LISTS panel_libraries)
     set_target_properties("${library}" PROPERTIES
       INTERFACE_LINK_LIBRARIES "Qt${qt_version}::Widgets;ParaView::RemotingViews")

@@ -9,6 +9,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -113,7 +114,8 @@ int vtkBlueNoiseRelaxation::RequestData(
   const BlueNoiseRelaxation::Report report =
     relaxation.Run(*density, input, counted, this->GetFlowCache(), progress, output);
   addFieldValues(output, "Energy", report.Energy);
-  if (report.PointsMoved > 0)
+  addFieldValue(output, "OutsidePoints", static_cast<double>(report.PointsMoved));
+  if (isWorthWarning(report.PointsMoved, counted.Count()))
   {
     vtkWarningMacro(<< report.PointsMoved << " of " << counted.Count()
                     << " points outside the domain of the density moved to its border");

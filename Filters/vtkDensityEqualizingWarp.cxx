@@ -6,7 +6,9 @@
 #include "Bridge/Points/CellCheck.h"
 #include "Bridge/Points/PointInput.h"
 #include "Bridge/Run/AlgorithmProgress.h"
+#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/RankExchange.h"
 
@@ -97,7 +99,8 @@ int vtkDensityEqualizingWarp::RequestData(
   const std::int64_t outside =
     sumOverRanks(ranks, warp.Run(*density, input, this->GetFlowCache(), progress, output));
   const std::int64_t points = sumOverRanks<std::int64_t>(ranks, input->GetNumberOfPoints());
-  if (outside > 0)
+  addFieldValue(output, "OutsidePoints", static_cast<double>(outside));
+  if (isWorthWarning(outside, points))
   {
     this->WarnOnFirstRank(std::to_string(outside) + " of " + std::to_string(points) +
       " points outside the domain of the density moved as its border does");

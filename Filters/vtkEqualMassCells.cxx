@@ -9,7 +9,9 @@
 #include "Bridge/Ranks/ImagePieces.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/Failure.h"
+#include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Bridge/SiteCells/EqualMassCells.h"
 #include "Bridge/SiteCells/LabelGrid.h"
@@ -232,7 +234,14 @@ int vtkEqualMassCells::RequestData(
   {
     announceGrid(gridOf(labels, false), outputVector->GetInformationObject(0));
   }
-  if (report.Outside > 0)
+  const std::int64_t sites = input->GetNumberOfPoints();
+  for (vtkDataObject* output :
+    { static_cast<vtkDataObject*>(labels), static_cast<vtkDataObject*>(outputs.Sites) })
+  {
+    addFieldValue(output, "OutsideSites", static_cast<double>(report.Outside));
+    addFieldValue(output, "SitesWithoutMass", static_cast<double>(report.WithoutMass));
+  }
+  if (isWorthWarning(report.Outside, sites))
   {
     const bool isOne = report.Outside == 1;
     const char* const cell = this->Shape == POWER
@@ -240,12 +249,12 @@ int vtkEqualMassCells::RequestData(
                : "their cells are of least cost for where they are")
       : (isOne ? "its cell is that of the nearest point of the border"
                : "their cells are those of the nearest points of its border");
-    vtkWarningMacro(<< report.Outside << " of " << input->GetNumberOfPoints()
-                    << (isOne ? " sites is" : " sites are") << " outside the domain; " << cell);
+    vtkWarningMacro(<< report.Outside << " of " << sites << (isOne ? " sites is" : " sites are")
+                    << " outside the domain; " << cell);
   }
-  if (report.WithoutMass > 0)
+  if (isWorthWarning(report.WithoutMass, sites))
   {
-    vtkWarningMacro(<< report.WithoutMass << " of " << input->GetNumberOfPoints()
+    vtkWarningMacro(<< report.WithoutMass << " of " << sites
                     << " sites have cells without mass, because single pixels have more than an "
                        "equal share; raise Resolution, or set Shape to Power");
   }

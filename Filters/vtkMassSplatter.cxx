@@ -7,6 +7,7 @@
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/InputBlock.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/AssociationSettings.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Splat/MassSplatter.h"
@@ -184,7 +185,7 @@ int vtkMassSplatter::RequestData(
   {
     announceGrid(report.Grid, outputInformation);
   }
-  if (report.Outside > 0)
+  if (isWorthWarning(report.Outside, report.Points))
   {
     this->WarnOnFirstRank(std::to_string(report.Outside) + " of " + std::to_string(report.Points) +
       (report.Outside == 1 ? " points is outside the domain; its mass "

@@ -161,8 +161,9 @@ int vtkTransportBarycenter::RequestData(
   {
     inputs[i].Weight = weights[i];
   }
-  this->WarnOfMoved(
-    this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector)));
+  const DensityBlend::Report report =
+    this->Blend->Run(inputs, settings, this->GetFlowCache(), progress, BlendOutput(outputVector));
+  this->WarnOfMoved(report.Moved, report.Particles);
   return 1;
 }
 

@@ -7,6 +7,7 @@
 #include "Bridge/Image/ImageGrids.h"
 #include "Bridge/Run/Failure.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SplatSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 #include "Core/Parallel/Progress.h"
@@ -264,12 +265,11 @@ void vtkTransportBlend::ReportOtherBlocks(std::int64_t others, bool areAll)
 }
 
 //------------------------------------------------------------------------------
-void vtkTransportBlend::WarnOfMoved(std::int64_t particles)
+void vtkTransportBlend::WarnOfMoved(std::int64_t moved, std::int64_t particles)
 {
-  if (particles > 0)
+  if (isWorthWarning(moved, particles))
   {
-    this->WarnOnFirstRank(std::to_string(particles) +
-      (particles == 1 ? " particle" : " particles") +
+    this->WarnOnFirstRank(std::to_string(moved) + (moved == 1 ? " particle" : " particles") +
       " in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare them "
       "that)");
   }

@@ -171,9 +171,9 @@ protected:
     const char* const* names, RectifiedTransport::Progress& progress);
 
   /**
-   * Warn of particles that ended in empty cells, if there are any.
+   * Warn of particles that ended in empty cells, if they are at least one in a thousand.
    */
-  void WarnOfMoved(std::int64_t particles);
+  void WarnOfMoved(std::int64_t moved, std::int64_t particles);
 
   /**
    * Warn of blocks that are not data sets with cells. It is an error if no block is one.

@@ -7,6 +7,7 @@
 #include "Bridge/Ranks/SameOnRanks.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/TableSettings.h"
 
 #include "vtkImageData.h"
@@ -124,10 +125,10 @@ int vtkTransportMap::RequestData(
     map.Run(*density, wanted, this->GetFlowCache(), progress, output);
   // The association of the density may not be known before the data.
   announceGrid(result.Grid, outputInformation);
-  if (result.MovedToMass > 0)
+  const auto samples = static_cast<std::int64_t>(result.Samples);
+  if (isWorthWarning(result.MovedToMass, samples))
   {
-    this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " +
-      std::to_string(static_cast<std::int64_t>(result.Samples)) +
+    this->WarnOnFirstRank(std::to_string(result.MovedToMass) + " of " + std::to_string(samples) +
       " samples in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
       "them that)");
   }

@@ -7,6 +7,7 @@
 #include "Bridge/Ranks/DistributedPoints.h"
 #include "Bridge/Run/AlgorithmProgress.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Settings/SeedSettings.h"
 #include "Bridge/Settings/TableSettings.h"
 
@@ -119,7 +120,7 @@ int vtkTransportSampler::RequestData(
     this->WarnOnFirstRank(std::to_string(report.SeedsMoved) + ofAll +
       " seeds outside the domain of the density moved to its border");
   }
-  if (report.ParticlesMoved > 0)
+  if (isWorthWarning(report.ParticlesMoved, report.Particles))
   {
     this->WarnOnFirstRank(std::to_string(report.ParticlesMoved) + ofAll +
       " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "

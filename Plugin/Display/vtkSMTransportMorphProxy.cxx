@@ -10,6 +10,8 @@
 #include "vtkSMProxyProperty.h"
 #include "vtkSMTimeKeeperProxy.h"
 
+#include <utility>
+
 vtkStandardNewMacro(vtkSMTransportMorphProxy);
 
 namespace
@@ -60,13 +62,18 @@ void vtkSMTransportMorphProxy::UpdateVTKObjects()
     this->TimeKeeper =
       vtkSMTimeKeeperProxy::SafeDownCast(controller->FindTimeKeeper(this->GetSession()));
   }
+  const bool isOn = vtkSMPropertyHelper(this, "PublishTime").GetAsInt() != 0;
   std::set<vtkSMProxy*> sources;
-  if (vtkSMPropertyHelper(this, "PublishTime").GetAsInt())
+  if (isOn)
   {
     addProducers(this, sources);
   }
   this->SetIgnored(sources);
-  this->WasOff = sources.empty();
+  const Publishing before = std::exchange(this->State, isOn ? Publishing::On : Publishing::Off);
+  if (before != Publishing::Unknown && before != this->State)
+  {
+    this->UpdatePipelineInformation(); // its own times
+  }
 }
 
 void vtkSMTransportMorphProxy::RestoreTimes()
@@ -77,9 +84,8 @@ void vtkSMTransportMorphProxy::RestoreTimes()
 void vtkSMTransportMorphProxy::SetIgnored(const std::set<vtkSMProxy*>& sources)
 {
   vtkSMTimeKeeperProxy* times = this->TimeKeeper;
-  auto* ignored = times
-    ? vtkSMProxyProperty::SafeDownCast(times->GetProperty("SuppressedTimeSources"))
-    : nullptr;
+  auto* ignored =
+    times ? vtkSMProxyProperty::SafeDownCast(times->GetProperty("SuppressedTimeSources")) : nullptr;
   if (!ignored)
   {
     this->Ignored.clear();
@@ -106,7 +112,7 @@ void vtkSMTransportMorphProxy::SetIgnored(const std::set<vtkSMProxy*>& sources)
       continue;
     }
     const bool isNew = times->IsTimeSourceTracked(source);
-    this->Ignored[source] = isNew || !this->WasOff;
+    this->Ignored[source] = isNew || this->State == Publishing::Unknown;
     if (isNew)
     {
       ignored->AddProxy(source);

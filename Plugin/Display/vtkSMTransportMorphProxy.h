@@ -52,7 +52,13 @@ private:
   // Upstream since PublishTime is on; whether their times have to come back.
   std::map<vtkWeakPointer<vtkSMProxy>, bool> Ignored;
   // Unknown at first: a state has the sources that are ignored because of the morph.
-  bool WasOff = false;
+  enum class Publishing
+  {
+    Unknown,
+    Off,
+    On
+  };
+  Publishing State = Publishing::Unknown;
 };
 
 #endif

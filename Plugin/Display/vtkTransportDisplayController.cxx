@@ -2,12 +2,14 @@
 #include "Display/vtkTransportDisplayController.h"
 
 #include "Display/FirstDisplay.h"
+#include "Display/vtkSMTransportMorphProxy.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkSMRepresentationProxy.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
+#include "vtkSmartPointer.h"
 #include "vtkVersion.h"
 
 vtkStandardNewMacro(vtkTransportDisplayController);
@@ -24,6 +26,18 @@ vtkSMProxy* vtkTransportDisplayController::Show(
     RectifiedTransport::applyFirstDisplay(producer, outputPort, shown);
   }
   return shown;
+}
+
+bool vtkTransportDisplayController::UnRegisterProxy(vtkSMProxy* proxy)
+{
+  const vtkSmartPointer<vtkSMTransportMorphProxy> morph =
+    vtkSMTransportMorphProxy::SafeDownCast(proxy);
+  const bool isDone = vtkSMParaViewPipelineControllerWithRendering::UnRegisterProxy(proxy);
+  if (morph)
+  {
+    morph->RestoreTimes();
+  }
+  return isDone;
 }
 
 namespace

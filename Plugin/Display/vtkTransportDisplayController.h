@@ -6,7 +6,8 @@
  * ParaView's own hints support one type of representation for an output, whatever the data, and
  * colour only by the active scalars. This class replaces ParaView's controller in the client's
  * object factory. It shows an output as that one does, then follows the FirstDisplay elements in
- * the hints of the filter's proxy. Proxies without them are shown as before.
+ * the hints of the filter's proxy. Proxies without them are shown as before. When a morph is
+ * deleted, the times of what it was made of come back.
  *
  * @sa vtkSMParaViewPipelineControllerWithRendering
  */
@@ -24,6 +25,9 @@ public:
   using vtkSMParaViewPipelineControllerWithRendering::Show;
   vtkSMProxy* Show(vtkSMSourceProxy* producer, int outputPort, vtkSMViewProxy* view,
     const char* representationType) override;
+
+  using vtkSMParaViewPipelineControllerWithRendering::UnRegisterProxy;
+  bool UnRegisterProxy(vtkSMProxy* proxy) override;
 
 protected:
   vtkTransportDisplayController() = default;

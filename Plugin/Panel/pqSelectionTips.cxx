@@ -10,6 +10,8 @@
 
 #include <QAction>
 #include <QActionEvent>
+#include <QList>
+#include <QTimer>
 #include <QWidget>
 
 namespace
@@ -23,6 +25,13 @@ QString tipOf(vtkSMProxy* prototype)
   return tip ? tip->GetAttributeOrEmpty("text") : QString();
 }
 
+QList<pqProxyGroupMenuManager*> managers()
+{
+  QWidget* window = pqCoreUtilities::mainWidget();
+  return window ? window->findChildren<pqProxyGroupMenuManager*>()
+                : QList<pqProxyGroupMenuManager*>();
+}
+
 } // namespace
 
 pqSelectionTips::pqSelectionTips(QObject* parentObject)
@@ -32,27 +41,24 @@ pqSelectionTips::pqSelectionTips(QObject* parentObject)
 
 void pqSelectionTips::startup()
 {
-  QWidget* window = pqCoreUtilities::mainWidget();
-  if (!window)
-  {
-    return;
-  }
-  for (auto* manager : window->findChildren<pqProxyGroupMenuManager*>())
-  {
-    manager->widgetActionsHolder()->installEventFilter(this);
-    for (QAction* action : manager->actions())
+  // A plugin that is loaded at the start is there before the menus.
+  QTimer::singleShot(0, this, [this]() {
+    for (pqProxyGroupMenuManager* manager : managers())
     {
-      this->follow(action, manager);
+      manager->widgetActionsHolder()->installEventFilter(this);
+      for (QAction* action : manager->actions())
+      {
+        this->follow(action, manager);
+      }
     }
-  }
+  });
 }
 
 bool pqSelectionTips::eventFilter(QObject* holder, QEvent* event)
 {
   if (event->type() == QEvent::ActionAdded)
   {
-    for (auto* manager :
-      pqCoreUtilities::mainWidget()->findChildren<pqProxyGroupMenuManager*>())
+    for (pqProxyGroupMenuManager* manager : managers())
     {
       if (manager->widgetActionsHolder() == holder)
       {

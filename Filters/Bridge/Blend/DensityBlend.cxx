@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -117,8 +118,8 @@ BlendOutput::BlendOutput(vtkInformationVector* outputs)
 {
 }
 
-std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const BlendSettings& settings,
-  FlowCache& tables, Progress& progress, const BlendOutput& output)
+DensityBlend::Report DensityBlend::Run(const std::vector<BlendInput>& inputs,
+  const BlendSettings& settings, FlowCache& tables, Progress& progress, const BlendOutput& output)
 {
   const Ranks& ranks = progress.Group();
   const ImageGrid geometry = gridBetween(inputs, settings.Dimensions);
@@ -161,6 +162,10 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
   this->WriteParticles(inputs, geometry, massEach, progress, particles, output.Particles);
   progress.BeginStage(1.0);
   this->WriteDensity(target, massEach, wanted, progress, output.Density);
+  const std::int64_t movedInAll =
+    std::accumulate(this->Maps.begin(), this->Maps.end(), std::int64_t{ 0 },
+      [](std::int64_t sum, const LinearizedMap& map) { return sum + map.Moved(); });
+  const auto movedOnRanks = static_cast<double>(sumOverRanks(ranks, movedInAll));
   for (vtkDataObject* part :
     { static_cast<vtkDataObject*>(output.Density), static_cast<vtkDataObject*>(output.Particles) })
   {
@@ -169,8 +174,9 @@ std::int64_t DensityBlend::Run(const std::vector<BlendInput>& inputs, const Blen
       addFieldValue(part, "TransportCost", cost);
     }
     addFieldValue(part, "TotalMass", mass);
+    addFieldValue(part, "MovedParticles", movedOnRanks);
   }
-  return sumOverRanks(ranks, moved);
+  return { count, sumOverRanks(ranks, moved) };
 }
 
 // As the work of the current stage.
@@ -243,7 +249,8 @@ std::int64_t DensityBlend::MakeMaps(const std::vector<BlendInput>& inputs,
     const double until = end * static_cast<double>(i + 1) / static_cast<double>(inputs.size());
     try
     {
-      moved += map.Make(density, settings, tables, progress, until);
+      map.Make(density, settings, tables, progress, until);
+      moved += map.Moved();
     }
     catch (const Failure& failure)
     {

@@ -52,21 +52,19 @@ bool LinearizedMap::IsOf(
     this->Geometry == grid;
 }
 
-std::int64_t LinearizedMap::Make(InputDensity& density, const LinearizedMapSettings& settings,
+void LinearizedMap::Make(InputDensity& density, const LinearizedMapSettings& settings,
   FlowCache& tables, Progress& progress, double end)
 {
   this->Settings = settings;
   this->Geometry = density.Grid();
   const auto move = dispatchDimension(this->Geometry.Dimension(), &LinearizedMap::Move<1>,
     &LinearizedMap::Move<2>, &LinearizedMap::Move<3>);
-  const std::int64_t moved = (this->*move)(density, tables, progress, end);
+  (this->*move)(density, tables, progress, end);
   this->Content = ContentHash(density, progress);
-  return moved;
 }
 
 template <int D>
-std::int64_t LinearizedMap::Move(
-  InputDensity& density, FlowCache& tables, Progress& progress, double end)
+void LinearizedMap::Move(InputDensity& density, FlowCache& tables, Progress& progress, double end)
 {
   constexpr double partOfTables = 0.04;
   constexpr double partOfConversion = 0.02;
@@ -99,7 +97,7 @@ std::int64_t LinearizedMap::Move(
   toPhysical<D>(
     this->Geometry, { positions, particles }, progress, { physical->GetPointer(0), particles });
   this->Kept = physical;
-  return report.MovedToMass;
+  this->MovedToMass = report.MovedToMass;
 }
 
 } // namespace RectifiedTransport

@@ -47,9 +47,8 @@ public:
     const ContentHash& content, const ImageGrid& grid, const LinearizedMapSettings& settings) const;
 
   // Advects the particles to a density; progress then reaches `end`. Builds the tables in `tables`.
-  // Collective on the ranks of the progress. Throws Failure and Cancelled. Returns how many
-  // particles ended in an empty cell of the density and were moved to the nearest mass.
-  std::int64_t Make(InputDensity& density, const LinearizedMapSettings& settings, FlowCache& tables,
+  // Collective on the ranks of the progress. Throws Failure and Cancelled.
+  void Make(InputDensity& density, const LinearizedMapSettings& settings, FlowCache& tables,
     Progress& progress, double end);
   // Takes the times of another image that holds the same density.
   void SetTimes(const InputDensity& density) { this->Content.SetTimes(density); }
@@ -58,16 +57,20 @@ public:
   vtkDoubleArray* Positions() const { return this->Kept; }
   // Density times cell measure, summed.
   double TotalMass() const { return this->Mass; }
+  // How many of the share's particles ended in an empty cell of the density and were moved to the
+  // nearest mass.
+  std::int64_t Moved() const { return this->MovedToMass; }
 
 private:
   template <int D>
-  std::int64_t Move(InputDensity& density, FlowCache& tables, Progress& progress, double end);
+  void Move(InputDensity& density, FlowCache& tables, Progress& progress, double end);
 
   ContentHash Content;
   ImageGrid Geometry; // not part of the content, but of the physical positions
   LinearizedMapSettings Settings{ {}, 0, {}, {}, { 0, 1, 0 } };
   vtkSmartPointer<vtkDoubleArray> Kept;
   double Mass = 0.0;
+  std::int64_t MovedToMass = 0;
 };
 
 } // namespace RectifiedTransport

@@ -80,7 +80,9 @@ TransportMap::Report makeMap(const TransportMap& map, InputDensity& density,
     field.Write(map.Backward ? &flow : nullptr, progress, 1.0, output->GetAttributes(owner));
   addFieldValue(output, "TotalMass", shared.TotalMass());
   addFieldValue(output, "TransportCost", cost);
-  return { samples, all, sumOverRanks(ranks, report.MovedToMass) };
+  const std::int64_t moved = sumOverRanks(ranks, report.MovedToMass);
+  addFieldValue(output, "MovedSamples", static_cast<double>(moved));
+  return { samples, all, moved };
 }
 
 } // namespace

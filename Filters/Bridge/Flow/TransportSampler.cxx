@@ -239,6 +239,8 @@ TransportSampler::Report sample(const TransportSampler& sampler, InputDensity& d
   }
   addFieldValue(output, "TotalMass", mass);
   addFieldValue(output, "TransportCost", cost);
+  addFieldValue(output, "MovedParticles", static_cast<double>(report.ParticlesMoved));
+  addFieldValue(output, "OutsideSeeds", static_cast<double>(report.SeedsMoved));
   return report;
 }
 

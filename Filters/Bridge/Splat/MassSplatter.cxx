@@ -272,6 +272,7 @@ MassSplatter::Report MassSplatter::Run(vtkPointSet* points, vtkDataArray* masses
     tuplesOf(grid.Extent(), owner, grid.Extent()), box, progress, density);
   output->GetAttributes(owner)->SetScalars(density);
   addFieldValue(output, "TotalMass", splat.TotalMass);
+  addFieldValue(output, "OutsidePoints", static_cast<double>(splat.Outside));
   return { grid, counted.All(), splat.Outside };
 }
 

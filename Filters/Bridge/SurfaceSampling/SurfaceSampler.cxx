@@ -7,6 +7,7 @@
 #include "Bridge/Run/FieldValue.h"
 #include "Bridge/Run/Memory.h"
 #include "Bridge/Run/PropertyCheck.h"
+#include "Bridge/Run/WarningLimit.h"
 #include "Bridge/Surface/DiskSurface.h"
 #include "Bridge/Surface/SurfaceInput.h"
 #include "Bridge/SurfaceSampling/SurfaceMasses.h"
@@ -137,7 +138,7 @@ std::vector<std::string> SurfaceSamplingReport::Warnings() const
   {
     warnings.push_back(this->Repair);
   }
-  if (this->Moved > 0)
+  if (isWorthWarning(this->Moved, this->Particles))
   {
     warnings.push_back(std::to_string(this->Moved) + " of " + std::to_string(this->Particles) +
       " particles in empty cells moved to the nearest cell with mass (more NumberOfSteps may spare "
@@ -213,6 +214,7 @@ SurfaceSamplingReport SurfaceSampler::Run(const SurfaceInput& given, const Surfa
   sampleArrays({ { surface.Triangulated() }, "input surface", true },
     PlacesOnSurface(surface, samples.Places), progress, ends[6], output->GetPointData());
   addFieldValue(output, "TotalMass", masses.Total());
+  addFieldValue(output, "MovedParticles", static_cast<double>(samples.Flow.MovedToMass));
   return { samples.Places.size(), samples.Flow.MovedToMass, disk.NumberOfTriangles(),
     countCollapsed(disk, map.Square.Corners), samples.PatchError, samples.IsAreaPreserving,
     surface.IsRepaired() ? surface.RepairWarning() : "" };
