@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ParaView's own window: all entries are chosen from the menus and applied, pictures are kept."""
 import os
+import re
 import shutil
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+from unittest import mock
 
 from PIL import Image
+from rt_filters import FILTERS, by_label
 from rt_testing import OUTPUT, SOURCE, main, need_display
-from rt_window import (APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, open_state, play,
-                       tick, write_settings)
+from rt_window import (ADVANCED, APPLY, HELP, HELP_PAGE, PANEL, choose, first_stippling, open_state,
+                       play, tick, write_settings)
 
 OPEN = """
 from paraview.simple import *
@@ -45,6 +48,20 @@ view.Background = [0, 0, 1]
 Show(dome, view)
 ResetCamera(view)
 SetActiveSource(dome)
+"""
+
+# Two times of a series of photographs, each forced, which hides that they come of a series.
+OPEN_SERIES = """
+from paraview.simple import *
+photographs = PNGSeriesReader(registrationName='Photographs', FileNames=[%r] * 3,
+                              ReadAsImageStack=0)
+small = ExtractSubset(Input=photographs, VOI=[0, 63, 0, 63, 0, 0])
+first, last = (ForceTime(registrationName=name, Input=small, ForcedTime=time)
+               for name, time in (('First', 0), ('Last', 2)))
+for source in (first, last):
+    source.UpdatePipeline()
+    Show(source, GetActiveViewOrCreate('RenderView'))
+SetActiveSource(last)
 """
 
 PLAY = ("VCRToolbar/1QToolButton3", "activate", "")
@@ -175,6 +192,56 @@ class Gui(unittest.TestCase):
         self.assertEqual(input_of("TransportQuality", "Density"), photograph)
         self.assertIn("SpreadSheetView", found)
 
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
+    def test_component(self):
+        """A list of the luminance and the components of the array, by name."""
+        script = OPEN.replace("photograph.Update", "photograph.ReadAsImageStack = 0\nphotograph.Update")
+        component = PANEL + "Component/ComboBox"
+        sampler = choose("Filters", "TransportSampler")
+        for steps, expected in (((), -1), (((component, "set_string", "Y"),), 1)):
+            saved = self.state_after(
+                "gui-component.png", sampler, (component, "is currentText", "Luminance"),
+                (component, "is count", "4"), *steps, APPLY,
+                script_text=script.replace("%r", repr(os.path.join(SOURCE, "Testing", "Data",
+                                                                   "raccoon.png"))) + "# %s")
+            self.assertEqual(self.values(saved, "TransportSampler", "Component"), [expected])
+
+    def window(self, picture, *steps, script_text=OPEN, **options):
+        """ParaView's output after steps that save no state."""
+        script = os.path.join(self.home, "open.py")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(script_text % os.path.join(SOURCE, "Testing", "Data", "ascent.png"))
+        return play(self.home, steps, os.environ["RT_PLUGIN"], os.path.join(OUTPUT, picture),
+                    ["--script=" + script], **options)
+
+    def test_panel(self):
+        """The panel makes its widgets from top to bottom, advanced ones, too; ParaView lists them for
+        a name that none of them has."""
+        with mock.patch.dict(os.environ, PQOBJECTNAMING_MATCH_LIMIT="0"):
+            log = self.window("gui-panel.png", ADVANCED, choose("Filters", "TransportSampler"),
+                              (PANEL + "none", "is text", ""), until="Set PQOBJECTNAMING")
+        names = re.findall(r"/ProxyPanel/(\w+)`", log)
+        panel = by_label("Sample Density").panel
+        self.assertEqual([name for name in names if name in panel], panel)
+
+    @unittest.skipUnless(PANEL_WIDGETS, "the plugin is built without its own widgets")
+    def test_tip_of_a_greyed_filter(self):
+        """The status bar says what to select for Solid Density, in a longer text than ParaView's
+        \"Input must be vtkPolyData\" and \"Requires an input\"."""
+        in_menu = sorted(filter_.label for filter_ in FILTERS if filter_.inputs)
+        keys = ["Up", "Right", *["Down"] * in_menu.index("Solid Density")]  # Transport is the last menu
+        for picture, script_text in (("gui-tip.png", OPEN), ("gui-tip-none.png", "# %s")):
+            with self.subTest(picture):
+                shutil.rmtree(self.home)
+                os.mkdir(self.home)
+                write_settings(self.home, (1500, 1000))
+                self.window(picture, script_text=script_text, clicks=[(215, 10)], keys=keys)
+                with Image.open(os.path.join(OUTPUT, picture)) as shown:
+                    bar = shown.convert("L").crop((4, 974, 485, 996))
+                dark = [x for x in range(bar.width)
+                        if min(bar.getpixel((x, y)) for y in range(bar.height)) < 90]
+                self.assertGreater(max(dark, default=0), 330)
+
     def test_relaxation(self):
         """Of particles, shown as they are; the density is asked for."""
         saved = self.state_after("gui-relaxation.png", choose("Filters", "TransportSampler"), APPLY,
@@ -259,6 +326,16 @@ class Gui(unittest.TestCase):
         self.assertEqual(values("TransportInterpolator", "PublishTime"), [1])
         self.assertEqual(values("TimeKeeper", "TimestepValues"), [i / 10 for i in range(11)])
         self.assertEqual(values("TimeKeeper", "Time"), [1])
+
+    def test_morph_of_two_times(self):
+        """Of a series: the scene has the morph's times alone, and the series' when it is deleted."""
+        target = ("SelectInputDialog/buttonFrame/Target", *DENSITY[0][1:])
+        make = (choose("Filters", "TransportInterpolator"), target, *DENSITY[1:],
+                tick("PublishTime"), APPLY)
+        delete = ("propertiesDock/propertiesPanel/Delete", "activate", "")
+        for steps, times in (((PLAY,), [i / 10 for i in range(11)]), ((delete,), [0, 1, 2])):
+            saved = self.state_after("gui-morph-series.png", *make, *steps, script_text=OPEN_SERIES)
+            self.assertEqual(self.values(saved, "TimeKeeper", "TimestepValues"), times)
 
     def values(self, saved, kind, name):
         proxy = next(proxy for proxy in saved.iter("Proxy") if proxy.get("type") == kind)

@@ -209,6 +209,11 @@ class RanksErrors(unittest.TestCase):
         self.assertEqual(len(first), 1)
         self.assertIn("3 of 120 points are outside the domain", first[0])
         self.assertEqual(self.given[0]["splat outside"][2], [])
+        for name, warnings in (("reference one of 1000", [1, 0, 0]),
+                               ("reference one of 1001", [0, 0, 0])):
+            with self.subTest(name):
+                self.assertEqual([len(rank[name][2]) for rank in self.given], warnings)
+                self.assertEqual([rank[name][4] for rank in self.given], [1] * RANKS)
 
     def test_one_message_of_points(self):
         for name, text in POINT_MESSAGES.items():

@@ -265,6 +265,59 @@ class Series(unittest.TestCase):
                     built.add(morph.GetClientSideObject().GetTableBuildTime())
                 self.assertEqual(len(built), 1)
 
+    def test_times_of_the_scene(self):
+        """Those of the morph alone with PublishTime on, whatever is upstream; else those of the
+        series, as before, but where the user ignores them."""
+        own = [i / 10 for i in range(11)]
+
+        def times():
+            return list(simple.GetTimeKeeper().TimestepValues)
+
+        for name in ("force", "extract", "passed, force"):
+            with self.subTest(way=name):
+                reset()
+                series = read()
+                of_series = times()
+                self.assertEqual(len(of_series), STEPS)
+                inputs = [WAYS[name](series, step) for step in (1, 10)]
+                before = times()
+                morph = morph_of(*inputs)
+                update(morph, 0)
+                off = times()
+                for _ in range(2):
+                    morph.PublishTime = 1
+                    self.assertEqual(times(), own)
+                    self.assertEqual(list(simple.GetAnimationScene().TimeKeeper.TimestepValues), own)
+                    morph.PublishTime = 0
+                    self.assertEqual(times(), off)
+                morph.PublishTime = 1
+                path = os.path.abspath(os.path.join(OUTPUT, "series-times.pvsm"))
+                simple.SaveState(path)
+                simple.Delete(morph)
+                self.assertEqual(times(), before)
+                reset()
+                simple.LoadState(path)
+                self.assertEqual(times(), own)
+                loaded = next(source for (label, _), source in simple.GetSources().items()
+                              if label.startswith("MorphDensities"))
+                loaded.PublishTime = 0
+                self.assertEqual(times(), off)
+
+    def test_times_that_a_user_ignores(self):
+        reset()
+        series = read()
+        morph = morph_of(*(WAYS["force"](series, step) for step in (1, 10)))
+        keeper = simple.GetTimeKeeper()
+        keeper.SMProxy.SetSuppressTimeSource(series.SMProxy, True)
+        for published in (1, 0):
+            morph.PublishTime = published
+            self.assertFalse(keeper.SMProxy.IsTimeSourceTracked(series.SMProxy))
+        keeper.SMProxy.SetSuppressTimeSource(series.SMProxy, False)
+        morph.PublishTime = 1
+        keeper.SMProxy.SetSuppressTimeSource(series.SMProxy, False)  # chosen again
+        morph.NumberOfTimeSteps = 5
+        self.assertTrue(keeper.SMProxy.IsTimeSourceTracked(series.SMProxy))
+
     def test_states(self):
         """Saved here, and loaded in another process, where nothing has been read yet."""
         for name, time in (("force", 0), ("force", 11), ("passed, force", 5), ("extract", 5)):

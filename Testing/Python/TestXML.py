@@ -270,12 +270,29 @@ class XML(unittest.TestCase):
                 if prop.name in {"Component", "NegativeValues", "InvertDensity"}:
                     self.assertIsNone(prop.element.get("panel_visibility"))
 
-    def test_morph_begins_with_its_parameter(self):
-        """And has its arrays side by side."""
-        morph = next(proxy for _, proxy in self.each() if proxy.label == "Morph Densities")
-        groups = [[e.get("name") for e in group.findall("Property")] for group in morph.groups]
-        self.assertEqual(groups[0], ["Parameter", "PublishTime", "NumberOfTimeSteps"])
-        self.assertEqual(groups[1][:2], ["DensityArray", "TargetArray"])
+    def test_panel(self):
+        """First what the filter is about, then the density, the output, the integration. A group
+        stands where its first property does, in its own order."""
+        for case, proxy in self.each():
+            with case:
+                groups = [[e.get("name") for e in group.findall("Property")]
+                          for group in proxy.groups]
+                order = []
+                for name, prop in proxy.properties.items():
+                    shown = prop.element.get("panel_widget") == "input_selector" or (
+                        prop.element.tag != "InputProperty"
+                        and not prop.element.get("information_only"))
+                    group = next((group for group in groups if name in group), [name])
+                    order += [each for each in group if shown and each not in order]
+                self.assertEqual(order, by_label(proxy.label).panel)
+
+    def test_tips_of_greyed_filters(self):
+        """They fit into the status bar, and say what ParaView does not: to apply."""
+        for case, proxy in self.each():
+            with case:
+                if inputs(proxy):
+                    tip = inputs(proxy)[0].element.find("Hints/SelectionTip").get("text")
+                    self.assertTrue(tip.startswith("Select and apply ") and len(tip) < 70, tip)
 
     def test_decorators_name_what_there_is(self):
         for case, proxy, prop in self.each_property():

@@ -437,7 +437,8 @@ def report_points(name, algorithm, data, other=None):
     results[name] = [output.GetNumberOfCells() if image else output.GetNumberOfRows(),
                      [" ".join(lines) for lines in own],
                      [line for text in heard.warnings for line in text.splitlines() if "of" in line],
-                     field.GetValue(0) if field else 0]
+                     field.GetValue(0) if field else 0,
+                     output.GetFieldData().GetArray("OutsidePoints").GetValue(0) if field else 0]
     RANKS.Barrier()
 
 
@@ -454,6 +455,10 @@ for name, make in POINTS.items():
     report_points("splat " + name, splatter(make()), make())
     report_points("reference " + name, splatter(make()), make(), piece())
     report_points("quality " + name, vtkTransportQuality(), make(), piece())
+# One point outside of as many on all ranks.
+for name, count in (("one of 1000", 1000), ("one of 1001", 1001)):
+    given = points(count // 3 + (RANK < count % 3), (-9, 0, 0) if RANK == FAULTY else None)
+    report_points("reference " + name, splatter(given), given, piece())
 for name, image in (("spacing", IMAGES["spacing"]), ("gap", IMAGES["gap"])):
     report_points("reference " + name, splatter(points()), points(), image())
 for name, wrong in (("splat wrong property", lambda: -1), ("splat wrong on one", lambda: on(

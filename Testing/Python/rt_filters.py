@@ -16,6 +16,12 @@ BLEND = [("View", {"type": "None", "port": "1"}),
          *((tag, {**hint, "port": "1"}) for tag, hint in PARTICLES),
          ("FirstDisplay", {"port": "0", **VOLUME[1]})]
 SMOOTH = {"Kernel": "TriangularShapedCloud"}
+# Properties as they stand on panels, from top to bottom.
+RULES = ["Component", "InvertDensity", "NegativeValues", "DensityResolution"]
+DENSITY_PANEL = ["DensityArray", *RULES]
+FLOW_PANEL = ["Integrator", "NumberOfSteps", "Tolerance", "TableLookup", "FlowMaps"]
+BLEND_PANEL = ["ParticlesPerCell", "MassMode", "Dimensions", "Kernel", "Radius",
+               *FLOW_PANEL, "Tables", "Threading"]
 
 
 class Filter(NamedTuple):
@@ -29,6 +35,7 @@ class Filter(NamedTuple):
     inputs: dict = {}      # the kinds of what is needed, by name; by port
     optional: dict = {}    # and of what may stay empty, on the ports after these
     outputs: list = []     # their names, if there are several
+    panel: list = []       # the properties from top to bottom: of the filter, the density, the output, the flow
     refused: tuple = ()    # a property, a value that is out of range, one in range
     quick: dict = {}       # properties for a run of milliseconds
     variants: dict = {}    # further ones, of outputs of another kind, by name
@@ -66,6 +73,8 @@ class Filter(NamedTuple):
 FILTERS = [
     Filter("Sample Density", "vtkTransportSampler",
            {"Input": "density"}, {"Seeds": "points"},
+           panel=["Seeds", "NumberOfParticles", "SeedPattern", "SamplesPerCell", "RandomSeed", "FlowTime",
+                  *DENSITY_PANEL, "OutputPaths", "SampleArrays", *FLOW_PANEL, "Tables", "Threading"],
            refused=("NumberOfSteps", 0, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
            saved=dict(InvertDensity=1, FlowTime=0.75, Integrator="RungeKutta4", NumberOfSteps=12),
@@ -73,13 +82,17 @@ FILTERS = [
                   ("FirstDisplay", {"property": "OutputPaths", "value": "1", "type": "Wireframe",
                                     "array": "Time"}),
                   ("FirstDisplay", {"property": "OutputPaths", "value": "0", **DOTS})]),
-    Filter("Transport Map", "vtkTransportMap", {"Input": "density"}, refused=("NumberOfSteps", 0, 2),
+    Filter("Transport Map", "vtkTransportMap", {"Input": "density"},
+           panel=["Direction", *DENSITY_PANEL, "SampleDimensions", *FLOW_PANEL, "Tables", "Threading"],
+           refused=("NumberOfSteps", 0, 2),
            saved=dict(InvertDensity=1, Direction="DensityToUniform", SampleDimensions=[20, 30, 1],
                       Integrator="Adaptive", Tolerance=0.5),
            shown=[("FirstDisplay", {"dimension": "3", "type": "Surface", "array": "Displacement"}),
                   ("FirstDisplay", {"array": "Displacement"})]),
     Filter("Equal-Mass Cells", "vtkEqualMassCells",
            {"Input": "mesh"}, {"Domain": "density"}, ["Labels", "Sites", "Outlines"],
+           panel=["Domain", "Measure", "Resolution", "Shape", "NormExponent", "CostExponent",
+                  *DENSITY_PANEL, *FLOW_PANEL, "Threading"],
            refused=("NormExponent", 0, 2), quick=dict(Resolution=16),
            # ParaView looks for an array's components on Input, and complains of one that has no data yet.
            always_shown=("Component",),
@@ -91,50 +104,68 @@ FILTERS = [
                   ("FirstDisplay", {"port": "2", "array": ""})]),
     Filter("Morph Densities", "vtkTransportInterpolator",
            {"Input": "density", "Target": "density"}, outputs=["Density", "Particles"],
+           panel=["Parameter", "PublishTime", "NumberOfTimeSteps", "DensityArray", "TargetArray", *RULES,
+                  *BLEND_PANEL],
            refused=("Parameter", 2, 0.5),
            saved=dict(Parameter=0.25, MassMode="Geometric", Kernel="Gaussian", Radius=2,
                       ParticlesPerCell=2, Dimensions=[30, 0, 0], PublishTime=1, NumberOfTimeSteps=7),
            shown=BLEND, defaults=SMOOTH),
     Filter("Density Barycenter", "vtkTransportBarycenter",
-           {"Input": "densities"}, outputs=["Density", "Particles"], refused=("ParticlesPerCell", -1, 1),
+           {"Input": "densities"}, outputs=["Density", "Particles"],
+           panel=["Weights", *DENSITY_PANEL, *BLEND_PANEL],
+           refused=("ParticlesPerCell", -1, 1),
            saved=dict(Weights=[1, 0.5, 2], MassMode="Normalize", InvertDensity=1), shown=BLEND,
            defaults=SMOOTH),
     Filter("Splat Mass", "vtkMassSplatter",
            {"Input": "points"}, {"Reference": "image"},
+           panel=["Reference", "MassArray", "Kernel", "Radius", "Boundary", "Dimensions", "Association",
+                  "DivideByVolume", "Threading"],
            refused=("Radius", 0, 1), quick=dict(Dimensions=[8, 7, 6]),
            saved=dict(Dimensions=[30, 20, 1], MassArray=["POINTS", "Mass"], Kernel="Gaussian", Radius=1.5,
                       Boundary="Drop", Association="Cells"),
            shown=[VOLUME]),
     Filter("Solid Density", "vtkSolidDensity", {"Input": "solid"},
+           panel=["Resolution", "Supersampling", "Padding", "Association", "Threading"],
            refused=("Supersampling", 99, 2), quick=dict(Resolution=12),
            saved=dict(Resolution=20, Supersampling=3, Padding=0.25, Association="Cells",
                       Threading="Serial"),
            shown=[VOLUME]),
     Filter("Area-Preserving Parameterization", "vtkAreaPreservingParameterization", {"Input": "disk"},
-           outputs=["Surface", "Flat"], refused=("Resolution", 0, 12), quick=dict(Resolution=32),
+           outputs=["Surface", "Flat"], panel=["Resolution", "Polish", "Corners", "Threading"],
+           refused=("Resolution", 0, 12), quick=dict(Resolution=32),
            saved=dict(Corners=[2, 13, 39, 21], Resolution=24, Polish=0, Threading="Serial"),
            shown=[("View", {"type": "None", "port": "1"}),
                   ("FirstDisplay", {"port": "0", "type": "Checkerboard", "array": ""}),
                   ("FirstDisplay", {"port": "1", "type": "Checkerboard With Edges", "array": ""})],
            slow_at_highest=("Resolution",)),
     Filter("Sample Surface", "vtkSurfaceSampler", {"Input": "disk"},
+           panel=["NumberOfParticles", "SeedPattern", "RandomSeed", "Resolution", "Corners", "DensityArray",
+                  *FLOW_PANEL, "Threading"],
            refused=("NumberOfParticles", 0, 9), quick=dict(NumberOfParticles=40, Resolution=32),
            saved=dict(NumberOfParticles=321, DensityArray=["POINTS", "Height"], SeedPattern="Jittered",
                       RandomSeed=7, Corners=[2, 13, 39, 21], Resolution=24, NumberOfSteps=9),
            shown=PARTICLES, slow_at_highest=("Resolution",)),
-    Filter("Uniform Seeds", "vtkUniformSeedSource", refused=("NumberOfPoints", 0, 9),
+    Filter("Uniform Seeds", "vtkUniformSeedSource",
+           panel=["Bounds", "Dimension", "NumberOfPoints", "Pattern", "RandomSeed", "Threading"],
+           refused=("NumberOfPoints", 0, 9),
            quick=dict(NumberOfPoints=40, Dimension=3),
            saved=dict(Bounds=[0, 511, 0, 511, 0, 9], NumberOfPoints=500, Pattern="Jittered"),
            shown=PARTICLES),
     Filter("Density-Equalizing Warp", "vtkDensityEqualizingWarp",
-           {"Input": "mesh", "Density": "density"}, refused=("Blend", -0.5, 1),
+           {"Input": "mesh", "Density": "density"},
+           panel=["Blend", *DENSITY_PANEL, *FLOW_PANEL, "Tables", "Threading"],
+           refused=("Blend", -0.5, 1),
            saved=dict(InvertDensity=1, Blend=0.25, NumberOfSteps=9)),
     Filter("Transport Quality", "vtkTransportQuality",
-           {"Input": "points", "Density": "density"}, refused=("BlockSize", -1, 3),
+           {"Input": "points", "Density": "density"},
+           panel=["BlockSize", *DENSITY_PANEL, "Tables", "Threading"],
+           refused=("BlockSize", -1, 3),
            saved=dict(InvertDensity=1, BlockSize=32),
            shown=[("View", {"type": "SpreadSheetView"})], gives_table=True),
     Filter("Relax Blue Noise", "vtkBlueNoiseRelaxation",
-           {"Input": "mesh", "Density": "density"}, refused=("MaximumIterations", -1, 2),
+           {"Input": "mesh", "Density": "density"},
+           panel=["Method", "MaximumIterations", "Tolerance", *DENSITY_PANEL, "Threading"],
+           refused=("MaximumIterations", -1, 2),
            quick=dict(MaximumIterations=2),
            saved=dict(InvertDensity=1, Method="OptimalTransport", MaximumIterations=3, Tolerance=0.001),
            shown=PARTICLES, always_shown=("Tolerance",)),  # of another meaning than that of flows

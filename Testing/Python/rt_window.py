@@ -11,6 +11,7 @@ WINDOW = "pqClientMainWindow/"
 PANEL = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/"
          "scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/")
 APPLY = ("propertiesDock/propertiesPanel/Accept", "activate", "")
+ADVANCED = ("propertiesDock/propertiesPanel/SearchBox/AdvancedButton", "set_boolean", "true")
 
 HELP = ("propertiesDock/propertiesPanel/Help", "activate", "")  # the ? of the panel
 MANAGE_PLUGINS = ("menubar/menuTools", "activate", "actionManage_Plugins")
@@ -75,11 +76,12 @@ def write_settings(home, size=None):
             file.write("[MainWindow]\nPosition=@Point(0 0)\nSize=@Size(%d %d)\n" % size)
 
 
-def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(), seconds=120):
-    """Starts ParaView, plays the steps, clicks at places of the screen, keeps a picture of it and
-    ends ParaView. Returns its output: "Success = true" if it could play all. `plugin` is the
-    plugin's file, or None if ParaView finds it. Steps that end in a dialog never end: they are
-    given so many seconds."""
+def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(), seconds=120,
+         keys=(), until="is finished"):
+    """Starts ParaView, plays the steps, clicks at places of the screen, presses keys, keeps a picture
+    of it and ends ParaView. Returns its output: "Success = true" if it could play all. `plugin` is the
+    plugin's file, or None if ParaView finds it. Steps that end in a dialog, or cannot be played,
+    never end: they are given so many seconds, or until the output has another text."""
     recording, log_path = (os.path.join(home, name) for name in ("play.xml", "log"))
     write_events(recording, steps)
     environment = {**os.environ, "HOME": home}
@@ -94,12 +96,15 @@ def play(home, steps, plugin, picture, options=(), import_options=(), clicks=(),
             time.sleep(1)
             with open(log_path, encoding="utf-8", errors="replace") as log:
                 text = log.read()
-            if "is finished" in text or window.poll() is not None:
+            if until in text or window.poll() is not None:
                 break
         time.sleep(2)  # the window draws what the last event changed
         for place in clicks:
             subprocess.run(["xdotool", "mousemove", *map(str, place), "click", "1"], check=True)
             time.sleep(1)
+        for key in keys:
+            subprocess.run(["xdotool", "key", key], check=True)
+            time.sleep(0.3)
         subprocess.run(["import", "-window", "root", *import_options, picture], check=True)
     finally:
         window.kill()

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings that count: none, one and several; what counts as outside; and which particles of all
-// had to be put into cells with mass.
+// Warnings that count: none, one and several; what counts as outside; which particles of all had to
+// be put into cells with mass; and from which part of all on there is a warning.
 #include "BlendTest.h"
 #include "CellsTest.h"
 
 #include "vtkBlueNoiseRelaxation.h"
 #include "vtkMassSplatter.h"
+
+#include <set>
 
 namespace
 {
@@ -273,6 +275,137 @@ void checkMaps(Checks& checks)
   }
 }
 
+// A point inside as often as it takes, and one outside.
+vtkSmartPointer<vtkPolyData> makeOneOutside(int count)
+{
+  std::vector<double> x;
+  for (int i = 1; i < count; ++i)
+  {
+    x.insert(x.end(), { 0.5 + i % 7 * 0.5, 0.5 + i % 5 * 0.5, 0.0 });
+  }
+  x.insert(x.end(), { -1.0, 1.0, 0.0 });
+  return makePoints(x);
+}
+
+// One of a thousand is worth a warning, one of a few more is in the field data alone.
+void checkLimit(Checks& checks, vtkAlgorithm* algorithm, const SetPoints& give, int port,
+  const char* field, bool warnsAlways = false)
+{
+  const auto expect = [&](vtkPolyData* points, double count, std::size_t warnings, int line) {
+    give(points);
+    const std::size_t found = warningsOf(algorithm).size();
+    checks.That(found == warnings, field, line, std::to_string(found));
+    const double given = fieldValue(algorithm->GetOutputDataObject(port), field);
+    checks.That(given == count, field, line, std::to_string(given));
+  };
+  expect(makePoints({ 1, 1, 0, 3, 2, 0, 2, 1, 0 }), 0, 0, __LINE__);
+  expect(makeOneOutside(1000), 1, 1, __LINE__);
+  expect(makeOneOutside(1001), 1, warnsAlways ? 1 : 0, __LINE__);
+}
+
+void checkLimits(Checks& checks)
+{
+  auto image = makeSmall(1.0);
+  vtkNew<vtkTransportSampler> sampler;
+  sampler->SetInputData(image);
+  checkLimit(
+    checks, sampler, [&](vtkPolyData* seeds) { sampler->SetSeedsData(seeds); }, 0, "OutsideSeeds",
+    true);
+  vtkNew<vtkBlueNoiseRelaxation> relaxation;
+  relaxation->SetDensityData(image);
+  relaxation->SetMaximumIterations(0);
+  checkLimit(
+    checks, relaxation, [&](vtkPolyData* points) { relaxation->SetInputData(points); }, 0,
+    "OutsidePoints");
+  vtkNew<vtkDensityEqualizingWarp> warp;
+  warp->SetDensityData(image);
+  checkLimit(
+    checks, warp, [&](vtkPolyData* points) { warp->SetInputData(points); }, 0, "OutsidePoints");
+  vtkNew<vtkMassSplatter> splatter;
+  splatter->SetReferenceData(image);
+  checkLimit(
+    checks, splatter, [&](vtkPolyData* points) { splatter->SetInputData(points); }, 0,
+    "OutsidePoints");
+  vtkNew<vtkEqualMassCells> cells;
+  cells->SetDomainData(image);
+  cells->SetResolution(64);
+  for (const int port : { 0, 1 })
+  {
+    checkLimit(
+      checks, cells, [&](vtkPolyData* sites) { cells->SetInputData(sites); }, port, "OutsideSites");
+    CHECK(checks, fieldValue(cells->GetOutputDataObject(port), "SitesWithoutMass") == 0.0);
+  }
+}
+
+// A seed that one step leaves in an empty cell, among others that it does not.
+void checkLimitOfParticles(Checks& checks)
+{
+  auto dots = makeDots(5);
+  const double box[6] = { 0, 40, 0, 40, 0, 0 };
+  const std::vector<double> x = randomCoordinates(box, 200);
+  auto sampler = makeOneStep(dots);
+  std::vector<double> ends[2]; // of a seed that ends in a cell with mass, and in an empty one
+  for (std::size_t i = 0; i < x.size() && (ends[0].empty() || ends[1].empty()); i += 3)
+  {
+    const std::vector<double> seed{ x[i], x[i + 1], x[i + 2] };
+    sampler->SetSeedsData(makePoints(seed));
+    const std::size_t warnings = warningsOf(sampler).size();
+    CHECK_NEAR(checks, fieldValue(sampler->GetOutput(), "MovedParticles"), warnings, 0.0);
+    ends[warnings] = seed;
+  }
+  for (const int count : { 1000, 1001 })
+  {
+    std::vector<double> all = ends[1];
+    for (int i = 1; i < count; ++i)
+    {
+      all.insert(all.end(), ends[0].begin(), ends[0].end());
+    }
+    sampler->SetSeedsData(makePoints(all));
+    CHECK(checks, warningsOf(sampler).size() == (count == 1000 ? 1u : 0u));
+    CHECK(checks, fieldValue(sampler->GetOutput(), "MovedParticles") == 1.0);
+    CHECK(checks, fieldValue(sampler->GetOutput(), "OutsideSeeds") == 0.0);
+  }
+}
+
+// Mass everywhere but in a few cells of a row: the longer the row, the more samples and particles
+// end in it.
+void checkLimitOfMaps(Checks& checks)
+{
+  auto uniform = makeDensity({ 40, 40, 1 }, true, [](vtkIdType) { return 1.0; });
+  std::set<bool> given[2];
+  for (const int empty : { 0, 1, 2, 3, 5, 8, 16, 30 })
+  {
+    auto row = makeDensity({ 40, 40, 1 }, true,
+      [=](vtkIdType i) { return i >= 18 * 40 + 5 && i < 18 * 40 + 5 + empty ? 0.0 : 1.0; });
+    vtkNew<vtkTransportMap> map;
+    map->SetInputData(row);
+    auto morph = makeMorph(uniform, row);
+    morph->SetParticlesPerCell(1);
+    morph->SetIntegratorToRungeKutta4();
+    map->SetIntegratorToRungeKutta4();
+    morph->SetNumberOfSteps(1);
+    map->SetNumberOfSteps(1);
+    const bool warns[] = { warningsOf(map).size() == 1, warningsOf(morph).size() == 1 };
+    const double moved[] = { fieldValue(map->GetOutput(), "MovedSamples"),
+      fieldValue(morph->GetDensity(), "MovedParticles") };
+    for (int i = 0; i < 2; ++i)
+    {
+      CHECK(checks, warns[i] == (moved[i] >= 1.6));
+      if (moved[i] > 0.0)
+      {
+        given[i].insert(warns[i]);
+      }
+    }
+    CHECK(checks, moved[0] == moved[1] && (empty > 0 || moved[0] == 0.0));
+    CHECK(checks, fieldValue(morph->GetParticles(), "MovedParticles") == moved[1]);
+    // The maps stay, and so does their count.
+    morph->SetParameter(0.25);
+    CHECK(checks, warningsOf(morph).empty());
+    CHECK(checks, fieldValue(morph->GetDensity(), "MovedParticles") == moved[1]);
+  }
+  CHECK(checks, given[0].size() == 2 && given[1].size() == 2);
+}
+
 } // namespace
 
 int TestWarningCounts(int, char*[])
@@ -289,5 +422,8 @@ int TestWarningCounts(int, char*[])
   checkLine(checks);
   checkParticles(checks);
   checkMaps(checks);
+  checkLimits(checks);
+  checkLimitOfParticles(checks);
+  checkLimitOfMaps(checks);
   return checks.Result();
 }
