@@ -36,8 +36,9 @@
  *   to the nearest cell of the density that has mass.
  *
  * Points outside the domain or off the plane of a density of two dimensions are moved to the
- * nearest point of the domain (axis by axis) first. One warning counts those that are farther from
- * it than a millionth of its diagonal. If points coincide (OptimalTransport: to 1e-5 of their mean
+ * nearest point of the domain (axis by axis) first. The field data `OutsidePoints` is the number of
+ * those that are farther from it than a millionth of its diagonal; a warning counts them if they
+ * are at least one in a thousand. If points coincide (OptimalTransport: to 1e-5 of their mean
  * distance), all except one are moved a little. Points that the ghost array marks as duplicate or
  * hidden stay where they are and do not act on others. NaN or infinite coordinates are an error. An
  * input without points gives an empty output and no error.

@@ -18,7 +18,8 @@
  *
  * If the density has one or two dimensions, points off the image's line or plane move as their
  * projections onto it and keep their offset. A point outside the domain moves as the nearest point
- * of the border (axis by axis) and keeps its offset from it; one warning counts such points. NaN or
+ * of the border (axis by axis) and keeps its offset from it. The field data `OutsidePoints` is
+ * the number of such points; a warning counts them if they are at least one in a thousand. NaN or
  * infinite coordinates are an error.
  *
  * Cost: O(cells) for the tables, which are kept until the density changes, and O(points * steps).

@@ -49,11 +49,13 @@
  * masses, centroids and costs are integrals over the polygons, TransportCost is W_2^2 from the
  * uniform measure to the sites, and Outlines are the sides of the polygons. With Measure Density,
  * masses, centroids and costs are those of the density: pixels are weighted by their mass, and
- * W_p^q is from the density.
+ * W_p^q is from the density. Further field data are `OutsideSites` and `SitesWithoutMass`, the
+ * numbers of sites outside the domain and of those whose cells have no mass (below); a warning
+ * counts each if they are at least one in a thousand.
  *
  * Sites in the same pixel share the mass of one cell, equally to the last bit. The cell's pixels
  * are divided into as many parts, equal to one pixel. Sites outside the domain get the cells of the
- * nearest points of its border, with a warning that counts them; their cost is from their own
+ * nearest points of its border; their cost is from their own
  * position. There must be at least as many pixels as sites. With Shape Power, only sites nearer to
  * each other than 1e-5 of the mean spacing share a cell: all except one are moved apart by that
  * distance, only for the cells. Sites outside the domain are used at their positions, and there may
@@ -63,7 +65,7 @@
  * With Measure Density and Shape Flow, there must be a pixel with mass for each site. Sites that
  * the flow takes into the same pixel divide the mass of their cell into parts that are equal to a
  * pixel. The mass of a cell is that of its pixels. If one pixel has more than a share, some cells
- * may have no mass: their centroid is the site, and a warning counts them. With Shape Power, if the
+ * may have no mass: their centroid is the site. With Shape Power, if the
  * sites are distributed very differently from the density, cells of equal mass may not be found;
  * this is an error.
  *

@@ -17,21 +17,22 @@
  * points are cut into `Dimensions` cells. An axis along which the points have no extent is no axis.
  *
  * Output: a vtkImageData with the array `Density` (double, active scalars): mass per length, area
- * or volume or, with `DivideByVolume` off, mass. It has the field data of the points and
- * `TotalMass`, the mass that the image holds: that of all points or, with `Boundary` Drop, the part
- * inside. With a Reference, the image has its geometry. The values are cell data, or point data
- * whose domain extends half a spacing beyond the bounds. Without a Reference, the same values are
- * cell data, or point data at the cells' centres. An axis with one value is then no axis of these
- * points, but the values remain per volume of the cells.
+ * or volume or, with `DivideByVolume` off, mass. It has the field data of the points,
+ * `TotalMass`, the mass that the image holds (that of all points or, with `Boundary` Drop, the part
+ * inside), and `OutsidePoints`, the number of points outside. With a Reference, the image has its
+ * geometry. The values are cell data, or point data whose domain extends half a spacing beyond the
+ * bounds. Without a Reference, the same values are cell data, or point data at the cells' centres.
+ * An axis with one value is then no axis of these points, but the values remain per volume of the
+ * cells.
  *
  * The values times the cells' measure sum to the mass of the points, to rounding. The centroid is
  * kept, to rounding, except with NearestCell and with kernels that cross the border.
  *
  * Points outside the domain (by more than a millionth of its diagonal; with a 2D image, also those
- * off its plane) are moved to the nearest point of the border or, with `Boundary` Drop, ignored; a
- * warning counts them. An input without points gives an image without mass if there is a Reference,
- * else an empty image. NaN or infinite coordinates and masses are errors. Without a Reference,
- * points that are all at one position are an error, too.
+ * off its plane) are moved to the nearest point of the border or, with `Boundary` Drop, ignored. A
+ * warning counts them if they are at least one in a thousand. An input without points gives an
+ * image without mass if there is a Reference, else an empty image. NaN or infinite coordinates and
+ * masses are errors. Without a Reference, points that are all at one position are an error, too.
  *
  * Cost: O(points * cells of the kernel + cells). Memory: 8 bytes a cell and 8 a point if there are
  * masses; with many threads and unordered points up to 6 more a point, for 16 million points at a

@@ -12,9 +12,12 @@
  * The inputs are densities (see vtkDensityAlgorithm) of any sizes, spacings and boxes, but with
  * axes of more than one point along the same directions. The outputs are
  * - port 0: vtkImageData with `Density` (active scalars; mass per length, area or volume), point
- *   or cell data as in the first input, and field data `TotalMass`;
- * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data
- *   `TotalMass`.
+ *   or cell data as in the first input, and field data;
+ * - port 1: vtkPolyData with one vertex a particle, `Mass` (equal shares) and field data.
+ *
+ * The field data are `TotalMass` and `MovedParticles`: how many particles ended in an empty cell of
+ * a density, counted for each input, and were put on the nearest mass. When maps are made, a
+ * warning counts theirs if they are at least one in a thousand of the particles.
  *
  * The grid of the output does not depend on the weights. Unless Dimensions are set, it covers the
  * smallest box that holds all domains, at the finest spacing along each axis. Numbers of cells are

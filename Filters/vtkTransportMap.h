@@ -17,7 +17,9 @@
  *   the density f is positive and smooth, it is mean / f(x + Displacement) forward and f(x) / mean
  *   backward;
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
- *   |Displacement|^2, in physical units), and the input's field data.
+ *   |Displacement|^2, in physical units), `MovedSamples` (those that ended in an empty cell and
+ *   were put on the nearest mass; a warning counts them if they are at least one in a thousand),
+ *   and the input's field data.
  *
  * If the density is point data, so are the arrays, at the image's points, the centres of the dual
  * cells. Otherwise they are cell data, at the centres of the cells. Derivatives are taken only

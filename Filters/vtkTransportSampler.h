@@ -20,7 +20,9 @@
  * - field data `TotalMass` (density times cell measure, summed) and `TransportCost` (the mean of
  *   |Displacement|^2, in physical units; with FlowTime 1 an upper bound on the squared
  *   2-Wasserstein distance between the uniform measure and the density, which was found 1 to 4 %
- *   above it for images), and the input's field data.
+ *   above it for images), `MovedParticles` (those that ended in an empty cell and were put on the
+ *   nearest mass; a warning counts them if they are at least one in a thousand), `OutsideSeeds`,
+ *   and the input's field data.
  *
  * With OutputPaths, the output is one polyline a particle instead (see OutputPaths).
  *

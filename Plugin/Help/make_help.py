@@ -40,7 +40,7 @@ def filter_pages(plugin):
     pages = []
     for path in sorted(glob.glob(os.path.join(plugin, "*.xml"))):
         for group in ElementTree.parse(path).getroot().iter("ProxyGroup"):
-            for proxy in group.iter("SourceProxy"):
+            for proxy in group:
                 if proxy.find("Hints/ShowInMenu") is None:
                     continue
                 label = proxy.get("label")
