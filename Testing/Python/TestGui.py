@@ -219,7 +219,7 @@ class Gui(unittest.TestCase):
         a name that none of them has."""
         with mock.patch.dict(os.environ, PQOBJECTNAMING_MATCH_LIMIT="0"):
             log = self.window("gui-panel.png", ADVANCED, choose("Filters", "TransportSampler"),
-                              (PANEL + "none", "is text", ""), until="Set PQOBJECTNAMING")
+                              (PANEL + "none", "is text", ""), until="Couldn't find")
         names = re.findall(r"/ProxyPanel/(\w+)`", log)
         panel = by_label("Sample Density").panel
         self.assertEqual([name for name in names if name in panel], panel)

@@ -271,12 +271,14 @@ class XML(unittest.TestCase):
                     self.assertIsNone(prop.element.get("panel_visibility"))
 
     def test_panel(self):
-        """First what the filter is about, then the density, the output, the integration. A group
-        stands where its first property does, in its own order."""
+        """First what the filter is about, then the density, the output, the integration. ParaView
+        keeps the order of the XML, except that a group stands where its first property does."""
         for case, proxy in self.each():
             with case:
                 groups = [[e.get("name") for e in group.findall("Property")]
                           for group in proxy.groups]
+                for group in groups:
+                    self.assertEqual(group, [name for name in proxy.properties if name in group])
                 order = []
                 for name, prop in proxy.properties.items():
                     shown = prop.element.get("panel_widget") == "input_selector" or (

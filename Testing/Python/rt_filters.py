@@ -73,7 +73,7 @@ class Filter(NamedTuple):
 FILTERS = [
     Filter("Sample Density", "vtkTransportSampler",
            {"Input": "density"}, {"Seeds": "points"},
-           panel=["Seeds", "NumberOfParticles", "SeedPattern", "SamplesPerCell", "RandomSeed", "FlowTime",
+           panel=["Seeds", "NumberOfParticles", "SeedPattern", "RandomSeed", "SamplesPerCell", "FlowTime",
                   *DENSITY_PANEL, "OutputPaths", "SampleArrays", *FLOW_PANEL, "Tables", "Threading"],
            refused=("NumberOfSteps", 0, 2), quick=dict(NumberOfParticles=50),
            variants={"paths": dict(NumberOfParticles=5, OutputPaths=1, NumberOfSteps=4)},
