@@ -31,14 +31,15 @@
  *   arrays are interpolated linearly in the triangle; integers are rounded, text is that of the
  *   nearest point. Its cell arrays have the cell's value. Arrays with the names above, ghost arrays
  *   and ids of points (vtkIdTypeArray), which VTK does not interpolate, are left out;
- * - field data `TotalMass` (density times area, summed), `MovedParticles` (see below), and the
- *   input's field data.
+ * - field data `TotalMass` (density times area, summed), `MovedParticles` (those that ended in an
+ *   empty cell of the grid and were put on the nearest mass; a warning counts them if they are at
+ *   least one in a thousand), and the input's field data.
  *
  * A cell of the grid in the rectangle spreads its mass evenly. If it overlaps triangles with mass
  * and without, particles on the latter are moved to the nearest place that has mass. With 24 bands
  * of density 0 and 1 across a head, 3.4 % of the particles were moved; a higher Resolution lowers
- * this number. A warning counts them if they are at least one in a thousand. In rare cases the map
- * turns triangles over. Their particles are then on the triangles above them.
+ * this number. In rare cases the map turns triangles over. Their particles are then on the
+ * triangles above them.
  *
  * Cost: O(points^1.5) for the conformal map, O(points log points + Resolution^2 + particles *
  * steps) for the rest. Memory: up to 1350 bytes a point, 45 a cell of the grid, and 140 a particle,

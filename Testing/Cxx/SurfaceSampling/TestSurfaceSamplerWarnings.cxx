@@ -3,6 +3,7 @@
 #include "SurfaceSamplerTest.h"
 
 #include <algorithm>
+#include <set>
 
 namespace
 {
@@ -71,6 +72,36 @@ void checkTeeth(Checks& checks)
   CHECK(checks, std::any_of(messages.Warnings.begin(), messages.Warnings.end(), hasPart));
 }
 
+// Mass on single cells, which few steps miss: the more steps, the fewer particles are moved.
+void checkMoved(Checks& checks)
+{
+  auto hill = makeHill();
+  hill->GetCellData()->AddArray(makeArray<vtkIntArray>("Light", hill->GetNumberOfCells(),
+    [](vtkIdType i) { return i / 2 % 7 == 3 && i / 48 % 5 == 2 ? 1.0 : 0.0; }));
+  vtkNew<vtkSurfaceSampler> sampler;
+  sampler->SetInputData(hill);
+  sampler->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Light");
+  sampler->SetNumberOfParticles(20000);
+  sampler->SetResolution(300);
+  std::set<bool> given;
+  for (const int steps : { 1, 2, 4, 8, 16 })
+  {
+    Messages messages(sampler);
+    sampler->SetNumberOfSteps(steps);
+    const double moved = fieldValue(runSampler(sampler), "MovedParticles");
+    CHECK(checks, messages.Warnings.size() == (moved >= 20.0 ? 1u : 0u));
+    CHECK(checks,
+      messages.Warnings.empty() ||
+        contains(messages.Warnings[0],
+          std::to_string(static_cast<int>(moved)) + " of 20000 particles in empty cells moved"));
+    if (moved > 0.0)
+    {
+      given.insert(moved >= 20.0);
+    }
+  }
+  CHECK(checks, given.size() == 2);
+}
+
 } // namespace
 
 int TestSurfaceSamplerWarnings(int, char*[])
@@ -79,5 +110,6 @@ int TestSurfaceSamplerWarnings(int, char*[])
   checkFinger(checks, 2.0, 0);
   checkFinger(checks, 12.0, 1);
   checkTeeth(checks);
+  checkMoved(checks);
   return checks.Result();
 }
